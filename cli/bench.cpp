@@ -36,7 +36,7 @@ struct BenchOptions {
   double seconds = 20;
   bool processor_time = false;
   BenchReportOptions reports;
-  std::vector<std::string> arguments;  // all of them, as typed
+  std::vector<std::string> arguments;  // of the program, as typed
 };
 
 /// "tureen_hemisphere-8_1280x720.png".
@@ -117,7 +117,7 @@ BenchResult run(const BenchOptions& options) {
   return result;
 }
 
-/// What is read: the scene, the dataset, and cameras, of which some are files.
+/// Paths that are read: the scene, the dataset, and --cameras, which may name files.
 std::vector<std::string> inputs_of(const BenchOptions& options) {
   std::vector<std::string> inputs = options.views.cameras;
   inputs.push_back(options.scene.path);
@@ -155,19 +155,19 @@ with the baseline if it supports the scene. Warm-up frames run until the times a
 frame ends when the device has finished. First the plan is compared with itself (A/A). "best ms"
 is the smallest of the rounds' medians; ratios use it. Times within twice the spread are
 "equal"; the spread is the larger of the A/A spread and the spread between rounds. Differences
-need at least 3 rounds. The 99th percentile and the 1 % low need 100 samples (one view in one
-round each). Loading is measured separately.
+need at least 3 rounds. The 99th percentile and the 1 % low need 100 samples; a sample is one view
+in one round. Loading is measured separately.
 
 Examples:
-  tureen bench soup.glb                                   eight views from above at 1280x720
-  tureen bench soup.glb --sweep --json > bench.json       five sizes
+  tureen bench soup.glb                                   8 views from above at 1280x720
+  tureen bench soup.glb --sweep --json > bench.json       5 sizes
   tureen bench soup.glb --size 640x360,1920x1080 --cameras orbit:12,adversarial
   tureen bench soup.glb photographs --sizes full,half     the dataset's test cameras
-  tureen bench soup.glb --ceilings -o timed               report.html, and the images
-  tureen bench soup.glb --against timed/bench.json        changes since then
+  tureen bench soup.glb --ceilings -o timed               report.html, bench.json, images
+  tureen bench soup.glb --against timed/bench.json        changes since that result
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute
-                                                          fragment or compute shaders
+                                                          fragment against compute shaders
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 the scene does not fit on the device, or

@@ -1,4 +1,5 @@
-// The subcommands, one file each. Adding one: a function here, its file, a line in program.cpp.
+// The subcommands, one file each. A new one needs a function here, its file, and a line in
+// program.cpp.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace tureen::cli {
 
-/// `arguments` are those of the program, which the result repeats.
+/// `arguments`: arguments of the program, which the result stores.
 void add_bench(Command& program, std::vector<std::string> arguments);
 void add_compare(Command& program);
 void add_convert(Command& program);
@@ -20,7 +21,7 @@ void add_tradeoff(Command& program, std::vector<std::string> arguments);
 void add_train(Command& program);
 void add_view(Command& program);
 
-/// All of them.
+/// Adds all commands.
 void add_commands(Command& program, const std::vector<std::string>& arguments);
 
 }  // namespace tureen::cli

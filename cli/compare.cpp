@@ -1,4 +1,4 @@
-// `tureen compare`: how far two images are apart.
+// `tureen compare`: metrics of the difference between two images.
 #include <fmt/format.h>
 
 #include <array>
@@ -22,7 +22,7 @@ namespace tureen::cli {
 
 namespace {
 
-/// A metric by name, and which way is worse.
+/// A metric with its name and direction.
 struct NamedMetric {
   const char* key;  // in JSON and for --metric
   double Metrics::*value;
@@ -48,7 +48,7 @@ constexpr std::array named_metrics{
 
 struct CompareOptions {
   std::string a, b, diff, background = "black";
-  const NamedMetric* metric = &named_metrics.front();  // that --tolerance is held against
+  const NamedMetric* metric = &named_metrics.front();  // that --tolerance limits
   std::optional<double> tolerance;
   MetricOptions metrics;
   bool json = false;
@@ -122,7 +122,7 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot b
       .add_option("--tolerance", options->tolerance,
                   "limit for --metric; exit with 1 if the metric is worse")
       .check([](const std::string& text) {
-        // Numbers that nothing is worse than would be passed by everything.
+        // With a negative, infinite or NaN tolerance every comparison would have the same result.
         const std::optional<double> value = number_from(text);
         return text.starts_with('-') || !value || !std::isfinite(*value)
                    ? "a tolerance must be a number of at least 0, not " + text

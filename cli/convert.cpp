@@ -29,14 +29,14 @@ struct ConvertOptions {
   bool force = false;
   bool json = false;
   Edits edits;
-  std::optional<Quality> quality;  // by default the scene's own
+  std::optional<Quality> quality;  // empty: the scene's own
   CompressArguments compressed;
 };
 
-/// A folder, where no extension says otherwise.
+/// An output without an extension is a folder.
 bool is_export(const fs::path& output) { return output.extension().empty(); }
 
-/// ".ply" would be a hidden folder, to the letter, which is not what anybody means.
+/// Whether the name is only an extension, such as ".ply"; as a path it is a hidden folder.
 bool is_bare_extension(const fs::path& output) {
   const std::string name = output.filename().string();
   const auto formats = known_formats();
@@ -57,7 +57,8 @@ void require_known_extension(const fs::path& output) {
   }
 }
 
-/// Before the scene is read, which may take a while.
+/// Throws UsageError and OutputError. Runs before the scene is read, because reading may take
+/// minutes.
 void check_output(const ConvertOptions& options) {
   const fs::path output = options.output;
   check_compressed(options.compressed, output);
@@ -65,14 +66,14 @@ void check_output(const ConvertOptions& options) {
   if (options.quality && extension_of(output) != ".glb" && !is_scene_page(output))
     throw UsageError("only .glb and .html store --supersample and --resolution-scale");
   require_not_input(output, options.scene.path);
-  // First what --force would not change.
+  // These checks do not depend on --force.
   if (is_export(output))
     require_writable_export(output);
   else
     require_writable_file(output);
   std::error_code error;
   if (fs::exists(output, error) && !options.force)
-    throw UsageError(options.output + " exists already", "--force replaces it");
+    throw UsageError(options.output + " exists", "choose another name, or replace it with --force");
 }
 
 void apply(const Edits& edits, Scene& scene) {
@@ -92,7 +93,7 @@ void apply(const Edits& edits, Scene& scene) {
   scene.info.notes.push_back("reduced by tureen convert: " + describe(changes));
 }
 
-/// Writes `file`, in the format that its name says. Says what that lost, and returns it.
+/// Writes `file` in the format of its extension. Prints the losses and returns them as JSON.
 Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   if (options.compressed.compressed)
     return convert_compressed(std::move(scene), options.compressed, file);
@@ -103,7 +104,7 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
           {"lost", lost}};
 }
 
-/// Whether a page may hold the bytes of the scene's own file.
+/// Whether the page can contain the scene's file unchanged.
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.up.empty() && options.edits == Edits{} &&
          !options.quality && is_our_glb(options.scene.path);
@@ -178,7 +179,7 @@ Examples:
   tureen convert trained.pt soup.glb          Tureen's own format
   tureen convert soup.glb soup.off --force    replaces soup.off
   tureen convert soup.glb small.glb --compress --photographs lego --scale 0.5
-                                              at most 0.1 dB of loss on lego
+                                              loses at most 0.1 dB on lego
   tureen convert soup.glb less.glb --lattice-level 2
                                               coarser textures; tradeoff measures the error
   tureen convert soup.glb smooth.glb --supersample 2

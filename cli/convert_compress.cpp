@@ -34,8 +34,8 @@ std::string views_text(const CompressViews& views) {
 
 namespace fs = std::filesystem;
 
-/// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `glb` and
-/// removed again. None where it cannot be written so.
+/// Size in bytes of the scene as a DiffSoup export: two PNGs, a PLY and JSON. The export is written
+/// beside `glb` and then removed. Empty if the format cannot store the scene.
 std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& glb) {
   const Scratch folder(glb.string() + ".export", "the export for the comparison");
   try {
@@ -46,14 +46,15 @@ std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path&
   return bytes_on_disk(folder.path());
 }
 
-/// Whose folder it was is nobody's business.
+/// The name of the dataset's folder. The path above it may be private, and the file stores this
+/// name.
 std::string name_of(const DatasetArgument& dataset) {
   const fs::path folder = fs::path(dataset.path).lexically_normal();
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
-/// Those of its training photographs at their own size, whatever the scale; none, and a sentence
-/// more in `lost`, where they cannot be read: it goes without.
+/// The cameras of the training photographs, at full size for any --scale. If the photographs cannot
+/// be read, adds a sentence to `lost` and returns an empty list.
 std::vector<Camera> training_cameras(const DatasetArgument& dataset,
                                      std::vector<std::string>& lost) {
   std::vector<Camera> cameras;
@@ -75,14 +76,14 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset,
   return cameras;
 }
 
-/// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
+/// The views of the loss measurement: "9 photographs of fox at scale 0.25", or recorded cameras.
 std::string measured_on(const CompressResult& result, const DatasetArgument& photographs) {
   if (photographs.path.empty()) return views_text(result.views);
   return fmt::format("{} of {} at scale {:g}", views_text(result.views), name_of(photographs),
                      photographs.options.scale);
 }
 
-/// What makes the promise of the loss worth less than it seems.
+/// Reasons why the actual loss may exceed the stated loss.
 std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs) {
   std::vector<std::string> doubts;
   if (scene.info.compressed)
@@ -99,8 +100,8 @@ std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs)
   return doubts;
 }
 
-/// Sentences on what a compressed file loses; they are stored in it, too. `training_cameras` are
-/// those that the search was given.
+/// Sentences about the losses of compression; the file also stores them. `training_cameras`: number
+/// of training cameras in the request.
 std::vector<std::string> losses_of(const CompressResult& result, const DatasetArgument& photographs,
                                    std::size_t training_cameras) {
   const std::string views = measured_on(result, photographs);
@@ -113,7 +114,7 @@ std::vector<std::string> losses_of(const CompressResult& result, const DatasetAr
           : fmt::format("Compression: loss of PSNR {:.3f} dB, against {} (before: {:.2f} dB). PSNR "
                         "against the scene before compression: {:.2f} dB.",
                         result.loss.db, views, result.model_db, result.loss.render_psnr_db),
-      // What is negative by chance, as of photographs it may be, is no loss.
+      // A loss measured on photographs can be negative by chance; 0 is stated then.
       fmt::format("Compression: positions have {} bits ({:.3f} dB of the loss), colours a mean "
                   "step of {:.1f}/255. Colours of fully transparent texels are discarded.",
                   result.position_bits, std::max(result.geometry_loss.db, 0.0), result.color_step)};
@@ -218,7 +219,7 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   const Json notes = scene.info.notes;
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
-  // Of this file, not of the scene that it holds.
+  // This concerns the file and not the scene, so the notes omit it.
   lost.push_back(
       "Compression: only Tureen reads this file. It has no mesh for other glTF viewers.");
   for (std::string& sentence : write_compressed_glb(scene, result.soup, glb))

@@ -24,12 +24,12 @@ struct CompressArguments {
 /// `arguments` must live until the arguments are parsed.
 void add_compressed_arguments(Command& command, CompressArguments& arguments);
 
-/// Throws UsageError for what can be known to be wrong before the scene is read.
+/// Checks the options before the scene is read. Throws UsageError.
 void check_compressed(const CompressArguments& arguments, const std::filesystem::path& output);
 
-/// Writes the compressed file `glb`; says in full what was lost, and how small it is beside the
-/// published export of the same soup. Returns the same as JSON. Throws what compress() and
-/// write_compressed_glb() throw, and Interrupted.
+/// Writes the compressed file `glb`. Prints all losses, and the size relative to the DiffSoup
+/// export of the same soup. Returns both as JSON. Throws Interrupted, and the exceptions of
+/// compress() and write_compressed_glb().
 Json convert_compressed(Scene scene, const CompressArguments& arguments,
                         const std::filesystem::path& glb);
 

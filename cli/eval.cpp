@@ -1,4 +1,4 @@
-// `tureen eval`: how near a scene comes to the photographs of a dataset.
+// `tureen eval`: image metrics of a scene against the photographs of a dataset.
 #include <fmt/format.h>
 
 #include <iterator>
@@ -43,7 +43,7 @@ const char* split_name(DatasetPart split) {
   return names[std::size_t(split)];
 }
 
-/// The photographs of the split; the dataset gives them away.
+/// The photographs of the split, moved out of the dataset.
 std::vector<Photograph> photographs_of(Dataset& dataset) {
   std::vector<Photograph> photographs = std::move(dataset.train);
   photographs.insert(photographs.end(), std::make_move_iterator(dataset.test.begin()),
@@ -70,7 +70,7 @@ Json report(const EvalOptions& options, const Evaluation& result,
 }
 
 ExitCode evaluate_scene(EvalOptions options) {
-  // Everything that can be wrong with the arguments is said before anything is read.
+  // Wrong arguments are reported before anything is read.
   EvaluationOptions& evaluation = options.evaluation;
   if (options.background == "transparent")
     throw UsageError(
@@ -79,7 +79,7 @@ ExitCode evaluate_scene(EvalOptions options) {
     evaluation.background = glm::vec3(parse_background(options.background));
   if (!options.folder.empty()) require_writable_folder(options.folder);
   const std::filesystem::path data = options.dataset.path;
-  std::error_code unknown;  // what is not there is said where it is read
+  std::error_code unknown;  // reading reports missing paths
   const std::filesystem::path spared =
       std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
   if (!options.folder.empty())
@@ -154,7 +154,7 @@ view, and their means. Photographs with alpha are drawn over the background.
 Examples:
   tureen eval soup.glb lego
   tureen eval soup.glb fox --scale 0.25 --split all
-  tureen eval soup.glb lego -o views            images, heat maps and a report
+  tureen eval soup.glb lego -o views            images with heat maps, and a report
   tureen eval soup.glb lego --json              the metrics for scripts
   tureen eval soup.glb lego --ssim-border uniform7    SSIM as in DiffSoup on synthetic
                                                       scenes

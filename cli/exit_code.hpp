@@ -5,7 +5,7 @@ namespace tureen::cli {
 
 enum class ExitCode {
   done = 0,
-  check_failed = 1,  // the comparison is past its tolerance, lint found something under --strict
+  check_failed = 1,  // a limit is exceeded, or lint has findings with --strict
   usage = 2,
   bad_input = 3,
   no_context = 4,

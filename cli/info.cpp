@@ -1,4 +1,4 @@
-// `tureen info`: what a scene is, what it costs, and what is odd about it.
+// `tureen info`: a scene's contents, memory use and lint findings.
 #include <fmt/format.h>
 
 #include <map>
@@ -65,7 +65,7 @@ std::string mlp_text(const ColorMlp& mlp) {
   return text;
 }
 
-/// The appearance in keys for programs and sentences for people.
+/// The appearance as JSON and as text.
 struct Described {
   Json json = Json::object();
   std::vector<std::string> lines;
@@ -135,7 +135,7 @@ struct NamedDevice {
   DeviceLimits limits;
 };
 
-/// What common devices report for GL_MAX_TEXTURE_SIZE and GL_MAX_ARRAY_TEXTURE_LAYERS.
+/// GL_MAX_TEXTURE_SIZE and GL_MAX_ARRAY_TEXTURE_LAYERS of common devices.
 const std::vector<NamedDevice>& named_devices() {
   static const std::vector<NamedDevice> devices{
       {"minimum of OpenGL ES 3.0 and WebGL 2", {2048, 256, false}},

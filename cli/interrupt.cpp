@@ -13,7 +13,7 @@ extern "C" void note_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-/// What whoever started us has ignored, as nohup does, stays ignored.
+/// Signals that the parent process ignores, as nohup does, stay ignored.
 void note_unless_ignored(int signal) {
   if (std::signal(signal, note_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
@@ -24,10 +24,10 @@ void catch_interrupts() {
   note_unless_ignored(SIGINT);
   note_unless_ignored(SIGTERM);
 #ifdef SIGHUP
-  note_unless_ignored(SIGHUP);  // a session that was lost
+  note_unless_ignored(SIGHUP);  // the terminal or connection was closed
 #endif
 #ifdef SIGXFSZ
-  // A file that grows past its limit is an error of the write, which says so, not the end.
+  // A write beyond the file size limit then fails with an error and does not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
 #endif
 }

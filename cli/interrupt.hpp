@@ -10,14 +10,14 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From now on the signals are noted, but for those that whoever started us ignores (nohup).
+/// Starts to record the signals. Signals that the parent process ignores (nohup) stay ignored.
 void catch_interrupts();
 
-/// Writing where nobody reads any more (a pipe to `head`) is an error of that write alone from now
-/// on, not the end of the program.
+/// From now on, a write to a closed pipe (such as `| head`) only fails and does not end the
+/// program.
 void outlive_readers();
 
-/// Throws Interrupted once a signal has come. Long loops call it.
+/// Throws Interrupted after a signal. Long loops call it.
 void throw_if_interrupted();
 
 }  // namespace tureen::cli

@@ -1,5 +1,5 @@
-// The whole program as a function: parses arguments, runs a subcommand, turns what is thrown into
-// a sentence on standard error and an exit code.
+// The whole program as a function: parses arguments, runs a subcommand, and reports exceptions as a
+// sentence on standard error and an exit code.
 #pragma once
 
 namespace tureen::cli {

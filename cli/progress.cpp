@@ -20,7 +20,7 @@ namespace tureen::cli {
 
 namespace {
 
-// Work shorter than this shows nothing; bars are redrawn ten times a second.
+// Bars appear after 0.5 s and are redrawn ten times a second.
 constexpr double quiet_seconds = 0.5, bar_seconds = 0.1;
 
 int percent(double fraction) { return int(std::clamp(fraction, 0.0, 1.0) * 100); }
@@ -58,7 +58,7 @@ void Progress::update(double fraction, const std::string& detail) {
 }
 
 void Progress::draw_bar(double fraction, const std::string& detail) {
-  // With words beside it the bar is shorter, so that both fit 80 columns.
+  // With a detail text the bar is shorter, so that both fit 80 columns.
   const int width = detail.empty() ? 30 : 10;
   const int full = percent(fraction) * width / 100;
   const std::string text = detail.empty() ? std::to_string(percent(fraction)) + " %" : detail;

@@ -1,5 +1,5 @@
-// How far long work has come: a bar on a terminal, a plain line now and then elsewhere, nothing
-// for work that is done at once.
+// Progress of long work: a bar on a terminal, otherwise a line every few seconds. Short work prints
+// nothing.
 #pragma once
 
 #include <chrono>
@@ -14,21 +14,21 @@ class Progress {
   struct Output {
     std::FILE* stream = stderr;
     bool terminal = false;
-    std::function<double()> seconds;  // a clock that never goes back
-    double line_seconds = 5;          // between plain lines: few fill a log, and leave no doubt
+    std::function<double()> seconds;  // a monotonic clock
+    double line_seconds = 5;          // between lines, where there is no terminal
   };
   /// Standard error and the steady clock.
   static Output standard_error();
 
-  /// `task` such as "reading soup.glb".
+  /// `task`: label of the bar, such as "reading soup.glb".
   explicit Progress(std::string task, Output output = standard_error());
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// Wipes the bar.
+  /// Erases the bar.
   ~Progress();
 
-  /// Fraction done, 0..1, and what else there is to say. Cheap enough to call often. Throws
-  /// Interrupted after Ctrl-C.
+  /// `fraction`: completed part, 0..1. `detail`: text beside the bar, by default the percentage.
+  /// Cheap enough to call often. Throws Interrupted after Ctrl-C.
   void update(double fraction, const std::string& detail = {});
 
  private:

@@ -40,7 +40,7 @@ struct RenderOptions {
   bool json = false;
 };
 
-/// What is drawn, however, and what is said of it.
+/// The written images and the text to print about them.
 struct Drawn {
   WrittenImages images;
   std::vector<std::string> plan;
@@ -54,7 +54,7 @@ WrittenImages draw_views(const Drawer& drawer, const gl::Capabilities& device, c
                          const std::string& output) {
   if (is_video_name(output))
     return draw_video(drawer, views.cameras, views.frames_per_second, output);
-  // Frames of an animation follow each other: a sheet of hundreds shows nothing.
+  // An animation has hundreds of similar frames, for which a contact sheet is useless.
   const Sheet sheet = views.frames_per_second > 0 ? Sheet::none : Sheet::of_several;
   return draw_images(drawer, device, views.cameras, {output, sheet});
 }
@@ -66,7 +66,7 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
       make_renderer(context, soup, scene.origin, options.drawing.pipeline,
                     {.plan = preferences_for(scene, options.drawing), .background = background});
   const Drawer drawer = drawer_of(renderer, device);
-  // What --frames refuses is said before hours of drawing.
+  // benchmark() rejects images in tiles. It runs first, because drawing may take hours.
   FrameTimes times;
   if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
   WrittenImages images = draw_views(drawer, device, views, options.output);
@@ -82,7 +82,7 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Tria
   debug_renderer.show(options.show.what, options.show.features);
   WrittenImages images =
       draw_views(drawer_of(debug_renderer, device), device, views, options.output);
-  const std::string sentence = std::string("shows ") + name_of(options.show.what) +
+  const std::string sentence = std::string("debug view: ") + name_of(options.show.what) +
                                " of the stored soup, one sample a pixel";
   return {std::move(images),
           {sentence},
@@ -91,7 +91,7 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Tria
           debug_renderer.device_bytes()};
 }
 
-/// Before a context is asked for.
+/// Throws UsageError if the scene has no such debug view. Runs before the context is created.
 void require_shown(const DebugViewOption& show, const TriangleSoup& soup) {
   std::optional<std::string> refusal = why_not(show.what, soup);
   if (!refusal && show.what == DebugView::features)
@@ -108,8 +108,8 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     for (int i = 0; i < count; ++i)
       require_not_input(image_name(options.output, i, count), options.scene.path);
     const std::filesystem::path first = image_name(options.output, 0, count);
-    // How many views a file of cameras or an animation has, and so how they are called, it tells
-    // later.
+    // The number of views in a camera file or an animation, and so the names of the images, are not
+    // known yet.
     if (options.views.is_animation() || !options.views.camera.empty())
       require_writable_beside(first);
     else
@@ -126,7 +126,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
   require_writable_file(options.output);
 }
 
-/// What was written, for people: each file, or the first and last frame.
+/// Prints the written files: all names, or the first and the last frame.
 void say_written(const WrittenImages& images, const Views& views) {
   const std::vector<std::string>& paths = images.paths;
   if (views.frames_per_second > 0)
@@ -141,7 +141,7 @@ void say_written(const WrittenImages& images, const Views& views) {
 }
 
 ExitCode render(RenderOptions options) {
-  // Everything that can be wrong with the arguments is said before the scene is read.
+  // Wrong arguments are reported before the scene is read.
   check(options.views);
   glm::vec4 background(0.0f);
   if (!options.background.empty()) background = parse_background(options.background);
@@ -198,27 +198,28 @@ scene from the front, slightly from the right and from above.
 
 Examples:
   tureen render soup.glb -o image.png
-  tureen render soup.glb --orbit 8 -o orbit_%02d.png      and a contact_sheet.png
+  tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
   tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
   tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
                                                           the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
-  tureen render soup.glb --size 40000x20000 -o poster.png larger than the device's limit, in tiles
+  tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
   tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
   tureen render soup.glb --frames 100 --json              milliseconds per frame
-  tureen render soup.glb --pipeline baseline  --frames 100 --json
-                                                          against the baseline
+  tureen render soup.glb --pipeline baseline --frames 100 --json
+                                                          the same for the baseline
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 the scene does not fit on the device, or an image cannot be written.)");
   add_scene_argument(command, options->scene);
   add_memory_option(command);
   command
-      .add_option("-o,--output", options->output,
-                  "image to write, out.png by default; with several views, %d stands for the "
-                  "number; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
+      .add_option(
+          "-o,--output", options->output,
+          "image to write, out.png by default; with several views, %d is the "
+          "index of the view; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
       .value_name("OUT.png");
   add_view_options(command, options->views);
   command

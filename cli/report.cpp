@@ -17,10 +17,11 @@ namespace tureen::cli {
 
 namespace {
 
-/// `indent` -1 writes no line's end but the last.
+/// `indent` -1 prints one line.
 void print(const Json& document, int indent) {
   const std::string text = json_text(document, indent);
-  // JSON itself escapes only some of what steers a terminal; what we write for it is JSON, too.
+  // JSON escapes only some of the characters that control a terminal. shown_text() escapes the
+  // others, also in the syntax of JSON.
   std::string shown;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());

@@ -16,23 +16,25 @@ namespace tureen::cli {
 using results::Json;
 using results::json_text;
 
-/// A line of prose, never more than one: what files say steers no terminal and passes for no line
-/// of ours (base/shown_text.hpp).
+/// Prints one line on standard error. Escapes control characters and line breaks from files, so
+/// that they neither control the terminal nor imitate another message (base/shown_text.hpp).
 void say(const std::string& line);
 
-/// Lines under a heading, indented; nothing when there are none.
+/// Prints indented lines under a heading; prints nothing if there are no lines.
 void say_list(const std::string& heading, const std::vector<std::string>& lines);
 
-/// Standard output; throws OutputError where it cannot be written, as do the two below.
+/// Prints on standard output. Throws OutputError if it cannot be written, as do the two functions
+/// below.
 void print_text(const std::string& text);
 
-/// The document on standard output; control characters are escaped.
+/// Prints the document on standard output. Control characters are escaped.
 void print_json(const Json& document);
 
 /// The same in one line, for programs that read output line by line.
 void print_json_line(const Json& document);
 
-/// Their kinds and values, {"kind", "counts", "values", "names"}; empty lists are omitted.
+/// The kinds and values of the remarks, {"kind", "counts", "values", "names"}; empty lists are
+/// omitted.
 Json remarks_json(const std::vector<Remark>& remarks);
 
 /// The time of day, "2026-11-21T15:04:05Z".

@@ -31,7 +31,7 @@ const char* set_variable(const char* name) {
   return value && *value ? value : nullptr;
 }
 
-/// One name for all pages that are only looked at, so that none are left behind.
+/// All pages without -o have the same path, so that the cache keeps only one.
 fs::path page_in_cache() {
   fs::path folder;
   if (const char* cache = set_variable("XDG_CACHE_HOME"))
@@ -44,12 +44,12 @@ fs::path page_in_cache() {
   return fs::absolute(folder / "tureen/report.html");
 }
 
-/// Whether a browser shows it now.
+/// Returns whether the browser opened the page.
 bool open_in_browser(const std::string& page) {
 #ifdef __APPLE__
   std::string program = "open";
 #else
-  // Without a screen xdg-open would take a browser for terminals.
+  // Without a display, xdg-open would start a text browser in the terminal.
   if (!set_variable("DISPLAY") && !set_variable("WAYLAND_DISPLAY")) return false;
   std::string program = "xdg-open";
 #endif

@@ -9,7 +9,7 @@ namespace tureen::cli {
 
 namespace {
 
-/// Code points of UTF-8: bytes that continue none.
+/// Number of UTF-8 code points: all bytes except continuation bytes.
 std::size_t width_of(const std::string& text) {
   return std::size_t(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));

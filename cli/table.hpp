@@ -9,17 +9,18 @@ namespace tureen::cli {
 /// Columns two spaces apart, each as wide as its widest cell in Unicode code points.
 class Table {
  public:
-  /// Headings; no heading line where all are empty. The first column and those whose heading begins
+  /// Headings; no heading line if all are empty. The first column and columns whose heading begins
   /// with '<' are aligned left, the others right.
   explicit Table(const std::vector<std::string>& headings);
 
   /// Cells from the left; at most as many as headings.
   void row(std::vector<std::string> cells);
 
-  /// A remark on the row above, below its second column, which it does not widen.
+  /// A remark on the row above, on its own line from the second column. It does not widen the
+  /// column.
   void remark(std::string text);
 
-  /// Without spaces at their ends.
+  /// The lines, without trailing spaces.
   std::vector<std::string> lines() const;
 
  private:

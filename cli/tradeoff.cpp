@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct TradeoffArguments : TradeoffOptions {
   std::string folder;
-  std::string written_scene;  // empty: none is written
+  std::string written_scene;  // empty: none
   bool force = false;
   bool json = false;
 };
@@ -50,7 +50,7 @@ ExitCode tradeoff(const TradeoffArguments& options) {
   Scene scene = read(options.scene);
   opaque_soup(scene);
   TradeoffReport report = measure_tradeoff(options, scene);
-  // What was measured is not lost with a scene that cannot be written.
+  // If the scene cannot be written, the report is still written: measuring takes minutes.
   std::exception_ptr unwritten;
   if (!options.written_scene.empty()) try {
       write_chosen(options.written_scene, std::move(scene), report);

@@ -1,4 +1,4 @@
-// `tureen train`: photographs to a soup.
+// `tureen train`: trains a soup from photographs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,8 +73,8 @@ Preset preset_for(const Dataset& dataset) {
   return dataset.has_alpha ? Preset::object : Preset::scene;
 }
 
-/// The constants of this run. One that goes on has those of its checkpoint, and what the command
-/// line names must be the same.
+/// The constants of this run. A resumed run has the constants of its checkpoint; constants on the
+/// command line must equal them.
 Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint* checkpoint) {
   const bool is_new = !checkpoint || options.config.name_a_base();
   const Config base = is_new ? base_config(options.config, otherwise) : checkpoint->config;
@@ -84,7 +84,7 @@ Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint
       throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
   if (config.initialisation == trainer::Initialisation::mesh && !checkpoint &&
       options.config.mesh().empty())
-    throw UsageError("initialisation \"mesh\" needs the scene", "--init FILE names it");
+    throw UsageError("initialisation \"mesh\" needs a scene", "give its file with --init");
   return config;
 }
 
@@ -109,7 +109,7 @@ struct Result {
   std::vector<std::string> output;
 };
 
-/// The soup and all that is made of it. Once this is written the checkpoint has done its work.
+/// Writes the soup and the DiffSoup export, then removes the checkpoint.
 void write_results(const TrainingFiles& files, const Scene& scene, Result& result) {
   write_scene(scene, files.scene);
   result.output.push_back(files.scene.string());
@@ -123,7 +123,8 @@ void write_results(const TrainingFiles& files, const Scene& scene, Result& resul
   result.output.push_back(files.log.string());
 }
 
-/// What everybody will see, drawn by the runtime; nothing where it cannot draw here.
+/// Metrics of the runtime's images, which users will see; empty if the runtime cannot draw them
+/// here.
 std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Photograph> views) {
   Progress progress("evaluating");
   EvaluationOptions options;
@@ -205,7 +206,7 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
   return read(SceneArgument{.path = path.string(), .vertex_colors = {}, .up = {}});
 }
 
-/// What is there already, and is not to be lost by mistake.
+/// Throws UsageError if the run would replace an existing file by mistake.
 void check_existing(const TrainOptions& options, const TrainingFiles& files) {
   std::error_code error;
   if (const fs::path mesh = options.config.mesh(); fs::equivalent(mesh, files.scene, error))
@@ -215,11 +216,11 @@ void check_existing(const TrainOptions& options, const TrainingFiles& files) {
     say(files.scene.string() + " exists; training replaces its log now and the file at the end");
   if (!options.resume && fs::exists(files.checkpoint, error))
     throw UsageError(files.checkpoint.string() + " exists, from an unfinished run",
-                     "give --resume to continue this run, or remove the file to start again");
+                     "continue this run with --resume, or remove the file to start again");
 }
 
-/// Reads what a run begins with. Ctrl-C in it, unlike later, leaves no checkpoint, which people may
-/// expect.
+/// Reads the inputs of a run. Ctrl-C during reading writes no checkpoint, unlike Ctrl-C during
+/// training, so this prints a message.
 template <class Work>
 auto before_the_first_step(const TrainOptions& options, Work&& read) {
   try {
@@ -233,11 +234,11 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
 }
 
 ExitCode train(const TrainOptions& options) {
-  // Everything that can be wrong with the arguments is said before the photographs are read.
+  // Wrong arguments are reported before the photographs are read.
   TrainingFiles files;
   std::optional<trainer::RunLock> lock, log_lock;
   if (!options.print_config) {
-    outlive_readers();  // hours of work are worth more than the lines that nobody reads
+    outlive_readers();  // a closed pipe must not end hours of training
     files = files_of(options);
     check_writable(files);
     lock.emplace(files.lock);
@@ -297,7 +298,7 @@ ExitCode train(const TrainOptions& options) {
                          progress.reset();
                          say(
                              fmt::format("wrote {} after step {} of {}; the same command with "
-                                         "--resume goes on from it",
+                                         "--resume continues from it",
                                          files.checkpoint.string(), counted(std::uint64_t(step)),
                                          counted(std::uint64_t(config.steps))));
                        }},
@@ -305,7 +306,7 @@ ExitCode train(const TrainOptions& options) {
            [&](const trainer::Backend& backend, bool visible) {
              say_beginning(dataset, config, backend);
              if (!visible)
-               say("No training image shows a triangle yet: check that the cameras see the scene.");
+               say("No training image shows a triangle yet: check the cameras of the dataset.");
            },
        .finished =
            [&](const Scene& scene) {

@@ -1,4 +1,4 @@
-// Which program this is.
+// The version and build of the program.
 #pragma once
 
 namespace tureen::cli {
@@ -6,12 +6,12 @@ namespace tureen::cli {
 /// "0.1.0".
 const char* program_version();
 
-/// What `git describe` said of the sources when this was built, with "-dirty" where they differed
-/// from the commit; "unknown" outside of git.
+/// The output of `git describe` at build time, with "-dirty" if the sources differed from the
+/// commit; "unknown" without git.
 const char* program_commit();
 
-/// "release"; "debug" where assertions and queries of OpenGL's errors take time in every frame,
-/// "sanitized" where every access to memory does.
+/// "release"; "debug" if assertions and queries of OpenGL errors slow down every frame; "sanitized"
+/// if checks slow down every memory access.
 const char* program_build();
 
 }  // namespace tureen::cli

@@ -1,4 +1,4 @@
-// `tureen view`: starts the window, a program of its own, so that this one needs no window
+// `tureen view`: starts the window. It is a separate program, so that this one needs no window
 // libraries.
 #include <cerrno>
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* window_program = "tureen-view";
 
-/// Beside this program, or wherever PATH has it.
+/// The path beside this program; otherwise the name alone, for a search on PATH.
 std::string find_window_program() {
   std::error_code ignored;
   if (const auto folder = program_folder())
@@ -30,10 +30,11 @@ std::string find_window_program() {
   return window_program;
 }
 
-/// Becomes the other program; comes back only where that cannot be.
+/// Replaces this process by the window program; on Windows, runs it and returns its exit code.
+/// Throws if it cannot be started.
 ExitCode become_window(const std::vector<std::string>& arguments) {
   const std::string program = find_window_program();
-  std::vector<char*> argv{const_cast<char*>(program.c_str())};  // execvp changes none of them
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};  // execvp does not change them
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 #ifdef _WIN32
@@ -54,7 +55,7 @@ ExitCode become_window(const std::vector<std::string>& arguments) {
 }  // namespace
 
 void add_view(Command& program) {
-  // All that follows, --help too, is the other program's.
+  // All further arguments, including --help, go to the window program.
   program.add_command("view", "Explore a scene in a window").does_with_rest(become_window);
 }
 

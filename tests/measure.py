@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs what `./dev bench`, `./dev numerics` and `./dev faults` measure and leaves JSON in build/;
+"""Runs the measurements of `./dev bench`, `./dev numerics` and `./dev faults`, and writes JSON into build/;
 docs/json.md explains its keys. `dev` builds the programs first."""
 
 import argparse
@@ -17,7 +17,7 @@ from pathlib import Path
 PROGRAMS = Path(os.environ.get('TUREEN_PROGRAMS', 'build/release/bin'))
 TUREEN = PROGRAMS / 'tureen'
 EXAMPLE = Path('examples/soup.glb')
-# Training sets: the folder in --data (none: made here), the scale of its images, options of `tureen train`.
+# Training sets: the folder in --data (None: this script draws it), the scale of its images, options of `tureen train`.
 SETS = {
     'example': (None, 1, '--config examples/training.json --steps 3000'),
     'lego': ('rendered/lego', 0.5, '--steps 10000'),
@@ -42,7 +42,7 @@ def short(value):
 
 
 def print_table(rows, columns=None, title=None):
-    """On standard output: texts first, numbers to the right."""
+    """Prints text columns first; numbers are right-aligned."""
     if title:
         print(f'{title}:')
     columns = columns or sorted(dict.fromkeys(key for row in rows for key in row),
@@ -84,7 +84,7 @@ class Bench:
         self.outcomes.append({'part': name, 'outcome': f'skipped: {reason}'})
 
     def run(self, name, *command):
-        """The standard output, or None where it failed. Standard error goes to NAME.log."""
+        """The standard output, or None if the command failed. Standard error goes to NAME.log."""
         command = [str(word) for word in command]
         say(f'{name}: {shlex.join(command)}')
         with open(self.out / f'{name}.log', 'w') as log:
@@ -119,7 +119,7 @@ class Bench:
         return ['--size', '160x90' if self.quick else size]
 
     def soup(self, name, program, *arguments):
-        """A soup that a program of ours makes; None where it failed."""
+        """Path of a soup made by one of our programs; None if that failed."""
         path = self.out / 'soups' / f'{name}.glb'
         return path if self.run(name, PROGRAMS / program, path, *arguments) is not None else None
 
@@ -135,7 +135,7 @@ class Bench:
         return self.soup(f'cloud-{coverage}', 'make_cutout_cloud', '--coverage', coverage)
 
     def scenes(self):
-        """Name and path of every scene there is: the example, what training left, and --scene."""
+        """Names and paths of all scenes: the example, ficus if available, trained soups, and --scene."""
         found = {'example': EXAMPLE}
         if self.base() != EXAMPLE:
             found['ficus'] = self.base()
@@ -144,7 +144,7 @@ class Bench:
         return found
 
     def photographs(self, name):
-        """The folder of a training set and the scale of its images; empty where it is not there."""
+        """The folder of a training set and the scale of its images; empty if the folder does not exist."""
         if name not in SETS:
             return []
         inside, scale, _ = SETS[name]
@@ -152,7 +152,7 @@ class Bench:
         return [folder, '--scale', scale] if folder.exists() else []
 
     def frames(self):
-        """Frame times of ours and of the baseline, across sizes."""
+        """Frame times of tureen and of the baseline, at several sizes."""
         for name, path in self.scenes().items():
             views = self.size('') if self.quick else ['--cameras', 'hemisphere:8,adversarial', '--sweep']
             self.tureen(f'frames-{name}', 'bench', path, *views, *self.timing(300))
@@ -162,7 +162,7 @@ class Bench:
                             *self.size('1280x720'), *self.timing(300))
 
     def dense(self):
-        """Two million opaque triangles, against a renderer as plain as they come."""
+        """Two million opaque triangles, compared with a minimal renderer."""
         if soup := self.dense_soup():
             text = self.run('dense', PROGRAMS / 'dense_benchmark', soup,
                             *(['--rounds', 1, '--width', 160, '--height', 90] if self.quick else []),
@@ -170,11 +170,11 @@ class Bench:
             self.keep('dense', {'dense': rows_of(text or '')})
 
     def gpu(self):
-        """Ours, the baseline and the device's ceilings, from 1280x720 to 3840x2160."""
+        """Frame times of tureen, the baseline and the device's ceilings, from 1280x720 to 3840x2160."""
         drawn = json.loads(self.run('gpu-device', TUREEN, 'render', EXAMPLE, '--size', '16x16', '-o',
                                     self.out / 'device.png', '--json') or '{}')
         if drawn.get('software') and not self.quick:
-            return self.skip('gpu', 'OpenGL is drawn by the processor here')
+            return self.skip('gpu', 'OpenGL is software on this machine')
         scenes = {name: (path, 'hemisphere:8') for name, path in self.scenes().items()}
         for name, path in ('dense', self.dense_soup()), ('cloud-all', self.cloud('all')):
             if path:
@@ -184,7 +184,7 @@ class Bench:
                         *self.size('1280x720,1920x1080,3840x2160'), *self.timing(60))
 
     def specialisations(self):
-        """What each specialisation gains, on a scene made for it and on every scene there is."""
+        """Gain of each specialisation, on a scene made for it and on all scenes."""
         text = self.run('specialisations', PROGRAMS / 'specialisation_benchmark', *self.scenes().values(),
                         *(['--rounds', 1, '--width', 160, '--height', 90] if self.quick else []))
         self.keep('specialisations', {'specialisations': rows_of(text or '')})
@@ -227,14 +227,14 @@ class Bench:
         return list(rows.values())
 
     def tradeoff(self):
-        """Error against run time, with photographs where there are some."""
+        """Error against run time, with photographs if available."""
         for name, path in self.scenes().items():
             self.tureen(f'tradeoff-{name}', 'tradeoff', path, *self.photographs(name),
                         *(['--quick'] if self.quick else []),
                         *(['--processor-time'] if self.options.processor_time else []))
 
     def load(self):
-        """The time and the memory that a large soup takes to load from each format."""
+        """Time and memory for loading a large soup from each format."""
         dense, rows = self.dense_soup(), []
         for end in '.glb', '.off', '.ply':
             path = dense and dense.with_suffix(end)
@@ -250,7 +250,7 @@ class Bench:
         self.keep('load', {'load': rows})
 
     def compress(self):
-        """The size of compressed files, and their loss."""
+        """Size and loss of compressed files."""
         rows = []
         for name, path in self.scenes().items():
             photographs = self.photographs(name)
@@ -262,7 +262,7 @@ class Bench:
         self.keep('compress', {'compress': rows})
 
     def step(self):
-        """The time of a training step, stage by stage."""
+        """Time of a training step, stage by stage."""
         text = self.run('step', PROGRAMS / 'training_benchmark', *([64, 64, 1] if self.quick else [400, 400, 12]))
         self.keep('step', {'step': rows_of(text or '')})
 
@@ -276,7 +276,7 @@ class Bench:
             self.keep('browser', {'browser': rows_of(text or '')})
 
     def training(self):
-        """Trains every set there is: hours. Other parts draw the soups that it leaves."""
+        """Trains all available sets, which takes hours. Other parts use the trained soups."""
         (self.out / 'training').mkdir(exist_ok=True)
         if not self.photographs('example'):
             self.run('photographs', PROGRAMS / 'make_photographs', self.out / 'photographs',
@@ -286,9 +286,9 @@ class Bench:
         for name, (_, _, options) in SETS.items():
             photographs, soup = self.photographs(name), self.out / 'training' / f'{name}.glb'
             if not photographs:
-                self.skip(f'training-{name}', f'{self.options.data}/{SETS[name][0]} is not there')
+                self.skip(f'training-{name}', f'{self.options.data}/{SETS[name][0]} does not exist')
                 continue
-            soup.with_suffix('.checkpoint').unlink(missing_ok=True)  # of a run that was interrupted
+            soup.with_suffix('.checkpoint').unlink(missing_ok=True)  # from an interrupted run
             options = shlex.split(options) + (['--steps', '20'] if self.quick else [])
             text = self.run(f'training-{name}', TUREEN, 'train', *photographs, *options, '-o', soup, '--json')
             if text:
@@ -297,7 +297,7 @@ class Bench:
         self.keep('training', {'training': rows})
 
     def report(self):
-        """A page of all results that the folder holds."""
+        """A page with all results in the folder."""
         found = [path for pattern in ('*.json', 'browser/*.json', 'training/*.jsonl')
                  for path in sorted(self.out.glob(pattern))]
         page = self.out / 'report.html'
@@ -307,11 +307,11 @@ class Bench:
 
 def fit(kind, rows):
     """t = a + b triangles + c fragments + d pixels, by least squares of the relative error: 1 ms counts
-    as much as 1000 ms. Adds the model's time to the rows. None where the rows cannot tell the four apart."""
+    as much as 1000 ms. Adds the model's time to the rows. None if the rows do not determine the four costs."""
     rows = [row for row in rows if f'{kind}_ms' in row]
     factors = [[1, row['triangles'], row['fragments'], row['pixels']] for row in rows]
     scaled = [[value / row[f'{kind}_ms'] for value in line] for line, row in zip(factors, rows)]
-    # Columns of length 1: otherwise costs that differ by 10^9 lose each other's digits.
+    # Columns of length 1: without this scaling, costs that differ by 10^9 would lose digits.
     lengths = [math.sqrt(sum(line[i]**2 for line in scaled)) for i in range(4)]
     if len(rows) <= 4:
         return None
@@ -319,7 +319,7 @@ def fit(kind, rows):
     equations = [[sum(line[i] * line[k] for line in unit) for k in range(4)] + [sum(line[i] for line in unit)]
                  for i in range(4)]
     for i in range(4):  # the matrix is positive definite: no pivots are needed
-        if equations[i][i] < 1e-10:  # of 16 digits fewer than six would be left
+        if equations[i][i] < 1e-10:  # fewer than 6 of 16 digits would remain
             return None
         for k in set(range(4)) - {i}:
             ratio = equations[k][i] / equations[i][i]
@@ -335,7 +335,7 @@ def fit(kind, rows):
 
 PARTS = ['training', 'frames', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
 
-# What earlier versions of `./dev bench` took, and the replacements.
+# Removed parts and options of `./dev bench`, and their replacements.
 RETIRED = {
     'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test -R AgreesWithTheOracle',
     'train-fox': 'the part training', 'train-bottle': 'the part training', 'train-lego': 'the part training',
@@ -349,28 +349,28 @@ def bench(arguments):
     parts = ''.join(f'  {name:16} {getattr(Bench, name).__doc__}\n' for name in PARTS)
     parser = argparse.ArgumentParser(
         prog='./dev bench', formatter_class=argparse.RawDescriptionHelpFormatter,
-        description='Measures, and leaves JSON in build/bench. Without a PART: all but training.',
-        epilog=f'parts:\n{parts}\nExit code 1 where a part failed.')
+        description='Measures, and writes JSON into build/bench. Default: all parts except training.',
+        epilog=f'parts:\n{parts}\nExit code 1 if a part failed.')
     parser.add_argument('part', nargs='*', metavar='PART', help='listed below')
     parser.add_argument('--quick', action='store_true',
-                        help='smallest settings, in build/bench-quick: a check that it works, not a measurement')
+                        help='smallest settings, into build/bench-quick: a check of the programs, not a measurement')
     parser.add_argument('--processor-time', action='store_true',
                         help='processor time of all threads, for ratios on a busy machine; software OpenGL only')
     parser.add_argument('--scene', action='append', default=[], type=Path, metavar='FILE',
                         help='measure this soup, too')
     parser.add_argument('--data', default=Path('../shared/data'), type=Path, metavar='FOLDER',
-                        help='a folder with soups/ficus_2dts.off, rendered/lego, photos/fox and photos/bottle, as '
-                             'far as you have them (../shared/data)')
-    parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # the arguments alone
+                        help='folder with soups/ficus_2dts.off, rendered/lego, photos/fox and photos/bottle, all '
+                             'optional (default ../shared/data)')
+    parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # only checks the arguments
     for word in (argument.split('=')[0] for argument in arguments):
         word not in RETIRED or parser.error(f'{word} was removed; use {RETIRED[word]}')
     options = parser.parse_args(arguments)
     if options.data != parser.get_default('data') and not options.data.is_dir():
-        parser.error(f'there is no folder {options.data}')
+        parser.error(f'--data: folder {options.data} does not exist')
     for part in options.part:
-        part in PARTS or parser.error(f"there is no part '{part}'; the parts are {', '.join(PARTS)}")
+        part in PARTS or parser.error(f"unknown part '{part}'; the parts are {', '.join(PARTS)}")
     for path in options.scene:
-        path.exists() or parser.error(f'there is no {path}')
+        path.exists() or parser.error(f'--scene: file {path} does not exist')
     if options.check:
         return 0
     run = Bench(options)
@@ -382,7 +382,7 @@ def bench(arguments):
 
 
 def tested(path, program, *arguments, **environment):
-    """The rows that tests of ours leave, by table; ends this program where a test fails."""
+    """The rows that our tests write, by table. Exits if a test fails."""
     path.unlink(missing_ok=True)
     environment = {**os.environ, **environment, 'TUREEN_MEASURED': str(path.absolute())}
     command = [PROGRAMS / program, '--gtest_brief=1', *arguments]
@@ -400,7 +400,7 @@ def numerics(_):
     out.mkdir(parents=True, exist_ok=True)
     cases, points, names = [], [], set()
     for case in tested(out / 'rows', 'numerics_tests')['numerics']:
-        while case['case'] in names:  # a test may have several
+        while case['case'] in names:  # a test may have several cases
             case['case'] += "'"
         names.add(case['case'])
         measured = case.pop('points')
@@ -416,7 +416,7 @@ def numerics(_):
 
 
 def fuzzed(target, seconds, out):
-    """What a fuzzer reports at its end, as a row."""
+    """The final statistics of a fuzzer, as a row."""
     log = out / f'{target}.log'
     source = Path.cwd()
     with open(log, 'w') as file:
@@ -448,7 +448,7 @@ def faults(arguments):
     keep(out / 'harm.json', 'faults', tables)
     for table, rows in tables.items():
         print_table(rows, title=table)
-    say(f'All of it is in {out}/harm.json')
+    say(f'All results are in {out}/harm.json')
 
 
 if __name__ == '__main__':

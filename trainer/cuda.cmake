@@ -1,19 +1,20 @@
-# The CUDA backend, where nvcc is: two files. TUREEN_CUDA OFF does without, ON insists.
+# The CUDA backend: two files. With AUTO it is built if nvcc is found; ON makes a missing nvcc an
+# error.
 set(TUREEN_CUDA AUTO CACHE STRING "Build the CUDA backend of the trainer: AUTO, ON or OFF")
 set_property(CACHE TUREEN_CUDA PROPERTY STRINGS AUTO ON OFF)
 set(TUREEN_HAS_CUDA OFF)
 if(TUREEN_CUDA)
   include(CheckLanguage)
   if(NOT CMAKE_CUDA_COMPILER AND EXISTS /usr/local/cuda/bin/nvcc)
-    set(CMAKE_CUDA_COMPILER /usr/local/cuda/bin/nvcc)  # where it is, though rarely on the path
+    set(CMAKE_CUDA_COMPILER /usr/local/cuda/bin/nvcc)  # the default location, rarely on the path
   endif()
-  # Sanitizers and nvcc's own pass over host code do not go together.
+  # Sanitizers are incompatible with nvcc's own pass over host code.
   if(NOT TUREEN_SANITIZE)
     check_language(CUDA)
   endif()
   if(CMAKE_CUDA_COMPILER)
-    # Ampere, Hopper, and all from Blackwell's desktop cards on; named, as a machine that builds
-    # need not have any.
+    # Ampere, Hopper, and Blackwell's desktop cards and later. They are listed because the build
+    # machine may have no GPU.
     if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
       set(CMAKE_CUDA_ARCHITECTURES 80-real 90-real 120)
     endif()
@@ -32,7 +33,8 @@ if(TUREEN_HAS_CUDA)
   add_library(tureen_cuda OBJECT common/cuda/cuda_machine.cu diffsoup/cuda/cuda_backend.cu)
   target_include_directories(tureen_cuda PRIVATE
     $<TARGET_PROPERTY:tureen_trainer,INTERFACE_INCLUDE_DIRECTORIES>)
-  # CMake 3.25 knows no CUDA 20. 20012: glm marks defaulted functions for the device.
+  # CMake 3.25 does not support CUDA standard 20. Warning 20012: glm marks defaulted functions for
+  # the device.
   set_target_properties(tureen_cuda PROPERTIES CUDA_STANDARD_REQUIRED OFF CUDA_RUNTIME_LIBRARY Static)
   target_compile_options(tureen_cuda PRIVATE -std=c++20 --expt-relaxed-constexpr -O3
     -diag-suppress=20012 -Xcompiler=-Wall,-Wextra,-Wno-psabi)

@@ -1,12 +1,12 @@
-// Builds everything that the page gives away, from TypeScript and an engine that Emscripten made:
+// Builds the page's products from TypeScript and an engine built by Emscripten:
 //
 //   node build.mjs --engine DIR --out DIR
 //
-// DIR of the engine holds tureen.js (an ES module that makes engines) and tureen.wasm. Out comes
+// The engine's DIR contains tureen.js (an ES module that creates engines) and tureen.wasm. The output is
 //   site/                 a static site: the page, its worker and engine, gallery, examples
-//   scene_template.html   the page in one file, with an empty place that `tureen convert` fills
+//   scene_template.html   the page in one file, with an empty element that `tureen convert` fills
 //   npm/                  a package: createViewer as an ES module with its types
-// and a table of sizes. Fails where what a browser has to fetch is larger than the limit.
+// and a table of sizes. The build fails if the files that a browser must fetch exceed the limit.
 
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -17,11 +17,11 @@ import { parseArgs } from 'node:util';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 
-/** Of engine and scripts together, compressed: a promise of the project. */
+/** Maximum compressed size of engine and scripts together: a requirement of the project. */
 const maxBytes = 400_000;
-/** Where `tureen convert` puts a scene; html_scene of the program looks for exactly this. */
+/** The element for the scene of `tureen convert`; the program's html_scene searches for exactly this text. */
 const emptyScene = '<script type="application/octet-stream;base64" id="scene" data-name=""></script>';
-/** The site's pages beside the examples: HTML, the script that it loads and its style. */
+/** The site's pages, without the examples: HTML, its script and its style. */
 const pages = [
   { html: 'page/index.html', script: 'page/page.ts', style: 'page/style.css' },
   { html: 'bench/bench.html', script: 'bench/bench.ts', style: 'bench/bench.css' },
@@ -46,16 +46,16 @@ function options() {
 
 function version() {
   const found = /project\(tureen VERSION ([\d.]+)/.exec(text(join(root, 'CMakeLists.txt')))?.[1];
-  return found ?? fail('The version is not where CMakeLists.txt had it.');
+  return found ?? fail('CMakeLists.txt has no project version.');
 }
 
-/** As the program says it of itself (cmake/commit.cmake). */
+/** The commit, in the same form as in the program (cmake/commit.cmake). */
 function commit() {
   const git = spawnSync('git', ['-C', root, 'describe', '--always', '--tags', '--dirty'], { encoding: 'utf8' });
   return git.status === 0 ? git.stdout.trim() : 'unknown';
 }
 
-/** One script or style with all that it imports. What it has to be is said in `how`, as esbuild's options. */
+/** One script or style with all its imports. `how`: options of esbuild. */
 async function bundle(entry, how = {}) {
   const result = await build({
     entryPoints: [entry], bundle: true, write: false, minify: true, platform: 'browser',
@@ -64,7 +64,7 @@ async function bundle(entry, how = {}) {
   return result.outputFiles[0].text;
 }
 
-/** A module of the site or the package. All of them share one tureen.js, which a browser fetches once. */
+/** A module of the site or the package. All modules share one tureen.js, so a browser fetches it once. */
 const module = (entry) => bundle(from(entry), {
   format: 'esm',
   define: { builtVersion: JSON.stringify(version()), builtCommit: JSON.stringify(commit()) },
@@ -74,11 +74,11 @@ const module = (entry) => bundle(from(entry), {
   }],
 });
 
-/** Replaces what stands exactly once. */
+/** Replaces a text that must occur exactly once. */
 function replaceOnce(whole, part, by) {
   const pieces = whole.split(part);
   if (pieces.length !== 2)
-    fail(`“${part.slice(0, 60)}” should stand once in the page, not ${pieces.length - 1} times.`);
+    fail(`“${part.slice(0, 60)}” must occur once in the page, not ${pieces.length - 1} times.`);
   return pieces.join(by);
 }
 
@@ -87,14 +87,14 @@ function write(folder, name, content) {
   writeFileSync(join(folder, name), content);
 }
 
-/** models.json with the sizes of the files that lie beside it. */
+/** models.json with the sizes of the files next to it. */
 function gallery(folder) {
   const models = JSON.parse(text(from('page/models.json')));
   const weighed = models.map((model) => ({ ...model, bytes: statSync(join(folder, model.url)).size }));
   return JSON.stringify(weighed, null, 2) + '\n';
 }
 
-/** What draws in any page, and the viewer as a module. */
+/** Writes the engine, its worker and the viewer module. */
 function placeEngine(folder, engine, parts) {
   write(folder, 'tureen.js', parts.engine);
   write(folder, 'viewer.js', parts.viewer);
@@ -115,18 +115,17 @@ async function makeSite(folder, engine, parts) {
   write(folder, 'models.json', gallery(folder));
 }
 
-/** A script that imports nothing: the worker is started from a Blob, and in the single file all is in
- *  one. What asks for import.meta.url gets an address that is never fetched: a Blob has none that others
- *  could be relative to. */
+/** A script without imports, for the worker, which starts from a Blob, and for the single file. A Blob
+ *  has no base address, so import.meta.url becomes an address that is never fetched. */
 const selfContained = (entry, engine) => bundle(from(entry), {
   format: 'iife', alias: { 'tureen-engine': join(engine, 'tureen.js') }, define: { 'import.meta.url': '"file:///"' },
 });
 
-/** The page with everything in it. */
+/** The page as a single file. */
 async function makeTemplate(engine, parts) {
   const script = await selfContained('page/single_file.ts', engine);
   const style = await bundle(from('page/style.css'));
-  if (/<\/script|<!--/i.test(script)) fail('The script of the single file has what ends a script in HTML.');
+  if (/<\/script|<!--/i.test(script)) fail('The script of the single file contains </script or <!--, which ends a script in HTML.');
   const part = (id, bytes) => `<script type="application/octet-stream;base64" id="${id}">` +
     `${Buffer.from(bytes).toString('base64')}</script>\n`;
   const hash = createHash('sha256').update(script).digest('base64');
@@ -141,7 +140,7 @@ async function makeTemplate(engine, parts) {
   page = replaceOnce(page, "script-src 'self' 'wasm-unsafe-eval'; style-src 'self'",
                      `script-src 'sha256-${hash}' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'`);
   page = replaceOnce(page, '</body>', `${emptyScene}\n${parts64}<script>${script}</script>\n</body>`);
-  replaceOnce(page, emptyScene, '');  // it has to be there once
+  replaceOnce(page, emptyScene, '');  // checks that it occurs once
   return page;
 }
 
@@ -154,10 +153,10 @@ function makePackage(folder, engine, parts) {
   const compiler = from('node_modules/typescript/bin/tsc');
   const types = spawnSync(process.execPath, [compiler, '-p', from('package'), '--outDir', join(folder, 'types')],
                           { stdio: 'inherit' });
-  if (types.status !== 0) fail('The package has no types: see above.');
+  if (types.status !== 0) fail('The types of the package could not be built: see above.');
 }
 
-/** Prints the sizes of what a browser fetches before the first scene. */
+/** Prints the sizes of the files that a browser fetches before the first scene. */
 function weigh(site) {
   const totals = [0, 0, 0];
   const row = (name, sizes) =>
@@ -171,7 +170,7 @@ function weigh(site) {
   }
   row('together', totals);
   if (totals[2] > maxBytes)
-    fail(`Engine and scripts are ${totals[2]} bytes by brotli; the limit is ${maxBytes}.`);
+    fail(`Engine and scripts have ${totals[2]} bytes with brotli; the limit is ${maxBytes}.`);
 }
 
 async function main() {

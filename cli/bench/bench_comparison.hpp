@@ -1,4 +1,4 @@
-// A comparison of two results, for a terminal.
+// Formats a comparison of two results for a terminal.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tureen::cli {
 
-/// Lines of text, a table first; for a terminal.
+/// Lines of text: a table, then circumstances() and unmatched_lines().
 std::vector<std::string> comparison_lines(const BenchComparison& comparison);
 
 }  // namespace tureen::cli

@@ -1,4 +1,4 @@
-// What `tureen bench` and `tureen tradeoff` measure on, and by which clock.
+// The device and the clock of `tureen bench` and `tureen tradeoff`.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@ namespace tureen::cli {
 BenchDevice device_of(const gl::Context& context);
 
 struct BenchClock {
-  std::string text;             // for people: "steady clock of the processor, .."
+  std::string text;             // description: "steady clock of the processor, .."
   std::function<double()> now;  // seconds; empty: the steady clock
 };
 
-/// The steady clock, or with --processor-time that of all threads of this program. Throws
-/// UsageError where the device is no software renderer: its work is not the processor's.
+/// The steady clock, or with --processor-time the processor time of all threads. Throws UsageError
+/// if that is requested for hardware, whose work takes no processor time.
 BenchClock clock_for(const BenchDevice& device, bool processor_time);
 
 }  // namespace tureen::cli

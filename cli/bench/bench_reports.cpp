@@ -30,7 +30,7 @@ std::vector<fs::path> files_of(const BenchReportOptions& options) {
   return options.folder.empty() ? std::vector<fs::path>() : result_files(options.folder, "bench");
 }
 
-/// What --fail-slower cannot say of what has passed.
+/// Prints which slowdowns --fail-slower cannot detect.
 void say_limits(const BenchComparison& comparison, double percent) {
   const auto coarse = [&](const BenchRatio& ratio) {
     return ratio.spread && 2 * *ratio.spread > percent / 100;
@@ -48,7 +48,7 @@ void say_limits(const BenchComparison& comparison, double percent) {
 }
 
 void say_comparison(const BenchComparison& comparison, const std::string& file) {
-  say_list("against " + file + ":", comparison_lines(comparison));
+  say_list("Against " + file + ":", comparison_lines(comparison));
   if (comparison.ratios.empty()) say("no rows can be compared");
 }
 
@@ -123,9 +123,9 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   say_limits(*comparison, *options.fail_slower);
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)
-    say(fmt::format("slower than allowed: {}, {}, {}: {:.3f} times as long", ratio.configuration,
-                    ratio.camera_set, ratio.size, ratio.ratio));
-  // What nobody could judge has not passed.
+    say(fmt::format("slower than --fail-slower allows: {}, {}, {}: {:.3f} times the earlier time",
+                    ratio.configuration, ratio.camera_set, ratio.size, ratio.ratio));
+  // The check also fails if a row has no verdict, or if there are no rows.
   const bool judged = unknown == 0 && !comparison->ratios.empty();
   return judged && slower.empty() ? ExitCode::done : ExitCode::check_failed;
 }

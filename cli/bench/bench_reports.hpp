@@ -1,4 +1,4 @@
-// The files that `tureen bench` leaves beside its table, and what it says of an earlier result.
+// The output files of `tureen bench`, and its comparison with an earlier result.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace tureen::cli {
 
-/// As typed; empty where not given.
+/// As typed; empty if not given.
 struct BenchReportOptions {
-  std::string folder;   // for report.html, bench.json and the images timed
+  std::string folder;   // for report.html, bench.json and the images
   std::string against;  // an earlier bench.json
   std::optional<double> fail_slower;
   bool json = false;  // the result on standard output
@@ -22,15 +22,15 @@ struct BenchReportOptions {
 /// --output, --against, --fail-slower and --json.
 void add_bench_report_options(Command& command, BenchReportOptions& options);
 
-/// To be called before anything is measured: reads what --against names, so that a bad file is
-/// refused at once, and makes the folder. No file takes the place of that one or of `inputs`,
-/// files and folders that are read. Throws InputError, UsageError and OutputError.
+/// Call this before anything is measured. Reads the result of --against, so that an invalid file is
+/// reported at once, and creates the folder. Throws UsageError if an output would replace that file
+/// or one of `inputs`, the files and folders that are read. Throws InputError and OutputError.
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
                                                  std::vector<std::string> inputs);
 
-/// Writes the files, each complete or not at all, prints their names, and what changed since
-/// `then`. ExitCode::check_failed only where --fail-slower was given and something is slower than
-/// that. Throws OutputError.
+/// Writes the files, each completely or not at all. Prints their names and the changes since
+/// `then`. Returns ExitCode::check_failed if --fail-slower was given and a row is slower than it
+/// allows or cannot be checked. Throws OutputError.
 ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
                       const std::optional<BenchResult>& then);
 

@@ -45,14 +45,15 @@ void add_row(Table& table, const BenchMeasurement& each, const BenchMeasurement&
   table.row({each.configuration, ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median),
              ms_text(ms.p95), slowest_percent_text(ms, ms_text(ms.p99)), fps_text(each.fps),
              slowest_percent_text(ms, fps_text(ms.low_1_percent_fps)), compared(each, first)});
-  if (!each.passes_ms.empty()) table.remark("by the device's clock: " + passes_text(each));
+  if (!each.passes_ms.empty()) table.remark("times from the device's clock: " + passes_text(each));
   if (each.passes_gap == PassTimesGap::partial) table.remark(each.passes_reason);
   if (!each.stable) table.remark("times were not stable after the warm-up");
 }
 
-/// Why pass times are missing: one line a kind of gap, with the numbers of its first measurement.
+/// Reasons for missing pass times: one line per kind of gap, with the numbers of its first
+/// measurement.
 void add_pass_gaps(std::vector<std::string>& lines, const BenchResult& result) {
-  // One pass needs no explanation, a partial time has its own beside the row.
+  // One pass needs no explanation; a partial time has its reason below the row.
   std::set<PassTimesGap> explained{PassTimesGap::none, PassTimesGap::one_pass,
                                    PassTimesGap::partial};
   const std::size_t without = explained.size();
@@ -74,9 +75,9 @@ std::vector<std::string> bench_table(const BenchResult& result) {
   if (const std::string& build = result.program.build; !build.empty() && build != "release")
     lines.push_back(
         "A " + build +
-        " build: its checks slow down every frame. Do not compare it with other builds.");
+        " build: its checks slow down every frame. Do not compare its times with other builds.");
   const BenchLoad& load = result.load;
-  std::string peaks;  // browsers tell the second alone
+  std::string peaks;  // browsers report only the second
   if (load.peak_mib > 0)
     peaks += fmt::format("; peak {:.0f} MiB before the first frame", load.peak_mib);
   if (result.peak_mib) peaks += fmt::format("; peak {:.0f} MiB after all frames", *result.peak_mib);

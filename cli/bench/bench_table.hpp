@@ -1,4 +1,4 @@
-// What `tureen bench` says on the terminal.
+// The table of `tureen bench` for a terminal.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace tureen::cli {
 
-/// Lines: where it ran, what loading cost, then a table for each set of views and size. Ratios are
-/// of min_of_medians and refer to the first configuration; ratio_text() (cli/bench/bench_words.hpp)
-/// says where they mean nothing.
+/// Lines of text: device and machine, loading times, then a table for each set of views and size.
+/// Ratios divide min_of_medians by that of the first configuration. Ratios within the noise are
+/// replaced by a verdict (ratio_text() in cli/bench/bench_words.hpp).
 std::vector<std::string> bench_table(const BenchResult& result);
 
 }  // namespace tureen::cli

@@ -19,7 +19,7 @@ constexpr const char* sweep_sizes[] = {"640x360", "1280x720", "1920x1080", "2560
                                        "3840x2160"};
 constexpr const char* fractions[] = {"full", "half", "quarter"};
 
-/// What a word of --cameras stands for.
+/// A word of --cameras, parsed.
 struct CameraSet {
   enum class Kind { hemisphere, orbit, adversarial, dataset, file };
   Kind kind = Kind::file;
@@ -52,7 +52,7 @@ int divisor(const std::string& size) {
   return found == std::end(fractions) ? 0 : 1 << (found - std::begin(fractions));
 }
 
-/// The sizes asked for; empty for those that are a set's own.
+/// The sizes in the options; empty: the default size of each set.
 std::vector<std::string> sizes_of(const BenchViewOptions& options) {
   std::vector<std::string> sizes = options.sizes;
   if (options.sweep) {
@@ -77,7 +77,8 @@ std::vector<Camera> dataset_cameras(const std::string& path, std::vector<std::st
   return cameras;
 }
 
-/// The set at any size: recorded cameras are drawn anew at theirs, the others framed for it.
+/// A set at any size: recorded and adversarial cameras are resized; the others are framed for the
+/// size.
 class SetAtSizes {
  public:
   SetAtSizes(const CameraSet& set, const BenchViewOptions& options, const Scene& scene,
@@ -90,7 +91,7 @@ class SetAtSizes {
       fixed_ = std::move(views.cameras);
       notes.insert(notes.end(), views.notes.begin(), views.notes.end());
     } else if (set.kind == CameraSet::Kind::adversarial) {
-      // Chosen once, so that all sizes show the same.
+      // Chosen once, so that all sizes have the same views.
       fixed_ = adversarial_views(std::get<TriangleSoup>(scene.primitives), scene.origin, subject_,
                                  Lens{});
     }
@@ -162,12 +163,12 @@ void check(const BenchViewOptions& options) {
   for (const CameraSet& set : sets) {
     if (set.kind == CameraSet::Kind::dataset && options.dataset.empty())
       throw UsageError("--cameras dataset needs a DATASET after the scene");
-    // A file may have any name, but one that is not there is more likely a word that was mistyped.
+    // A file may have any name, but a missing file is probably a mistyped word.
     const std::string file = set.name.substr(0, set.name.rfind(':'));
     if (set.kind == CameraSet::Kind::file && is_missing(set.name) && is_missing(file))
       throw UsageError(
           "--cameras takes hemisphere[:N], orbit[:N], adversarial, dataset or a file "
-          "of cameras, not '" +
+          "with cameras, not '" +
           set.name + "', which does not exist");
   }
 }

@@ -1,4 +1,4 @@
-// Which views `tureen bench` measures with: sets of cameras, at sizes.
+// The views of `tureen bench`: sets of cameras at image sizes.
 #pragma once
 
 #include <string>
@@ -20,17 +20,17 @@ struct BenchViewOptions {
 
 struct BenchViewList {
   std::vector<BenchViews> views;   // small images first; at least one
-  std::vector<std::string> notes;  // on what cameras lacked
+  std::vector<std::string> notes;  // on missing data in camera files
 };
 
 /// DATASET, --cameras, --size (also --sizes) and --sweep.
 void add_bench_view_options(Command& command, BenchViewOptions& options);
 
-/// Whatever is wrong with them that can be told before a scene is read: throws UsageError.
+/// Checks the options before a scene is read. Throws UsageError.
 void check(const BenchViewOptions& options);
 
-/// Every set at every size that it can have: full, half and quarter only of recorded cameras.
-/// Throws UsageError and InputError; Interrupted while a dataset is read.
+/// Every set at every size; full, half and quarter only for recorded cameras. Throws UsageError and
+/// InputError, and Interrupted while it reads a dataset.
 BenchViewList bench_views(const BenchViewOptions& options, const Scene& scene,
                           const std::string& scene_path);
 

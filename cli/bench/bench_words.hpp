@@ -1,5 +1,4 @@
-// Words of `tureen bench`: whether a ratio means anything, what is not known, where it was
-// measured.
+// Texts of `tureen bench`: ratios and verdicts, unknown values, counts, and the machine.
 #pragma once
 
 #include <string>
@@ -8,16 +7,17 @@
 
 namespace tureen::cli {
 
-/// In place of a figure that is not known.
+/// Text for an unknown value.
 inline constexpr const char* not_known = "–";
 
-/// A ratio of two measurements of one run, where it means something: "5.20". Else its verdict.
+/// The ratio of two measurements in one run, such as "5.20". If the difference is within the noise
+/// or unknown, the text of its verdict.
 std::string ratio_text(double ratio, const BenchMeasurement& a, const BenchMeasurement& b);
 
 /// The verdict's name, or "1 round" if it is unknown; `rounds` is the smaller of the two.
 std::string verdict_text(Verdict verdict, int rounds);
 
-/// `figure` of p99 or the 1 % low; not_known where that is the slowest sample and nothing more.
+/// `figure`, the p99 or the 1 % low; not_known with fewer than 100 samples.
 std::string slowest_percent_text(const FrameStatistics& ms, const std::string& figure);
 
 /// "1 round", "3 rounds".

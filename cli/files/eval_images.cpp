@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/output.hpp"
-#include "cli/files/contact_sheet.hpp"
 #include "cli/files/image_file.hpp"
+#include "image/contact_sheet.hpp"
 #include "image/heat_map.hpp"
 
 namespace tureen::cli {
@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* sheet_name = "contact_sheet.png";
-constexpr int thumbnail_side = 640;  // three images side by side need more than usual
+constexpr int thumbnail_side = 640;  // larger than the default: it has three images side by side
 
-/// Nothing that is there already inside `spared` is replaced: it may be a photograph.
+/// Throws UsageError if a file in `spared` would be replaced: it may be a photograph.
 void check_spared(const fs::path& spared, const fs::path& folder,
                   const std::vector<std::string>& files) {
   if (spared.empty() || folder.empty()) return;
@@ -42,7 +42,7 @@ std::vector<std::string> image_names(std::span<const Photograph> photographs) {
     std::string stem = path.replace_extension().string();
     for (char& c : stem)
       if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-    // A leading point would hide the file.
+    // A leading dot would hide the file.
     stem.erase(0, stem.find_first_not_of("._"));
     if (stem.empty()) stem = "view";
     std::string name = stem + ".png";
@@ -61,7 +61,7 @@ EvalImages::EvalImages(const fs::path& folder, const fs::path& spared,
 
 void EvalImages::write(std::size_t view, const ImageF& photograph, const ImageF& rendering) {
   Image8 image = side_by_side(photograph, rendering);
-  // The photograph is shown over its background already.
+  // The photograph is already composited over the background.
   for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
   write_image(image, folder_ / names_[view]);
   thumbnails_[view] = thumbnail(image, thumbnail_side);

@@ -1,5 +1,5 @@
-// The images of an evaluation: a PNG a view with the photograph, the rendering and a heat map of
-// their differences side by side, and a contact sheet of them.
+// The images of an evaluation: one PNG per view with the photograph, the rendering and a heat map
+// of their differences side by side, and a contact sheet of them.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +14,21 @@
 
 namespace tureen::cli {
 
-/// The names of the images in the folder: "train/r_0.png" gives "train_r_0.png". Letters other than
-/// those that every file system takes become '_', and equal names get a number.
+/// The names of the images in the folder: "train/r_0.png" gives "train_r_0.png". Characters other
+/// than ASCII letters, digits, '-' and '.' become '_'; equal names get a number.
 std::vector<std::string> image_names(std::span<const Photograph> photographs);
 
 class EvalImages {
  public:
-  /// Makes the folder. `spared` is the dataset's folder, or empty: in it no file is replaced, it
-  /// may be a photograph. Throws UsageError where one would be, and OutputError.
+  /// Creates the folder. `spared`: the dataset's folder, or empty. Throws UsageError if an image
+  /// would replace a file in it, because the file may be a photograph. Throws OutputError.
   EvalImages(const std::filesystem::path& folder, const std::filesystem::path& spared,
              std::span<const Photograph> photographs);
 
   /// EvaluationOptions::on_view. Throws OutputError.
   void write(std::size_t view, const ImageF& photograph, const ImageF& rendering);
 
-  /// Writes the contact sheet, where there is more than one view; returns all files that were
-  /// written.
+  /// Writes the contact sheet if there is more than one view. Returns all written files.
   std::vector<std::string> finish();
 
  private:
@@ -38,7 +37,8 @@ class EvalImages {
   std::vector<Image8> thumbnails_;  // of each view
 };
 
-/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; no name where it has none.
+/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; "name" only if it is not empty, "flip" only
+/// if `with_flip`.
 Json to_json(const ViewMetrics& metrics, bool with_flip);
 
 }  // namespace tureen::cli

@@ -1,4 +1,4 @@
-// Text within HTML.
+// Escapes text for HTML.
 #pragma once
 
 #include <string>

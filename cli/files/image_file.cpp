@@ -16,7 +16,7 @@ std::string padded(int index, int digits) {
   return std::string(std::max(0, digits - int(text.size())), '0') + text;
 }
 
-/// `pattern` with its "%d" replaced; `replaced` tells whether there was one.
+/// `pattern` with its "%d" replaced; `replaced`: whether there was one.
 std::string expanded(const std::string& pattern, int index, bool& replaced) {
   std::string result;
   replaced = false;
@@ -29,7 +29,7 @@ std::string expanded(const std::string& pattern, int index, bool& replaced) {
     } else {
       std::size_t end = i + 1;
       while (end < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[end]))) ++end;
-      // "%03d" and "%12d" are widths that make sense.
+      // Widths have at most two digits, as in "%03d" and "%12d".
       const std::string width = pattern.substr(i + 1, end - i - 1);
       if (end == pattern.size() || pattern[end] != 'd' || width.size() > 2 || replaced)
         throw UsageError("'" + pattern + "' is not a name for several images",

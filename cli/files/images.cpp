@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/files/contact_sheet.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/progress.hpp"
+#include "image/contact_sheet.hpp"
 #include "image/png_rows.hpp"
 #include "image/video_file.hpp"
 
@@ -27,25 +27,25 @@ double timed_draw(const Drawer& drawer, const Camera& camera) {
       .count();
 }
 
-/// Whether an image is beyond what the device draws, or so large that its targets would fill
-/// memory. Never with a resolution scale, which tiles do not have.
+/// Whether an image exceeds the limits of the device, or its targets would need more than 1 GiB.
+/// False with a resolution scale, which tiles do not support.
 bool needs_tiles(const Drawer& drawer, const gl::Capabilities& device, const Camera& camera) {
   if (drawer.resolution_scale < 1) return false;
-  constexpr std::int64_t max_samples = std::int64_t(1) << 26;  // a gibibyte of targets
+  constexpr std::int64_t max_samples = std::int64_t(1) << 26;  // 1 GiB of targets
   const std::int64_t columns = std::int64_t(camera.width) * drawer.supersampling;
   const std::int64_t rows = std::int64_t(camera.height) * drawer.supersampling;
   return std::max(columns, rows) > device.max_image_side || columns * rows > max_samples;
 }
 
-/// The same view no larger than a thumbnail.
+/// The same view at the size of a thumbnail.
 Camera small_view(const Camera& camera) {
-  constexpr int cell = 320;  // as contact_sheet has it
+  constexpr int cell = 320;  // the default of contact_sheet()
   const double scale = std::min(1.0, double(cell) / std::max(camera.width, camera.height));
   const auto side = [&](int s) { return std::max(1, int(std::lround(s * scale))); };
   return resampled(camera, side(camera.width), side(camera.height));
 }
 
-/// An image that the device draws at once; returns its thumbnail.
+/// Draws an image at once and writes it. Returns its thumbnail.
 Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
                   FrameTimes& times) {
   times.ms.push_back(timed_draw(drawer, camera));
@@ -54,7 +54,8 @@ Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesys
   return thumbnail(image);
 }
 
-/// An image beyond that: written row by row, in some 400 MiB whatever its size.
+/// Draws an image in tiles and writes it row by row, in about 400 MiB for any size. Returns its
+/// thumbnail.
 Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
                   FrameTimes& times, const std::function<void(double)>& progress) {
   times.ms.push_back(0);
@@ -117,7 +118,7 @@ WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
   WrittenImages result;
   std::vector<Image8> thumbnails;
   Progress progress("drawing");
-  // Compiles shaders and, where it is drawn whole, makes the targets; not counted.
+  // Not counted: it compiles shaders and, for an image without tiles, creates the targets.
   const Camera& first = cameras.front();
   drawer.draw(needs_tiles(drawer, device, first) ? small_view(first) : first);
   for (int i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Views drawn one after another and written, with the time of each.
+// Draws views, measures the time of each, and writes them as images or as a video.
 #pragma once
 
 #include <functional>
@@ -16,20 +16,21 @@ struct FrameTimes {
   std::vector<double> ms;
 
   double median() const;
-  /// The smallest that 95 % of all are not above.
+  /// The 95th percentile (nearest rank): the smallest time that at least 95 % of the times do not
+  /// exceed.
   double p95() const;
 };
 
-/// What draws: a renderer, of colours or of debug views.
+/// The common functions of Renderer and DebugViewRenderer.
 struct Drawer {
-  std::function<void(const Camera& camera)> draw;  // and waits for the device
+  std::function<void(const Camera& camera)> draw;  // waits for the device
   std::function<Image8()> read;
   std::function<ImageTiles()> tiles;
   int supersampling = 1;
   double resolution_scale = 1.0;
 };
 
-/// `renderer`, `debug_renderer` and `device` must outlive them.
+/// `renderer`, `debug_renderer` and `device` must outlive the Drawer.
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device);
 Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device);
 
@@ -41,22 +42,22 @@ struct WrittenImages {
 enum class Sheet { none, of_several };
 
 struct ImageNames {
-  std::string pattern;  // as cli/files/image_file.hpp takes it
+  std::string pattern;  // of image_name(), cli/files/image_file.hpp
   Sheet sheet = Sheet::of_several;
 };
 
-/// An image each, and where it is wanted a contact sheet of several beside them. What the device
-/// cannot draw at once is drawn in tiles, whose times are added up. Throws OutputError.
+/// Writes one image per camera. With Sheet::of_several and more than one camera, also writes
+/// contact_sheet.png beside them. Images beyond the limits of the device are drawn in tiles; their
+/// time is the sum over the tiles. Throws OutputError.
 WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
                           const std::vector<Camera>& cameras, const ImageNames& names);
 
-/// Frame by frame into a video (image/video_file.hpp), whole or not at all.
+/// Writes the frames as a video (image/video_file.hpp), completely or not at all.
 WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
                          double frames_per_second, const std::string& path);
 
-/// `frames` frames through all cameras in turn. The first ones, which compile shaders and fill
-/// caches, are drawn before and not counted. Throws UsageError for images that would be drawn in
-/// tiles.
+/// Times of `frames` frames, with all cameras in turn. The 3 to 10 frames before them compile
+/// shaders and fill caches, and are not counted. Throws UsageError for images that need tiles.
 FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
                      const std::vector<Camera>& cameras, int frames);
 

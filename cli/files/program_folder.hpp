@@ -1,4 +1,4 @@
-// Where the running program lies: what belongs to it lies beside it.
+// The folder of the running program, near which its data files are.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace tureen::cli {
 
-/// Links resolved; nothing where the system does not tell.
+/// With links resolved; empty if the system does not report it.
 std::optional<std::filesystem::path> program_folder();
 
 }  // namespace tureen::cli

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Not a result that we write, or not one yet: a folder may hold such files.
+/// Not a result from Tureen, or a result without data yet. In folders such files are skipped.
 struct UnknownResult : InputError {
   using InputError::InputError;
 };
@@ -51,7 +51,7 @@ void check_measurements(const JsonView& root) {
   for (const auto& [name, rows] : tables.value().items()) tables[name.c_str()].size();
 }
 
-/// The lines of a log as a list, without an incomplete last one.
+/// The lines of a log as a list, without an incomplete last line.
 ReportResult training(const std::string& file, const std::string& text) {
   if (trainer::read_training_log(file).empty())
     throw UnknownResult({file, {}, {}}, "the log has no records yet");
@@ -72,10 +72,10 @@ std::vector<ReportResult> read_file(const std::string& file) {
   const std::vector<std::byte> bytes = Input::open(file).read_rest();
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.empty()) throw UnknownResult({file, {}, {}}, "is empty");
-  if (text.starts_with("{\"step\":")) return {training(file, text)};  // as every log begins
+  if (text.starts_with("{\"step\":")) return {training(file, text)};  // every log begins with this
   const nlohmann::json document = parse_json(text, file);
   if (text.starts_with("\xef\xbb\xbf"))
-    text.erase(0, 3);  // a byte order mark is no JSON within the page
+    text.erase(0, 3);  // a byte order mark is not valid JSON inside the page
   const JsonView root(document, file);
   const std::string format =
       document.is_object() ? document.value("format", nlohmann::json()).dump() : "";

@@ -1,4 +1,4 @@
-// Reads what `tureen report` shows: the JSON of any command, recognised by its content.
+// Reads results for `tureen report`: JSON from any command, recognised by its content.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,11 @@ namespace tureen::cli {
 
 using results::ReportResult;
 
-/// The results of a file: several from a download of bench.html, else one, with the file's JSON.
-/// Of a folder, the results in all its .json and .jsonl files, also in folders below it, by name;
-/// valid JSON of another kind is skipped there. Throws InputError with the file, and the place in
-/// it, where it is no result or lacks a member that the page needs, or where a folder holds none.
+/// The results in a file or folder. A download of bench.html may have several; every other file has
+/// one, with the file's JSON. For a folder, reads all .json and .jsonl files in it and below it,
+/// sorted by path; skips valid JSON of another kind. Throws InputError, with the file and the place
+/// in it, if a file is not a result or lacks a member that the page needs, or if a folder has no
+/// results.
 std::vector<ReportResult> read_results(const std::filesystem::path& path);
 
 }  // namespace tureen::cli

@@ -28,7 +28,7 @@ std::optional<fs::path> template_of_program() {
   const std::optional<fs::path> folder = program_folder();
   if (!folder) return std::nullopt;
   std::error_code ignored;
-  // Beside bin/, as builds and installations have it, or beside the program in a portable folder.
+  // Beside bin/ in builds and installations, beside the program in a portable folder.
   for (const fs::path& place : {folder->parent_path(), *folder})
     if (const fs::path file = place / "share/tureen/scene_template.html"; fs::exists(file, ignored))
       return file;

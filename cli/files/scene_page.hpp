@@ -1,7 +1,7 @@
-// A scene as one HTML page that opens by double-click: the viewer that the web build leaves as a
-// template, and in it our GLB in base64.
+// A scene as one HTML page that opens by double-click: the web build's viewer, with a Tureen GLB in
+// base64.
 //
-// What it does not do: it knows nothing of the template but the one element that takes the scene.
+// This code depends only on the scene element of the template.
 #pragma once
 
 #include <cstdint>
@@ -10,40 +10,40 @@
 
 namespace tureen::cli {
 
-/// The element as the template has it: exactly this text, once. A page has the scene's name in
-/// data-name, escaped, and the digits between the tags.
+/// The scene element. The template has exactly this text, once. A page has the escaped name of the
+/// scene in data-name, and the base64 digits between the tags.
 inline constexpr char scene_element[] =
     R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
 
-/// As much of a GLB as fits into a page: base64 is a third larger, and a text in a browser has at
+/// Largest GLB for a page, in bytes: base64 is a third larger, and a string in a browser has at
 /// most 2^29 - 24 characters.
 inline constexpr std::uint64_t max_scene_page_bytes = 400'000'000;
 
-/// Whether the name says that a page is meant: it ends in .html.
+/// Whether the output is a page: its name ends in .html.
 bool is_scene_page(const std::filesystem::path& path);
 
 class ScenePageTemplate {
  public:
-  /// The file that the environment names in TUREEN_WEB_TEMPLATE, or else
-  /// ../share/tureen/scene_template.html from where the program lies, or share/tureen/.. beside it.
-  /// Throws OutputError where there is none, InputError where it cannot be read or has not the one
-  /// element.
+  /// The file in the environment variable TUREEN_WEB_TEMPLATE. Without it,
+  /// ../share/tureen/scene_template.html relative to the program's folder, then
+  /// share/tureen/scene_template.html in that folder. Throws OutputError if there is no file,
+  /// InputError if it cannot be read or does not have exactly one scene element.
   static ScenePageTemplate find();
 
   /// `text` is the template; `file` names it in errors. Throws InputError.
   ScenePageTemplate(std::string text, const std::string& file);
 
-  /// The page, whole or not at all; the GLB, any file of ours, goes through piece by piece. Throws
-  /// UsageError where it is too large, InputError and OutputError.
+  /// Writes the page, completely or not at all, and reads the Tureen GLB in pieces. Throws
+  /// UsageError if it is too large, InputError and OutputError.
   void write(const std::filesystem::path& glb, const std::string& name,
              const std::filesystem::path& page) const;
 
  private:
   std::string text_;
-  std::size_t element_ = 0;  // where it begins
+  std::size_t element_ = 0;  // offset of the scene element
 };
 
-/// Whether the scene in this file is ours already: a page takes its bytes as they are.
+/// Whether the file is a Tureen GLB. A page contains its bytes unchanged.
 bool is_our_glb(const std::filesystem::path& path);
 
 }  // namespace tureen::cli

@@ -9,7 +9,8 @@ namespace tureen::cli {
 Scratch::Scratch(std::filesystem::path path, const char* purpose) : path_(std::move(path)) {
   std::error_code error;
   if (std::filesystem::exists(path_, error))
-    throw UsageError(path_.string() + " is in the way: " + purpose + " goes there for a moment");
+    throw UsageError(path_.string() + " exists; rename it: " + purpose +
+                     " needs this name temporarily");
 }
 
 Scratch::~Scratch() {

@@ -1,4 +1,4 @@
-// A file or folder that is made for a moment and gone when this is, whatever happens meanwhile.
+// The path of a temporary file or folder. The destructor removes it.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@ namespace tureen::cli {
 
 class Scratch {
  public:
-  /// Makes nothing yet. Throws UsageError where something lies at `path` already; `purpose` is told
-  /// then, as in "the export to compare with".
+  /// Does not create the file. Throws UsageError if `path` exists already. `purpose`: its
+  /// description in the error, such as "the export for the comparison".
   Scratch(std::filesystem::path path, const char* purpose);
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;

@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is there under the name of a file that is written without being named has to be one of its
-/// kind, or nothing: not a scene, not a dataset, nobody's drawing. One that was cut short is.
+/// Throws UsageError if `file` exists and is of another kind: the user may not have named it, and
+/// training would replace it. A truncated file of the kind passes, because only its bytes are
+/// compared with `beginning`.
 void check_kind(const fs::path& file, std::string_view beginning, const char* kind) {
   std::error_code error;
   if (!fs::exists(file, error)) return;
@@ -31,7 +32,7 @@ void check_log(const TrainingFiles& files) {
   for (const fs::path& other : {files.scene, files.checkpoint, files.previews, files.lock})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("--log cannot be " + other.string() + ", which is another output file");
-  // All lines of a log begin so, also one that was cut short.
+  // Every line of a log begins like this, also a truncated line.
   check_kind(files.log, "{\"step\":", "training log");
 }
 

@@ -1,4 +1,4 @@
-// The files of a training run: what is written beside OUT.glb, and whether it can be.
+// The files of a training run beside OUT.glb, and checks that they can be written.
 #pragma once
 
 #include <filesystem>
@@ -8,19 +8,19 @@ namespace tureen::cli {
 
 struct TrainingFiles {
   std::filesystem::path scene;            // OUT.glb
-  std::filesystem::path checkpoint;       // OUT.checkpoint, until the run is done
+  std::filesystem::path checkpoint;       // OUT.checkpoint, until the run is complete
   std::filesystem::path log;              // OUT.jsonl
   std::filesystem::path previews;         // OUT.previews
-  std::filesystem::path lock;             // OUT.lock, while the run goes on
+  std::filesystem::path lock;             // OUT.lock, during the run
   std::filesystem::path diffsoup_export;  // empty: none
 };
 
-/// The names beside `scene`. Throws UsageError where that does not end in .glb.
+/// The file names beside `scene`. Throws UsageError if it does not end in .glb.
 TrainingFiles training_files(const std::filesystem::path& scene);
 
-/// Hours may pass until the files are written, so each is tried before: a temporary file in its
-/// folder, which goes again. Throws OutputError; UsageError where something other than a DiffSoup
-/// export stands where the export is to be.
+/// Checks each file with a temporary file in its folder, because training takes hours until the
+/// files are written. Throws OutputError. Throws UsageError if two outputs have the same path, or
+/// if another kind of file exists at the path of the log or the export.
 void check_writable(const TrainingFiles& files);
 
 }  // namespace tureen::cli

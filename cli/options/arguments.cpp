@@ -25,7 +25,7 @@ Check check_between(T least, T most) {
     // Stricter than CLI11, which also accepts hexadecimal numbers such as 0x10.
     const char* end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
-    // A comparison with what is not a number is false.
+    // Comparisons with NaN are false.
     if (error == std::errc() && rest == end && value >= least && value <= most) return {};
     return fmt::format("'{}' is not a {}number from {} to {}", text,
                        std::is_integral_v<T> ? "whole " : "", least, most);
@@ -74,14 +74,14 @@ std::vector<std::string> command_names(const CLI::App& program) {
   return names;
 }
 
-/// The command that was named, or the program itself.
+/// The chosen command, or the program itself.
 const CLI::App& named_command(const CLI::App& program) {
   const std::vector<const CLI::App*> commands =
       program.get_subcommands([](const CLI::App* command) { return command->parsed(); });
   return commands.empty() ? program : *commands.front();
 }
 
-/// CLI11 would take a mistyped command for an argument too many.
+/// CLI11 would report a mistyped command as an unexpected argument.
 void require_known_command(const CLI::App& program, const std::vector<std::string>& arguments) {
   const std::vector<std::string> names = command_names(program);
   if (names.empty() || arguments.empty() || arguments.front().starts_with('-')) return;
@@ -89,14 +89,15 @@ void require_known_command(const CLI::App& program, const std::vector<std::strin
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
   if (const std::string instead = replacement_of(word); !instead.empty())
     throw UsageError("this version has no command " + word, instead);
-  throw UsageError("there is no command " + word, did_you_mean(word, names));
+  throw UsageError("unknown command " + word, did_you_mean(word, names));
 }
 
-/// What CLI11 refuses, as an error of ours.
+/// Converts an error from CLI11.
 UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
   const std::vector<std::string> extras = command.remaining(true);
   const auto option_of = [](const std::string& extra) { return extra.substr(0, extra.find('=')); };
-  // First the options of earlier versions: the new command line may need other arguments, too.
+  // Options of earlier versions come first: CLI11 may only report an argument that is newly
+  // required.
   for (const std::string& extra : extras) {
     const std::string word = option_of(extra);
     if (const std::string instead = replacement_of(command.get_name(), word); !instead.empty())
@@ -116,10 +117,10 @@ UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
   return UsageError(error.what());
 }
 
-/// Throws for the first argument that is there and empty.
+/// Throws for the first argument that is given and empty.
 void require_no_empty_argument(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
-    // An option with an optional value has an empty one where it is not given.
+    // If an option with an optional value is given without it, CLI11 stores an empty value.
     if (const std::vector<std::string>& values = option->results();
         option->get_items_expected_min() > 0 &&
         std::find(values.begin(), values.end(), "") != values.end())
@@ -309,7 +310,7 @@ std::string CommandLine::help() const { return state_->app.help(); }
 Action CommandLine::parse(std::vector<std::string> arguments) {
   CLI::App& app = state_->app;
   require_known_command(app, arguments);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 needs the reverse order
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::Success& help_or_text) {

@@ -1,5 +1,5 @@
 // The command line: commands, their options, and the conversion of arguments to values. CLI11 does
-// the parsing; only arguments.cpp includes it, which costs seconds of compile time a file.
+// the parsing. Only arguments.cpp includes it, because it costs seconds of compile time per file.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +22,20 @@ class Option;
 
 namespace tureen::cli {
 
-/// What the chosen command does, called after parsing.
+/// The action of the chosen command, called after parsing.
 using Action = std::function<ExitCode()>;
 
-/// The reason why a text is refused, a clause that names the text; empty where it is accepted.
+/// Returns why a text is rejected, as a clause that contains the text; empty if it is accepted.
 using Check = std::function<std::string(const std::string& text)>;
 
-/// Accepts decimal numbers from `least` to `most`, both included; neither nan nor 0x10.
+/// Accepts decimal numbers from `least` to `most`, both included; rejects nan and 0x10.
 Check between(int least, int most);
 Check between(double least, double most);
 
-/// The number that an option of type double reads from `text`; none where it refuses the text.
+/// The number that an option of type double reads from `text`; empty if it rejects the text.
 std::optional<double> number_from(const std::string& text);
 
-/// The refusal of a word that is not among `known`: lists them, with the nearest as hint.
+/// The error for a word that is not in `known`. Lists the known words; the hint is the nearest.
 UsageError unknown_word(const std::string& option, const std::string& word,
                         std::span<const std::string> known);
 
@@ -45,13 +45,13 @@ class Option {
  public:
   /// Parsing fails without it; `is_required` false takes this back.
   Option required(bool is_required = true);
-  /// What --help shows for its value: "N", "FOLDER". By default its type and requirements.
+  /// Name of the value in --help, such as "N" or "FOLDER"; by default its type and requirements.
   Option value_name(const std::string& name);
   /// Checks each value before it is stored. Checks run in the order in which they were added.
   Option check(const Check& refusal);
-  /// Parsing fails where this one was given and `other` was not.
+  /// Parsing fails if this one was given and `other` was not.
   Option needs(const Option& other);
-  /// Parsing fails where both were given.
+  /// Parsing fails if both were given.
   Option excludes(const Option& other);
   /// A list: "a,b" is two values.
   Option split_at_commas();
@@ -67,13 +67,13 @@ class Option {
 /// A handle of a command, or of the program itself, valid as long as its CommandLine.
 ///
 /// Names are "-o,--output" for an option and "SCENE" for a positional argument. Variables keep
-/// their value where the option is not given; they, and what functions refer to, must live until
+/// their value if the option is not given. Variables, and references in functions, must live until
 /// the arguments are parsed. `help` is the description in --help.
 class Command {
  public:
-  /// A command below this one, of which one has then to be chosen.
+  /// Adds a subcommand. Parsing then fails unless one is chosen.
   Command add_command(const std::string& name, const std::string& description);
-  /// The text at the end of --help. Commands added later inherit it.
+  /// Sets the text at the end of --help. Commands added later inherit it.
   void footer(const std::string& text);
 
   Option add_option(const std::string& name, std::string& value, const std::string& help);
@@ -85,7 +85,7 @@ class Command {
                     const std::string& help);
   Option add_option(const std::string& name, std::optional<std::uint64_t>& value,
                     const std::string& help);
-  /// Refuses nan and infinities, after its checks.
+  /// Rejects nan and infinities, after the option's checks.
   Option add_option(const std::string& name, double& value, const std::string& help);
   Option add_option(const std::string& name, std::optional<double>& value, const std::string& help);
   /// Calls `store` with the value, or with all values; it may throw UsageError.
@@ -95,21 +95,21 @@ class Command {
                     std::function<void(const std::vector<std::string>&)> store,
                     const std::string& help);
 
-  /// True where it is given.
+  /// Sets `value` to true if the flag is given.
   Option add_flag(const std::string& name, bool& value, const std::string& help);
-  /// Calls `set` where it is given.
+  /// Calls `set` if the flag is given.
   Option add_flag(const std::string& name, std::function<void()> set, const std::string& help);
-  /// Prints `text()` on standard output instead of what the command does. One a command.
+  /// Prints `text()` on standard output instead of running the command. At most one per command.
   void add_text_flag(const std::string& name, std::function<std::string()> text,
                      const std::string& help);
 
   /// An option that was added before.
   Option option(const std::string& name) const;
 
-  /// What the command does. The action lives as long as the CommandLine.
+  /// Sets the action of the command. It lives as long as the CommandLine.
   void does(Action action);
-  /// The same of a command that has no options, not even --help: `action` gets all arguments that
-  /// follow.
+  /// The same for a command without options, not even --help. `action` receives all further
+  /// arguments.
   void does_with_rest(std::function<ExitCode(const std::vector<std::string>&)> action);
 
  private:
@@ -119,7 +119,7 @@ class Command {
   Action* chosen_;  // of the CommandLine
 };
 
-/// A word of `removed` was accepted by earlier versions; beside it stands the hint of its refusal.
+/// Words that earlier versions accepted, each with the hint of its error.
 using RemovedWords = std::vector<std::pair<std::string, std::string>>;
 
 /// An option that takes one of a few words; calls `choose` with the word's index. UsageError for
@@ -128,7 +128,7 @@ Option add_word_option(Command& command, const std::string& name, std::vector<st
                        std::function<void(std::size_t)> choose, const std::string& help,
                        RemovedWords removed = {});
 
-/// The same, which sets `value` to what stands beside the word.
+/// The same, but sets `value` to the value of the word.
 template <class T>
 Option add_choice(Command& command, const std::string& name, T& value,
                   std::vector<std::pair<std::string, T>> choices, const std::string& help,
@@ -141,7 +141,7 @@ Option add_choice(Command& command, const std::string& name, T& value,
   return add_word_option(command, name, std::move(words), choose, help, std::move(removed));
 }
 
-/// All commands of a program, and what was typed.
+/// All commands of a program, and the parsed arguments.
 class CommandLine {
  public:
   CommandLine(const std::string& name, const std::string& description);
@@ -152,27 +152,26 @@ class CommandLine {
   /// The program itself: its options and commands.
   Command program();
 
-  /// What `NAME --help` prints.
+  /// The text of `NAME --help`.
   std::string help() const;
 
-  /// Parses the arguments, which follow the program's name. Returns what the chosen command does,
-  /// or, after --help and flags that print a text, an action that prints it; empty where there is
-  /// no such command. Throws UsageError, with a hint where there is one, for the first of these:
+  /// Parses the arguments that follow the program's name. Returns the action of the chosen command.
+  /// After --help and flags that print a text, returns an action that prints it. Empty if there is
+  /// no action. Throws UsageError, with a hint if there is one, for the first of these:
   ///
-  /// 1. a word in place of a command that is none;
-  /// 2. an option that lacks its value;
-  /// 3. for each option that was given, in the order in which they were added, those of the program
-  ///    first: its checks, more values than it takes, a value that is not of its type, what its
-  ///    function throws. Variables are set and functions called here; a flag that prints a text
-  ///    ends it here, and --help after the last option;
+  /// 1. an unknown command;
+  /// 2. an option without its value;
+  /// 3. for each given option, in the order of addition and the program's first: its checks, too
+  ///    many values, a value of the wrong type, exceptions from its function. This step sets
+  ///    variables and calls functions; a flag that prints a text ends it here, and --help after the
+  ///    last option;
   /// 4. for each option in the same order: required and missing, needs(), excludes();
-  /// 5. unknown options, with what replaces those of earlier versions (cli/options/retired.hpp),
-  /// and
-  ///    arguments that nothing takes;
-  /// 6. an empty value, as "$UNSET" is in a shell.
+  /// 5. unknown options, with the replacement of those from earlier versions
+  ///    (cli/options/retired.hpp), and unexpected arguments;
+  /// 6. an empty value, such as "$UNSET" in a shell.
   Action parse(std::vector<std::string> arguments);
 
-  /// The command that was chosen, even where parsing failed; empty for none.
+  /// Name of the chosen command, even if parsing failed; empty: none.
   std::string chosen_command() const;
 
  private:

@@ -1,4 +1,4 @@
-// The options of `tureen bench` that choose what takes part.
+// The options of `tureen bench` that select the cases.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace tureen::cli {
 
 struct BenchCaseArguments {
   DrawingOptions drawing;
-  std::vector<std::string> only;  // names; empty: the usual ones
+  std::vector<std::string> only;  // names of cases; empty: the default cases
   bool ceilings = false;
 };
 

@@ -24,7 +24,7 @@ Option add_number(Command& command, const std::string& name, std::optional<T>& v
   return command.add_option(name, value, help).value_name("N");
 }
 
-/// Signs and what 64 bits do not hold would wrap around to other seeds.
+/// Negative numbers and numbers beyond 64 bits would wrap around to other seeds.
 std::string refuse_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const char* end = text.data() + text.size();
@@ -33,7 +33,7 @@ std::string refuse_seed(const std::string& text) {
   return "a seed must be a whole number from 0 to 18446744073709551615, not " + text;
 }
 
-/// For the constant of this name. Beyond an int is beyond every range as well.
+/// The value of the constant `name`. A value beyond int is also beyond every range.
 int as_int(std::int64_t value, std::string_view name) {
   if (std::in_range<int>(value)) return static_cast<int>(value);
   const auto fields = trainer::config_fields();

@@ -1,5 +1,5 @@
-// The constants of training on the command line: a preset, a file, and the few that people change
-// from run to run. Whatever else there is, a file sets (--list-config).
+// The training constants on the command line: a preset, a file, and the most common single
+// constants. A file can set all constants (--list-config).
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,14 @@ struct ConfigOptions {
   std::optional<trainer::Preset> preset;
   std::string file;
   bool published = false;
-  std::optional<std::int64_t> triangles, steps, batch, level;  // ranges are checked in the end
+  std::optional<std::int64_t> triangles, steps, batch, level;  // with_options() checks ranges
   std::optional<std::uint64_t> seed;
   std::string begin;  // "random", "points", a scene, or empty
 
-  /// Whether anything but single constants is given: then they stand on a preset of their own.
+  /// Whether a preset, a file or --compat is given. Single constants then change these instead of
+  /// the constants of a checkpoint.
   bool name_a_base() const { return preset || published || !file.empty(); }
-  /// The scene that triangles are taken from; empty for none.
+  /// The scene that provides the first triangles; empty: none.
   std::string mesh() const;
 };
 
@@ -29,13 +30,12 @@ struct ConfigOptions {
 /// `options` must live until the arguments are parsed.
 void add_config_options(Command& command, ConfigOptions& options);
 
-/// The preset, or the file on top of it; `otherwise` where neither names a preset. Throws
-/// InputError for the file, UsageError where it and --preset disagree.
+/// The preset, with the file's constants. `otherwise`: the preset if neither names one. Throws
+/// InputError for an invalid file, UsageError if it names another preset than --preset.
 trainer::Config base_config(const ConfigOptions& options, trainer::Preset otherwise);
 
-/// `base` with the single constants. --triangles changes the triangles to begin with in proportion,
-/// --level lowers the other levels where they were above. Throws UsageError for what cannot be
-/// trained with.
+/// `base` with the single constants. --triangles scales the initial number of triangles in
+/// proportion. --level also limits the other levels. Throws UsageError for invalid constants.
 trainer::Config with_options(const trainer::Config& base, const ConfigOptions& options);
 
 }  // namespace tureen::cli

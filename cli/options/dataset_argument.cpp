@@ -11,7 +11,7 @@ namespace tureen::cli {
 
 namespace {
 
-/// A number in (0, 1], which between(), closed at both ends, cannot say.
+/// Accepts numbers in (0, 1]; between() would include 0.
 std::string refuse_scale(const std::string& text) {
   if (const auto scale = number_from(text); scale && *scale > 0 && *scale <= 1) return {};
   return "a scale must be above 0 and at most 1, not " + text;

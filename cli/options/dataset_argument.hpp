@@ -1,4 +1,4 @@
-// A dataset named on the command line: read with progress, refused with a suggestion.
+// A dataset named on the command line, read with progress.
 #pragma once
 
 #include <limits>
@@ -11,17 +11,17 @@ namespace tureen::cli {
 
 struct DatasetArgument {
   std::string path;
-  DatasetOptions options;  // but for `part` and `progress`, which are not arguments
+  DatasetOptions options;  // except `part` and `progress`, which are not arguments
 };
 
-/// Adds DATASET, --scale, --images and --test-every. Returns the first of them, which is required.
-/// `argument` must live until the arguments are parsed.
+/// Adds DATASET, --scale, --images and --test-every. Returns DATASET, which is required. `argument`
+/// must live until the arguments are parsed.
 Option add_dataset_argument(Command& command, DatasetArgument& argument);
 
 /// --scale alone.
 Option add_scale_option(Command& command, DatasetArgument& argument);
 
-/// The window of the SSIM: smaller images cannot be measured.
+/// Side of the SSIM window in pixels; smaller images have no SSIM.
 inline constexpr int ssim_window = 11;
 
 /// Bounds of an image's sides, in pixels.
@@ -30,10 +30,10 @@ struct SideLimits {
   int most = std::numeric_limits<int>::max();
 };
 
-/// Throws InputError with the name and size of the first photograph that is beyond the limits.
+/// Throws InputError with the name and size of the first photograph beyond the limits.
 void require_sides(const DatasetArgument& argument, const Dataset& dataset, SideLimits limits);
 
-/// Throws InputError, with a suggestion where the path does not exist, and Interrupted.
+/// Throws InputError, with a suggestion if the path does not exist, and Interrupted.
 Dataset read(const DatasetArgument& argument, DatasetPart part);
 
 }  // namespace tureen::cli

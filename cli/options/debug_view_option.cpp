@@ -18,8 +18,7 @@ DebugView debug_view_of(const std::string& name) {
 
 /// "3" or "4-6".
 FeatureChoice parse_features(const std::string& text) {
-  constexpr int most =
-      7;  // MobileNeRF's eight features; a lattice has one less, which is said later
+  constexpr int most = 7;  // MobileNeRF has 8 features; why_not() reports that a lattice has 7
   const std::size_t dash = text.find('-');
   const int first = parse_integer(text.substr(0, dash), 0, most);
   const int last =

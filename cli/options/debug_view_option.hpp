@@ -18,10 +18,10 @@ struct DebugViewOption {
 /// live until the arguments are parsed.
 Option add_debug_view_option(Command& command, DebugViewOption& show);
 
-/// "depth", "features:4-6": throws UsageError with what there is.
+/// Parses "depth" or "features:4-6". Throws UsageError with the known names.
 DebugViewOption parse_debug_view(const std::string& text);
 
-/// What colours mean, a line each: "#ff8080 x".
+/// The meaning of each colour, one per line: "#ff8080 x".
 std::vector<std::string> legend_lines(const Legend& legend);
 
 }  // namespace tureen::cli

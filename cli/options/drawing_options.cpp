@@ -82,7 +82,7 @@ void add_drawing_scale(Command& command, DrawingOptions& options) {
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options) {
   PlanPreferences preferences = options.plan;
   preferences.quality = scene.quality;
-  // Either replaces the scene's quality as a whole; they exclude each other.
+  // Each option replaces the scene's complete quality setting; they exclude each other.
   if (options.supersampling) preferences.quality = {.supersampling = *options.supersampling};
   if (options.resolution_scale)
     preferences.quality = {.resolution_scale = *options.resolution_scale};

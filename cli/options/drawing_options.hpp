@@ -1,4 +1,4 @@
-// How the runtime draws, on the command line: the options that all commands share which draw.
+// The drawing options that all drawing commands share.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct DrawingOptions {
   gl::Backend backend = gl::Backend::automatic;
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
-  std::optional<int> supersampling = {};  // without either, the scene's own quality
+  std::optional<int> supersampling = {};  // without both, the scene's own quality
   std::optional<double> resolution_scale = {};
 };
 
-/// The plan's preferences for a scene: with its quality, where none was asked for.
+/// The plan's preferences for a scene; its quality setting is the default.
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options);
 
 /// --context. `backend` must live until the arguments are parsed.
@@ -29,8 +29,7 @@ void add_context_option(Command& command, gl::Backend& backend);
 /// until the arguments are parsed.
 void add_drawing_options(Command& command, DrawingOptions& options);
 
-/// --scale, after add_drawing_options. Not where a dataset's photographs have a --scale of their
-/// own.
+/// --scale, after add_drawing_options. Commands whose --scale resizes photographs cannot have it.
 void add_drawing_scale(Command& command, DrawingOptions& options);
 
 }  // namespace tureen::cli

@@ -1,4 +1,4 @@
-// Changes to what a file holds, on the command line: edits of the data, and the quality of drawing.
+// Options that change a stored scene: edits of its data, and its quality setting.
 #pragma once
 
 #include <optional>

@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether files can be made in `folder`, which is there or ""; told of `path`.
+/// Throws OutputError, with `path`, unless files can be created in `folder`, which exists or is "".
 void try_in(const fs::path& folder, const fs::path& path) {
   try {
-    // Removes its temporary file. No file has this name, so that only the folder can refuse it.
+    // Removes its temporary file. No file has this name, so any error comes from the folder.
     const Output probe(folder / ".tureen-probe");
   } catch (const OutputError& error) {
     throw OutputError({path.string(), {}, {}}, error.reason(), error.hint());
@@ -25,13 +25,13 @@ void try_in(const fs::path& folder, const fs::path& path) {
 }  // namespace
 
 void require_not_input(const fs::path& output, const fs::path& input) {
-  std::error_code error;  // what is not there is said where it is read
+  std::error_code error;  // reading reports missing inputs
   if (fs::equivalent(output, input, error))
     throw UsageError(output.string() + " is also an input", "choose another name");
   if (!fs::exists(output, error)) return;
   if (fs::is_directory(input, error) && lies_in(output, input))
-    throw UsageError(output.string() + " exists, in the folder of an input, " + input.string() +
-                         "; files there are not replaced",
+    throw UsageError(output.string() + " exists in the folder of an input, " + input.string() +
+                         "; Tureen replaces no files there",
                      "choose another folder");
   if (fs::is_directory(output, error) && lies_in(input, output))
     throw UsageError(output.string() + " contains an input, " + input.string(),

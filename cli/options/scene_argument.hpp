@@ -1,4 +1,4 @@
-// A scene named on the command line: read with progress, refused with a suggestion.
+// A scene named on the command line, read with progress.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ struct SceneArgument {
   std::string up;  // empty: the scene's own
 };
 
-/// Adds SCENE (under the name given), which is required, --vertex-colors and --up. `argument` must
-/// live until the arguments are parsed.
+/// Adds the required argument `name`, and --vertex-colors and --up. `argument` must live until the
+/// arguments are parsed.
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
 
-/// Throws InputError, with a suggestion where the path does not exist.
+/// Throws InputError, with a suggestion if the path does not exist.
 Scene read(const SceneArgument& argument);
 
-/// Bytes of a file, or of all files of a folder, as far as they can be read.
+/// Size in bytes of a file, or of all files in a folder; files that cannot be read count as 0.
 std::uint64_t bytes_on_disk(const std::filesystem::path& path);
 
 }  // namespace tureen::cli

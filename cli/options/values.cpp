@@ -13,7 +13,7 @@ namespace tureen::cli {
 
 namespace {
 
-/// Three numbers between commas and nothing else.
+/// Three finite numbers, separated by commas.
 std::optional<glm::dvec3> three_numbers(const std::string& text) {
   glm::dvec3 result;
   const char* at = text.c_str();

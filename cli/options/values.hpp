@@ -1,5 +1,5 @@
-// The kinds of value that options take, from text. All throw UsageError with an example of what
-// is expected.
+// Converts texts to the values of options. All functions throw UsageError with the expected form or
+// range.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,10 +13,10 @@ struct ImageSize {
   int height = 0;
 };
 
-/// "1280x720"; no more pixels than one of our images has.
+/// "1280x720"; at most max_image_pixels pixels.
 ImageSize parse_size(const std::string& text);
 
-/// The same for images that are never whole in memory: sides alone have a limit.
+/// The same for images that are never completely in memory; only the sides have a limit.
 ImageSize parse_any_size(const std::string& text);
 
 /// "1,-2.5,3e2"; finite.
@@ -25,7 +25,7 @@ glm::dvec3 parse_vector(const std::string& text);
 /// "white", "black", "transparent" (black with alpha 0), or "r,g,b" with each from 0 to 1.
 glm::vec4 parse_background(const std::string& text);
 
-/// A whole number from `low` to `high`, and nothing else.
+/// A whole number from `low` to `high`.
 int parse_integer(const std::string& text, int low, int high);
 
 }  // namespace tureen::cli

@@ -24,10 +24,10 @@ namespace fs = std::filesystem;
 constexpr double radians_per_degree = 0.017453292519943295;
 constexpr int max_orbit_views = 1000;
 constexpr double default_frames_per_second = 30;
-constexpr double max_frames = 100000;  // an hour of animation; beyond it somebody mistook a unit
+constexpr double max_frames = 100000;  // 56 min at 30 frames/s; more is probably a wrong unit
 
-/// "FILE:N" split where N is a number or "all"; the whole text is the file where one of that name
-/// exists, colon and all.
+/// Splits "FILE:N", where N is a number or "all". If a file with the whole text as its name exists,
+/// the text is not split.
 struct CameraArgument {
   fs::path file;
   std::string which;
@@ -54,13 +54,13 @@ CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::strin
   return {read_scene(file).cameras, {}};
 }
 
-/// The frames of an animation. Throws UsageError where they are too many.
+/// The frames of an animation. Throws UsageError if there are too many.
 Views animation(CameraPathData data, const FrameRate& rate) {
   const CameraPath path(std::move(data));
   const double count = frame_count(path, rate.frames_per_second);
   if (count > max_frames)
     throw UsageError(
-        fmt::format("{:.0f} seconds at {} frames a second are {:.0f} frames, more than "
+        fmt::format("{:.0f} seconds at {} frames per second are {:.0f} frames; the limit is "
                     "{:.0f}",
                     path.duration(), rate.frames_per_second, count, max_frames));
   return {frames(path, rate), {}, rate.frames_per_second};
@@ -85,7 +85,7 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
     throw InputError({wanted.file.string(), {}, {}}, "the file has no cameras");
   if (wanted.which == "all") return {std::move(found.cameras), described(found.remarks)};
   const int last = int(found.cameras.size()) - 1;
-  // As text first: a number of forty digits is out of range, not malformed.
+  // Tests the length first, because std::stol throws for a number of forty digits.
   if (wanted.which.size() > 9 || std::stol(wanted.which) > last)
     throw UsageError(argument + ": cameras are numbered from 0 to " + std::to_string(last));
   return {{found.cameras[std::size_t(std::stol(wanted.which))]}, described(found.remarks)};

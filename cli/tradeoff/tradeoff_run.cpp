@@ -23,7 +23,7 @@ struct Defaults {
   DefaultViews views;
   int rounds;
   int combinations;
-  int samples;      // an axis
+  int samples;      // per axis
   int photographs;  // 0: all
 };
 
@@ -48,8 +48,8 @@ BenchViewOptions view_options(const TradeoffOptions& options) {
   return views;
 }
 
-/// The photographs to compare the model with; none without a dataset. Read before anything is
-/// measured: minutes of work must not end in a refusal.
+/// The photographs for E_model; empty without a dataset. They are read before anything is measured,
+/// so that an error does not cost minutes of work.
 std::vector<Photograph> test_photographs(const TradeoffOptions& options, TradeoffReport& report) {
   if (options.dataset.path.empty()) return {};
   const int most =
@@ -80,7 +80,7 @@ void measure_models(const TradeoffOptions& options, const Scene& scene,
       tradeoff::model_errors(report.study.antialiasing, soup, scene.origin, photographs, model);
 }
 
-/// The part of the report that is known before measuring.
+/// The part of the report that is known before the measurements.
 TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   TradeoffReport report;
@@ -121,8 +121,8 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
   tradeoff::StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
   if (study.subpixel_bits != 8)
     report.notes.push_back(fmt::format(
-        "this device, and the oracle at its sample points, round vertices to 1/{} pixel; E_render "
-        "differs on devices with the usual 1/256",
+        "this device rounds vertices to 1/{} pixel, and so does the oracle at its sample points; "
+        "E_render differs on devices with the usual 1/256",
         1 << study.subpixel_bits));
   study.clock = clock.now;
   study.background = scene.info.background;

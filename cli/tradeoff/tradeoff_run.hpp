@@ -1,4 +1,4 @@
-// What `tureen tradeoff` measures, by the options of its command line.
+// Runs the measurements of `tureen tradeoff` with the options of its command line.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace tureen::cli {
 
-/// How much is measured, where nothing more precise is asked for.
+/// Selects the defaults of the options, and so the amount of measurements.
 enum class Effort { quick, normal, full };
 
 struct TradeoffOptions {
@@ -22,9 +22,9 @@ struct TradeoffOptions {
   gl::Backend backend = gl::Backend::automatic;
   Effort effort = Effort::normal;
   std::string size;
-  std::vector<std::string> cameras;  // empty: by the effort
-  int rounds = 0, photographs = 0;   // 0: by the effort
-  int combinations = -1;             // the same
+  std::vector<std::string> cameras;  // empty: default of the effort
+  int rounds = 0, photographs = 0;   // 0: default of the effort
+  int combinations = -1;             // negative: default of the effort
   tradeoff::Samples samples = tradeoff::Samples::device;
   tradeoff::Limits limits;
   bool with_flip = true;
@@ -32,11 +32,11 @@ struct TradeoffOptions {
   std::vector<std::string> arguments;  // of the program, as typed
 };
 
-/// Throws UsageError for what can be known to be wrong before anything is read.
+/// Checks the options before anything is read. Throws UsageError.
 void check(const TradeoffOptions& options);
 
-/// Measures the scene, whose primitives are a TriangleSoup, with progress on the terminal, and
-/// chooses. Throws what reading a dataset and what drawing throw, and Interrupted.
+/// Measures the scene, whose primitives must be a TriangleSoup, and makes the choice. Prints
+/// progress. Throws Interrupted, and the exceptions of reading a dataset and of drawing.
 TradeoffReport measure_tradeoff(const TradeoffOptions& options, const Scene& scene);
 
 }  // namespace tureen::cli

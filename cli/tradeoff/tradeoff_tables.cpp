@@ -71,19 +71,20 @@ void say_model(const TradeoffReport& report) {
 }  // namespace
 
 const char* where_it_looks(const TradeoffReport& report) {
-  return report.samples == "device" ? "at the device's own sample points" : "with exact triangles";
+  return report.samples == "device" ? "at the device's sample points" : "with exact triangles";
 }
 
 void say_tables(const TradeoffReport& report) {
-  say_panel(report, report.study.drawing,
-            fmt::format("E_render of edits, against the oracle {} (* on the front, > the choice):",
-                        where_it_looks(report)));
+  say_panel(
+      report, report.study.drawing,
+      fmt::format("E_render of edits, against the oracle {} (* = on the front, > = the choice):",
+                  where_it_looks(report)));
   say(
       fmt::format("  exact dB: PSNR against exact triangles; the device's subpixel grid alone "
                   "limits it to {:.2f} dB",
                   report.study.grid.psnr_db));
   say_panel(report, report.study.antialiasing,
-            "E_render of quality settings, against 8 x 8 samples a pixel (* on the front):");
+            "E_render of quality settings, against 8 x 8 samples a pixel (* = on the front):");
   say_model(report);
   say("Times: " + report.clock + ".");
   say(choice_sentence(report));

@@ -9,13 +9,13 @@ namespace tureen::cli {
 
 using results::TradeoffReport;
 
-/// The reference of drawing settings, in words: "at the device's own sample points".
+/// The reference for edits in words: "at the device's sample points" or "with exact triangles".
 const char* where_it_looks(const TradeoffReport& report);
 
-/// The tables for a terminal, with what was skipped, the rules, the front and the choice.
+/// Prints the tables, skipped configurations, warnings, the front and the choice.
 void say_tables(const TradeoffReport& report);
 
-/// The choice in a sentence, or why there is none.
+/// A sentence with the choice, or with the limits that no configuration meets.
 std::string choice_sentence(const TradeoffReport& report);
 
 }  // namespace tureen::cli

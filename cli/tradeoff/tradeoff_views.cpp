@@ -12,8 +12,8 @@ namespace tureen::cli {
 
 namespace {
 
-/// `count` of the scene's own cameras at another size, in steps as even as their number allows, the
-/// first of them half a step from the first of all: those of more are others.
+/// `count` of the scene's cameras at another size, evenly spaced. The first is half a step after
+/// the scene's first camera, so that another `count` selects other cameras.
 std::vector<Camera> own_cameras(const Scene& scene, std::size_t count, const Lens& lens) {
   const std::size_t all = scene.cameras.size(), taken = std::min(count, all);
   std::vector<Camera> cameras;
@@ -29,10 +29,10 @@ bool is_among(const Camera& camera, const std::vector<Camera>& cameras) {
   });
 }
 
-/// From all around and from where the scene was photographed, but for the judges' own places.
+/// Views from a hemisphere and from the scene's cameras, except the views of the judges.
 std::vector<Camera> counting_views(const Scene& scene, const Lens& lens,
                                    const std::vector<Camera>& judges) {
-  // So many that a face that is large from anywhere is seen, so few that they are drawn in seconds.
+  // Enough views to see every face that is large in some view; few enough to draw in seconds.
   constexpr int each = 64;
   std::vector<Camera> views = hemisphere(subject_of(scene), each, lens);
   const std::vector<Camera> own = own_cameras(scene, each, lens);

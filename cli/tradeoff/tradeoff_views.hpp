@@ -1,5 +1,5 @@
-// The views of `tureen tradeoff`: those that judge, and others by which the triangle budget
-// chooses.
+// The views of `tureen tradeoff`: judges for the errors, and other views that count visible faces
+// for the triangle budget.
 #pragma once
 
 #include <string>
@@ -11,22 +11,22 @@
 namespace tureen::cli {
 
 struct TradeoffViews {
-  std::string camera_set;      // as the report names it: "scene:4", "hemisphere:8,adversarial"
+  std::string camera_set;      // in the report: "scene:4", "hemisphere:8,adversarial"
   std::vector<Camera> judges;  // at least one
-  /// What is visible is counted here: were it counted where it is judged, faces that no judge sees
-  /// would seem to cost nothing.
+  /// The triangle budget counts visible faces in these views. If it counted in the views of the
+  /// judges, removing faces that no judge sees would seem to cause no error.
   std::vector<Camera> counting;
-  std::vector<std::string> notes;  // on what cameras lacked
+  std::vector<std::string> notes;  // on missing data in camera files
 };
 
 struct DefaultViews {
   int count = 4;
-  bool adversarial = false;  // the four adversarial ones, too
+  bool adversarial = false;  // also the 4 adversarial views
 };
 
-/// The sets of `options` at its one size; without sets `defaults`: so many of the scene's own
-/// cameras, evenly spread over their order, or of a hemisphere where it has none. Throws what
-/// bench_views() throws.
+/// The sets of `options` at its single size. Without sets, `defaults.count` of the scene's cameras,
+/// evenly spaced in their order, or views from a hemisphere if it has no cameras. Throws the
+/// exceptions of bench_views().
 TradeoffViews tradeoff_views(const BenchViewOptions& options, const DefaultViews& defaults,
                              const Scene& scene, const std::string& scene_path);
 

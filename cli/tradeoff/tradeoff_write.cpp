@@ -18,9 +18,9 @@ void require_writable_scene(const fs::path& path, const fs::path& scene, bool re
     throw UsageError("'" + path.string() + "' does not end in .glb; --write writes GLB files");
   std::error_code error;
   if (fs::equivalent(path, scene, error))
-    throw UsageError(path.string() + " is the scene itself", "name another file");
+    throw UsageError(path.string() + " is also the input SCENE", "choose another name");
   if (fs::exists(path, error) && !replaces)
-    throw UsageError(path.string() + " exists", "name another file, or give --force to replace it");
+    throw UsageError(path.string() + " exists", "choose another name, or replace it with --force");
   require_writable_file(path);
 }
 
@@ -29,7 +29,7 @@ void write_chosen(const fs::path& path, Scene scene, TradeoffReport& report) {
   const Edits& edits = report.study.drawing.outcomes[*report.study.choice].applied.edits;
   std::vector<std::string> sentences;
   if (edits == Edits{}) {
-    sentences.emplace_back("no edits: no edit within the limits is measurably faster");
+    sentences.emplace_back("without edits: no edit within the limits is measurably faster");
   } else {
     auto& soup = std::get<TriangleSoup>(scene.primitives);
     Progress progress("reducing the scene");

@@ -8,14 +8,14 @@
 
 namespace tureen::cli {
 
-/// Before anything is measured: minutes of work must not end in a refusal. Throws UsageError where
-/// `path` is no GLB, is `scene` itself, or exists and is not to be replaced; OutputError where it
-/// cannot be written.
+/// Runs before anything is measured, so that an error does not cost minutes of work. Throws
+/// UsageError if `path` does not end in .glb, is `scene`, or exists without `replaces`; OutputError
+/// if it cannot be written.
 void require_writable_scene(const std::filesystem::path& path, const std::filesystem::path& scene,
                             bool replaces);
 
-/// Writes the scene, whose primitives are a TriangleSoup, with the edits of the choice as a GLB of
-/// ours, and names it in the report. Without a choice nothing is written.
+/// Writes the scene, whose primitives must be a TriangleSoup, with the chosen edits as a Tureen
+/// GLB, and adds its name to the report. Without a choice, does nothing.
 void write_chosen(const std::filesystem::path& path, Scene scene, TradeoffReport& report);
 
 }  // namespace tureen::cli

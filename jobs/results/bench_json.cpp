@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* format_name = "tureen bench";
 
-/// p99 or the 1 % low; null where that would be the slowest sample.
+/// p99 or the 1 % low; null with fewer than 100 samples.
 Json slowest_percent(const FrameStatistics& ms, double figure) {
   return tells_slowest_percent(ms) ? Json(figure) : Json(nullptr);
 }
@@ -33,7 +33,7 @@ Json to_json(const BenchConfiguration& configuration) {
 
 Json to_json(const BenchMeasurement& measurement) {
   Json passes = nullptr;
-  // A list, so that the order of the frame survives every JSON library.
+  // A list, because JSON libraries may reorder the members of an object.
   for (const auto& [name, ms] : measurement.passes_ms)
     passes.push_back({{"pass", name}, {"ms", ms}});
   return {{"configuration", measurement.configuration},
@@ -60,7 +60,7 @@ Json to_json(const BenchMeasurement& measurement) {
           {"picture", measurement.image ? Json(*measurement.image) : Json(nullptr)}};
 }
 
-/// Of a frame: above 0, as ratios are made of it, and up to eleven days.
+/// A frame time in milliseconds, above 0 because ratios divide by it, at most 1e9 (eleven days).
 double frame_ms(const JsonView& view) { return number_in(view, 1e-6, 1e9); }
 double not_negative(const JsonView& view) { return number_in(view, 0, 1e9); }
 
@@ -69,7 +69,7 @@ FrameStatistics frame_statistics(const JsonView& measurement) {
   const int rounds = integer(measurement["rounds"]);
   const std::size_t samples = std::size_t(rounds) * std::size_t(integer(measurement["views"]));
   if (tells_slowest_percent({.samples = samples}) && ms["p99"].value().is_null())
-    ms["p99"].fail("is null, though there are " + std::to_string(samples) + " samples");
+    ms["p99"].fail("is null, but there are " + std::to_string(samples) + " samples");
   return {
       .mean = frame_ms(ms["mean"]),
       .median = frame_ms(ms["median"]),

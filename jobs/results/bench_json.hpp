@@ -8,14 +8,14 @@
 
 namespace tureen::results {
 
-/// Of the file's layout. A reader refuses a larger one.
-/// 2: p99 and low_1_percent_fps may be null, and there are keys that not every file has.
+/// Version of the file's layout. Readers reject larger versions.
+/// 2: p99 and low_1_percent_fps may be null, and some keys are optional.
 inline constexpr int bench_result_version = 2;
 
 Json to_json(const BenchResult& result);
 
-/// Reads what to_json wrote; keys that are not known are passed over. Throws InputError with `file`
-/// and the path of what is missing or of another kind: untrusted.
+/// Reads the output of to_json() from an untrusted file; ignores unknown keys. Throws InputError
+/// with `file` and the path of a missing or invalid member.
 BenchResult bench_result_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tureen::results

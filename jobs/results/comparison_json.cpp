@@ -20,7 +20,7 @@ const char* name_of(Incomparable reason) {
   return reason == Incomparable::software ? "software" : "clock";
 }
 
-/// In the order of BenchChange::What, as JSON has them.
+/// JSON values, in the order of BenchChange::What.
 constexpr std::array<const char*, 8> change_names{
     "scene", "machine", "driver", "context", "rasteriser_threads", "build", "commit", "clock"};
 

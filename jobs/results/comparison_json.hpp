@@ -12,7 +12,7 @@ namespace tureen::results {
 /// The member `comparison` of docs/json.md; `against` is the file of the earlier result.
 Json to_json(const BenchComparison& comparison, const std::string& against);
 
-/// Why the two are not compared, and what differs besides the program.
+/// Sentences: the reason if the results are not compared, and one for each BenchChange.
 std::vector<std::string> circumstances(const BenchComparison& comparison);
 
 /// A line for each measurement that only one of the results has.

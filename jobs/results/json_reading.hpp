@@ -1,5 +1,4 @@
-// Reading results from JSON: what JsonView leaves to those who read lists of them. Include it in
-// sources only.
+// Reads results from JSON; complements JsonView. Include it only in source files.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@
 
 namespace tureen::results {
 
-/// A whole number that an int holds.
+/// A whole number from 0 to the largest int.
 inline int integer(const JsonView& view) {
   return int(view.natural(std::uint64_t(std::numeric_limits<int>::max())));
 }
@@ -28,10 +27,10 @@ inline double number_in(const JsonView& view, double low, double high) {
   return value;
 }
 
-/// A size, or how many there are of something: at least 1.
+/// A size or a count: at least 1.
 inline int count_of(const JsonView& view) {
   const int count = integer(view);
-  if (count == 0) view.fail("0 is not enough");
+  if (count == 0) view.fail("expected at least 1, not 0");
   return count;
 }
 
@@ -40,7 +39,7 @@ inline bool boolean(const JsonView& view) {
   return view.value().get<bool>();
 }
 
-/// read() of every element.
+/// Calls read() for every element.
 template <class Read>
 auto list(const JsonView& view, Read read) {
   std::vector<decltype(read(view))> result;
@@ -48,17 +47,17 @@ auto list(const JsonView& view, Read read) {
   return result;
 }
 
-/// Nothing for null, else read() of it.
+/// nullopt for null, otherwise the result of read().
 template <class Read>
 auto unless_null(const JsonView& view, Read read) {
   return view.value().is_null() ? std::nullopt : std::optional(read(view));
 }
 
-/// Of at most `longest` bytes: for what reports repeat in rows and at points of plots.
+/// A text of at most `longest` bytes. Reports repeat it in rows and at points in plots.
 inline std::string text_within(const JsonView& view, std::size_t longest) {
   std::string text = view.text();
   if (text.size() > longest)
-    view.fail(fmt::format("has {} bytes, at most {} are expected", text.size(), longest));
+    view.fail(fmt::format("has {} bytes; the limit is {}", text.size(), longest));
   return text;
 }
 
@@ -77,15 +76,15 @@ inline std::string date_of(const JsonView& view) {
   return text;
 }
 
-/// Fails where "format" is not `name`, with `denial` ("no result of tureen bench"), or "version" is
-/// none from 1 to `newest`.
+/// Fails if "format" is not `name`, with "this is " and `denial` (such as "not a result of tureen
+/// bench"), or if "version" is not from 1 to `newest`.
 inline void require_format(const JsonView& root, const std::string& name, int newest,
                            const std::string& denial) {
   const std::optional<JsonView> format = root.find("format");
   if (!format || !format->value().is_string() || format->text() != name)
     root.fail("this is " + denial);
   const int version = integer(root["version"]);
-  if (version < 1) root["version"].fail(fmt::format("there is no version {}", version));
+  if (version < 1) root["version"].fail(fmt::format("version {} does not exist", version));
   if (version > newest)
     root["version"].fail(fmt::format("version {} is newer than this program", version));
 }

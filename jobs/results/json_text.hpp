@@ -1,4 +1,4 @@
-// JSON documents whose keys keep the order in which they were written.
+// JSON documents with keys in insertion order.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -20,7 +20,7 @@ std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configurat
   std::vector<AppliedSpecialisation> known;
   list(*applied, [&](const JsonView& each) {
     const auto count = [&](const char* key) { return std::size_t(integer(each[key])); };
-    // Names of other versions are left out: a result stays readable.
+    // Names from other versions are skipped, so that their results stay readable.
     if (const auto what = specialisation_named(each["name"].text()))
       known.push_back({*what, count("count"), count("total"), each["margin"].number()});
     return 0;

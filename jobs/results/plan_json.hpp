@@ -1,4 +1,4 @@
-// The specialisations of a plan in JSON, beside the plan's English.
+// The specialisations of a plan in JSON. Results also have the plan as English text.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ namespace tureen::results {
 /// "count" of "total" faces, bands or neurons, or 0 of 0.
 Json specialisations_json(std::span<const AppliedSpecialisation> specialisations);
 
-/// The list back from the object that holds it as "specialisations"; empty where it has none, as in
-/// files of earlier versions. Throws InputError.
+/// Reads the member "specialisations" of `configuration`; empty if it is missing, as in files from
+/// earlier versions. Throws InputError.
 std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration);
 
 }  // namespace tureen::results

@@ -32,7 +32,7 @@ Json to_json(const BenchDevice& device) {
           {"software", device.software}};
 }
 
-/// A path as long as systems have them; names are shorter.
+/// Longest text in bytes: the usual limit for paths; names are shorter.
 constexpr std::size_t longest_text = 4096;
 
 BenchProgram program_of(const JsonView& view) {

@@ -1,6 +1,5 @@
-// What every result says of where it comes from: the program, the scene, the machine and the
-// device, as JSON. docs/json.md explains the keys.
-// Include it in sources only.
+// The origin of a result as JSON: the program, the scene, the machine and the device. docs/json.md
+// explains the keys. Include it only in source files.
 #pragma once
 
 #include "base/json/json_view.hpp"
@@ -13,8 +12,8 @@ Json to_json(const BenchScene& scene);
 Json to_json(const Machine& machine);
 Json to_json(const BenchDevice& device);
 
-// Untrusted: each throws InputError with the path of what is missing or of another kind. Keys that
-// are not known are passed over.
+// For untrusted files. Each function throws InputError with the path of a missing or invalid
+// member, and ignores unknown keys.
 BenchProgram program_of(const JsonView& view);
 BenchScene scene_of(const JsonView& view);
 Machine machine_of(const JsonView& view);

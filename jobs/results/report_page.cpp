@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As an address: what is neither a letter, a digit nor one of -_.~/ is percent-encoded.
+/// The path as an address: all bytes except ASCII letters, digits and -_.~/ are percent-encoded.
 std::string address(const std::string& path) {
   constexpr const char* hex = "0123456789ABCDEF";
   std::string result;
@@ -27,8 +27,8 @@ std::string address(const std::string& path) {
   return result;
 }
 
-/// The folder of `file` as seen from that of `page`, with a '/' at its end; "" where it is the
-/// same.
+/// The address of the folder of `file` relative to the folder of `page`, with a '/' at its end; ""
+/// if they are equal.
 std::string folder_address(const fs::path& file, const fs::path& page) {
   const auto folder = [](const fs::path& path) {
     return fs::weakly_canonical(fs::absolute(path).parent_path());
@@ -37,7 +37,7 @@ std::string folder_address(const fs::path& file, const fs::path& page) {
   return relative == "." ? "" : address(relative) + "/";
 }
 
-/// JSON that ends no <script> element: '<' is only ever part of a text there.
+/// JSON that cannot end a <script> element. In JSON, '<' occurs only in texts.
 std::string escaped(std::string_view json) {
   std::string result;
   for (const char c : json) {
@@ -66,7 +66,7 @@ std::string data_of(std::span<const ReportResult> results, const fs::path& page)
 }  // namespace
 
 std::string report_page(std::span<const ReportResult> results, const fs::path& page) {
-  // Elements of report.html, in their order, and what takes their place.
+  // Elements of report.html, in their order, with their replacements.
   const std::pair<std::string_view, std::string> parts[] = {
       {R"(<link rel="stylesheet" href="../page/style/palette.css">)",
        "<style>\n" + std::string(report_files::text("palette.css"))},

@@ -1,6 +1,5 @@
-// What `tureen tradeoff` found, for people and for programs: tables and a JSON document
-// (docs/json.md). E_render and E_model stand in columns and tables of
-// their own.
+// The result of `tureen tradeoff` and its JSON document (docs/json.md). E_render and E_model are
+// separate members.
 #pragma once
 
 #include <optional>
@@ -14,11 +13,11 @@
 
 namespace tureen::results {
 
-/// What the document calls itself, and the version of its layout.
+/// The member "format" of the document, and the version of its layout.
 inline constexpr const char* tradeoff_format = "tureen tradeoff";
 inline constexpr int tradeoff_version = 1;
 
-/// What E_model was measured with.
+/// The photographs and metric settings of E_model.
 struct ModelProtocol {
   std::string dataset;  // as typed
   std::string split;    // "test"
@@ -35,18 +34,18 @@ struct TradeoffReport {
   std::string camera_set;  // "hemisphere:4"
   int width = 0, height = 0, views = 0, rounds = 0;
   bool with_flip = true;
-  std::string clock;            // what times are read from, in words
-  bool processor_time = false;  // of all threads, instead of time that passed
-  std::string samples;          // of the drawing panel's reference: "device" or "exact"
+  std::string clock;            // description of the clock
+  bool processor_time = false;  // of all threads, instead of elapsed time
+  std::string samples;          // reference of the drawing panel: "device" or "exact"
   tradeoff::Limits limits;
   tradeoff::Study study;
-  /// Of the drawing panel's outcomes and of the antialiasing one's, in their order; nothing for
-  /// those that were not measured. Empty without a dataset.
+  /// E_model for the outcomes of the drawing and the antialiasing panel, in their order; nullopt if
+  /// not measured. Empty without a dataset.
   std::vector<std::optional<tradeoff::ModelError>> drawing_model, antialiasing_model;
   std::optional<ModelProtocol> model;
-  std::optional<std::string> scene_written;  // by --write, where
+  std::optional<std::string> scene_written;  // path from --write
   std::vector<std::string> notes;            // on reading the scene, the cameras, the dataset
-  std::vector<std::string> output;           // files that were written
+  std::vector<std::string> output;           // written files
 };
 
 Json to_json(const TradeoffReport& report);

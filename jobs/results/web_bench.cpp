@@ -14,12 +14,12 @@ namespace {
 
 constexpr const char* web_format_name = "tureen web bench";
 
-/// Eleven days, so that sums stay finite. Nobody waits so long for a frame.
+/// Limit in milliseconds (eleven days), so that sums stay finite.
 constexpr double max_ms = 1e9;
 
 double mebibytes(const JsonView& bytes) { return double(bytes.natural()) / double(1 << 20); }
 
-/// What something took; not of a frame.
+/// A duration in milliseconds, which may be 0.
 double milliseconds(const JsonView& view) {
   const double ms = view.number();
   if (!(ms >= 0 && ms <= max_ms))
@@ -34,7 +34,7 @@ double frame_milliseconds(const JsonView& view) {
   return ms;
 }
 
-/// A list of rounds, each a list of as many views.
+/// A list of `rounds` lists, each with the times of `views` views.
 FrameTimes frame_times(const JsonView& view, std::size_t views, std::size_t rounds) {
   if (view.size() != rounds)
     view.fail(fmt::format("has {} rounds, expected {}", view.size(), rounds));
@@ -96,7 +96,7 @@ BenchMeasurement shared_part(const JsonView& view) {
   return shared;
 }
 
-/// One measurement of the page: a BenchMeasurement a case.
+/// Adds one measurement of the page: one BenchMeasurement per case.
 void add_measurements(const JsonView& view, BenchResult& result) {
   const BenchMeasurement shared = shared_part(view);
   const std::size_t begin = result.measurements.size();
@@ -123,7 +123,7 @@ void add_measurements(const JsonView& view, BenchResult& result) {
   result.protocol.aa_spread = std::max(result.protocol.aa_spread, shared.aa_spread);
 }
 
-/// What all scenes of the file share.
+/// The part of the result that all scenes of the file share.
 BenchResult result_of_page(const JsonView& root) {
   const JsonView page = root["page"], device = root["device"];
   const double pixel_ratio = device["pixel_ratio"].number();
@@ -158,7 +158,7 @@ BenchResult result_of_scene(const JsonView& view, BenchResult result) {
                  .plan_ms = first.plan_ms,
                  .upload_ms = first.upload_ms,
                  .device_mib = first.device_mib};
-  result.peak_mib = mebibytes(view["wasm_bytes"]);  // read last, and it never shrinks
+  result.peak_mib = mebibytes(view["wasm_bytes"]);  // measured last; it never shrinks
   const JsonView measurements = view["measurements"];
   if (measurements.size() == 0) measurements.fail("is empty");
   for (std::size_t i = 0; i < measurements.size(); ++i)

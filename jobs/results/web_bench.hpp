@@ -1,5 +1,5 @@
-// What the browser's bench.html downloads, as results of `tureen bench`: the page measures, and the
-// same statistics judge what it measured. docs/json.md explains the keys.
+// Converts a download of the browser's bench.html to results of `tureen bench`, with the same
+// statistics. docs/json.md explains the keys.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace tureen::results {
 
-/// Of the file's layout. A reader refuses a larger one.
+/// Version of the file's layout. Readers reject larger versions.
 inline constexpr int web_bench_version = 1;
 
-/// A result a scene of the file, at least one, in its order. What a browser does not tell stands as
-/// it can: the user agent for the processor's model, 0 MiB of memory, no times of passes. Keys that
-/// are not known are passed over. Throws InputError with the file and the path of what is missing,
-/// of another kind or impossible: untrusted.
+/// One result per scene of an untrusted file, at least one, in the order of the file. Browsers do
+/// not report some values: the processor's model is the user agent, the memory is 0 MiB, and there
+/// are no pass times. Ignores unknown keys. Throws InputError with the file and the path of a
+/// missing, invalid or impossible member.
 std::vector<BenchResult> read_web_bench(Input& input);
 
 }  // namespace tureen::results

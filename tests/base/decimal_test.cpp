@@ -1,5 +1,5 @@
-// Our float parser and writer against strtof and printf of the C library, which are right but slow
-// and follow the locale.
+// Our float parser and writer against strtof and printf of the C library, which are correct, but
+// slow and dependent on the locale.
 #include "base/decimal.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ void expect_as_strtof(const std::string& text) {
       << text << ": " << got.value << " instead of " << expected;
 }
 
-/// The decimal expansion of `value` without rounding: all that a double has.
+/// The exact decimal expansion of `value`, without rounding.
 std::string exact_text(double value) {
   char text[1200];
   std::snprintf(text, sizeof text, "%.1080f", value);
@@ -147,7 +147,8 @@ TEST(ParseDecimal, AgreesWithStrtofOnRandomDigits_seed1) {
 TEST(ParseDecimal, AgreesWithStrtofAtAndAroundEveryKindOfMidpoint_seed2) {
   std::mt19937 random(2);
   for (int i = 0; i < 5000; ++i) {
-    // Every tenth is subnormal; the largest finite float's upper neighbour counts as 2^128.
+    // Every tenth number is subnormal. The upper neighbour of the largest finite float counts as
+    // 2^128.
     std::uint32_t bits = random() % 0x7f800000u;
     if (i % 10 == 0) bits %= 0x00800000u;
     if (i == 1) bits = 0x7f7fffffu;
@@ -155,7 +156,7 @@ TEST(ParseDecimal, AgreesWithStrtofAtAndAroundEveryKindOfMidpoint_seed2) {
     const double high = bits == 0x7f7fffffu ? 0x1p128 : double(float_of(bits + 1));
     const std::string middle = exact_text(0.5 * (low + high));
     expect_as_strtof(middle);
-    // The least more, far beyond the digits that matter, and the least less.
+    // Slightly more, with a digit far beyond the relevant ones, and slightly less.
     const std::string point = middle.find('.') == std::string::npos ? "." : "";
     expect_as_strtof(middle + point + std::string(300, '0') + "1");
     expect_as_strtof(exact_text(std::nextafter(0.5 * (low + high), 0.0)));

@@ -30,7 +30,7 @@ TEST(ShownText, WritesOutWhatSteersATerminal) {
             "\\u009b2J")
       << "an escape sequence in one character";
   EXPECT_EQ(shown_text("\u2028\u202e\u2066"), "\\u2028\\u202e\\u2066");
-  EXPECT_EQ(shown_text("\ufffe\uffff"), "\\ufffe\\uffff") << "which are no characters";
+  EXPECT_EQ(shown_text("\ufffe\uffff"), "\\ufffe\\uffff") << "not characters";
 }
 
 TEST(ShownText, WritesOutBytesThatAreNoUtf8) {
@@ -38,8 +38,8 @@ TEST(ShownText, WritesOutBytesThatAreNoUtf8) {
   EXPECT_EQ(shown_text("\x9b"
                        "2J"),
             "\\x9b2J");
-  EXPECT_EQ(shown_text("\xe2\x82"), "\\xe2\\x82") << "cut short";
-  EXPECT_EQ(shown_text("\xc0\x8a"), "\\xc0\\x8a") << "a line's end in more bytes than it takes";
+  EXPECT_EQ(shown_text("\xe2\x82"), "\\xe2\\x82") << "truncated";
+  EXPECT_EQ(shown_text("\xc0\x8a"), "\\xc0\\x8a") << "an overlong line feed";
 }
 
 TEST(ShownText, OfALongLineShowsBeginningAndEnd) {

@@ -75,7 +75,7 @@ TEST(TextScanner, NamesLineAndReason) {
 }
 
 TEST(TextScanner, SeesTheSameNumbersAsAStreamAcrossWindows_seed4) {
-  // Blanks, comments and line breaks of random length, so that window borders fall everywhere.
+  // Blanks, comments and line breaks of random length put window borders at all positions.
   std::mt19937 random(4);
   std::string text;
   std::vector<float> expected;

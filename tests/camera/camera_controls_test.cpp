@@ -1,5 +1,5 @@
-// What a person's drags, wheel and keys make of a view. Past 600 lines: one fixture's random
-// sequences of every control are held against the same invariants, at scales from 1e-6 to 1e8.
+// Effects of drags, wheel and keys on a view. The file exceeds 600 lines: random sequences of every
+// control share one fixture and the same invariants, at scales from 1e-6 to 1e8.
 #include "camera/camera_controls.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int width = 1280, height = 720;
 
-/// Where a point of the world falls in pixels from the top left corner, and its depth.
+/// A world point in pixels from the top left corner, and its depth.
 glm::dvec3 pixel_of(const Camera& camera, const glm::dvec3& world) {
   const glm::dvec3 v(camera.view_from_world * glm::dvec4(world, 1.0));
   return {camera.cx - camera.fx * v.x / v.z, camera.cy + camera.fy * v.y / v.z, -v.z};
@@ -50,7 +50,7 @@ bool same_bits(const Camera& a, const Camera& b) {
          bits_of(a.view_from_world) == bits_of(b.view_from_world);
 }
 
-/// The largest entry of R^T R - 1, and how far the determinant is from 1.
+/// The largest entry of R^T R - 1, or the difference between the determinant and 1.
 double orthonormality(const Camera& camera) {
   const glm::dmat3 r = camera.world_from_view_rotation();
   const glm::dmat3 defect = glm::transpose(r) * r - glm::dmat3(1.0);
@@ -76,7 +76,7 @@ Subject random_subject(Random& random, double size) {
   return {centre - half, centre + half, random.direction()};
 }
 
-/// As recorded: any rotation, any lens.
+/// A camera like a recorded one, with any rotation and intrinsics.
 Camera random_camera(Random& random, double size) {
   Camera camera = look_at(size * 4.0 * random.direction(), size * random.direction(),
                           random.direction(), random.uniform(0.2, 1.5), 960, 540);
@@ -87,7 +87,7 @@ Camera random_camera(Random& random, double size) {
   return camera;
 }
 
-/// One of all the things that a person can do.
+/// Applies one random action of a user.
 void act(CameraControls& controls, Random& random) {
   const double dx = 200 * random.normal(), dy = 200 * random.normal();
   const double size = controls.radius();
@@ -158,7 +158,7 @@ TEST(CameraControls, AnythingInAnyOrderKeepsARigidFiniteCamera) {
       ASSERT_GT(camera.fx, 0) << i;
       ASSERT_GT(controls.distance(), 0) << i;
     }
-    // Whatever happened, the way back is one key.
+    // After any sequence, one key restores a named view.
     controls.look_from(NamedView::front);
     controls.advance(10);
     EXPECT_FALSE(controls.moving());
@@ -182,8 +182,8 @@ TEST(CameraControls, OrbitKeepsTargetDistanceAndLevel) {
       EXPECT_EQ(controls.target(), target);
       EXPECT_NEAR(glm::length(camera.eye() - target), distance, 1e-12 * size * 10);
       const glm::dmat3 axes = camera.world_from_view_rotation();
-      EXPECT_NEAR(glm::dot(axes[0], controls.up()), 0, 1e-12) << "the horizon is level";
-      EXPECT_GT(glm::dot(axes[1], controls.up()), 1e-3) << "up is up, short of the poles";
+      EXPECT_NEAR(glm::dot(axes[0], controls.up()), 0, 1e-12) << "the horizon must be level";
+      EXPECT_GT(glm::dot(axes[1], controls.up()), 1e-3) << "up must point up: no pole is reached";
     }
   }
 }
@@ -196,7 +196,7 @@ TEST(CameraControls, TheSceneFollowsThePointerWhenOrbiting) {
   const glm::dvec3 pixel = pixel_of(shown(controls), near_point);
   EXPECT_GT(pixel.x, 0.5 * width);
   EXPECT_GT(pixel.y, 0.5 * height);
-  // The image's height is half a turn.
+  // A drag over the image's height is half a turn.
   CameraControls half = stiff();
   half.look_from(NamedView::front);
   half.orbit(height, 0);
@@ -214,7 +214,7 @@ TEST(CameraControls, ElevationEndsShortOfThePolesAndLeavesTheTopViewAlone) {
   EXPECT_NEAR(elevation(), 0.5 * pi, 1e-9);
   const Camera top = shown(controls);
   EXPECT_LT(glm::length(top.world_from_view_rotation()[0] - glm::dvec3(1, 0, 0)), 1e-12);
-  controls.orbit(0, 5);  // further up there is nothing, and no way is thrown back
+  controls.orbit(0, 5);  // no effect, and no jump back: this is the pole
   EXPECT_LT(largest_difference(top, shown(controls)), 1e-12);
   controls.orbit(0, -72);
   EXPECT_NEAR(elevation(), 0.5 * pi - 0.1 * pi, 1e-9);
@@ -238,7 +238,7 @@ TEST(CameraControls, PanFollowsThePointerExactly) {
     const double dx = 100 * random.normal(), dy = 100 * random.normal();
     controls.pan(dx, dy);
     const glm::dvec3 from = pixel_of(before, point), to = pixel_of(shown(controls), point);
-    // In units of the depth: pixels over the focal length.
+    // In units of the depth: pixels divided by the focal length.
     EXPECT_NEAR((to.x - from.x - dx) / before.fx, 0, 1e-9);
     EXPECT_NEAR((to.y - from.y - dy) / before.fy, 0, 1e-9);
     EXPECT_NEAR(to.z / depth, 1, 1e-9);
@@ -293,7 +293,7 @@ TEST(CameraControls, LookKeepsTheEyeAndTurnsAsTheHandDoes) {
     const glm::dvec3 ahead = controls.target();
     controls.drag(10, 10);
     const glm::dvec3 pixel = pixel_of(shown(controls), ahead);
-    EXPECT_LT(pixel.x, 0.5 * width) << "looking right, things move left";
+    EXPECT_LT(pixel.x, 0.5 * width) << "looking right moves the scene left";
     EXPECT_LT(pixel.y, 0.5 * height);
     for (int i = 0; i < 20; ++i) controls.look(100 * random.normal(), 100 * random.normal());
     EXPECT_LT(glm::length(shown(controls).eye() - eye), 1e-12 * size * 20);
@@ -309,7 +309,7 @@ TEST(CameraControls, FlyingGoesWhereTheCameraLooks) {
   const glm::dvec3 way = shown(controls).eye() - before.eye();
   const glm::dvec3 forward = -before.world_from_view_rotation()[2];
   EXPECT_LT(glm::length(way - 0.5 * 4 * controls.speed() * forward), 1e-12);
-  // Diagonals are no faster.
+  // Diagonals have the same speed.
   const glm::dvec3 eye = controls.eye();
   controls.advance(1, {.direction = {1, 1, 1}});
   EXPECT_NEAR(glm::length(controls.eye() - eye), controls.speed(), 1e-12);
@@ -326,7 +326,7 @@ TEST(CameraControls, ChangingTheModeChangesNoImage) {
     controls.set_viewport(width, height);
     for (int i = 0; i < 100; ++i) {
       act(controls, random);
-      const Camera before = shown(controls);  // often in the middle of a glide
+      const Camera before = shown(controls);  // often during a glide
       controls.set_mode(controls.mode() == NavigationMode::fly ? NavigationMode::orbit
                                                                : NavigationMode::fly);
       EXPECT_EQ(largest_difference(before, shown(controls)), 0);
@@ -378,7 +378,7 @@ TEST(CameraControls, HalvesOfATimeDoWhatTheWholeDoes) {
       if (random.chance(0.7)) flight = {random.direction(), random.uniform(0.1, 4)};
       whole.advance(seconds, flight);
       for (int part = 0; part < 4; ++part) parts.advance(seconds / 4, flight);
-      // Rounding, of pixels: focal lengths are about 1,000.
+      // Rounding error in pixels: focal lengths are about 1,000.
       EXPECT_LT(largest_difference(shown(whole), shown(parts)), 1e-9) << i;
       EXPECT_EQ(whole.moving(), parts.moving());
     }
@@ -393,14 +393,14 @@ TEST(CameraControls, GlidingIsExponentialAndArrives) {
   const glm::dvec3 from = before.eye();
   controls.pan(100, 0);
   EXPECT_TRUE(controls.moving());
-  EXPECT_EQ(largest_difference(before, shown(controls)), 0) << "time has not passed";
+  EXPECT_EQ(largest_difference(before, shown(controls)), 0) << "no time has passed";
   controls.advance(controls.smoothing());
   EXPECT_NEAR(
       glm::length(controls.eye() - shown(controls).eye()) / glm::length(controls.eye() - from),
       std::exp(-1.0), 1e-9);
   int frames = 0;
   for (; controls.moving() && frames < 1000; ++frames) controls.advance(1.0 / 60);
-  EXPECT_LT(frames, 60) << "the window idles after less than a second";
+  EXPECT_LT(frames, 60) << "the window is idle after less than a second";
   EXPECT_EQ(shown(controls).eye(), camera_of({.up = controls.up(),
                                               .target = controls.target(),
                                               .distance = controls.distance(),
@@ -491,7 +491,7 @@ TEST(CameraControls, AnAdoptedCameraIsThatVeryCameraUntilItMoves) {
     controls.set_target_depth(2);
     controls.set_viewport(960, 540);
     EXPECT_TRUE(same_bits(controls.camera(camera.width, camera.height), camera));
-    // A movement of nearly nothing changes nearly nothing: no jump of pose, roll or lens.
+    // A tiny movement makes a tiny change: pose, roll and intrinsics do not jump.
     controls.set_smoothing(0);
     controls.look(1e-7, 0);
     EXPECT_FALSE(controls.shows_adopted());
@@ -504,7 +504,7 @@ TEST(CameraControls, CamerasThatLookAlongTheUpAxisAreAdopted) {
     const Camera camera = look_at({0, side * 5, 0}, {}, {0.6, 0, 0.8}, 0.7, width, height);
     CameraControls controls = stiff();
     controls.adopt(camera);
-    controls.pan(1e-9, 0);  // away from the bits, not from the view
+    controls.pan(1e-9, 0);  // other bits, the same view
     EXPECT_LT(largest_difference(shown(controls), camera), 1e-8);
     controls.orbit(0, side * -height * 0.25);  // an eighth of a turn away from the pole
     EXPECT_NEAR(controls.eye().y, side * 5 * std::sqrt(0.5), 1e-9);
@@ -560,7 +560,7 @@ TEST(CameraControls, ViewsAreReachedTheShortWay) {
   CameraControls controls;
   controls.look_from(NamedView::back);
   controls.arrive();
-  controls.look_from(NamedView::left);  // from 180 to -90 degrees: over -180, not over 0
+  controls.look_from(NamedView::left);  // from 180 to -90 degrees: through -180, not through 0
   double nearest_front = 4;
   while (controls.moving()) {
     controls.advance(0.005);
@@ -575,13 +575,13 @@ TEST(CameraControls, AnotherUpAxisSetsTheSceneUpright) {
   controls.set_viewport(width, height);
   const Camera before = shown(controls);
   controls.set_up({0, 0, 2});
-  EXPECT_LT(largest_difference(before, shown(controls)), 1e-9) << "it begins where it was";
+  EXPECT_LT(largest_difference(before, shown(controls)), 1e-9) << "the view does not jump";
   controls.advance(5);
   const Camera after = shown(controls);
   EXPECT_NEAR(glm::dot(after.world_from_view_rotation()[0], glm::dvec3(0, 0, 1)), 0, 1e-12);
   EXPECT_GT(after.world_from_view_rotation()[1].z, 0.5);
   EXPECT_NEAR(controls.distance(), glm::length(before.eye() - controls.target()), 1e-9);
-  // The new front from the same bearing.
+  // The new front, from the same bearing.
   EXPECT_LT(glm::length(after.world_from_view_rotation()[2] -
                         direction_of({0, 0, 1}, three_quarter_view)),
             1e-12);
@@ -645,7 +645,8 @@ TEST(CameraControls, HundredsOfTurnsLoseNothing) {
   CameraControls controls = stiff();
   const Camera before = shown(controls);
   for (int i = 0; i < 4000; ++i) controls.orbit(height, 0);  // 2,000 turns
-  // Each half turn is rounded at a hundred turns' magnitude at most: 4,000 times 1e-13.
+  // Rounding: 4,000 half turns, each with an error of at most 1e-13, for angles up to a hundred
+  // turns.
   EXPECT_LT(largest_difference(before, shown(controls)), 1e-8);
 }
 

@@ -54,7 +54,7 @@ CameraPathData random_path(Random& random) {
   return path;
 }
 
-/// All numbers of a camera in one list, so that they can be differentiated.
+/// All numbers of a camera in one list, for differences.
 std::vector<double> numbers(const Camera& camera) {
   std::vector<double> result{camera.fx / height, camera.fy / height, camera.cx / height,
                              camera.cy / height};
@@ -73,7 +73,7 @@ TEST(CameraPath, PassesThroughItsKeyframes) {
     Random random(seed);
     const CameraPath path(random_path(random));
     for (const CameraKeyframe& keyframe : path.data().keyframes) {
-      // Quaternions and logarithms and back: a few roundings of numbers below 10.
+      // Conversion to quaternions and logarithms and back: a few roundings of numbers below 10.
       EXPECT_LT(largest_difference(path.at(keyframe.seconds, 960, 540), keyframe.camera), 1e-13);
       EXPECT_LT(largest_difference(path.at(keyframe.seconds, width, height),
                                    resized(keyframe.camera, width, height)),
@@ -91,8 +91,8 @@ TEST(CameraPath, IsSmoothAtItsKeyframes) {
     for (std::size_t i = 0; i <= last; ++i) {
       if (!path.is_loop() && (i == 0 || i == last)) continue;
       const double t = path.data().keyframes[i].seconds;
-      // One-sided differences of second order: their error is h^2 / 3 times the third derivative,
-      // which is below 1e3 here (changes of 10 in spans of 0.2 s: 12 * 10 / 0.2^3, rarely more).
+      // One-sided differences of second order: their error is h^2 / 3 times the third derivative.
+      // That is below 1e3 here: changes of 10 in spans of 0.2 s give 12 * 10 / 0.2^3, rarely more.
       constexpr double h = 1e-4;
       const auto slope = [&](double step) {
         const auto a = numbers(path.at(t, width, height));
@@ -213,7 +213,7 @@ TEST(CameraPath, KeyframesAroundATargetTurnAboutIt) {
     EXPECT_NEAR(glm::length(camera.eye() - glm::dvec3(1, 2, 3)), 5, 1e-12);
     EXPECT_NEAR(camera.eye().y, 2, 1e-12);
   }
-  // Without what they are about, the eye goes straighter than a circle, through it.
+  // Without the target distance, the eye takes a straighter way, inside the circle.
   for (CameraKeyframe& k : data.keyframes) k.target_distance = 0;
   const glm::dvec3 middle = CameraPath(data).at(1, width, height).eye();
   EXPECT_LT(glm::length(middle - glm::dvec3(1, 2, 3)), 4);
@@ -222,7 +222,7 @@ TEST(CameraPath, KeyframesAroundATargetTurnAboutIt) {
 TEST(CameraPath, RotatesTheShortWayWithoutFlips) {
   CameraPathData data;
   for (int i = 0; i < 12; ++i) {
-    const double angle = (i % 2 ? -10 : 10) * pi / 180;  // around the back: 170 and 190 degrees
+    const double angle = (i % 2 ? -10 : 10) * pi / 180;  // around 180 degrees: 170 and 190
     data.keyframes.push_back({look_at({0, 0, 0}, {std::sin(pi + angle), 0, std::cos(pi + angle)},
                                       {0, 1, 0}, 0.7, width, height),
                               double(i)});
@@ -253,7 +253,7 @@ TEST(CameraPath, KeyframesOfOneTimeAreACut) {
   const CameraPath path(data);
   EXPECT_LT(largest_difference(path.at(2, 960, 540), data.keyframes[3].camera), 1e-13);
   EXPECT_LT(largest_difference(path.at(2 - 1e-9, 960, 540), data.keyframes[2].camera), 1e-6);
-  // What lies before the cut is what it would be without what comes after.
+  // The part before the cut does not depend on the part after it.
   CameraPathData before = data;
   before.keyframes.resize(3);
   for (double t = 0; t < 2; t += 0.1)
@@ -271,7 +271,7 @@ TEST(CameraPath, WhatRisesFromKeyframeToKeyframeRisesInBetween) {
       CameraKeyframe keyframe = random_keyframe(random, seconds, false);
       keyframe.camera.fx = keyframe.camera.fy = focal;
       data.keyframes.push_back(keyframe);
-      // Far from even, which is what makes other splines swing.
+      // Times are far from even, which makes other splines overshoot.
       seconds += std::pow(10.0, random.uniform(-1.5, 1));
       focal *= std::exp(std::pow(10.0, random.uniform(-2, 0)));
     }
@@ -304,15 +304,15 @@ TEST(CameraPath, ATurntableIsAnExactCircle) {
     EXPECT_DOUBLE_EQ(path.duration(), seconds);
     for (int i = 0; i < 100; ++i) {
       const double t = random.uniform(0, seconds);
-      // The circle itself: Rodrigues' formula on eye and axes.
+      // The exact circle: Rodrigues' formula for eye and axes.
       const double angle = 2 * pi * turns * t / seconds;
       const auto turned = [&](const glm::dvec3& v) {
         return std::cos(angle) * v + std::sin(angle) * glm::cross(up, v) +
                (1 - std::cos(angle)) * glm::dot(up, v) * up;
       };
       const Camera camera = path.at(t, width, height);
-      // That of the header. Coordinates here are no larger than the distance, and
-      // going over view_from_world rounds twice more.
+      // The tolerance of the header. Coordinates are at most the distance here, and view_from_world
+      // adds two roundings.
       EXPECT_LT(glm::length(camera.eye() - (target + turned(eye - target))), 1e-12 * distance);
       for (int k = 0; k < 3; ++k)
         EXPECT_LT(glm::length(camera.world_from_view_rotation()[k] -
@@ -363,7 +363,7 @@ TEST(CameraPath, KeyframesAreAddedMovedReplacedAndRemoved) {
   path.remove(0);
   path.remove(0);
   EXPECT_TRUE(path.empty());
-  // Whoever builds one by hand gets what a file would.
+  // A path built by calls equals a path from a file.
   CameraPathData data = random_path(random);
   CameraPath by_hand;
   for (const CameraKeyframe& keyframe : data.keyframes) by_hand.add(keyframe);
@@ -396,7 +396,7 @@ TEST(CameraSpline, RotationVectorsGoThereAndBack) {
   for (int i = 0; i < 1000; ++i) {
     const double angle = std::pow(10.0, random.uniform(-18, 0.49));  // up to 3.09
     const glm::dvec3 v = angle * random.direction();
-    // 4e-16 of a quaternion near half a turn, where the angle is its most sensitive function.
+    // A quaternion has an error of 4e-16. Near half a turn, the angle is most sensitive to it.
     EXPECT_LT(glm::length(rotation_vector(rotation_of_vector(v)) - v), 4e-15 * angle + 1e-30) << i;
     const glm::dquat q = rotation_of_vector(v);
     EXPECT_EQ(rotation_vector(q), rotation_vector(glm::dquat(-q.w, -q.x, -q.y, -q.z)));

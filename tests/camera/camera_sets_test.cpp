@@ -1,4 +1,4 @@
-// Views to measure with: that they are where they claim to be, on random soups.
+// Views for measurements: tests of their positions on random soups.
 #include "camera/camera_sets.hpp"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ glm::dvec3 towards_eye(const Subject& subject, const Camera& camera) {
   return glm::normalize(camera.eye() - subject.centre());
 }
 
-/// Fragments a pixel as the oracle counts them: every face on every pixel's ray.
+/// Fragments a pixel by the oracle: every face on every pixel's ray.
 double true_overdraw(const TriangleSoup& soup, const Camera& camera) {
   std::size_t count = 0;
   oracle::Rays(soup, origin, camera)
@@ -80,9 +80,10 @@ TEST(Hemisphere, IsEvenAboveTheHorizonAndShowsTheWholeBox) {
       EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w);
     }
   }
-  // The mean direction of a half sphere is half its radius up; 50 even points come this close.
+  // The mean direction of a half sphere is half its radius up; the tolerance is for 50 even points.
   EXPECT_NEAR(glm::length(mean - glm::dvec3(0, 0, 0.5)), 0, 0.03);
-  // Equal shares of 2 pi / 50 are discs of radius 0.2 or so: no two points within half of that.
+  // Equal shares of 2 pi / 50 are discs with a radius of about 0.2: no two points are closer than
+  // half of that.
   EXPECT_GT(nearest, 0.15);
 }
 
@@ -90,11 +91,12 @@ TEST(EstimatedOverdraw, ComesNearWhatTheOracleCounts) {
   for (const unsigned seed : {2u, 3u, 4u}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const TriangleSoup soup = flat_ball(seed, 300);
-    // Enough pixels for the oracle's count of small triangles to be exact to a few percent.
+    // With this number of pixels, the oracle's count of small triangles is exact to a few percent.
     const Lens fine{.width = 960, .height = 540};
     for (const Camera& camera : hemisphere(subject_of_soup(soup), 4, fine)) {
       const double exact = true_overdraw(soup, camera);
-      // Triangles about as large as a cell are counted by its centre, which is what is rough.
+      // The estimate tests only the centre of a cell, which is coarse for triangles of about that
+      // size.
       EXPECT_NEAR(estimated_overdraw(soup, origin, camera), exact, 0.1 * exact);
     }
   }
@@ -162,7 +164,7 @@ TEST_P(Adversarial, FarShowsTheBoxInATwentiethOfTheImage) {
     low = glm::min(low, glm::dvec2(clip) / clip.w);
     high = glm::max(high, glm::dvec2(clip) / clip.w);
   }
-  // In halves of the image; a twentieth of a framed box, which may be anything up to all of it.
+  // Fraction of the image: a twentieth of a framed box, which fills the image wholly or partly.
   EXPECT_LT(std::max(high.x - low.x, high.y - low.y) / 2, 0.06);
   EXPECT_GT(std::max(high.x - low.x, high.y - low.y) / 2, 0.02);
 }
@@ -171,7 +173,7 @@ TEST_P(Adversarial, GrazingSeesFacesEdgeOnAsNoOrdinaryViewDoes) {
   const double grazing = facing(soup, origin, views[2]);
   for (const Camera& camera : hemisphere(subject, 40, lens))
     EXPECT_LE(grazing,
-              facing(soup, origin, camera) + 0.02);  // the candidates are not all directions
+              facing(soup, origin, camera) + 0.02);  // the candidates are only some directions
   // These faces are flat in z.
   EXPECT_LT(std::abs(towards_eye(subject, views[2]).z), 0.15);
 }

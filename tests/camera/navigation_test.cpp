@@ -11,7 +11,7 @@ namespace navigation_test {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Where a point of the world falls, in fractions of the half image: inside within -1..1.
+/// A world point in NDC: inside the image within -1..1.
 glm::dvec2 ndc_of(const Camera& camera, glm::dvec3 world) {
   const glm::dvec4 clip =
       clip_from_view(camera, 1e-3, 1e3) * camera.view_from_world * glm::dvec4(world, 1.0);
@@ -42,7 +42,7 @@ TEST(Navigation, FramesRandomBoxesTightlyFromEverySide) {
     const Subject subject{centre - half, centre + half, vector()};
     const Lens lens{100 + int(500 * (1 + uniform(random))), 300, 0.7 + 0.5 * uniform(random)};
     const Bearing bearing{pi * uniform(random), 1.4 * uniform(random)};
-    // The tightest side has its margin of 5 % and no more.
+    // The tightest side has a margin of exactly 5 %.
     EXPECT_NEAR(largest_ndc(frame(subject, bearing, lens), subject), 1 / 1.05, 1e-9);
   }
 }
@@ -50,7 +50,7 @@ TEST(Navigation, FramesRandomBoxesTightlyFromEverySide) {
 TEST(Navigation, TheFrontIsPlusZUnderYAndMinusYUnderZ) {
   EXPECT_LT(glm::length(direction_of({0, 1, 0}, {}) - glm::dvec3(0, 0, 1)), 1e-12);
   EXPECT_LT(glm::length(direction_of({0, 0, 2}, {}) - glm::dvec3(0, -1, 0)), 1e-12);
-  // A quarter turn leads to the right of who looks at the front: +x in both.
+  // A quarter turn leads to the right of a viewer in front: +x in both.
   EXPECT_LT(glm::length(direction_of({0, 1, 0}, {pi / 2, 0}) - glm::dvec3(1, 0, 0)), 1e-12);
   EXPECT_LT(glm::length(direction_of({0, 0, 1}, {pi / 2, 0}) - glm::dvec3(1, 0, 0)), 1e-12);
   EXPECT_LT(glm::length(direction_of({0, 0, 1}, {0, pi / 2}) - glm::dvec3(0, 0, 1)), 1e-12);
@@ -78,7 +78,7 @@ TEST(Navigation, AnOrbitKeepsItsDistanceAndShowsEverythingEverywhere) {
     tightest = std::max(tightest, largest_ndc(camera, subject));
   }
   EXPECT_NEAR(tightest, 1 / 1.05, 1e-9);
-  // Evenly spread: opposite views face each other.
+  // The views are even: opposite views face each other.
   const glm::dvec3 a = cameras[2].eye(), b = cameras[8].eye();
   EXPECT_NEAR(a.x, -b.x, 1e-9);
   EXPECT_NEAR(a.y, -b.y, 1e-9);
@@ -93,7 +93,7 @@ TEST(Navigation, APointAndAMissingUpAxisStillGiveACamera) {
 TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
   Scene scene;
   TriangleSoup soup;
-  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}, {9, 9, 9}};  // the last is used by no face
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}, {9, 9, 9}};  // no face uses the last one
   soup.triangles = {{0, 1, 2}};
   soup.appearance = FaceColors{{glm::vec4(1)}};
   scene.origin = {100, 200, 300};

@@ -12,7 +12,7 @@
 namespace tureen {
 namespace up_axis_test {
 
-/// Cameras around an arc, held upright along `up` and looking down by 30 degrees.
+/// Upright cameras on an arc around `up`, looking down by 30 degrees.
 std::vector<Camera> arc(const glm::dvec3& up, double turns) {
   const glm::dvec3 side = glm::normalize(glm::cross(up, glm::dvec3(0.3, 0.5, 0.9)));
   const glm::dvec3 front = glm::cross(side, up);
@@ -84,9 +84,9 @@ TEST(UpAxis, NothingAndNonsenseGiveY) {
             glm::dvec3(0, 1, 0));
 }
 
-/// What is known after the scene went through a file.
+/// The evidence after the scene was written and read.
 UpEvidence through_file(const Scene& scene, const std::string& name, Scene& back) {
-  // Of this build alone: other builds may test at the same time.
+  // A name for this build: other builds may run the test at the same time.
   const std::string path = TUREEN_BINARY_DIR "/up_axis_" + name;
   write_scene(scene, path);
   back = read_scene(path);

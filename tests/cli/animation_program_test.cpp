@@ -1,4 +1,4 @@
-// Animations from outside: frames along a path or around the scene, as images and as videos.
+// Program tests of animations: frames along a path or around the scene, as images and videos.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using testing::UnorderedElementsAre;
 
 class Animation : public test::Program {
  protected:
-  /// Three keyframes about the scene's middle in two seconds.
+  /// Writes three keyframes around the scene's centre, 2 s in total.
   void write_path(double loop_seconds = 0) const {
     CameraPathData path{.keyframes = {}, .loop_seconds = loop_seconds};
     for (int i = 0; i < 3; ++i)
@@ -31,7 +31,7 @@ class Animation : public test::Program {
           {look_at({3.0 * i - 3, -5, 1}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30), double(i), 0});
     write("path.json", path_to_json(path));
   }
-  /// What is in the folder, but for the program's two streams.
+  /// The names in the folder, without the program's two streams.
   std::vector<std::string> names() const {
     std::vector<std::string> result;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -85,7 +85,7 @@ TEST_F(Animation, ATurntableTurnsOnce) {
             0);
   EXPECT_THAT(names(), UnorderedElementsAre("scene.off", "turn_0.png", "turn_1.png", "turn_2.png",
                                             "turn_3.png"));
-  // From an eye of one's own the first frame is that eye's image.
+  // With an explicit eye, the first frame is the image from that eye.
   ASSERT_EQ(run({"render", "scene.off", "--turntable", "2", "--fps", "2", "--size", "40x30",
                  "--eye", "1,-5,2", "--target", "0,0,0", "--up", "0,0,1", "-o", "eye_%d.png"})
                 .exit_code,
@@ -137,7 +137,7 @@ TEST_F(Animation, WhatMakesNoSenseIsSaidBeforeAnythingIsRead) {
     EXPECT_EQ(result.exit_code, 2) << arguments.back();
     EXPECT_THAT(result.err, Names(values...));
   };
-  expect({"-o", "film.mp4"}, "film.mp4", "--path");
+  expect({"-o", "video.mp4"}, "video.mp4", "--path");
   expect({"--fps", "30"}, "--fps", "--path", "--turntable");
   expect({"--path", "p.json", "--orbit", "3"}, "--orbit", "--path");
   expect({"--path", "p.json", "--turntable", "3"}, "--path", "--turntable");

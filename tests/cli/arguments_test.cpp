@@ -69,7 +69,7 @@ TEST(Arguments, ValuesAreStoredAndTheCommandReturned) {
   EXPECT_EQ(action(), ExitCode::check_failed);
   EXPECT_EQ(program.line.chosen_command(), "draw");
   EXPECT_EQ(program.scene, "a.glb");
-  EXPECT_EQ(program.output, "out");  // as it was
+  EXPECT_EQ(program.output, "out");  // the default
   EXPECT_EQ(program.steps, -3);
   EXPECT_EQ(program.seed, std::numeric_limits<std::uint64_t>::max());
   EXPECT_EQ(program.width_, 7);

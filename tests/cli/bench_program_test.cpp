@@ -1,5 +1,5 @@
-// `tureen bench` from outside: what it says of itself, and that the pixels that were timed are
-// those that `tureen render` draws.
+// Program tests of `tureen bench`: its output, and whether the timed pixels equal those that
+// `tureen render` draws.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
 
 class Bench : public test::ProgramWithPhotographs {
  protected:
-  /// One round of two small views of the example, and what is added.
+  /// Measures one round of two small views of the example. `more` are further arguments.
   ChildResult bench(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"bench", example, "--context", "osmesa"};
     if (std::find(more.begin(), more.end(), "--rounds") == more.end())
@@ -57,7 +57,7 @@ TEST_F(Bench, MeasuresTheSceneThatItNames) {
   EXPECT_EQ(json["program"]["arguments"][0], "bench");
   EXPECT_EQ(json["device"]["software"], true);
   EXPECT_EQ(json["protocol"]["rounds"], 1);
-  EXPECT_GE(json["peak_mib"], json["load"]["peak_mib"]) << "with its targets";
+  EXPECT_GE(json["peak_mib"], json["load"]["peak_mib"]) << "with the render targets";
   EXPECT_THAT(json["program"].value("build", ""), AnyOf("release", "debug", "sanitized"));
   for (const char* time : {"read_ms", "upload_ms", "peak_mib", "device_mib"})
     EXPECT_GT(json["load"][time], 0) << time;
@@ -110,7 +110,7 @@ TEST_F(Bench, ThePixelsThatWereTimedAreThoseOfRender) {
                                     "2",      "--size", "64x48",     "-o",     "drawn_%d.png"};
     for (const std::string option : configuration["options"]) render.push_back(option);
     ASSERT_EQ(run(render).exit_code, 0);
-    // The last view of the two is the last that was timed.
+    // The second view is timed last.
     EXPECT_EQ(read_png(measurement["picture"]).pixels, read_png("drawn_1.png").pixels);
     EXPECT_NE(read_png(measurement["picture"]).pixels, read_png("drawn_0.png").pixels);
   }
@@ -139,7 +139,7 @@ TEST_F(Bench, ProcessorTimeIsSaidWhereItIsWhatWasMeasured) {
   EXPECT_THAT(steady.err, HasSubstr(other));
 }
 
-TEST_F(Bench, WhoTakesPartCanBeChosen) {
+TEST_F(Bench, ConfigurationsCanBeChosen) {
   EXPECT_THAT(all(bench_json()["configurations"], "name"),
               ElementsAre("tureen", "generic", "published"));
   EXPECT_THAT(all(bench_json({"--no-specialise"})["configurations"], "name"),
@@ -151,7 +151,7 @@ TEST_F(Bench, WhoTakesPartCanBeChosen) {
   EXPECT_NE(ceilings["measurements"][0]["pixels_hash"], ceilings["measurements"][1]["pixels_hash"]);
 }
 
-TEST_F(Bench, EitherShadingStageCanTakePart) {
+TEST_F(Bench, EitherShadingStageCanBeTimed) {
   const nlohmann::json json = bench_json({"--only", "tureen-fragment,tureen-compute"});
   EXPECT_THAT(json["configurations"][0]["options"], ElementsAre("--shading", "fragment"));
   EXPECT_THAT(json["configurations"][1]["options"], ElementsAre("--shading", "compute"));
@@ -162,7 +162,7 @@ TEST_F(Bench, EitherShadingStageCanTakePart) {
   EXPECT_THAT(asked[2]["options"], ElementsAre("--pipeline", "baseline"));
 }
 
-TEST_F(Bench, ASceneThatThePublishedPipelineCannotDrawIsTimedWithoutIt) {
+TEST_F(Bench, ASceneThatTheBaselineCannotDrawIsTimedWithoutIt) {
   write_scene();
   const ChildResult result = run(
       {"bench", "scene.off", "--context", "osmesa", "--rounds", "1", "--size", "32x32", "--json"});
@@ -214,13 +214,13 @@ TEST_F(Bench, ADatasetGivesItsCamerasAndTheirSizes) {
   const auto& full = json["measurements"][1];
   EXPECT_EQ(full["width"], width);
   EXPECT_EQ(half["height"], height / 2);
-  EXPECT_EQ(full["views"], 2);  // those to test
+  EXPECT_EQ(full["views"], 2);  // the test split
 }
 
 struct Refusal {
   std::vector<std::string> arguments;
   int exit_code;
-  const char* names;  // a value that the message has
+  const char* names;  // a value in the message
 };
 
 TEST_F(Bench, RefusesWhatMakesNoSense) {

@@ -1,4 +1,4 @@
-// The files of `tureen bench` from outside, and how it ends where something became slower.
+// Program tests of the files of `tureen bench`, and of its exit code after a slowdown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST_F(BenchFiles, ARunIsComparedWithAnEarlierOne) {
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_TRUE(exists("before/bench.json"));
   EXPECT_TRUE(exists("before/report.html"));
-  // What the machine does meanwhile must not decide a test: the earlier run becomes much faster.
+  // The earlier run becomes much faster, so that the machine's load does not decide the test.
   nlohmann::json before = read_json("before/bench.json");
   for (auto& measurement : before["measurements"]) {
     measurement["frame_ms"]["min_of_medians"] =
@@ -43,7 +43,7 @@ TEST_F(BenchFiles, ARunIsComparedWithAnEarlierOne) {
   before["machine"]["cpu"] = "an abacus";
   write("fast.json", before.dump());
   const ChildResult told = bench({"--against", "fast.json", "--json"});
-  EXPECT_EQ(told.exit_code, 0) << "it fails only where that was asked for";
+  EXPECT_EQ(told.exit_code, 0) << "it fails only with --fail-slower";
   const auto json = nlohmann::json::parse(told.out);
   EXPECT_EQ(json["comparison"]["against"], "fast.json");
   for (const auto& ratio : json["comparison"]["ratios"]) {

@@ -1,4 +1,4 @@
-// Reports of a result of `tureen bench`: the comparison, the files.
+// Reports of a result of `tureen bench`: comparison and files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using ::testing::MatchesRegex;
 using ::testing::Not;
 using tureen::test::TemporaryFolder;
 
-/// Names that try to leave the place where they belong.
+/// A name with characters that CSV, HTML, Markdown and shells interpret.
 const std::string awkward = "a,\"b\" <i>`c` 'd'\\";
 
 BenchMeasurement measurement(const std::string& configuration, const std::string& cameras,
@@ -183,8 +183,8 @@ TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
   EXPECT_THAT(comparison.unmatched, IsEmpty());
   EXPECT_EQ(comparison.incomparable, Incomparable::software);
   EXPECT_THAT(comparison.changes, IsEmpty());
-  EXPECT_EQ(results::to_json(comparison, "old.json")["incomparable"], "software");
-  // What nobody could judge has not passed.
+  EXPECT_EQ(to_json(comparison, "old.json")["incomparable"], "software");
+  // Results that cannot be compared do not pass.
   BenchReportOptions options;
   options.against = "old.json";
   options.fail_slower = 50;
@@ -201,7 +201,7 @@ TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
 TEST(BenchComparison, DoesNotPairWhatIsNotTheSame) {
   const BenchResult then = result();
   BenchResult now = then;
-  now.measurements[0].width = 641;  // under the same name, as "full" of other cameras would be
+  now.measurements[0].width = 641;  // same name, as "full" of other cameras
   now.measurements[1].configuration = "generic";
   const BenchComparison comparison = compare_benches(now, then);
   EXPECT_EQ(comparison.ratios.size(), 6u);
@@ -235,7 +235,7 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   BenchReportOptions options{.folder = (folder / "new/out").string(),
                              .against = (folder / "old.json").string(),
                              .fail_slower = {}};
-  // Every name is tried before minutes of measuring.
+  // The program checks every name before it measures for minutes.
   std::filesystem::create_directories(folder / "new/out/bench.json");
   EXPECT_THROW(prepare_bench_reports(options, {}), OutputError);
   std::filesystem::remove(folder / "new/out/bench.json");
@@ -248,7 +248,7 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   ::testing::internal::CaptureStderr();
   EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
   EXPECT_THAT(::testing::internal::GetCapturedStderr(), Not(HasSubstr("--fail-slower")));
-  // A pass says what it could not have seen.
+  // A passed check reports the measurements that it could not compare.
   BenchResult fewer = now;
   fewer.measurements.erase(fewer.measurements.begin());
   fewer.measurements.front().frame_ms.spread = 0.31;
@@ -262,7 +262,7 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed);
   EXPECT_THAT(::testing::internal::GetCapturedStderr(), Names("--fail-slower", 8, 3, "--seconds"));
   now.measurements.clear();
-  EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed) << "nothing in both";
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed) << "no common measurement";
 }
 
 TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {

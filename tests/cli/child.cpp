@@ -16,7 +16,7 @@ namespace tureen::test {
 
 namespace {
 
-/// In the child: file descriptor `target` is this file from now on.
+/// In the child: `target` becomes the file descriptor of this file.
 void redirect(const char* path, int flags, int target) {
   const int file = ::open(path, flags, 0644);
   if (file < 0 || ::dup2(file, target) < 0) ::_exit(126);
@@ -39,11 +39,11 @@ Child::Child(const std::vector<std::string>& arguments, std::filesystem::path fo
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_ = ::fork();
-  if (pid_ < 0) throw std::runtime_error("no process can be made");
+  if (pid_ < 0) throw std::runtime_error("cannot create a process");
   if (pid_ > 0) return;
-  // Nothing but system calls from here on: the test may have other threads.
+  // From here on, only system calls are safe: the test may have other threads.
   if (::chdir(folder_.c_str()) != 0) ::_exit(126);
-  ::signal(SIGINT, SIG_DFL);  // which shells ignore in tests that they run in the background
+  ::signal(SIGINT, SIG_DFL);  // shells ignore it in background jobs
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   redirect("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
@@ -65,7 +65,7 @@ void Child::stop() {
   signal(SIGSTOP);
   int status = 0;
   if (pid_ < 0 || ::waitpid(pid_, &status, WUNTRACED) != pid_ || WIFSTOPPED(status)) return;
-  status_ = status;  // it has ended before it heard of that
+  status_ = status;  // it ended before the signal arrived
   pid_ = -1;
 }
 

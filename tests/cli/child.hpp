@@ -16,29 +16,29 @@ struct ChildResult {
   std::string err;     // standard error
 };
 
-/// What a file holds: nothing where there is none.
+/// The bytes of a file; empty if it does not exist.
 std::string bytes_of_file(const std::filesystem::path& path);
 
-/// A program that runs beside the test. Ended hard where the test forgets it.
+/// A program that runs beside the test. The destructor kills it.
 class Child {
  public:
-  /// `program`, the one that the test was built for (`tureen`) where it is empty, with these
-  /// arguments, in `folder`.
+  /// Starts `program` with these arguments in `folder`. An empty `program` is `tureen`, as the test
+  /// was built with it.
   Child(const std::vector<std::string>& arguments, std::filesystem::path folder,
         const std::string& program = "");
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child();
 
-  /// As `kill` does: SIGINT is Ctrl-C.
+  /// Sends a signal, as `kill` does: SIGINT is Ctrl-C.
   void signal(int number) const;
-  /// Returns once it stands still: SIGCONT lets it go on, SIGKILL ends it where it stands.
+  /// Stops the child, and returns once it is stopped. SIGCONT continues it, SIGKILL ends it.
   void stop();
   bool running();
-  /// Returns once `condition` holds, the program has ended, or two minutes have passed; whether it
-  /// holds.
+  /// Returns once `condition` is true, the program has ended, or two minutes have passed. Returns
+  /// the value of `condition`.
   bool wait_until(const std::function<bool()>& condition);
-  /// Whether it has opened this library, as "libOSMesa": of a context, whether that is being made.
+  /// Whether it has opened this library. With "libOSMesa", it is creating a context or has one.
   bool has_loaded(const std::string& library) const;
   ChildResult wait();
 
@@ -48,7 +48,7 @@ class Child {
   int status_ = 0;
 };
 
-/// `tureen` with these arguments, in `folder`, to its end.
+/// Runs `tureen` with these arguments in `folder`, and waits for its end.
 ChildResult run_tureen(const std::vector<std::string>& arguments,
                        const std::filesystem::path& folder);
 

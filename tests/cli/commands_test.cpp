@@ -1,4 +1,4 @@
-// All subcommands at once: what holds for options of any of them.
+// Rules for the options of all subcommands.
 #include "cli/commands.hpp"
 
 #include <gmock/gmock.h>

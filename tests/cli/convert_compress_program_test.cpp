@@ -1,4 +1,4 @@
-// `tureen convert --compress` from outside: what it makes, and what it says of its loss.
+// Program tests of `tureen convert --compress`: its file, and the loss that it reports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,20 +36,20 @@ TEST_F(ConvertCompress, IsSmallAndSaysWhatItLost) {
   EXPECT_LE(json["loss_db"], 0.3);
   EXPECT_EQ(json["loss_is_measured"], false);
   EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "compressed.glb"));
-  // As measured for all of the example (docs/compressed-files.md), less what JSON and network take
-  // of so few.
+  // All of the example becomes smaller (docs/compressed-files.md). In this part, JSON and network
+  // take a larger share.
   EXPECT_GT(json["times_smaller"], 3);
   EXPECT_FALSE(exists("compressed.glb.export"));
 
   const Scene back = read_scene(folder / "compressed.glb");
   EXPECT_EQ(std::get<TriangleSoup>(back.primitives).triangles.size(), 400u);
   EXPECT_EQ(back.cameras.size(), 1u);
-  // The losses are stored in the file, but for those of the file itself.
+  // The file stores the losses, except those of writing the file itself.
   ASSERT_THAT(back.info.notes, Not(IsEmpty()));
   EXPECT_THAT(json["lost"], testing::Contains(back.info.notes.back()));
   EXPECT_THAT(run({"info", "compressed.glb"}).err, HasSubstr(back.info.notes.back()));
 
-  // What makes the promise worth less.
+  // Conditions that weaken the reported loss.
   EXPECT_EQ(json["recorded_cameras"], 2);
   EXPECT_EQ(json["compressed_before"], false);
   const ChildResult again = run(
@@ -68,8 +68,7 @@ TEST_F(ConvertCompress, IsSmallAndSaysWhatItLost) {
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
 }
 
-// What compressed files are to reach (docs/compressed-files.md), here with nothing but the scene to
-// judge by.
+// The target for compressed files (docs/compressed-files.md), without photographs.
 TEST_F(ConvertCompress, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
   const ChildResult result = run({"convert", example, "compressed.glb", "--compress", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -79,7 +78,7 @@ TEST_F(ConvertCompress, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
   EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "compressed.glb"));
 }
 
-// The search looks at nothing but how near images come to the photographs.
+// The search only compares how close images are to the photographs.
 TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   Scene scene = read_scene(example);
   auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -87,11 +86,11 @@ TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   std::get<LatticeTexture>(soup.appearance).patches.resize(400);
   scene.cameras.clear();
   ASSERT_THAT(tureen::write_scene(scene, folder / "part.glb"), IsEmpty());
-  // As near as a trained scene comes to its photographs.
+  // As close as a trained scene is to its photographs.
   const glm::vec3 background = scene.info.background;
   scene.info.background = glm::mix(background, glm::vec3(0.5f), 0.1f);
   ASSERT_THAT(tureen::write_scene(scene, folder / "near.glb"), IsEmpty());
-  // Nothing of what is there, and light instead of dark.
+  // No triangle is visible, and the background is bright instead of dark.
   scene.info.background = glm::vec3(1) - background;
   soup.positions.assign(soup.positions.size(), glm::vec3(0));
   ASSERT_THAT(tureen::write_scene(scene, folder / "other.glb"), IsEmpty());
@@ -113,11 +112,11 @@ TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   };
   photograph("near.glb", 8);
   EXPECT_EQ(lost().first["training_cameras"], 8);
-  // They are a help, nothing more.
+  // The photographs are optional: without them, the search uses the scene alone.
   fs::remove(folder / "data/train/r_3.png");
   const auto [json, said] = lost();
   EXPECT_EQ(json["training_cameras"], 0);
-  EXPECT_THAT(json["lost"].dump(), Not(HasSubstr("r_3.png"))) << "it goes into the file";
+  EXPECT_THAT(json["lost"].dump(), Not(HasSubstr("r_3.png"))) << "the file stores this text";
   EXPECT_THAT(said, HasSubstr("r_3.png"));
 }
 

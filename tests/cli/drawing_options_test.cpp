@@ -18,7 +18,7 @@ PlanPreferences parsed(std::vector<std::string> arguments) {
   return options.plan;
 }
 
-TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
+TEST(DrawingOptions, WhatIsToBeKeptIsNotSkipped) {
   EXPECT_EQ(parsed({}).specialisations, SpecialisationSet::all());
   EXPECT_EQ(parsed({"--keep", "background,alpha-test"}).specialisations,
             SpecialisationSet::all()
@@ -49,7 +49,7 @@ TEST(DrawingOptions, RemovedValuesAreRefusedWithAHint) {
   EXPECT_THAT(hint("--shading", "measured"), test::Names("fragment"));
   const std::string rims = hint("--keep", "transparent-rims");
   EXPECT_NE(rims, "");
-  // A value that is only mistyped has the nearest one for a hint, another for each.
+  // A mistyped value gets the nearest value as a hint, so the hints differ.
   EXPECT_EQ(hint("--keep", "base-color"), rims);
   EXPECT_EQ(hint("--keep", "alpha-test,texel-table"), rims);
 }

@@ -1,4 +1,4 @@
-// `tureen eval` from outside, against photographs that the program took of the scene itself.
+// Program tests of `tureen eval`, against photographs that the program drew from the scene itself.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,14 +63,14 @@ TEST_F(Eval, TheScenesOwnImagesAreMetExactly) {
 TEST_F(Eval, AKnownErrorHasItsDecibels) {
   photograph(example);
   Image8 photograph = read_png("data/test/r_0.png");
-  for (glm::u8vec4& pixel : photograph.pixels) pixel.r ^= 8;  // 8 more or less, never clamped
+  for (glm::u8vec4& pixel : photograph.pixels) pixel.r ^= 8;  // 8 more or less, without clamping
   write_png("data/test/r_0.png", photograph);
   const auto json = nlohmann::json::parse(eval().out);
   const double expected = -10 * std::log10(std::pow(8.0 / 255, 2) / 3);  // one channel of three
   EXPECT_NEAR(json["views"][0]["psnr_db"].get<double>(), expected, 1e-4);
   EXPECT_GT(json["views"][0]["flip"].get<double>(), 0);
   EXPECT_LT(json["views"][0]["ssim"].get<double>(), 1);
-  // The mean of decibels, not the decibels of a mean.
+  // The mean is a mean in decibels, not the decibels of a mean.
   EXPECT_NEAR(json["mean"]["psnr_db"].get<double>(), (expected + 100) / 2, 1e-4);
 }
 
@@ -86,7 +86,7 @@ TEST_F(Eval, TakesTheSplitTheScaleAndTheBackground) {
   EXPECT_EQ(nlohmann::json::parse(all.out)["views"].size(), 3u);
   EXPECT_EQ(read_png("views/train_r_0.png").width, 3 * width / 2);
 
-  // Nothing on both sides but the background: equal on any.
+  // Only the background is visible on both sides, so they are equal on any background.
   write("far.off", "COFF\n3 1 0\n900 900 0\n901 900 0\n900 901 0\n3 0 1 2 255 0 0\n");
   for (const char* name : {"data/test/r_0.png", "data/test/r_1.png"})
     write_png(name, Image8(width, height, glm::u8vec4(255, 0, 0, 0)));
@@ -141,11 +141,11 @@ TEST_F(Eval, DoesNotReplaceThePhotographsOfTheDataset) {
 
 TEST_F(Eval, WithoutAContextItSaysSo) {
   photograph(example);
-  // The loader of EGL drivers finds none.
+  // With this variable, the loader of EGL drivers finds no driver.
   ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", (folder / "none.json").c_str(), 1);
   const ChildResult result = run({"eval", example, "data", "--context", "egl", "-o", "views"});
   ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
-  if (result.exit_code == 0) GTEST_SKIP() << "this EGL needs no loader, and cannot be made to fail";
+  if (result.exit_code == 0) GTEST_SKIP() << "this EGL has no loader that could fail";
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_THAT(result.err, Names("EGL"));
 }

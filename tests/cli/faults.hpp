@@ -1,4 +1,4 @@
-// What tests of faults share: disks that are full, moments of a run, and what is on the disk
+// Shared by the tests of faults: full disks, moments of a run, and the files on the disk
 // afterwards.
 #pragma once
 
@@ -25,8 +25,7 @@
 
 namespace tureen::test {
 
-/// Children that start meanwhile cannot write a file beyond so many bytes: to them the disk is
-/// full.
+/// While it exists, new children cannot write a file of more than `bytes`, as on a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) {
@@ -42,10 +41,10 @@ class SmallDisk {
   rlimit before_{};
 };
 
-/// `tureen` in `folder`, where what is in its folder `disk` lies on a disk of `kilobytes`
-/// meanwhile: a file system of its own, which only the program sees. Its files as they are
-/// afterwards come into the folder `after`; those in `disk` stay. Where the system does not let
-/// people mount, as in many a container, the exit code is no_disk.
+/// Runs `tureen` in `folder`, with the folder `disk` on a disk of `kilobytes`. That is a separate
+/// file system, visible only to the program. Its files are afterwards in the folder `after`; those
+/// in `disk` stay as they were. If the system does not allow users to mount, as in many containers,
+/// the exit code is no_disk.
 inline constexpr int no_disk = 77;
 inline ChildResult run_on_disk(int kilobytes, const std::vector<std::string>& arguments,
                                const std::filesystem::path& folder) {
@@ -67,7 +66,7 @@ inline ChildResult run_on_disk(int kilobytes, const std::vector<std::string>& ar
   return Child(words, folder, "/bin/sh").wait();
 }
 
-/// A file's bytes by "", or those of a folder's files by their names.
+/// The bytes of a file under the name "", or those of a folder's files under their names.
 inline std::map<std::string, std::string> contents_of(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) return {{"", bytes_of_file(path)}};
   std::map<std::string, std::string> files;
@@ -76,7 +75,7 @@ inline std::map<std::string, std::string> contents_of(const std::filesystem::pat
   return files;
 }
 
-/// All that is in `folder` and below it, by its path from there.
+/// Everything in `folder` and below it, as paths relative to it.
 inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -85,8 +84,8 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// Removes what a program that was killed had half written (temporary_beside in
-/// base/output_path.hpp), and tells how many that were.
+/// Removes the half-written files of a killed program (temporary_beside in base/output_path.hpp),
+/// and returns their number.
 inline int remove_temporaries(const std::filesystem::path& folder) {
   int removed = 0;
   for (const std::string& name : names_in(folder))
@@ -95,17 +94,17 @@ inline int remove_temporaries(const std::filesystem::path& folder) {
   return removed;
 }
 
-/// When a program is ended: at a time after its start, or once it has done something.
+/// When to end a program: at a time after its start, or at an event after that time.
 struct Moment {
   enum class Until { nothing, written, replaced };
   std::chrono::microseconds after{0};
   Until until = Until::nothing;
-  std::string path;  // which is being written, or has been replaced
+  std::string path;  // the file of the event
 };
 
-/// `count` moments from the very beginning of a program to behind its end, where `run` is how long
-/// it takes at least. Every second one is in the first third: whoever else works on the machine
-/// makes the program slower, and one that goes on from a checkpoint has less to do.
+/// `count` moments from the start of a program to beyond its end; `run` is its shortest duration.
+/// Half of them are in the first third. On a busy machine the program is slower, and a program that
+/// resumes from a checkpoint has less to do.
 inline std::vector<Moment> moments_of(std::chrono::microseconds run, int count,
                                       std::minstd_rand& random) {
   std::vector<Moment> moments;
@@ -119,14 +118,13 @@ inline std::vector<Moment> moments_of(std::chrono::microseconds run, int count,
   return moments;
 }
 
-/// Which file or folder a name stands for: another one after it was replaced.
+/// The identity of the file or folder with this name. It changes when the file is replaced.
 inline ino_t identity_of(const std::filesystem::path& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
-/// Looks out for a moment of a child; made before the child starts, so that nothing it does passes
-/// unseen.
+/// Detects a moment of a child. Create it before the child starts, so that it misses no event.
 class Lookout {
  public:
   Lookout(Moment moment, const std::filesystem::path& folder)
@@ -144,8 +142,8 @@ class Lookout {
     if (old_ >= 0) ::close(old_);
   }
 
-  /// Waits for the moment, or for the child's end. A child that writes stands still then, with what
-  /// it writes begun and not yet in its place. Tells whether the moment came.
+  /// Waits for the moment, or for the child's end. At Until::written, it stops the child, whose
+  /// file is begun and not yet in its place. Returns whether the moment came.
   bool wait_for(Child& child) const {
     std::this_thread::sleep_for(moment_.after);
     while (child.running()) {
@@ -160,7 +158,7 @@ class Lookout {
           wait_for_a_name();
           if (!is_being_written()) break;
           child.stop();
-          // Until it stood still it may have come to the end of that.
+          // The child may have finished the file before it stopped.
           if (is_being_written()) return true;
           child.signal(SIGCONT);
       }
@@ -169,8 +167,8 @@ class Lookout {
   }
 
  private:
-  /// Returns once a name was made in the folder, sooner than looking again and again does, or after
-  /// a hundredth of a second.
+  /// Returns once a name appears in the folder, or after 10 ms. This is faster than polling the
+  /// folder.
   void wait_for_a_name() const {
     pollfd ready{.fd = names_, .events = POLLIN, .revents = 0};
     ::poll(&ready, 1, 10);
@@ -178,11 +176,11 @@ class Lookout {
     while (::read(names_, events, sizeof events) > 0) continue;
   }
 
-  /// Whether something stands beside the path that will have its name. A new folder swaps names
-  /// with the old one, which has the temporary name then until all in it is removed.
+  /// Whether a temporary file for the path exists. A new folder swaps names with the old one. The
+  /// old one then has the temporary name until all its files are removed.
   bool is_being_written() const {
     const std::string beginning = path_.filename().string() + ".tmp";
-    std::error_code vanished;  // while it is looked at
+    std::error_code vanished;  // during the iteration
     std::filesystem::directory_iterator entry(path_.parent_path(), vanished);
     for (; !vanished && entry != std::filesystem::directory_iterator(); entry.increment(vanished)) {
       if (entry->path().filename().string().rfind(beginning, 0) != 0) continue;
@@ -194,12 +192,12 @@ class Lookout {
 
   Moment moment_;
   std::filesystem::path path_;
-  int old_;  // held open: while it is, no newer file is given its identity
+  int old_;  // while it is open, no newer file gets its identity
   ino_t before_;
   int names_;
 };
 
-/// As `kill` does, also to a child that stands still.
+/// Sends the signal as `kill` does, also to a stopped child.
 inline void end_by(int number, Child& child) {
   child.signal(number);
   child.signal(SIGCONT);

@@ -1,5 +1,4 @@
-// What is on the disk after writing has failed or was cut short: the file that was there before, or
-// the new one, whole.
+// The disk after a failed or interrupted write: the old file or the new one, complete.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -36,7 +35,7 @@ using testing::Not;
 
 class Faults : public test::Program {
  protected:
-  /// Hills of two triangles a cell; other ones for another seed.
+  /// Writes hills with two triangles a cell; each seed gives other hills.
   void write_hills(const std::string& name, int cells, int seed) const {
     std::ostringstream off;
     const int side = cells + 1;
@@ -77,7 +76,7 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
       result = run(arguments);
     }
     EXPECT_EQ(result.exit_code, 5) << result.err;
-    EXPECT_THAT(result.err, Names(output, "File too large"));  // what the system says then
+    EXPECT_THAT(result.err, Names(output, "File too large"));  // the system's message
     EXPECT_EQ(contents(output), before);
     EXPECT_THAT(names(), Each(Not(HasSubstr(".tmp"))));
   };
@@ -85,10 +84,10 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
     ASSERT_EQ(run({"convert", "scene.off", output}).exit_code, 0);
     expect(output, {"convert", "large.off", output, "--force"}, 20000);
   }
-  // So small that it fails when the last of it is flushed.
+  // This limit is so small that the last flush fails.
   expect("out.ply", {"convert", "scene.off", "out.ply", "--force"}, 200);
 
-  // Images: one, the first of several, and their contact sheet, which is larger than each.
+  // Images: a single one, the first of several, and their contact sheet, which is larger than each.
   const std::vector<std::string> orbit{"render",  "scene.off", "--size", "160x120",
                                        "--orbit", "3",         "-o",     "view_%d.png"};
   ASSERT_EQ(run({"render", "scene.off", "-o", "picture.png"}).exit_code, 0);
@@ -105,7 +104,7 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
     largest = std::max(largest, fs::file_size(folder / ("view_" + std::to_string(i) + ".png")));
   ASSERT_GT(fs::file_size(folder / "contact_sheet.png"), largest);
   expect("contact_sheet.png", orbit, largest);
-  EXPECT_EQ(views(), before) << "the same images again, whole";
+  EXPECT_EQ(views(), before) << "the same images again, complete";
 }
 
 TEST_F(Faults, ADiskWithoutSpaceLeavesWhatWasThere) {
@@ -117,7 +116,8 @@ TEST_F(Faults, ADiskWithoutSpaceLeavesWhatWasThere) {
   for (const std::string output : {"disk/out.glb", "disk/out.ply", "disk/export/"}) {
     const ChildResult result =
         test::run_on_disk(80, {"convert", "large.off", output, "--force"}, folder);
-    if (result.exit_code == test::no_disk) GTEST_SKIP() << "no disk to fill: " << result.err;
+    if (result.exit_code == test::no_disk)
+      GTEST_SKIP() << "cannot mount a small disk: " << result.err;
     EXPECT_EQ(result.exit_code, 5);
     EXPECT_THAT(result.err, Names("No space left on device"));
     EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk")) << output;
@@ -135,13 +135,13 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   fs::permissions(folder, fs::perms::all);
   fs::permissions(folder / "scene.off", fs::perms(0644));
   test::make_streams_for_all(folder);
-  fs::permissions(folder / "locked/out.glb", fs::perms(0666));  // it is the folder that forbids
+  fs::permissions(folder / "locked/out.glb", fs::perms(0666));  // only the folder forbids writing
   fs::permissions(folder / "locked", fs::perms(0555));
   std::vector<ChildResult> results;
   {
     const Nobody nobody;
     if (::eaccess(TUREEN_PROGRAM, X_OK) != 0)
-      GTEST_SKIP() << TUREEN_PROGRAM << " is not for everybody";
+      GTEST_SKIP() << TUREEN_PROGRAM << " is not executable for every user";
     for (const char* output : {"locked/out.glb", "locked/out.ply", "locked/export/"})
       results.push_back(run({"convert", "scene.off", output, "--force"}));
   }
@@ -153,7 +153,7 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   EXPECT_EQ(contents("locked"), before);
 }
 
-/// What happens to a folder and to the names beside it, in the order in which it happened.
+/// The events of a folder and of the names beside it, in order.
 class Watch {
  public:
   explicit Watch(const fs::path& folder)
@@ -167,8 +167,8 @@ class Watch {
 
   bool watches() const { return beside_ >= 0 && inside_ >= 0; }
 
-  /// One letter each: `+` something takes the folder's name, `-` something with that name goes, `i`
-  /// one or more changes in the folder that was there at first, whatever its name is by then.
+  /// One letter an event. `+`: the folder's name appears. `-`: the folder's name disappears. `i`:
+  /// changes inside the original folder, whatever its current name.
   std::string changes_seen() {
     std::string seen;
     alignas(inotify_event) char bytes[4096];
@@ -190,28 +190,29 @@ class Watch {
   std::string name_;
 };
 
-// An exchange is told as the new folder's coming and then the old one's going; where the old one
-// is removed or moved away first, its going comes first.
+// An exchange reports the new folder first, then the removal of the old one. If the program removed
+// or moved the old one first, its removal would come first.
 TEST_F(Faults, AFolderThatIsReplacedIsThereAtEveryMoment) {
   write_scene();
   for (const char* name : {"a", "b"}) fs::create_directory(folder / name);
   if (::renameat2(AT_FDCWD, (folder / "a").c_str(), AT_FDCWD, (folder / "b").c_str(),
                   RENAME_EXCHANGE) != 0)
-    GTEST_SKIP() << "no exchange of two names on this disk: " << std::strerror(errno);
+    GTEST_SKIP() << "this disk cannot exchange two names: " << std::strerror(errno);
   ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
   Watch watch(folder / "export");
-  if (!watch.watches()) GTEST_SKIP() << "no watching of folders: " << std::strerror(errno);
+  if (!watch.watches()) GTEST_SKIP() << "cannot watch folders: " << std::strerror(errno);
   const ChildResult result = run({"convert", "scene.off", "export/", "--force"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(watch.changes_seen(), "+-i") << "the new one comes, the old one goes and is emptied";
+  EXPECT_EQ(watch.changes_seen(), "+-i")
+      << "the new one appears, then the old one disappears and is emptied";
 }
 
-/// Ends conversions over an old file at moments from their beginning to their end, and behind it.
+/// Ends conversions over an old file at moments from their start to beyond their end.
 TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
   constexpr unsigned seed = 7;
   SCOPED_TRACE("seed " + std::to_string(seed));
   write_hills("old.off", 40, 0);
-  // So large that it is asked several times whether Ctrl-C was pressed.
+  // So large that the program checks for Ctrl-C several times.
   write_hills("new.off", 300, 1);
   std::minstd_rand random(seed);
   for (const std::string output : {"out.glb", "export"}) {
@@ -219,7 +220,7 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
     const auto target = [&](const std::string& name) { return is_folder ? name + "/" : name; };
     fs::create_directories(folder / "a");
     fs::create_directories(folder / "b");
-    // The name is in the file.
+    // The file contains its name, so both folders use the same one.
     ASSERT_EQ(run({"convert", "old.off", target("a/" + output)}).exit_code, 0);
     auto whole = std::chrono::microseconds::max();
     for (int i = 0; i < 3; ++i) {
@@ -232,7 +233,7 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
     ASSERT_NE(before, after);
     for (const int signal : {SIGKILL, SIGINT}) {
       std::vector<Moment> moments = test::moments_of(whole, 14, random);
-      // While the new one is written, and between its taking the old one's place and the end.
+      // While the new file is written, and between the replacement of the old one and the end.
       moments.push_back({.until = Moment::Until::written, .path = output});
       moments.push_back({.until = Moment::Until::replaced, .path = output});
       int cut_short = 0, replaced = 0;
@@ -247,7 +248,8 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
         EXPECT_TRUE(now == before || now == after)
             << output << " after signal " << signal << " at " << moment.after.count() << " us";
         replaced += now == after;
-        // Ctrl-C as late as that is heard no more: the old one, or the new one after all.
+        // Ctrl-C at this moment may come too late: the old or the new file is correct. SIGKILL
+        // leaves the old one.
         if (came && moment.until == Moment::Until::written && signal == SIGKILL) {
           EXPECT_TRUE(now == before);
         }
@@ -260,17 +262,17 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
         }
         ++cut_short;
         if (signal == SIGKILL) {
-          test::remove_temporaries(folder);  // nobody else could
+          test::remove_temporaries(folder);  // a killed program cannot
         } else {
           EXPECT_THAT(names(), Each(Not(HasSubstr(".tmp"))));
-          if (result.exit_code != -1) {  // which is before anything was made
+          if (result.exit_code != -1) {  // -1: the signal came before the program had made anything
             EXPECT_EQ(result.exit_code, 5) << result.err;
           }
         }
       }
       const int sent = int(moments.size());
       EXPECT_GT(cut_short, 0) << "no moment was early enough";
-      EXPECT_LT(replaced, sent) << "the old one was never left";
+      EXPECT_LT(replaced, sent) << "the old one never remained";
       EXPECT_GT(replaced, 0) << "no moment was late enough";
       const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
       test::leave_measured(

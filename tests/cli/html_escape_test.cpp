@@ -23,7 +23,7 @@ TEST(HtmlEscaped, WhatIsNoTextIsReplaced) {
     const std::string escaped = html_escaped("a" + bad + "b");
     EXPECT_THAT(escaped, StartsWith("a" + replacement)) << bad;
     EXPECT_EQ(escaped.back(), 'b');
-    EXPECT_EQ(html_escaped(escaped), escaped) << "it is text now";
+    EXPECT_EQ(html_escaped(escaped), escaped) << "the result is valid text";
   }
   EXPECT_EQ(html_escaped(std::string("a\0b", 3)), "a" + replacement + "b");
 }

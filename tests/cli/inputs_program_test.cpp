@@ -1,4 +1,5 @@
-// Inputs that are no files, or that may not be read: told as what they are, and never waited for.
+// Inputs that are not files, or that may not be read: the error names the kind, and the program
+// does not wait.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -67,13 +68,13 @@ TEST_F(Inputs, ThatMayNotBeReadAreNotToldAsMissing) {
     }
   }
   fs::permissions(folder / "locked", fs::perms::owner_all);
-  if (!may_run) GTEST_SKIP() << TUREEN_PROGRAM << " is not for everybody";
+  if (!may_run) GTEST_SKIP() << TUREEN_PROGRAM << " is not executable for every user";
 }
 
 TEST_F(Inputs, ThatAreNoFilesAreRefusedAtOnce) {
   write_scene();
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0644), 0);
-  // Nobody ever writes into it: whoever opened it would wait for good.
+  // No process writes into the pipe: a program that opened it would wait forever.
   for (const char* file : {"pipe", "/dev/zero"})
     for (const auto& arguments : readers(file)) expect(arguments, file);
 }

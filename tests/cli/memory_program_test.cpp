@@ -1,4 +1,4 @@
-// --max-memory from outside: every command that reads scenes or datasets has it and obeys it.
+// Program tests of --max-memory: every command that reads scenes or datasets applies it.
 #include <gmock/gmock.h>
 
 #include "tests/cli/program_fixture.hpp"
@@ -59,7 +59,7 @@ TEST_F(MaxMemory, IsInTheHelpAndRefusedWhereItIsNone) {
 
 TEST_F(MaxMemory, IsTheWindowsToo) {
   const ChildResult help = run({"view", "--help"});
-  if (help.exit_code != 0) GTEST_SKIP() << "no window was built: " << help.err;
+  if (help.exit_code != 0) GTEST_SKIP() << "built without the window: " << help.err;
   EXPECT_THAT(help.out, Names("--max-memory"));
   const ChildResult result = run({"view", "--max-memory", "much"});
   EXPECT_EQ(result.exit_code, 2);

@@ -1,4 +1,4 @@
-// Permissions stop nobody who is root, as tests in containers are: they are tried as somebody else.
+// Root ignores permissions, and tests in containers run as root: these tests run as another user.
 #pragma once
 
 #include <unistd.h>
@@ -10,15 +10,15 @@
 
 namespace tureen::test {
 
-/// Children that start meanwhile are nobody's where the test is root's, whom no permission stops.
-/// Theirs is the real user too: a program whose real and effective users differ may not be traced,
-/// not even by itself, and a leak checker has to.
+/// While it exists, new children run as user 65534 if the test runs as root. Their real user
+/// changes, too: a program with different real and effective users may not be traced, not even by
+/// itself, and the leak checker traces it.
 class Nobody {
  public:
   Nobody() : was_root_(::geteuid() == 0) {
-    // The saved user stays root, to come back by.
+    // The saved user stays root, so that the destructor can restore it.
     if (was_root_ && (::setreuid(nobody, 0) != 0 || ::seteuid(nobody) != 0))
-      throw std::runtime_error("root cannot be nobody");
+      throw std::runtime_error("cannot change the user from root");
   }
   Nobody(const Nobody&) = delete;
   Nobody& operator=(const Nobody&) = delete;
@@ -31,7 +31,7 @@ class Nobody {
   bool was_root_;
 };
 
-/// The files in `folder` that take what children say (child.cpp), for everybody to write.
+/// Creates the files in `folder` for the output of children (child.cpp), writable for every user.
 inline void make_streams_for_all(const std::filesystem::path& folder) {
   for (const char* stream : {"stdout.txt", "stderr.txt"}) {
     const std::ofstream made(folder / stream, std::ios::app);

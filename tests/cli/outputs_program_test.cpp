@@ -1,4 +1,4 @@
-// Where outputs go: through links, never over what is no file or is protected, and told of before
+// Where outputs go: through links, and never over special or protected files. Errors come before
 // anything is read.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -23,7 +23,7 @@ class Outputs : public test::Program {
   void SetUp() override {
     Program::SetUp();
     write_scene();
-    // No command gets so far as to read it.
+    // No command reads it: each fails earlier.
     write("bad.off", "COFF\nnonsense\n");
     write_png("a.png", Image8(8, 8));
     write("log.jsonl", "");
@@ -43,7 +43,7 @@ class Outputs : public test::Program {
 TEST_F(Outputs, GoWhereLinksLeadAndTheLinksStay) {
   fs::create_directory(folder / "far");
   const auto is_link = [&](const char* name) { return fs::is_symlink(folder / name); };
-  fs::create_symlink("far/new.ply", folder / "new.ply");  // which leads nowhere yet
+  fs::create_symlink("far/new.ply", folder / "new.ply");  // its target does not exist yet
   EXPECT_EQ(run({"convert", "scene.off", "new.ply"}).exit_code, 0);
   EXPECT_TRUE(is_link("new.ply"));
   EXPECT_EQ(triangles("far/new.ply"), 3u);
@@ -108,10 +108,10 @@ TEST_F(Outputs, ReplaceNothingInFoldersOfInputs) {
     expect({"convert", "export", output, "--force"}, 2, "export");
   expect({"render", "export", "-o", "export/lut0.png"}, 2, "export/lut0.png");
   expect({"render", "export", "--orbit", "2", "-o", "export/lut%d.png"}, 2, "lut0.png");
-  // What would be replaced as a whole takes what lies in it along.
+  // Replacing a whole folder would remove the input in it.
   expect({"convert", "export/mesh.ply", "export", "--force"}, 2, "export/mesh.ply");
   EXPECT_EQ(Input::open(folder / "export/mesh.ply").read_rest(), before);
-  // What is not there yet may come, once.
+  // A new file may be created in the folder, but not replaced.
   EXPECT_EQ(run({"convert", "export", "export/scene.glb"}).exit_code, 0);
   expect({"convert", "export", "export/scene.glb", "--force"}, 2, "scene.glb");
 }
@@ -125,7 +125,7 @@ TEST_F(Outputs, KeepThePermissionsOfWhatTheyReplace) {
 
 TEST_F(Outputs, InFoldersDoNotDependOnWhatElseIsThere) {
   write_scene();
-  // As where somebody keeps a checkout of this project.
+  // As in a folder with a checkout of this project.
   fs::create_directory(folder / "tureen");
   EXPECT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
   fs::create_symlink("nowhere", folder / "views");
@@ -148,7 +148,7 @@ TEST_F(Outputs, DoNotReplaceWhatIsWriteProtected) {
   write("precious.ply", "precious");
   write_scene();
   ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
-  // Where a link leads counts, not where it lies.
+  // The folder of the link's target counts, not the folder of the link.
   fs::create_directory(folder / "locked");
   fs::create_symlink("locked/export", folder / "link");
   fs::permissions(folder / "locked", fs::perms(0555));
@@ -157,7 +157,8 @@ TEST_F(Outputs, DoNotReplaceWhatIsWriteProtected) {
   fs::permissions(folder / "precious.ply", fs::perms(0444));
   test::make_streams_for_all(folder);
   const Nobody nobody;
-  if (::eaccess(TUREEN_PROGRAM, X_OK) != 0) GTEST_SKIP() << TUREEN_PROGRAM << " is not for all";
+  if (::eaccess(TUREEN_PROGRAM, X_OK) != 0)
+    GTEST_SKIP() << TUREEN_PROGRAM << " is not executable for every user";
   expect({"convert", "bad.off", "precious.ply", "--force"}, 5, "precious.ply");
   expect({"convert", "bad.off", "export/", "--force"}, 5, "export");
   expect({"convert", "bad.off", "link"}, 5, "Permission denied");
@@ -170,7 +171,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
   expect({"convert", "bad.off", "nowhere/out.ply"}, 5, "nowhere/out.ply");
   expect({"convert", "bad.off", "nowhere/export/"}, 5, "nowhere");
   expect({"convert", "bad.off", "folder.ply", "--force"}, 5, "folder.ply");
-  // --force would change nothing, and is not promised to.
+  // --force would change nothing here, so the error does not mention it.
   expect({"convert", "bad.off", "folder.ply"}, 5, "folder.ply");
   expect({"convert", "bad.off", "file"}, 2, "file");
   expect({"convert", "bad.off", "file", "--force"}, 2, "file");
@@ -179,7 +180,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
   expect({"convert", "bad.off", "out.gltf"}, 2, ".glb");
   expect({"convert", "bad.off", "."}, 2, "bad.off");
   for (const char* name : {".ply", ".gltf", ".html"}) expect({"convert", "bad.off", name}, 2, name);
-  expect({"convert", "bad.off", ".hidden"}, 3, "bad.off");  // a folder like others
+  expect({"convert", "bad.off", ".hidden"}, 3, "bad.off");  // a folder name
   expect({"render", "bad.off", "-o", "nowhere/out.png"}, 5, "nowhere");
   expect({"render", "bad.off", "--orbit", "3", "-o", "nowhere/o.png"}, 5, "nowhere");
   expect({"render", "bad.off", "--turntable", "1", "-o", "nowhere/o.png"}, 5, "nowhere");

@@ -1,4 +1,4 @@
-// The parts of the program that are libraries in themselves.
+// Parts of the program that are libraries.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(Suggestion, NamesTheNearestAndNothingThatIsFar) {
   const std::vector<std::string> known{"render", "info", "convert", "compare"};
   EXPECT_EQ(nearest("covnert", known), "convert");
   EXPECT_EQ(nearest("inf", known), "info");
-  EXPECT_EQ(nearest("comp", known), "compare");  // it begins so
+  EXPECT_EQ(nearest("comp", known), "compare");  // a prefix
   EXPECT_EQ(nearest("tradeoff", known), "");
   EXPECT_EQ(nearest("", known), "");
 }
@@ -76,7 +76,7 @@ TEST(Report, WritesNumbersForPeople) {
   EXPECT_EQ(bytes_text(34u << 20), "34 MiB");
 }
 
-/// What a Progress writes to a stream while a clock of our own goes on.
+/// The text that a Progress writes to a stream, with a simulated clock.
 std::string progress_text(bool terminal, const std::vector<std::pair<double, double>>& updates,
                           const std::string& detail = {}) {
   std::FILE* stream = std::tmpfile();
@@ -103,7 +103,7 @@ TEST(Progress, IsSilentWhenWorkIsDoneAtOnce) {
 TEST(Progress, DrawsABarOnATerminalAndWipesIt) {
   const std::string text = progress_text(true, {{1.0, 0.5}, {1.01, 0.6}, {1.2, 2.0}});
   EXPECT_THAT(text, HasSubstr("working [###############...............] 50 %"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("60 %")));  // too soon after the last
+  EXPECT_THAT(text, testing::Not(HasSubstr("60 %")));  // too soon after the last update
   EXPECT_THAT(text, HasSubstr("100 %"));               // never more
   EXPECT_THAT(text, testing::EndsWith("\r\033[K"));
 }
@@ -123,7 +123,7 @@ TEST(ContactSheet, HoldsEveryImageInAGrid) {
   std::vector<Image8> images;
   for (int i = 0; i < 5; ++i) images.emplace_back(640, 320, glm::u8vec4(10 * i, 0, 0, 255));
   const Image8 sheet = contact_sheet(images);
-  // Five of 320 x 160 stand best in two columns and three rows.
+  // The best grid for five images of 320 x 160 has two columns and three rows.
   EXPECT_EQ(sheet.width, 2 * 328 + 8);
   EXPECT_EQ(sheet.height, 3 * 168 + 8);
   for (int i = 0; i < 5; ++i)
@@ -152,7 +152,7 @@ TEST(Views, FrameTheSceneUnlessToldOtherwise) {
   EXPECT_EQ(camera.width, 1280);
   EXPECT_EQ(camera.height, 720);
   EXPECT_NEAR(2 * std::atan(0.5 * camera.height / camera.fy), 0.698131700797732, 1e-12);  // 40 deg
-  // It looks at the centre, from the front (-y), the right (+x) and above (+z).
+  // The camera looks at the centre, from the front (-y), the right (+x) and above (+z).
   const glm::dvec3 from = camera.eye() - glm::dvec3(10, 0, 0);
   EXPECT_LT(from.y, 0);
   EXPECT_GT(from.x, 0);
@@ -180,7 +180,7 @@ TEST(Views, EyeAndTargetAreInTheWorld) {
   const Camera camera = resolve_views(options, box_scene(), "").cameras[0];
   EXPECT_LT(glm::length(camera.eye() - glm::dvec3(10, -4, 0)), 1e-12);
   EXPECT_NEAR(camera.fy, 25, 1e-12);  // half the height times cot 45
-  // Without a target it looks at the centre of the scene.
+  // Without a target, the camera looks at the centre of the scene.
   const glm::dvec3 forward = -camera.world_from_view_rotation()[2];
   EXPECT_LT(glm::length(forward - glm::dvec3(0, 1, 0)), 1e-12);
   options.target = options.eye;

@@ -1,4 +1,4 @@
-// For tests that run the program on photographs: those that it took itself.
+// For tests that run the program on photographs, which it draws itself.
 #pragma once
 
 #include "scene/camera.hpp"
@@ -15,8 +15,8 @@ class ProgramWithPhotographs : public Program {
     return look_at(eye, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
   }
 
-  /// The dataset "data", as NeRF-synthetic has them: two views to test, and some to train, all of
-  /// them images that the program draws of `scene`.
+  /// Makes the dataset "data" in the layout of NeRF-synthetic: two test views, and some training
+  /// views. All of them are images of `scene` by the program.
   void photograph(const std::string& scene, int training_views = 1) const {
     std::filesystem::create_directories(folder / "data/test");
     std::filesystem::create_directories(folder / "data/train");

@@ -1,4 +1,4 @@
-// For tests that run the program: a folder of its own for each, kept where the test fails.
+// For tests that run the program: a separate folder for each, kept if the test fails.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class Program : public testing::Test {
     Input input = Input::open(folder / name);
     return read_image(input);
   }
-  /// Two coloured triangles, z up, and one that repeats the first.
+  /// Writes two coloured triangles, z up, and a third that repeats the first.
   void write_scene() const {
     write("scene.off",
           "COFF\n4 3 0\n-1 0 -1\n1 0 -1\n0 0 1\n0 1 0\n"

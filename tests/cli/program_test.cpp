@@ -1,4 +1,4 @@
-// The program from outside: exit codes, what it says, and what it leaves on the disk.
+// Program tests: exit codes, messages, and files on the disk.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST_F(Program, CompareReportsAndFailsPastItsTolerance) {
   EXPECT_EQ(failed.exit_code, 1);
   EXPECT_THAT(failed.err, Names("max_abs", 0.2, 0.1));
   EXPECT_EQ(nlohmann::json::parse(failed.out)["passed"], false);
-  // More is better for the PSNR: 43 dB here.
+  // A higher PSNR is better: 43 dB here.
   EXPECT_EQ(
       run({"compare", "a.png", "b.png", "--tolerance", "40", "--metric", "psnr_db"}).exit_code, 0);
   EXPECT_EQ(
@@ -246,7 +246,7 @@ TEST_F(Program, RenderDrawsAndReports) {
   const Image8 image = read_png("picture.png");
   EXPECT_EQ(image.width, 64);
   EXPECT_EQ(image.height, 48);
-  // From the front the red triangle hides the green one; the corners are background.
+  // From the front, the red triangle hides the green one. The corners show the background.
   EXPECT_EQ(image.at(32, 24), glm::u8vec4(255, 0, 0, 255));
   EXPECT_EQ(image.at(0, 0), glm::u8vec4(0, 0, 0, 255));
   EXPECT_THAT(result.err, Names("picture.png"));
@@ -264,7 +264,7 @@ TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
     const Image8 image = read_png("picture.png");
     EXPECT_EQ(image.width, 64);
     EXPECT_EQ(image.height, 48);
-    std::size_t between = 0;  // pixels that are neither red nor background
+    std::size_t between = 0;  // pixels between red and background
     for (const glm::u8vec4& pixel : image.pixels) between += pixel.r > 0 && pixel.r < 255;
     return between;
   };
@@ -295,7 +295,7 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
               ElementsAre("width", "height", "context", "renderer", "software", "triangles",
                           "frame_ms", "plan", "specialisations", "output"));
-  // Two faces at one place above the middle; below it the third lies behind them.
+  // Two faces overlap above the middle. Below it, the third lies behind them.
   const Image8 counts = read_png("out.png");
   EXPECT_EQ(counts.at(32, 20), glm::u8vec4(0x61, 0x13, 0x66, 255));
   EXPECT_NE(counts.at(32, 30), counts.at(32, 20));
@@ -376,7 +376,7 @@ TEST_F(Program, RenderTakesCamerasFromAFile) {
   EXPECT_EQ(draw("cameras.json", "a.png").exit_code, 0);
   EXPECT_EQ(read_png("a.png").at(16, 12), glm::u8vec4(255, 0, 0, 255));
   EXPECT_EQ(draw("cameras.json:1", "b.png").exit_code, 0);
-  EXPECT_EQ(read_png("b.png").width, 20);  // its own size; it looks away
+  EXPECT_EQ(read_png("b.png").width, 20);  // the camera's own size; it looks away
   EXPECT_EQ(read_png("b.png").at(10, 5), glm::u8vec4(0, 0, 0, 255));
   EXPECT_EQ(draw("cameras.json:all", "c.png").exit_code, 0);
   EXPECT_TRUE(exists("c_01.png"));

@@ -1,4 +1,4 @@
-// The quality of a scene's file, and edits of its data, as the program applies them.
+// The program applies the quality from a scene's file, and edits of its data.
 #include <gmock/gmock.h>
 
 #include "formats/scene_file.hpp"
@@ -15,7 +15,7 @@ const std::filesystem::path example =
 
 class QualityProgram : public Program {
  protected:
-  /// The example with a quality of its own.
+  /// Writes the example with this quality.
   void write_fine(const Quality& quality) const {
     Scene scene = read_scene(example);
     scene.quality = quality;
@@ -82,7 +82,7 @@ TEST_F(QualityProgram, ConvertAppliesEdits) {
   EXPECT_EQ(run({"convert", example.string(), "worse.glb", "--lattice-level", "8"}).exit_code, 2);
 }
 
-// Options of earlier versions that are gone, and what each is replaced by.
+// Options of earlier versions, and their replacements.
 TEST_F(QualityProgram, OptionsThatAreGoneNameTheirReplacement) {
   const std::string scene = example.string();
   const std::vector<std::vector<std::string>> gone = {

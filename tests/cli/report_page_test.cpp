@@ -1,6 +1,5 @@
-// The report page: the data is in it as it was, whatever it holds, and what is no result is
-// refused.
-#include "jobs/results/report_page.hpp"
+// The report page contains its data unchanged, and rejects files that are not results.
+#include "cli/report_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ using test::ErrorIn;
 using ::testing::SizeIs;
 using tureen::test::TemporaryFolder;
 
-/// Ends a script element, opens a comment, and is no ASCII.
+/// Ends a script element, opens a comment, and has a non-ASCII character.
 const std::string hostile = "</script><!-- \xc3\xa9 \\ \" &lt;";
 
 json measurements() {
@@ -54,7 +53,14 @@ json bench() {
     "device": {"context": "", "renderer": "", "vendor": "", "version": "", "software": true},
     "protocol": {"clock": "", "rounds": 1, "aa_spread": 0},
     "load": {"read_ms": 1, "plan_ms": 1, "upload_ms": 1, "peak_mib": 1, "device_mib": 1},
-    "configurations": [], "measurements": [], "notes": ["</script>"], "key": "not known"})");
+    "configurations": [],
+    "measurements": [{"configuration": "tureen", "camera_set": "orbit:1", "size": "64x48",
+      "width": 64, "height": 48, "views": 1, "rounds": 1, "frames_per_sample": 1, "frames": 1,
+      "frame_ms": {"mean": 1, "median": 1, "p95": 1, "p99": null, "min_of_medians": 1, "spread": 0},
+      "fps": 1000, "low_1_percent_fps": null, "aa_spread": 0, "stable": true, "passes_ms": null,
+      "passes_gap": "no_timers", "passes_reason": "a", "gpu_ms": null, "views_ms": [1],
+      "pixels_hash": "0", "picture": null}],
+    "notes": ["</script>"], "key": "not known"})");
 }
 
 /// The data that the page's script finds.
@@ -93,7 +99,7 @@ TEST_F(ReportPage, HoldsTheDataOfEveryKindAsItWas) {
       ASSERT_THAT(data, SizeIs(1)) << kind;
       EXPECT_EQ(data[0]["kind"], kind);
       EXPECT_EQ(data[0]["data"], document) << kind;
-      EXPECT_EQ(data[0]["folder"], "") << "beside the page";
+      EXPECT_EQ(data[0]["folder"], "") << "the file is beside the page";
     }
   }
 }

@@ -1,4 +1,4 @@
-// `tureen convert SCENE OUT.html`: the scene comes out of the page as it went in.
+// `tureen convert SCENE OUT.html`: the page contains the scene unchanged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,8 +39,8 @@ class ScenePage : public test::Program {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  /// The scene in the page, as bytes in a string; fails the test where anything around it differs
-  /// from the template.
+  /// The scene in the page, as a string of bytes. Fails the test if the page around it differs from
+  /// the template.
   std::string scene_in(const std::string& page, const std::string& escaped_name) const {
     const std::string text = text_of(page);
     const std::string before =
@@ -56,7 +56,7 @@ class ScenePage : public test::Program {
     return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
   }
 
-  /// A part of the example that is quickly compressed, under a name that must be escaped.
+  /// Writes a part of the example that compresses quickly, under a name that needs escaping.
   void write_part() const {
     Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
     auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -91,7 +91,7 @@ TEST_F(ScenePage, HoldsOtherScenesAsTheGlbThatConvertMakes) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(scene_in("Scene.HTML", "scene") == text_of("scene.glb"));
   EXPECT_FALSE(exists("Scene.HTML.glb"));
-  // Turned, a file of ours is written anew.
+  // With --up, the program writes its own files anew.
   ASSERT_EQ(run({"convert", "scene.glb", "turned.glb", "--up", "1,0,0"}).exit_code, 0);
   ASSERT_EQ(run({"convert", "scene.glb", "turned.html", "--up", "1,0,0"}).exit_code, 0);
   EXPECT_TRUE(scene_in("turned.html", "scene") == text_of("turned.glb"));
@@ -113,13 +113,14 @@ TEST_F(ScenePage, MayBeCompressed) {
   EXPECT_TRUE(scene_in("compressed.html", part_name) == text_of("compressed.glb"));
   EXPECT_FALSE(exists("compressed.html.glb"));
   EXPECT_FALSE(exists("compressed.html.glb.export"));
-  // What is compressed stays so.
+  // A compressed scene stays compressed.
   convert("compressed.glb", "again.html", false);
   EXPECT_TRUE(scene_in("again.html", part_name) == text_of("compressed.glb"));
 }
 
 TEST_F(ScenePage, SpansManyPiecesAndLengths) {
-  // Scenes beyond the pieces that go through at a time, of lengths that leave 0, 1 and 2 bytes.
+  // Scenes larger than the pieces that are written at a time. Their lengths modulo 3 are 0, 1 and
+  // 2.
   std::set<std::size_t> remainders;
   for (const int faces : {4000, 4001, 4002, 4003, 4004, 4005}) {
     std::string off = "COFF\n3 " + std::to_string(faces) + " 0\n0 0 0\n1 0 0\n0 1 0\n";
@@ -187,7 +188,7 @@ TEST_F(ScenePage, FindsTheTemplateNearTheProgram) {
     const ChildResult result = convert();
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(text_of("page.html"), testing::StartsWith(std::string(place) + "<script"))
-        << "the folder above goes first";
+        << "share/ beside bin/ takes precedence";
   }
 }
 

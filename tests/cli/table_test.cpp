@@ -18,7 +18,7 @@ TEST(Table, ColumnsAreAsWideAsTheirWidestCell) {
                                          "a      100.00  equal",    //
                                          "näher       –",           //
                                          "c"))
-      << "letters of several bytes count once; no line ends in spaces";
+      << "letters of several bytes have width 1; no line ends in spaces";
 }
 
 TEST(Table, RemarksWidenNoColumn) {

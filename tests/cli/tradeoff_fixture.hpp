@@ -7,9 +7,9 @@
 
 namespace tureen::test {
 
-/// Of the scene lego: drawing has, in this order, defaults, baseline, lattice level 2,
-/// shaded once a fragment, generic defaults and baked colour; antialiasing defaults and half the
-/// resolution.
+/// A result for the scene lego. The drawing panel has, in this order: defaults, baseline, lattice
+/// level 2, shaded once a fragment, generic defaults, and baked colour. The antialiasing panel has
+/// defaults and half the resolution.
 inline nlohmann::json lego() {
   std::ifstream stream(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/tradeoff.json");
   return nlohmann::json::parse(stream);

@@ -1,4 +1,4 @@
-// `tureen tradeoff` from outside, on a small random soup.
+// Program tests of `tureen tradeoff`, on a small random soup.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ class Tradeoff : public test::ProgramWithPhotographs {
     scene.primitives = test::random_soup(3, {.kind = test::Kind::lattice_mlp, .level = 2});
     tureen::write_scene(scene, folder / "soup.glb");
   }
-  /// Of the antialiasing panel, by the values of its settings that are not at their default; null
-  /// where it was not measured.
+  /// The configuration in the antialiasing panel with these non-default settings; null if it was
+  /// not measured.
   static nlohmann::json antialiased(const nlohmann::json& document,
                                     const std::map<std::string, std::string>& values) {
     const auto& all = document["antialiasing"]["configurations"];
@@ -57,7 +57,7 @@ class Tradeoff : public test::ProgramWithPhotographs {
 TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   write_soup();
   const std::string stored = text_of("soup.glb");
-  // Limits that the defaults keep to for certain, so that there is a choice.
+  // The defaults certainly satisfy these limits, so that there is a choice.
   const ChildResult result = tradeoff({"--json", "-o", "report", "--write", "fast.glb",
                                        "--least-psnr", "20", "--most-mismatch", "0.2"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -68,9 +68,9 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
 
   const auto& configurations = json["drawing"]["configurations"];
   EXPECT_EQ(configurations[0]["name"], "defaults");
-  // The defaults draw what the oracle draws, up to 8 bits: 58.9 dB where every pixel is covered.
+  // The defaults equal the oracle up to rounding to 8 bits: 58.9 dB if every pixel is covered.
   EXPECT_GT(configurations[0]["e_render"]["psnr_db"], 45);
-  // The grid moves edges, and no setting is to blame for that.
+  // The grid moves edges, which is an error of no setting.
   EXPECT_LT(configurations[0]["e_render_exact"]["psnr_db"],
             configurations[0]["e_render"]["psnr_db"]);
   EXPECT_GT(json["drawing"]["front"].size(), 0u);
@@ -82,7 +82,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   EXPECT_GT(generic, 5);
   EXPECT_GT(coarse, 0);
   ASSERT_GT(json["antialiasing"]["configurations"].size(), 3u);
-  // The reference is 8 x 8 samples a pixel: 2 x 2 of them come nearer to it than one.
+  // The reference has 8 x 8 samples a pixel: 2 x 2 samples are closer to it than one.
   const auto& smooth = json["antialiasing"]["configurations"];
   for (const auto& each : smooth) {
     if (each["knobs"]["supersampling"] == "2") {
@@ -91,11 +91,11 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
     }
   }
 
-  // Fewer samples and more cannot be drawn together.
+  // Reduced resolution and supersampling cannot be combined.
   EXPECT_TRUE(antialiased(json, {{"resolution_scale", "0.5"}, {"supersampling", "2"}}).is_null());
 
   EXPECT_THAT(result.err, Names("fast.glb"));
-  // The new file holds the reduced data, the old one is as it was.
+  // The new file contains the reduced data, and the old file is unchanged.
   EXPECT_EQ(text_of("soup.glb"), stored);
   const Scene kept = read_scene(folder / "fast.glb");
   const auto& soup = std::get<TriangleSoup>(kept.primitives);
@@ -109,7 +109,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
 }
 
-// The photographs are the scene's own images: what draws it as it is meets them exactly.
+// The photographs are the scene's own images, so unreduced drawing equals them exactly.
 TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
   write_soup();
   photograph("soup.glb");
@@ -120,12 +120,13 @@ TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
   EXPECT_EQ(json["e_model"]["photographs"], 2);
   int faithful = 0, coarse = 0, published = 0;
   for (const auto& each : json["drawing"]["configurations"]) {
-    // Generic twins draw the images of another one.
+    // Generic twins draw the images of the specialised configuration, so they have no error of
+    // their own.
     EXPECT_EQ(each["e_model"].is_null(), each["method"] == "tureen --no-specialise");
     if (each["e_model"].is_null()) continue;
     if (each["method"] == "published") {
-      // It truncates what the photographs here do not, but draws the same soup: a wrong image of
-      // this one has less than 30 dB, as lattice level 0 has.
+      // The baseline truncates where the photographs do not, but draws the same soup. A wrong image
+      // of this soup has less than 30 dB, as lattice level 0 has.
       EXPECT_LT(each["e_model"]["psnr_db"], 100);
       EXPECT_GT(each["e_model"]["psnr_db"], 35);
       ++published;
@@ -155,9 +156,9 @@ TEST_F(Tradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
   EXPECT_EQ(fine["judged"], false);
   const auto coarse = antialiased(json, {{"supersampling", "4"}});
   EXPECT_EQ(coarse["judged"], true);
-  // Why it must not be: nothing that antialiases comes as near.
+  // The reason: no other antialiasing comes as close to the reference.
   EXPECT_GT(fine["e_render"]["psnr_db"], coarse["e_render"]["psnr_db"].get<double>() + 3);
-  // Nor does its error make a setting matter.
+  // Its error does not affect the setting's PSNR range either.
   for (const auto& setting : json["antialiasing"]["knobs"])
     if (setting["key"] == "supersampling") {
       EXPECT_LT(setting["psnr_range_db"],
@@ -168,14 +169,14 @@ TEST_F(Tradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
 
 TEST_F(Tradeoff, NeverOverwritesSilently) {
   write_soup();
-  std::ofstream(folder / "old.glb") << "somebody's";
+  std::ofstream(folder / "old.glb") << "precious";
   const ChildResult result = tradeoff({"--write", "old.glb"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, Names("old.glb", "--force"));
   const ChildResult itself = tradeoff({"--write", "soup.glb", "--force"});
   EXPECT_EQ(itself.exit_code, 2);
   EXPECT_THAT(itself.err, Names("soup.glb"));
-  // A dataset that is not there is told before anything is measured.
+  // A missing dataset is an error before anything is measured.
   EXPECT_THAT(tradeoff({"nodata"}).err, AllOf(Names("nodata"), Not(HasSubstr(" %"))));
   EXPECT_EQ(tradeoff({"--write", "fast.ply"}).exit_code, 2);
 }

@@ -1,4 +1,6 @@
-// The JSON of a study, which is made up.
+// The JSON of an invented study.
+#include "cli/tradeoff_report.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -146,7 +148,7 @@ tradeoff::Panel supersampled() {
   return result;
 }
 
-// 8 x 8 samples differ from a reference of 8 x 8 by rounding, whatever they cost.
+// With a reference of 8 x 8 samples, 8 x 8 samples differ only by rounding, at any cost.
 TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
   tradeoff::Panel made = supersampled();
   ASSERT_EQ(made.outcomes[3].applied.quality.supersampling, tradeoff::antialiased_samples);

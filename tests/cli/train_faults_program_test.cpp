@@ -1,5 +1,5 @@
-// What `tureen train` leaves when it is ended at any moment, or the disk is full: the old soup or
-// the new one, whole, and a checkpoint from which it goes on as if nothing had happened.
+// The files of `tureen train` after a signal at any moment, or on a full disk: the old soup or the
+// new one, complete, and a checkpoint. Resuming from it gives the result of an uninterrupted run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ class TrainFaults : public test::Train {
   void SetUp() override {
     Train::SetUp();
     make_dataset();
-    // What was there before is of another seed. The name is in the file.
+    // The old soup has another seed. The file contains its name, so both have the same name.
     for (const char* name : {"old", "whole"}) fs::create_directory(folder / name);
     for (const std::string name : {"old", "whole"}) {
       const Clock::time_point begin = Clock::now();
@@ -53,7 +53,7 @@ class TrainFaults : public test::Train {
     ASSERT_NE(before, after);
   }
 
-  /// As if the run of "old" had just ended.
+  /// Restores the files of the finished run "old".
   void put_old() const {
     for (const std::string& name : test::names_in(folder))
       if (name.rfind("ball.", 0) == 0) fs::remove_all(folder / name);
@@ -61,7 +61,7 @@ class TrainFaults : public test::Train {
       fs::copy_file(folder / "old" / name, folder / name);
   }
 
-  /// Trains on what is there to the end, which is that of the run that was left alone.
+  /// Trains from the present files to the end. The result must equal that of the undisturbed run.
   void expect_to_end_as_if_left_alone() {
     std::vector<std::string> more;
     const bool resumes = exists("ball.checkpoint");
@@ -69,7 +69,7 @@ class TrainFaults : public test::Train {
     const ChildResult result = train("ball.glb", more, steps);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const bool is_same = bytes("ball.glb") == after;
-    EXPECT_TRUE(is_same) << "other bits than the run that was left alone";
+    EXPECT_TRUE(is_same) << "differs from the undisturbed run";
     resumed += resumes;
     resumed_to_end += resumes && is_same;
     EXPECT_FALSE(exists("ball.checkpoint"));
@@ -80,24 +80,25 @@ class TrainFaults : public test::Train {
   }
 
   std::string before, after;
-  std::chrono::microseconds run_time = std::chrono::microseconds::max();  // at least
-  // Runs with --resume, and those of them that came to their end, in the very same file.
+  std::chrono::microseconds run_time = std::chrono::microseconds::max();  // the shortest
+  // Runs with --resume, and those of them that ended with an identical file.
   int resumed = 0, resumed_to_end = 0;
 };
 
-/// Ends trainings at moments from their beginning to behind their end, also while they go on from a
-/// checkpoint: up to three times in a row, then lets them end.
+/// Ends training runs at moments from their start to beyond their end, also while they resume.
+/// After up to three interruptions in a row, the run may finish.
 TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen) {
   constexpr unsigned seed = 11;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::minstd_rand random(seed);
   int all = 0, all_cut_short = 0, half_written = 0;
-  // A file may be whole before the test sees that it is written: up to every second one where six
-  // programs share two cores. That moment is tried again; that all of these pass is beyond chance.
+  // A file may be complete before the test notices that it is written: in up to half of the cases
+  // with six programs on two cores. The test repeats that moment. It is very unlikely that all 40
+  // repetitions miss it.
   int tries_left = 40;
   for (const int signal : {SIGKILL, SIGINT}) {
-    // While each file is written; after the soup took the old one's place; and at any time, early
-    // and late ones in any order, as a run that goes on has less to do than a whole one.
+    // Moments: while each file is written; after the soup replaced the old one; and at any time.
+    // Early and late times are shuffled, because a resumed run is shorter than a whole one.
     std::vector<Moment> moments;
     for (const char* name : {"ball.checkpoint", "ball.checkpoint", "ball.glb"})
       moments.push_back({.after = run_time * (random() % 100) / 400,
@@ -139,7 +140,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
           EXPECT_EQ(temporaries, 1);
         }
         half_written += temporaries;
-        fs::remove(folder / "ball.lock");  // which nobody holds
+        fs::remove(folder / "ball.lock");  // no process holds it
       } else {
         EXPECT_EQ(temporaries, 0);
         EXPECT_FALSE(exists("ball.lock"));
@@ -150,11 +151,11 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
         resumed_to_end += resumes && is_new;
       } else {
         ++cut_short;
-        // Ctrl-C ends a program that has not begun to listen for it as it ends any other.
+        // Until the program handles Ctrl-C, SIGINT ends it like any other program.
         EXPECT_THAT(result.exit_code, AnyOf(-1, signal == SIGINT ? 5 : -1)) << result.err;
       }
       if (result.exit_code == 5) {
-        // Before the first step there is none, and nothing is promised.
+        // Before the first step there is no checkpoint, and the message does not mention --resume.
         EXPECT_TRUE(is_new || exists("ball.checkpoint") ||
                     result.err.find("--resume") == std::string::npos)
             << result.err;
@@ -171,7 +172,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
     all += sent;
     all_cut_short += cut_short;
     EXPECT_GT(cut_short, 0) << "no moment was early enough";
-    EXPECT_LT(replaced, sent) << "the old one was never left";
+    EXPECT_LT(replaced, sent) << "the old one never remained";
     EXPECT_GT(replaced, 0) << "no moment was late enough";
     const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
     test::leave_measured("signals", {{"what", "train over a file"},
@@ -181,8 +182,8 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
                                      {"old", sent - replaced},
                                      {"new", replaced}});
   }
-  EXPECT_GT(resumed, 0) << "nothing went on from a checkpoint";
-  EXPECT_GT(resumed_to_end, 0) << "nothing that went on came to its end";
+  EXPECT_GT(resumed, 0) << "no run resumed from a checkpoint";
+  EXPECT_GT(resumed_to_end, 0) << "no resumed run finished";
   EXPECT_GT(half_written, 0) << "no file was being written when a run was killed";
   test::leave_measured("resumed", {{"sent", all},
                                    {"cut_short", all_cut_short},
@@ -193,7 +194,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
 }
 
 TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
-  // What is said and the log take less, a checkpoint, an image and a soup more.
+  // Messages and log take less than this, in bytes; a checkpoint, an image and a soup take more.
   constexpr rlim_t little = 2000;
   const auto expect_full = [&](const std::vector<std::string>& more, const std::string& file,
                                rlim_t room) {
@@ -206,8 +207,8 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
     }
     EXPECT_EQ(result.exit_code, 5);
     EXPECT_THAT(result.err, Names(file, "File too large"));
-    EXPECT_TRUE(bytes("ball.glb") == before) << "the old soup is not what it was";
-    EXPECT_TRUE(bytes("ball.checkpoint") == checkpoint) << "none, or the one that was there";
+    EXPECT_TRUE(bytes("ball.glb") == before) << "the old soup changed";
+    EXPECT_TRUE(bytes("ball.checkpoint") == checkpoint) << "the checkpoint changed";
     EXPECT_THAT(test::names_in(folder), Each(Not(AnyOf(HasSubstr(".tmp"), EndsWith(".lock")))));
   };
   put_old();
@@ -222,10 +223,11 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   ASSERT_GT(after.size(), 2 * little);
   expect_full({}, "ball.glb", after.size() - 1);
 
-  // Over the checkpoint of a run that goes on: that stays, too, and the run after it ends as if
-  // the disk had never been full.
+  // The disk is full when a resumed run writes its checkpoint. The old checkpoint stays, and the
+  // next run ends as if the disk had never been full.
   put_old();
-  // This one ends behind the third of six: where its image of step 100 should be is a folder.
+  // This run ends after the third of six checkpoints: a folder has the name of its image of step
+  // 100.
   fs::create_directories(folder / "ball.previews/step_100.png");
   std::vector<std::string> until_100 = often;
   until_100.insert(until_100.end(), {"--preview-every", "100"});
@@ -242,13 +244,14 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
 
 TEST_F(TrainFaults, ADiskWithoutSpaceLeavesTheOldSoup) {
   fs::copy(folder / "old", folder / "disk");
-  // What is there, and less than a checkpoint takes.
+  // The size of the present files, and less than a checkpoint.
   int kilobytes = 16;
   for (const std::string& name : test::names_in(folder / "disk"))
     kilobytes += int(fs::file_size(folder / "disk" / name) / 4096 + 1) * 4;
   const ChildResult result =
       test::run_on_disk(kilobytes, arguments("disk/ball.glb", often, steps), folder);
-  if (result.exit_code == test::no_disk) GTEST_SKIP() << "no disk to fill: " << result.err;
+  if (result.exit_code == test::no_disk)
+    GTEST_SKIP() << "cannot mount a small disk: " << result.err;
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_THAT(result.err, Names("ball.checkpoint", "No space left on device"));
   EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk"));
@@ -260,14 +263,14 @@ TEST_F(TrainFaults, WhereNothingMayBeWrittenNothingIs) {
   const auto files = test::contents_of(folder / "locked");
   fs::permissions(folder, fs::perms::all);
   test::make_streams_for_all(folder);
-  for (const auto& [name, content] : files)  // it is the folder that forbids
+  for (const auto& [name, content] : files)  // only the folder forbids writing
     fs::permissions(folder / "locked" / name, fs::perms(0666));
   fs::permissions(folder / "locked", fs::perms(0555));
   ChildResult result;
   {
     const test::Nobody nobody;
     if (::eaccess(TUREEN_PROGRAM, X_OK) != 0)
-      GTEST_SKIP() << TUREEN_PROGRAM << " is not for everybody";
+      GTEST_SKIP() << TUREEN_PROGRAM << " is not executable for every user";
     result = train("locked/ball.glb", often, steps);
   }
   fs::permissions(folder / "locked", fs::perms::owner_all);

@@ -18,7 +18,7 @@ class Train : public Program {
  protected:
   static constexpr int size = 32;
 
-  /// The unit ball, its colour the direction of its surface; one ray a pixel.
+  /// The unit ball; its colour is the surface normal. One ray a pixel.
   static Image8 image(const Camera& camera, bool with_alpha) {
     Image8 image(size, size, with_alpha ? glm::u8vec4(0) : glm::u8vec4(0, 0, 0, 255));
     const glm::dmat3 axes = camera.world_from_view_rotation();
@@ -60,7 +60,7 @@ class Train : public Program {
   static std::vector<std::string> arguments(const std::string& output,
                                             const std::vector<std::string>& more = {},
                                             const std::string& steps = "40") {
-    // A GPU, where there is one, gives other bits.
+    // A GPU would compute other bits.
     std::vector<std::string> all{"train",   "ball", "-o",        output, "--triangles", "100",
                                  "--steps", steps,  "--threads", "2",    "--device",    "cpu"};
     all.insert(all.end(), more.begin(), more.end());
@@ -71,7 +71,7 @@ class Train : public Program {
     return run(arguments(output, more, steps));
   }
   std::string bytes(const std::string& name) const { return bytes_of_file(folder / name); }
-  /// Every file in the test's folder but the dataset's and the streams.
+  /// Every file in the test's folder, except the dataset and the streams.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

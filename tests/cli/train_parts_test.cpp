@@ -1,4 +1,4 @@
-// The parts of `tureen train` that need no training.
+// Parts of `tureen train` that need no training.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

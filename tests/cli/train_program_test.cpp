@@ -1,4 +1,4 @@
-// `tureen train` from outside: on photographs of a coloured ball, 32 pixels a side.
+// Program tests of `tureen train`, on photographs of a coloured ball, 32 pixels a side.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   EXPECT_EQ(json["triangles"], 100);
   EXPECT_EQ(json["test"]["views"], 2);
   EXPECT_EQ(json["non_finite"], 0);
-  // Two renderers and a rounding to bytes between them: see the bound.
+  // The bound allows for two renderers and for rounding to bytes.
   EXPECT_NEAR(json["test"]["psnr_db"].get<double>(), json["trainer_psnr_db"].get<double>(), 0.1);
 
   const Scene scene = read_scene(folder / "ball.glb");
@@ -66,8 +66,8 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
 
 TEST_F(Train, MeasuresItsOwnDrawingWhereTheDeviceCannotDrawTheTestViews) {
   write_split("train", 8, 0, true);
-  // As wide and as low as the trainer takes them; llvmpipe and most devices draw 16,384 pixels a
-  // side.
+  // The widest image that the trainer accepts. llvmpipe and most devices draw at most 16,384 pixels
+  // a side.
   constexpr int width = 32767, height = 11;
   const Camera wide = look_at({4, 0, 0}, {0, 0, 0}, {0, 0, 1}, 0.7, width, height);
   fs::create_directories(folder / "ball/test");
@@ -79,11 +79,12 @@ TEST_F(Train, MeasuresItsOwnDrawingWhereTheDeviceCannotDrawTheTestViews) {
   const ChildResult result = train("ball.glb", {"--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
-  if (json["test"]["drawn_by"] != "trainer") GTEST_SKIP() << "this device draws so many pixels";
+  if (json["test"]["drawn_by"] != "trainer")
+    GTEST_SKIP() << "this device draws 32,767 pixels a side";
   EXPECT_EQ(json["test"]["psnr_db"], json["trainer_psnr_db"]);
   EXPECT_GT(json["trainer_psnr_db"], 0);
   EXPECT_TRUE(exists("ball.glb"));
-  // Without OpenGL that is the reason.
+  // Without OpenGL, that is the reason instead.
   if (run({"render", "ball.glb", "-o", "ball.png"}).exit_code == 0) {
     EXPECT_THAT(result.err, Names("32767x11"));
   }
@@ -93,8 +94,8 @@ TEST_F(Train, EqualSeedsGiveEqualSoupsOnAnyNumberOfThreads) {
   make_dataset();
   ASSERT_EQ(train("a.glb").exit_code, 0);
   fs::create_directories(folder / "b");
-  // Its name is in the file.
-  ASSERT_EQ(train("b/a.glb", {"--threads", "1"}).exit_code, 2);  // twice is once too often
+  // The file contains its name, so both folders use the same one.
+  ASSERT_EQ(train("b/a.glb", {"--threads", "1"}).exit_code, 2);  // --threads is given twice
   std::vector<std::string> one = arguments("b/a.glb");
   *std::find(one.begin(), one.end(), "2") = "1";
   ASSERT_EQ(run(one).exit_code, 0);
@@ -110,7 +111,7 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
   {
     test::Child child(arguments("ball.glb", {}, steps), folder);
-    // The first record tells that it trains.
+    // The first record shows that the training has started.
     ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
     child.signal(SIGINT);
     const ChildResult result = child.wait();
@@ -120,7 +121,7 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   EXPECT_THAT(files(),
               ElementsAre("ball.checkpoint", "ball.jsonl", "whole/ball.glb", "whole/ball.jsonl"));
 
-  // Not silently begun again, and not with other constants or photographs.
+  // The program does not silently restart, or continue with other constants or photographs.
   const auto refused = [&](const std::vector<std::string>& more, const auto&... values) {
     const ChildResult result = train("ball.glb", more, steps);
     EXPECT_EQ(result.exit_code, 2);
@@ -131,20 +132,20 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   refused({"--resume", "--scale", "0.5"}, "r_0.png", 16, 32);
   EXPECT_THAT(train("ball.glb", {"--resume"}, "3001").err, Names("steps", 3001, 3000));
 
-  // What the command line does not name is the checkpoint's.
+  // Without options, the constants are those of the checkpoint.
   const ChildResult result =
       run({"train", "ball", "-o", "ball.glb", "--resume", "--device", "cpu"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   EXPECT_FALSE(exists("ball.checkpoint"));
-  // One log, with each step once.
+  // There is one log, and each step is in it once.
   const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
 }
 
 TEST_F(Train, SaysThatCtrlCBeforeTheFirstStepLeavesNoCheckpoint) {
   make_dataset();
-  // The same photograph so often that reading takes a while.
+  // The same photograph 30,000 times, so that reading takes a while.
   auto document = nlohmann::json::parse(bytes("ball/transforms_train.json"));
   const nlohmann::json frame = document["frames"][0];
   for (int i = 0; i < 30'000; ++i) document["frames"].push_back(frame);
@@ -171,7 +172,7 @@ TEST_F(Train, RefusesACheckpointThatIsAFolder) {
 
 TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   make_dataset();
-  // A log is begun anew: nothing else must be in its place.
+  // The program starts a new log, so it must not replace another file.
   for (const char* log : {"ball/transforms_train.json", "ball.glb"}) {
     const std::string before = bytes(log);
     const ChildResult result = train("ball.glb", {"--log", log});
@@ -180,7 +181,7 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   }
   EXPECT_THAT(files(), IsEmpty());
 
-  // A folder in the checkpoint's place is found before the training.
+  // The program finds a folder in the checkpoint's place before the training.
   fs::create_directories(folder / "ball.checkpoint");
   const ChildResult refused = train("ball.glb");
   EXPECT_EQ(refused.exit_code, 5);
@@ -190,11 +191,11 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
 
   test::Child child(arguments("ball.glb", {"--checkpoint-every", "10"}, "100000"), folder);
   ASSERT_TRUE(child.wait_until([&] { return exists("ball.checkpoint"); }));
-  child.signal(SIGKILL);  // no last words
+  child.signal(SIGKILL);  // it cannot write anything more
   EXPECT_EQ(child.wait().exit_code, -1);
   EXPECT_TRUE(exists("ball.checkpoint"));
   const ChildResult cut = train("ball.glb", {"--resume"});
-  EXPECT_EQ(cut.exit_code, 2);  // it was read
+  EXPECT_EQ(cut.exit_code, 2);  // the checkpoint is readable
   EXPECT_THAT(cut.err, Names("steps", 40, 100000));
   write("ball.checkpoint", bytes("ball.checkpoint").substr(0, 5000));
   const ChildResult damaged = train("ball.glb", {"--resume"});
@@ -220,12 +221,12 @@ TEST_F(Train, TakesItsConstantsFromPresetFileAndOptions) {
   EXPECT_EQ(mixed["steps"], 30);
   EXPECT_EQ(mixed["seed"], 5);
   EXPECT_EQ(mixed["triangles"], 30);
-  EXPECT_EQ(mixed["initial_triangles"], 60);  // in proportion
+  EXPECT_EQ(mixed["initial_triangles"], 60);  // the same proportion as before
   EXPECT_EQ(mixed["max_level"], 1);
   EXPECT_EQ(mixed["min_level"], 1);
   EXPECT_THAT(files(), ElementsAre("few.json"));
 
-  // And trains with them, from the triangles of a scene.
+  // It also trains with them, from the triangles of a scene.
   write_scene();
   const ChildResult result = run(
       {"train", "ball", "-o", "ball.glb", "--config", "few.json", "--init", "scene.off", "--json"});
@@ -284,7 +285,7 @@ TEST_F(Train, TwoRunsDoNotShareAnOutput) {
   EXPECT_THAT(second.err, Names("ball.lock"));
   first.signal(SIGKILL);
   first.wait();
-  EXPECT_TRUE(exists("ball.lock"));  // but nobody holds it
+  EXPECT_TRUE(exists("ball.lock"));  // but no process holds it
   fs::remove(folder / "ball.checkpoint");
   const ChildResult third = train("ball.glb");
   EXPECT_EQ(third.exit_code, 0) << third.err;
@@ -313,7 +314,7 @@ TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
 
 TEST_F(Train, GoesOnWhereNohupLetsItIgnoreTheHangup) {
   make_dataset();
-  const auto before = ::signal(SIGHUP, SIG_IGN);  // what a child inherits
+  const auto before = ::signal(SIGHUP, SIG_IGN);  // a child inherits it
   test::Child child(arguments("ball.glb", {}, "60"), folder);
   ::signal(SIGHUP, before);
   ASSERT_TRUE(child.wait_until([&] { return exists("ball.jsonl"); }));

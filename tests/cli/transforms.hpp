@@ -1,4 +1,4 @@
-// A dataset's transforms_SPLIT.json, put together from cameras.
+// A dataset's transforms_SPLIT.json, assembled from cameras.
 #pragma once
 
 #include <glm/matrix.hpp>
@@ -9,7 +9,7 @@
 
 namespace tureen::test {
 
-/// What photographs by cameras of these intrinsics have in common, with no frames yet.
+/// The common part for photographs with these intrinsics, without frames.
 inline nlohmann::json transforms_of(const Camera& camera) {
   return {{"fl_x", camera.fx},
           {"fl_y", camera.fy},
@@ -20,7 +20,7 @@ inline nlohmann::json transforms_of(const Camera& camera) {
           {"frames", nlohmann::json::array()}};
 }
 
-/// The photograph `file` and its pose, row by row.
+/// A frame: the photograph `file` and its pose, row by row.
 inline nlohmann::json frame_of(const std::string& file, const Camera& camera) {
   const glm::dmat4 world_from_view = glm::inverse(camera.view_from_world);
   nlohmann::json rows = nlohmann::json::array();

@@ -1,4 +1,4 @@
-// What a file says of itself is shown, and is never taken for what the program says.
+// The program prints texts from files so that they cannot be mistaken for its own output.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 class UntrustedText : public test::Program {
  protected:
-  /// One triangle, by a program that calls itself so.
+  /// Writes one triangle with this generator name.
   void write_gltf(const std::string& generator) const {
     const nlohmann::json gltf{
         {"asset", {{"version", "2.0"}, {"generator", generator}}},
@@ -43,7 +43,7 @@ class UntrustedText : public test::Program {
 };
 
 TEST_F(UntrustedText, BeginsNoLineAndSteersNoTerminal) {
-  // And U+FFFF at the end, which JSON holds and which is no character.
+  // U+FFFF at the end is valid in JSON, but it is not a character.
   const std::string generator =
       "x\n  triangles    9 of 9 vertices\r\x1b[2J\xc2\x9b\x7f\xef\xbf\xbf";
   write_gltf(generator);
@@ -57,7 +57,7 @@ TEST_F(UntrustedText, BeginsNoLineAndSteersNoTerminal) {
     EXPECT_THAT(result.err, Not(HasSubstr(steering)));
     EXPECT_THAT(result.out, Not(HasSubstr(steering)));
   }
-  // Programs get it as it was.
+  // The JSON output contains the text unchanged.
   EXPECT_EQ(nlohmann::json::parse(result.out)["source"], "glTF by " + generator);
 }
 

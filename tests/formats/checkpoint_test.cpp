@@ -35,7 +35,7 @@ std::vector<float> ramp(std::size_t count, float start = 0.0f, float step = 0.00
   return values;
 }
 
-/// The parts of a DiffSoup checkpoint of two faces; tests replace one.
+/// The tensors of a DiffSoup checkpoint with two faces; tests replace one.
 struct DiffSoup {
   int level;
   std::uint64_t texels = lattice::texel_count(level);
@@ -117,7 +117,7 @@ TEST(Checkpoint, DiffSoupMlpAndScene) {
 
 TEST(Checkpoint, StridesOffsetsAndParametersAreHonoured) {
   DiffSoup diffsoup{0};
-  // Vertices column by column behind two numbers that belong to nobody.
+  // Vertices column by column, after two unused numbers.
   diffsoup.vertices = TensorFixture::floats({4, 3}, ramp(14));
   diffsoup.vertices.strides = {1, 4};
   diffsoup.vertices.offset = 2;

@@ -44,7 +44,7 @@ ColorMlp random_mlp(std::mt19937& random) {
   return mlp;
 }
 
-/// Faces of one level with random float texels; every eighth alpha lies on or beside 1/2.
+/// Faces of one level with random float texels; every eighth alpha is 1/2 or close to it.
 Scene random_scene(unsigned seed, std::size_t faces, int level) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -90,7 +90,7 @@ void replace_in(const fs::path& path, const std::string& from, const std::string
   write_text(path, text.replace(at, from.size(), to));
 }
 
-/// The same texels in rows of another width.
+/// Rewrites the image with the same texels in rows of another width.
 void reshape(const fs::path& path, std::size_t texels, int width) {
   Input input = Input::open(path);
   const Image8 image = read_image(input);
@@ -134,7 +134,7 @@ TEST_P(DiffSoupLevel, RoundTripKeepsValuesToHalfAByteAndTheSideOfEveryAlpha) {
     EXPECT_EQ(before.mlp->layers[l].weights, after.mlp->layers[l].weights);
     EXPECT_EQ(before.mlp->layers[l].biases, after.mlp->layers[l].biases);
   }
-  // A second trip starts from bytes: nothing changes any more, over a folder that is there.
+  // The second trip starts from bytes, so nothing changes. It replaces an existing folder.
   EXPECT_THAT(write_diffsoup_export(copy, folder / "scene"), IsEmpty());
   EXPECT_EQ(texture_of(read_diffsoup_export(folder / "scene")).texels, after.texels);
 }
@@ -153,7 +153,7 @@ TEST(DiffSoupExport, AnyWidthOfTheImagesReadsAlike) {
   EXPECT_THAT(refusal(folder / "a"), ErrorAt("a/lut1.png@16", 50, 1, 105, 3));
 }
 
-// Row X3 of the catalogue of numerical hazards: N texels in rows of W are ceil(N / W) rows.
+// Row X3 of the catalogue of numerical hazards: N texels in rows of W take ceil(N / W) rows.
 TEST(DiffSoupExport, X3_ATableOfOtherThanTheRowsThatItsTexelsTakeIsRefused) {
   const TemporaryFolder folder;
   const Scene scene = random_scene(1, 7, 2);
@@ -222,15 +222,15 @@ TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
   bytes[8 * 31 + 7] = 128;
   texture.texels = bytes;
   write_diffsoup_export(scene, folder / "a");
-  // Ours is what it says.
+  // A file by this program is read unchanged.
   EXPECT_EQ(texture_of(read_diffsoup_export(folder / "a")).texels, texture.texels);
-  // As the published exporter writes it, without our key.
+  // The published exporter writes the same file without our key.
   replace_in(folder / "a/meta.json", "\"tureen\"", "\"another\"");
   Scene copy = read_diffsoup_export(folder / "a");
   EXPECT_THAT(copy.info.remarks, Contains(Remark{Remark::Kind::alpha_half_restored, {20, 90}}));
   for (std::size_t i = 0; i < 20; ++i) bytes[8 * i + 7] = 128;
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(copy).texels), bytes);
-  // No pile at 127: a smooth distribution, which is left as it is.
+  // Without a peak at 127, the distribution is smooth and stays unchanged.
   for (std::size_t i = 0; i < 90; ++i) bytes[8 * i + 7] = std::uint8_t(125 + i % 5);
   texture.texels = bytes;
   write_diffsoup_export(scene, folder / "a");
@@ -244,7 +244,7 @@ TEST(DiffSoupExport, TransparentTexelsKeepTheirFeatures) {
   const TemporaryFolder folder;
   Scene scene = random_scene(5, 1, 0);
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
-  // Both alpha channels of the images are 0: a premultiplying decoder would lose the rest.
+  // Both alpha channels of the images are 0: a premultiplying decoder would lose the other values.
   texture.texels = std::vector<std::uint8_t>{9, 8, 7, 0, 6, 5, 4, 0, 1, 2,   3, 0,
                                              4, 5, 6, 0, 0, 0, 1, 0, 2, 255, 3, 0};
   write_diffsoup_export(scene, folder / "a");
@@ -287,7 +287,7 @@ TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
       << "a network is added, the origin is moved";
   const Scene vertex = read_diffsoup_export(folder / "v");
   EXPECT_EQ(test::soup_of(vertex).positions[3], glm::vec3(11, 21, 30));
-  // Face 1 is (2, 1, 3), its texels are those of its third, first and second vertex.
+  // Face 1 is (2, 1, 3); its texels come from its third, first and second vertex.
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(vertex).texels),
             (std::vector<std::uint8_t>{255, 255, 255, 0, 0, 0, 0, 0,    //
                                        0,   0,   0,   0, 0, 0, 0, 255,  //
@@ -295,7 +295,7 @@ TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
                                        204, 0,   0,   0, 0, 0, 0, 128,  //
                                        255, 255, 255, 0, 0, 0, 0, 0,    //
                                        51,  102, 153, 0, 0, 0, 0, 255}));
-  // The network is inert: a pixel's colour is its first three features.
+  // The network changes nothing: a pixel's colour is its first three features.
   const std::vector<double> features{0.2, 0.4, 0.6, 0, 0, 0, 0};
   const glm::dvec3 color = evaluate(*texture_of(vertex).mlp, features, glm::dvec3(0, 0, 1));
   EXPECT_EQ(color, glm::dvec3(0.2, 0.4, 0.6));
@@ -327,7 +327,7 @@ TEST(DiffSoupExport, WhatItCannotHoldIsRefusedAndLeavesNothing) {
   EXPECT_THAT(usage_error(scene), ErrorAt(""));
   EXPECT_FALSE(fs::exists(folder / "a"));
 
-  // Somebody's folder with something else in it is not touched.
+  // The writer does not touch a folder with other files.
   fs::create_directory(folder / "b");
   write_text(folder / "b/diary.txt", "dear");
   EXPECT_THROW(write_diffsoup_export(random_scene(7, 1, 0), folder / "b"), OutputError);
@@ -335,7 +335,7 @@ TEST(DiffSoupExport, WhatItCannotHoldIsRefusedAndLeavesNothing) {
   EXPECT_EQ(read_text(folder / "b/diary.txt"), "dear");
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder / "")) ++entries;
-  EXPECT_EQ(entries, 1u) << "a temporary folder is left";
+  EXPECT_EQ(entries, 1u) << "a temporary folder remains";
 }
 
 TEST(DiffSoupExport, WhatIsWrongIsNamed) {
@@ -379,9 +379,9 @@ TEST(DiffSoupExport, WhatIsWrongIsNamed) {
 }
 
 TEST(DiffSoupExport, AHeaderThatOnlyLooksLikeOneIsRefused) {
-  // Apple's chunk CgBI, which the decoder passes over, filled so that its content stands where the
-  // header's would and promises all texels; then the true header, of one pixel. Behind that chunk
-  // deflated data has no zlib header: two bytes less.
+  // A PNG with Apple's chunk CgBI first, which the decoder skips. Its content imitates a header
+  // with all texels. The true header, with one pixel, follows. After that chunk, deflated data has
+  // no zlib header, which is two bytes.
   const TemporaryFolder folder;
   write_diffsoup_export(random_scene(12, 40, 3), folder / "a");
   const fs::path path = folder / "a/lut1.png";
@@ -396,7 +396,7 @@ TEST(DiffSoupExport, AHeaderThatOnlyLooksLikeOneIsRefused) {
   const auto odd_bytes = std::as_bytes(std::span(odd));
   write_file(path, test::with_png_sums({odd_bytes.begin(), odd_bytes.end()}));
   Input input = Input::open(path);
-  ASSERT_EQ(read_image(input).width, 1) << "the decoder no longer passes over the chunk";
+  ASSERT_EQ(read_image(input).width, 1) << "the decoder no longer skips the chunk";
   EXPECT_THAT(refusal(folder / "a"), ErrorAt("a/lut1.png@8"));
 }
 
@@ -441,7 +441,7 @@ INSTANTIATE_TEST_SUITE_P(Files, DiffSoupDamage,
 TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
   const TemporaryFolder folder;
   Scene scene = random_scene(10, 2, 0);
-  // No network: its numbers are zeros, and the file is short.
+  // Without the network, whose numbers are zeros, the file is short.
   std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
   write_diffsoup_export(scene, folder / "a");
   const fs::path path = folder / (std::string("a/") + GetParam());
@@ -454,16 +454,16 @@ TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
     EXPECT_EQ(defect(test::soup_of(copy)), std::nullopt);
     same = same && texture_of(copy).texels == expected;
   };
-  // Written to disk each time: every length and byte of short files, 400 of the long one. The mesh
-  // alone is damaged in every way below.
+  // The test writes each version to disk: every length and byte of short files, 400 of the long
+  // one. DiffSoupMesh below damages the mesh in every way.
   const std::size_t step = 1 + good.size() / 400;
   test::Survival cut;
   for (std::size_t length = 0; length < good.size(); length += step)
     test::expect_survival(std::as_bytes(std::span(good)).first(length), read,
                           "cut to " + std::to_string(length), cut);
-  // All but a JSON's last line break and the checksum of a PNG's last chunk is needed.
+  // Every byte is needed except a JSON's last line break and the checksum of a PNG's last chunk.
   EXPECT_LE(cut.read, 4u);
-  EXPECT_TRUE(same) << "a truncated file was read as something else";
+  EXPECT_TRUE(same) << "a truncated file was read with other texels";
   test::Survival damaged;
   for (std::size_t i = 0; i < good.size(); i += step) {
     std::string bad = good;

@@ -1,4 +1,4 @@
-// Small helpers of the format tests: texts as inputs, folders that vanish, errors to assert.
+// Helpers of the format tests: texts as inputs, temporary folders, and matchers for errors.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ inline Input input_of(const std::string& text, const std::string& name = "test.f
   return Input::memory(name, std::as_bytes(std::span(text)));
 }
 
-/// A folder of this test alone, empty at first, removed at the end.
+/// A new, empty folder. The destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,5 +1,6 @@
-// Long because each sentence of the glTF specification that we rely on has a test of its own here.
-// Foreign glTF: small files made here, each about one thing; then the hostile ones and a real one.
+// Foreign glTF: small files made here, each for one feature, then hostile files and a real one. The
+// file is long because each sentence of the glTF specification that the reader relies on has its
+// own test.
 #include "formats/gltf/gltf.hpp"
 
 #include <gmock/gmock.h>
@@ -30,7 +31,7 @@ using test::ErrorIn;
 using test::Refusal;
 using ::testing::Contains;
 
-/// A GLB put together by hand: accessors appended as they are needed.
+/// Builds a GLB; each accessor is appended when it is needed.
 class GlbBuilder {
  public:
   json document = {{"asset", {{"version", "2.0"}}},
@@ -176,7 +177,7 @@ TEST_F(Gltf, AssemblesStripsFansAndEveryIndexType) {
   longs["indices"] = b.accessor(std::vector<std::uint32_t>{3, 2, 1}, "SCALAR", 5125, 3);
   const Scene scene = read(b);
   const TriangleSoup& soup = soup_of(scene);
-  std::vector<std::vector<int>> corners;  // by the original vertex, found by position
+  std::vector<std::vector<int>> corners;  // original vertex numbers, found by position
   for (const glm::uvec3& t : soup.triangles) {
     std::vector<int> names;
     for (int k = 0; k < 3; ++k)
@@ -207,7 +208,7 @@ TEST_F(Gltf, ReadsQuantisedPositionsStridesAndSparseValues) {
   const int position = b.accessor(shorts, "VEC3", 5122, 3, true);
   b.document["bufferViews"][0]["byteStride"] = 8;
   b.primitive({{"POSITION", position}});
-  // No bytes at all but for one replaced element.
+  // An accessor without a buffer view, with one sparse element.
   const std::vector<std::uint8_t> which = {2};
   const std::vector<float> value = {5, 6, 7};
   const int sparse = b.add_accessor(
@@ -309,7 +310,7 @@ TEST_F(Gltf, TakesVertexColoursAsLinearUnlessAPythonToolWroteThem) {
   };
   const Scene linear = read(make("Some exporter"));
   EXPECT_NEAR(vertex_colors(linear)[0].x, srgb_from_linear(0.2), 1e-6);
-  EXPECT_EQ(vertex_colors(linear)[0].w, 1.0f);  // OPAQUE
+  EXPECT_EQ(vertex_colors(linear)[0].w, 1.0f);  // the alpha mode is OPAQUE
   EXPECT_THAT(linear.info.remarks, Contains(Remark{Remark::Kind::vertex_colors_linear_by_gltf}));
   for (const char* tool : {"https://github.com/mikedh/trimesh", "Open3D 0.17"}) {
     const Scene srgb = read(make(tool));
@@ -343,7 +344,7 @@ TEST_F(Gltf, MultipliesTheFactorInLinearLightAndMovesTheCutoffToAHalf) {
 TEST_F(Gltf, ClampsFloatColoursBeforeTheFactor) {
   GlbBuilder b;
   auto& primitive = b.triangle();
-  // JSON holds no NaN, a buffer does.
+  // JSON cannot contain NaN, but a buffer can.
   primitive["attributes"]["COLOR_0"] =
       b.floats({2, -1, std::numeric_limits<float>::quiet_NaN(), 1, 1, 1, 0, 0, 0}, 3);
   primitive["material"] =
@@ -355,15 +356,15 @@ TEST_F(Gltf, ClampsFloatColoursBeforeTheFactor) {
 }
 
 TEST_F(Gltf, PrimitivesThatShareOneAccessorCostWhatTheyUse) {
-  // 3,000 primitives of one triangle each, spread over 3,000,000 vertices: had each of them to go
-  // through the whole accessor, this took minutes.
+  // 3,000 primitives of one triangle each, spread over 3,000,000 vertices. If each read the whole
+  // accessor, this would take minutes.
   constexpr std::size_t primitives = 3000, stride = 1000;
   GlbBuilder b;
   std::vector<float> positions(3 * primitives * stride);
   for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = float(i);
   const int position = b.floats(positions, 3);
   std::vector<std::uint32_t> corners;
-  for (std::size_t p = 0; p < primitives; ++p)  // in an order that is not the accessor's
+  for (std::size_t p = 0; p < primitives; ++p)  // not in the accessor's order
     for (const std::size_t k : {7, 3, 5}) corners.push_back(std::uint32_t(p * stride + k));
   const int view = b.view(corners.data(), corners.size() * 4);
   for (std::size_t p = 0; p < primitives; ++p)
@@ -376,7 +377,7 @@ TEST_F(Gltf, PrimitivesThatShareOneAccessorCostWhatTheyUse) {
   const auto path = save("scene.glb", bytes);
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = read_gltf_or_glb(path);
-  // A tenth of a second where it is idle; a machine under load may take many times that.
+  // It takes a tenth of a second on an idle machine, and many times that under load.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
   const TriangleSoup& soup = soup_of(scene);
   ASSERT_EQ(soup.triangles.size(), primitives);
@@ -421,7 +422,7 @@ TEST_F(Gltf, ReadsTexturesWithSamplerTransformMaskAndBlend) {
   EXPECT_TRUE(t.materials[1].images.empty());
   EXPECT_EQ(t.materials[1].mask_threshold, 0.0f);
   EXPECT_THAT(t.material_of_face, ::testing::ElementsAre(0, 1));
-  // A quarter turn takes u to -v and v to u.
+  // A quarter turn maps u to -v and v to u.
   EXPECT_LT(glm::length(t.uv[1] - glm::vec2(0.25f, 0.5f - 2.0f)), 1e-5f);
   EXPECT_LT(glm::length(t.uv[2] - glm::vec2(0.25f + 3.0f, 0.5f)), 1e-5f);
   EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::blending_cut_out}));
@@ -446,7 +447,7 @@ TEST_F(Gltf, ReadsCameras) {
   EXPECT_NEAR(2 * std::atan(0.5 * camera.height / camera.fy), 0.8, 1e-12);
   EXPECT_NEAR(glm::length(camera.eye() - glm::dvec3(0, 0, 4)), 0.0, 1e-12);
 
-  // Wider than any image: 720 rows of this shape have 68,400 columns.
+  // The image would be too wide: 720 rows of this shape have 68,400 columns.
   b.document["cameras"][0]["perspective"]["aspectRatio"] = 95;
   EXPECT_TRUE(read(b).cameras.empty());
 }
@@ -461,7 +462,7 @@ TEST_F(Gltf, RefusesRequiredExtensionsByName) {
   }
 }
 
-// tinygltf leaves such a material out and reads on, without its texture.
+// tinygltf would skip such a material and read on, without its texture.
 TEST_F(Gltf, RefusesAColourOfThreeNumbers) {
   GlbBuilder b;
   const int texture = b.texture(Image8(1, 1), {});
@@ -504,7 +505,7 @@ TEST_F(Gltf, SaysWhereTheFileIsWrong) {
   EXPECT_THAT(changed([](auto& b) { b.document["bufferViews"][0]["buffer"] = 3; }),
               ErrorIn("scene.glb", "bufferViews[0]", 3, 1));
   EXPECT_THAT(changed([](auto& b) {
-                b.document["accessors"][0]["count"] = 2;  // index 2 is now one too many
+                b.document["accessors"][0]["count"] = 2;  // index 2 is now out of range
               }),
               ErrorIn("scene.glb", "accessors[1]", 2));
   EXPECT_THAT(changed([](auto& b) { b.document["nodes"][0]["mesh"] = 4; }),

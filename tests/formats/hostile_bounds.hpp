@@ -1,4 +1,4 @@
-// What a reader may cost, whatever it is given.
+// Bounds on the cost of a reader, for any input.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -20,21 +20,21 @@ namespace tureen::test {
 
 using Bytes = std::vector<std::byte>;
 
-/// What readers have beside what they count: windows on texts (256 kB), blocks, a PLY header (1 MB)
-/// in pieces, the tables of coders, errors and what GoogleTest keeps of them.
+/// Memory in bytes that readers use beyond their count: windows on texts (256 kB), blocks, a PLY
+/// header (1 MB) in pieces, tables of coders, errors, and GoogleTest's copies.
 inline constexpr std::size_t uncounted = 4 << 20;
 
-/// Longer than any read of a few kilobytes takes, even on a busy machine and with sanitizers; a
-/// read whose time grows with a number in the file takes minutes.
+/// Bound in seconds for reading a few kilobytes, on a busy machine and with sanitizers. A read
+/// whose time grows with a number in the file takes minutes.
 inline constexpr double longest_read = 20;
 
-/// What reads took at most.
+/// The maximal cost of reads.
 struct Cost {
-  std::size_t bytes = 0;  // of `new`
+  std::size_t bytes = 0;  // allocated by `new`
   double seconds = 0;
 };
 
-/// Calls `read` with no more memory than `limit`, and holds it to that.
+/// Calls `read` under the memory limit `limit`, and checks that it stays within it.
 template <class Read>
 Cost within_bounds(std::uint64_t limit, Read&& read, const std::string& what) {
   const MemoryLimit scoped(limit);
@@ -57,7 +57,7 @@ inline Bytes bytes_of(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Reading ends in an InputError like this, having allocated next to nothing.
+/// Expects that reading throws this InputError and allocates almost nothing.
 template <class Read>
 void expect_refused(Read&& read, const std::string& what,
                     const ::testing::Matcher<std::optional<Refusal>>& expected) {

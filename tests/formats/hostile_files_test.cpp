@@ -1,5 +1,5 @@
-// Hostile files that others made: PngSuite's, the glTF validator's, tinygltf's and Magnum's, where
-// their folder lies beside the repository. Each ends as it should, and nothing is written.
+// Hostile files by others: PngSuite, the glTF validator, tinygltf and Magnum, if their folder lies
+// beside the repository. Each gives the expected result, and nothing is written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using test::TemporaryFolder;
 using test::within_bounds;
 
-/// The folder of hostile files beside the repository, where there is one.
+/// The folder of hostile files beside the repository, if it exists.
 fs::path hostile_files() { return TUREEN_SOURCE_DIR "/../shared/data/hostile"; }
 
 std::map<fs::path, fs::file_time_type> listing(const fs::path& folder) {
@@ -34,9 +34,8 @@ std::map<fs::path, fs::file_time_type> listing(const fs::path& folder) {
   return result;
 }
 
-/// By its folder and name, what becomes of each file that is another thing than what `expected`
-/// says of its kind: a value that its error names ("" where there is none), or nothing where it is
-/// read.
+/// Exceptions to the rules of `expected`, by folder and name. The value is a text in the error (""
+/// for any error), or empty if the file is readable.
 const std::map<std::string, std::optional<std::string>>& verdicts() {
   static const std::map<std::string, std::optional<std::string>> of_files{
       {"BoundsChecking/invalid-primitive-indices.gltf", ""},
@@ -102,22 +101,23 @@ const std::map<std::string, std::optional<std::string>>& verdicts() {
   return of_files;
 }
 
-/// What a file of these ends in.
+/// The expected result for a file: a text in its error, or empty if it is readable.
 std::optional<std::string> expected(const fs::path& file) {
   const auto found =
       verdicts().find((file.parent_path().filename() / file.filename()).generic_string());
   if (found != verdicts().end()) return found->second;
   const std::string extension = file.extension().string();
-  // PngSuite's, of which those are broken whose names begin with an x.
+  // In PngSuite, the files whose names begin with x are broken.
   if (extension == ".png" && file.filename().string()[0] != 'x') return std::nullopt;
-  // Most of the validator's have no mesh: what is wrong with them is elsewhere. Buffers, licences.
+  // Most files of the validator have no mesh: their errors are elsewhere. Others are buffers or
+  // licences.
   if (extension == ".png" || extension == ".gltf" || extension == ".glb" || extension == ".bin" ||
       extension == ".txt")
     return "";
   return std::nullopt;
 }
 
-/// An empty folder to work in, and another for what is temporary, while this lives.
+/// While it exists, the working folder and the temporary folder are empty folders.
 class EmptyFolders {
  public:
   explicit EmptyFolders(const fs::path& folder) : before_(fs::current_path()) {

@@ -1,5 +1,5 @@
-// JSON that means harm: nested, endless, with numbers that are none and lists of wrong lengths.
-// What is held against it is every reader of JSON.
+// Hostile JSON for every reader of JSON: nested, very long, with numbers out of range and lists of
+// wrong lengths.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ void read_in_folder(const fs::path& folder, const fuzz::FolderFiles& files, cons
   read_scene(folder);
 }
 
-/// A GLB of this JSON alone.
+/// A GLB with this JSON and nothing else.
 Bytes glb_of(const std::string& text) {
   std::string padded = text;
   padded.append((4 - padded.size() % 4) % 4, ' ');
@@ -58,7 +58,7 @@ Bytes glb_of(const std::string& text) {
   return bytes;
 }
 
-/// A checkpoint of a training whose configuration is this.
+/// A training checkpoint with this configuration.
 Bytes checkpoint_of(const std::string& text) {
   static const std::vector<fuzz::Fixture> fixtures = fuzz::fixtures();
   const auto whole =
@@ -116,7 +116,7 @@ const std::array<JsonReader, 17> json_readers{{
      }},
 }};
 
-/// {"asset": {"version": "2.0"}, "extras": [[[..]]]}, which any reader takes for what it reads.
+/// {"asset": {"version": "2.0"}, "extras": [[[..]]]}, which every reader accepts as its format.
 std::string nested(int depth, char open, char close) {
   std::string text = R"({"asset": {"version": "2.0"}, "extras": )";
   for (int i = 0; i < depth; ++i)
@@ -137,7 +137,7 @@ TEST(HostileJson, NestedDeeperThanOurLimitIsRefusedEverywhere) {
         within_bounds(
             default_max_memory, [&] { EXPECT_THAT(read(depth), Names(64)); }, "depth");
       }
-      // One less is not refused for its depth.
+      // At a depth of 63, the error is another one.
       EXPECT_THAT(read(63), ::testing::Not(Names(64)));
     }
 }
@@ -156,7 +156,7 @@ TEST(HostileJson, NamesOfMembersMayBeAnythingAtAnyLength) {
   const auto read = [&](const std::string& name, const std::string& value) {
     return error_of([&] { fuzz::gltf(bytes_of(head + name + "\": " + value + "}]}")); });
   };
-  // The letter 0 ends names in C.
+  // The character U+0000 ends names in C.
   EXPECT_THAT(read("a\\u0000b", "[4294967296]"), ::testing::Not(Names(2147483647)));
   const auto named = error_of([&] {
     fuzz::gltf(bytes_of(R"({"asset": {"version": "2.0\u0000\n", "minVersion": "a\u0000b\nc"}})"));
@@ -165,15 +165,15 @@ TEST(HostileJson, NamesOfMembersMayBeAnythingAtAnyLength) {
   EXPECT_THAT(read("mesh", "4294967296"), Names("nodes[0].mesh", "2147483647"));
   EXPECT_THAT(read("mesh", "-4294967295"), Names("nodes[0].mesh", "2147483647"));
   EXPECT_THAT(read("children", "[0, 4294967296]"), Names("nodes[0].children[1]", "2147483647"));
-  // A long name above many values: what is put together for each of them would be terabytes.
+  // A long name above many values: composing a path for each value would take terabytes.
   std::string many = "[0";
   for (int i = 0; i < 500000; ++i) many += ",0";
   within_bounds(
       default_max_memory, [&] { read(std::string(1 << 20, 'a'), many + "]"); }, "long name");
 }
 
-// Row X2 of the catalogue of numerical hazards: numbers that no double holds, lists of wrong
-// lengths.
+// Row X2 of the catalogue of numerical hazards: numbers outside the range of double, and lists of
+// wrong lengths.
 TEST(HostileJson, X2_NumbersThatNoDoubleHoldsAreRefused) {
   for (const char* number : {"1e999", "-1e999"}) {
     const std::string text =
@@ -186,8 +186,8 @@ TEST(HostileJson, X2_NumbersThatNoDoubleHoldsAreRefused) {
   }
 }
 
-/// Lists of numbers of 16 at most, which have a length: a vector, a matrix, the bias of a layer.
-/// The nodes of a glTF's scene may be any.
+/// Finds lists of at most 16 numbers, which have a fixed length: a vector, a matrix, the biases of
+/// a layer. The nodes of a glTF scene may have any length.
 void find_lists(const nlohmann::json& json, const nlohmann::json::json_pointer& at,
                 std::vector<nlohmann::json::json_pointer>& found) {
   const bool is_list = json.is_array() && !json.empty() && json.size() <= 16 &&
@@ -199,7 +199,7 @@ void find_lists(const nlohmann::json& json, const nlohmann::json::json_pointer& 
       find_lists(value, json.is_array() ? at / std::size_t(std::stoul(key)) : at / key, found);
 }
 
-/// The member that a list is, or is a part of.
+/// The name of the member that contains the list.
 std::string named(nlohmann::json::json_pointer list) {
   const auto is_digit = [](unsigned char letter) { return std::isdigit(letter) != 0; };
   while (std::all_of(list.back().begin(), list.back().end(), is_digit)) list.pop_back();
@@ -213,7 +213,7 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
     ADD_FAILURE() << "no " << name;
     return std::string();
   };
-  std::vector<std::pair<std::string, std::string>> documents;  // a reader and what it reads
+  std::vector<std::pair<std::string, std::string>> documents;  // name and input of a reader
   const std::map<std::string, std::string> readers{{"cameras", "cameras"},
                                                    {"camera_path", "path"},
                                                    {"session", "session"},
@@ -248,7 +248,7 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
         const TemporaryFolder folder;
         const auto error = error_of([&] { reader->read(changed.dump(), folder / ""); });
         refused[name] += error.has_value();
-        // A time of a view more or less: it is the other lists of views that disagree.
+        // If one view has another number of times, the error names the next view.
         EXPECT_THAT(error, AnyOf(Names(named(list)), Names("self_test_ms[1][0]", 3)))
             << name << list.to_string() << (change < 0 ? " shorter" : " longer");
       }

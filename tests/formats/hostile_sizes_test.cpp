@@ -1,5 +1,5 @@
-// Files that say sizes of themselves that are false, 2^31 and 2^63 among them: each is refused by
-// its number or by what it contradicts, before anything is allocated by it.
+// Files that state false sizes, 2^31 and 2^63 among them. The error names the size or the
+// contradicting value, and the reader allocates nothing by the size.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(HostileSizes, InTexts) {
             read_off(input);
           },
           text, AnyOf(ErrorIn("a.off", n), ErrorAt("a.off:6")));
-    // Three of them, whatever the encoding.
+    // At least three vertices in every encoding.
     const std::string vertices = "0 0 0 \n0 0 0 \n0 0 0 \n0 0 0 \n0 0 0 \n0 0 0 \n";
     for (const char* encoding : {"ascii", "binary_little_endian", "binary_big_endian"})
       for (const std::string& elements :
@@ -93,14 +93,14 @@ TEST(HostileSizes, InBinaryFiles) {
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     tried.insert(fixture.target == "colmap_binary" ? fixture.target : fixture.name);
     if (fixture.target == "colmap_binary") {
-      // The count of records.
+      // Count of records.
       for (const std::uint64_t size : false_sizes) {
         Bytes bytes = fixture.bytes;
         put(bytes, 1, size);
         expect_refused([&] { fuzz::colmap_binary(bytes); }, fixture.name, Names(size));
       }
     } else if (fixture.name == "face_bytes.glb") {
-      // The file's length and the JSON chunk's.
+      // Lengths of the file and of the JSON chunk.
       for (const std::size_t at : {8, 12})
         for (const std::uint32_t size : {0x80000000u, 0xfffffffcu}) {
           Bytes bytes = fixture.bytes;
@@ -115,7 +115,8 @@ TEST(HostileSizes, InBinaryFiles) {
           put(bytes, at, size);
           expect_refused([&] { fuzz::image(bytes); }, fixture.name, ErrorIn("fuzz.png", side));
         }
-      // Of the first chunk and of that of the pixels; some beyond what stb takes, one within it.
+      // Lengths of the first chunk and of the pixels' chunk: some above the maximum of stb, one
+      // below it.
       for (const std::size_t at : {8, 33})
         for (const std::uint32_t size : {0x80u, 0xffffff7fu, 0xffffffffu, 0x40u}) {  // big endian
           Bytes bytes = fixture.bytes;
@@ -129,11 +130,11 @@ TEST(HostileSizes, InBinaryFiles) {
     EXPECT_TRUE(tried.contains(name)) << name;
 }
 
-/// Where the counts of a checkpoint stand, by what they count: its layout
-/// (trainer/diffsoup/checkpoint.hpp) once more, by hand.
+/// Offsets of the counts of a checkpoint, with their names. The layout is a second, manual copy of
+/// the one in trainer/diffsoup/checkpoint.hpp.
 std::vector<std::pair<const char*, std::size_t>> counts_of_checkpoint(const Bytes& bytes) {
   std::vector<std::pair<const char*, std::size_t>> counts;
-  std::size_t at = 8 + 4;  // behind the magic and the version
+  std::size_t at = 8 + 4;  // after the magic and the version
   const auto count = [&](const char* what, std::size_t each) {
     std::uint64_t value = 0;
     EXPECT_LE(at + sizeof value, bytes.size()) << what;
@@ -144,7 +145,7 @@ std::vector<std::pair<const char*, std::size_t>> counts_of_checkpoint(const Byte
   };
   constexpr std::size_t number = 4, vector = 3 * number, mlp = sizeof(trainer::MlpParameters);
   count("the configuration", 1);
-  count("the number of views", 0);  // there is one
+  count("the number of views", 0);  // one view
   count("the name of a view", 1);
   at += 4 * number + 8;  // its sides and sums; the seconds
   at += number;          // the step
@@ -195,7 +196,7 @@ TEST(HostileSizes, InTheJsonOfOurFile) {
       const Bytes damaged = with_glb_json(bytes, changed);
       expect_refused([&] { fuzz::gltf(damaged); },
                      std::string(kind.name) + pointer + " = " + std::to_string(size),
-                     // Elements; or what they are made of, three corners and eight bytes.
+                     // The number of elements, or of their parts: three corners and eight bytes.
                      AnyOf(Names(size), Names(3 * size), Names(8 * size)));
     };
     const std::string extension = "/extensions/TUREEN_triangle_soup";
@@ -204,12 +205,12 @@ TEST(HostileSizes, InTheJsonOfOurFile) {
                               "/appearance/degree", "/appearance/strips/0/count"})
         refuse(extension + key, size);
       for (std::size_t i = 0; i < whole["accessors"].size(); ++i)
-        // Not those of the mesh that other viewers see, which we do not read.
+        // The other accessors belong to the mesh for other viewers, which the reader ignores.
         if (whole["accessors"][i].value("name", "").empty() && i + 1 == whole["accessors"].size())
           refuse("/accessors/" + std::to_string(i) + "/count", size);
     }
   }
-  // Each was there in one kind of file at least.
+  // At least one kind of file has each of these.
   for (const char* key : {"/vertex_count", "/face_count", "/appearance/texel_count",
                           "/appearance/degree", "/appearance/strips/0/count"})
     EXPECT_TRUE(tried.contains(std::string("/extensions/TUREEN_triangle_soup") + key)) << key;
@@ -236,7 +237,7 @@ TEST(HostileSizes, InTheJsonOfForeignFiles) {
       }
     return;
   }
-  FAIL() << "there is no foreign.gltf";
+  FAIL() << "no fixture foreign.gltf";
 }
 
 TEST(HostileSizes, OfTensors) {
@@ -265,13 +266,13 @@ TEST(HostileSizes, OfTensors) {
       const std::string bytes = torch.bytes();
       expect_refused([&] { read_checkpoint(Input::memory("a.pt", test::as_bytes(bytes))); },
                      "tensor " + std::to_string(i) + " of " + std::to_string(size),
-                     // Beyond 63 bits there is no such integer in a pickle that we read.
+                     // The pickle reader has no integers above 63 bits.
                      size >> 63 ? Names("LONG1", 9) : Names("triangles_points"));
     }
   }
 }
 
-/// Sizes of 64 bits stand in the directory's extra field and in the record behind the directory.
+/// Sizes of 64 bits are in the directory's extra field and in the record after the directory.
 TEST(HostileSizes, OfArchives) {
   const auto damaged = [](bool deflate, const char* signature, std::size_t at, std::uint64_t size) {
     test::ZipFixture zip;
@@ -281,7 +282,7 @@ TEST(HostileSizes, OfArchives) {
     std::memcpy(&bytes.at(bytes.rfind(signature) + at), &size, sizeof size);
     return bytes;
   };
-  // Behind the directory's record, the name and the field's own head.
+  // After the directory's record, the name and the field's header.
   constexpr std::size_t extra = 46 + 10 + 4;
   const struct {
     const char* signature;
@@ -305,10 +306,10 @@ TEST(HostileSizes, OfArchives) {
               ZipArchive(Input::memory("a.pt", test::as_bytes(bytes)));
             }),
             std::nullopt)
-      << "without damage it is read";
+      << "the undamaged archive is readable";
 }
 
-/// Where members of these names stand, at any depth.
+/// Finds the paths of members with these names, at any depth.
 void find_members(const nlohmann::json& json, const std::set<std::string>& names,
                   const nlohmann::json::json_pointer& at,
                   std::vector<nlohmann::json::json_pointer>& found) {
@@ -341,7 +342,7 @@ TEST(HostileSizes, OfCameras) {
                          Names(side.back(), 65536));
         }
     } else if (fixture.target == "colmap_binary" && fixture.name == "cameras") {
-      // Behind the file's kind and the count: number, model, width and height.
+      // After the file's kind and the count: number, model, width and height.
       for (const std::size_t at : {1 + 8 + 8, 1 + 8 + 16})
         for (const std::uint64_t size : false_sizes) {
           tried.insert(fixture.target);
@@ -367,7 +368,7 @@ TEST(HostileSizes, OfCameras) {
                                        "camera_path/height", "colmap_binary", "colmap_text"}));
 }
 
-/// Numbers under these names, alone or in lists, which are counts, sides and places in lists.
+/// Members with these names are counts, sides or list indices, alone or in lists.
 TEST(HostileSizes, InTheJsonOfRunsAndMeasurements) {
   const std::map<std::string, std::set<std::string>> members{
       {"session", {"window", "resize", "code_point"}},
@@ -386,7 +387,7 @@ TEST(HostileSizes, InTheJsonOfRunsAndMeasurements) {
         std::begin(fuzz::targets), std::end(fuzz::targets),
         [&](const fuzz::Target& candidate) { return candidate.name == fixture.target; });
     auto whole = nlohmann::json::parse(text_of(fixture.bytes));
-    // A configuration holds what it changes.
+    // A configuration contains only the members that it changes.
     if (fixture.target == "training_config")
       for (const std::string& name : names->second) whole.emplace(name, 1);
     std::vector<nlohmann::json::json_pointer> found;
@@ -442,7 +443,7 @@ TEST(HostileSizes, OfMobileNerf) {
   }
 }
 
-/// The numbers of faces and vertices lie beside what is coded: the decoders are told them.
+/// The numbers of faces and vertices are not in the coded bytes: the decoders get them separately.
 TEST(HostileSizes, OfCompressedFiles) {
   std::set<std::string> tried;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {

@@ -1,9 +1,9 @@
-// Files that mean harm, or have met with some: every reader ends with a scene or with an error that
-// names file and reason, within bounds of memory and time.
+// Hostile and damaged files: every reader returns a scene or throws an error with file and reason,
+// within bounds on memory and time.
 //
-// What damage begins with are the fixtures that fuzzers begin with (tests/fuzz/fixtures.cpp). False
-// sizes are in hostile_sizes_test.cpp, what only JSON can do in hostile_json_test.cpp, the files
-// that others made in hostile_files_test.cpp.
+// Damage starts from the fixtures of the fuzzers (tests/fuzz/fixtures.cpp). False sizes are in
+// hostile_sizes_test.cpp, faults that only JSON can have in hostile_json_test.cpp, and files by
+// others in hostile_files_test.cpp.
 #include <gmock/gmock.h>
 #include <sys/inotify.h>
 #include <unistd.h>
@@ -50,15 +50,15 @@ using test::within_bounds;
 
 // ---- Damage
 
-/// Flips of each fixture: for a folder's formats each file is one, and of a GLB there are fifteen
-/// kinds. TUREEN_FLIPS sets another number: `./dev harm` takes 10,000.
+/// Number of damaged copies of each fixture, default 500. Each file of a folder is a fixture, and
+/// GLB has fifteen. TUREEN_FLIPS sets another number: `./dev faults` sets 10,000.
 int flips() {
   const char* asked = std::getenv("TUREEN_FLIPS");
   if (!asked) return 500;
   int number = 0;
   const auto [end, error] = std::from_chars(asked, asked + std::strlen(asked), number);
   if (error != std::errc() || *end != '\0' || number < 1)
-    ADD_FAILURE() << "TUREEN_FLIPS is no number of flips: " << asked;
+    ADD_FAILURE() << "TUREEN_FLIPS must be a positive integer: " << asked;
   return number;
 }
 
@@ -89,7 +89,7 @@ TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
     const std::size_t flipped_before = flipped.read + flipped.refused;
     for (int i = 0; i < flips(); ++i) {
       Bytes bytes = fixture.bytes;
-      // One bit most of the time; sometimes several, and whole bytes.
+      // Usually one bit, sometimes several bits and whole bytes.
       for (int damage = 1 + int(random.below(4)) / 3 * int(random.below(6)); damage > 0; --damage) {
         std::byte& victim = bytes[random.below(bytes.size())];
         victim = random.chance(0.7) ? victim ^ static_cast<std::byte>(1u << random.below(8))
@@ -134,10 +134,10 @@ TEST(HostileCrashes, FoundByFuzzersEndInAnErrorOrAScene) {
   EXPECT_GT(files, 0u);
 }
 
-// ---- What unfolds
+// ---- Decompression bombs
 
 TEST(HostileBombs, AImageThatUnfoldsBeyondItsPixels) {
-  // A pixel, and 64 MB of zeros behind it that are a few kilobytes in the file.
+  // One pixel, followed by 64 MB of zeros, which take a few kilobytes in the file.
   const Bytes bomb = fuzz::PngFixture{.rows = std::string(64 << 20, '\0')}.bytes();
   EXPECT_LT(bomb.size(), 100u << 10);
   within_bounds(
@@ -151,7 +151,7 @@ TEST(HostileBombs, AImageThatUnfoldsBeyondItsPixels) {
 }
 
 TEST(HostileBombs, AImageOfMorePixelsThanMemory) {
-  // 6,000 x 6,000 pixels of nothing: 144 MB that are some kB in the file.
+  // 6,000 x 6,000 black pixels: 144 MB, which take some kB in the file.
   const Bytes large =
       fuzz::PngFixture{
           .width = 6000, .height = 6000, .color_type = 0, .rows = std::string(6001u * 6000u, '\0')}
@@ -168,7 +168,7 @@ TEST(HostileBombs, AImageOfMorePixelsThanMemory) {
       fuzz::PngFixture{.width = 20000, .height = 20000, .color_type = 0, .rows = "x"}.bytes();
   EXPECT_THAT(error_of([&] { decode_image(beyond, "beyond.png"); }),
               ErrorIn("beyond.png", 20000, 65536, 268435456));
-  // So large that stb itself refuses it.
+  // This size is above the limit of stb itself.
   const Bytes farther =
       fuzz::PngFixture{.width = 30000, .height = 30000, .color_type = 2, .rows = "x"}.bytes();
   EXPECT_THAT(error_of([&] { decode_image(farther, "farther.png"); }),
@@ -180,7 +180,7 @@ TEST(HostileBombs, AImageOfMorePixelsThanMemory) {
 }
 
 TEST(HostileBombs, ManyImagesInOneScene) {
-  // Each would fit; a hundred do not.
+  // One of these images fits into the limit, but a hundred do not.
   const Bytes image =
       fuzz::PngFixture{
           .width = 1000, .height = 1000, .color_type = 0, .rows = std::string(1001u * 1000u, '\0')}
@@ -213,7 +213,7 @@ TEST(HostileBombs, X4_AnArchiveThatInflatesBeyondItsSizes) {
   const std::string zeros(32 << 20, '\0');
   const std::string packed = test::ZipFixture::deflated(zeros);
   EXPECT_LT(packed.size(), 1u << 20);
-  // Says what it holds, says less, and says more than deflate can.
+  // The archive states the true size, a smaller one, and one above the maximal ratio of deflate.
   const std::pair<std::uint64_t, test::NamesMatcher> claims[] = {
       {zeros.size(), Names("a/data.pkl", 33554432, 16777216)},
       {1000, Names(2)},
@@ -238,21 +238,22 @@ TEST(HostileBombs, X4_AnArchiveThatInflatesBeyondItsSizes) {
 }
 
 TEST(HostileBombs, X4_PicklesThatDoubleThemselves) {
-  // A list of two of the list before, forty times over: 2^40 elements for whoever walks it.
+  // Each list contains the previous list twice, forty times: a walk over it would visit 2^40
+  // elements.
   test::PickleFixture pickle;
   pickle.op("]q").op(std::string(1, '\0'));
   for (int i = 1; i < 40; ++i) {
     pickle.op("](h").op(std::string(1, char(i - 1))).op("h").op(std::string(1, char(i - 1)));
     pickle.op("eq").op(std::string(1, char(i)));
   }
-  // All lie on the stack; the pickle is refused for that, or read without being walked.
+  // All lists are on the stack: the reader rejects the pickle for that, or reads it without a walk.
   within_bounds(
       1 << 20, [&] { error_of([&] { fuzz::pickle(bytes_of(pickle.done())); }); }, "billion laughs");
 }
 
 // ---- Names
 
-/// Tells whether a file was opened while this lives.
+/// Detects whether a file was opened, while it exists.
 class Tripwire {
  public:
   explicit Tripwire(const fs::path& file) : queue_(inotify_init1(IN_NONBLOCK)) {
@@ -340,7 +341,7 @@ TEST_F(HostileNames, OfAFolderOfFixedNamesDoNotLeadOutOfIt) {
       EXPECT_THAT(error_of([&] { read_scene(folder / "fixed"); }), ErrorAt("fixed/" + name, name))
           << name;
       EXPECT_FALSE(wire.was_opened()) << name;
-      // A link within the folder is as good as a file.
+      // The reader follows a link within the folder.
       test::write_bytes(folder / "fixed/other", content);
       fs::remove(folder / ("fixed/" + name));
       fs::create_symlink("other", folder / ("fixed/" + name));
@@ -377,11 +378,11 @@ TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
   EXPECT_EQ(test::soup_of(read_scene(folder / odd)).triangles.size(), 1u);
   test::write_text(folder / odd, "OFF\n3 1 0\n");
   EXPECT_THAT(error_of([&] { read_scene(folder / odd); }), ErrorIn(odd));
-  // In JSON they are no JSON.
+  // Such names are not valid in JSON.
   test::write_text(folder / "scene/a.gltf",
                    "{\"asset\": {\"version\": \"2.0\"}, \"images\": [{\"uri\": \"\xff.png\"}]}");
   EXPECT_THAT(error_of([&] { read_scene(folder / "scene/a.gltf"); }), ErrorIn("a.gltf"));
-  // COLMAP's names are bytes.
+  // Names in COLMAP are bytes.
   test::ColmapFixture model = test::upright_colmap(2);
   model.images[0].name = "\xff\xfe.png";
   test::write_binary(folder / "scene/sparse/0", model);
@@ -390,7 +391,7 @@ TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
   const Dataset dataset = read_dataset(folder / "scene");
   EXPECT_EQ(dataset.test.size() + dataset.train.size(), 2u);
   cameras_to_json(std::array{dataset.train[0].camera, dataset.test[0].camera});
-  // A name of 5000 letters, of which the message shows some.
+  // The message contains only a part of a name of 5000 letters.
   test::write_text(folder / "long.ply", "ply\nformat ascii 1.0\nelement " +
                                             std::string(5000, '\xff') + " 1 1\nend_header\n");
   EXPECT_LT(error_of([&] { read_scene(folder / "long.ply"); })->reason.size(), 1000u);

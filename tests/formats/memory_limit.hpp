@@ -1,4 +1,4 @@
-// A limit on what reading may take, while a test lasts.
+// Sets the memory limit of readers for the duration of a test.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@ namespace {
 
 std::atomic<std::size_t> live{0}, most{0};
 
-/// Before each block: how long it is.
+/// Header before each block, with its size.
 struct alignas(std::max_align_t) Header {
   std::size_t size;
 };
@@ -35,7 +35,7 @@ void release(void* block) noexcept {
 
 }  // namespace
 
-// The forms for over-aligned types, which nothing here has, stay as they are.
+// The forms for over-aligned types stay unchanged: this program has no such types.
 void* operator new(std::size_t size) {
   if (void* block = allocate(size)) return block;
   throw std::bad_alloc();

@@ -1,12 +1,12 @@
-// How much memory a call takes at most: operator new and delete of the whole program, counted.
-// Linked into a test program of its own (memory_meter.cpp replaces them).
+// Peak memory of a call: operator new and delete of the whole program are counted. Link it into a
+// separate test program, because memory_meter.cpp replaces them.
 #pragma once
 
 #include <cstddef>
 
 namespace tureen::test {
 
-/// The most of them since it was made, beyond those of then.
+/// The peak since its construction, minus the memory in use at its construction.
 class MemoryMeter {
  public:
   MemoryMeter();

@@ -1,4 +1,4 @@
-// What reading may take: amounts as people write them, counting, and every reader under a limit.
+// Memory limits of readers: amounts in text, the count, and every reader under a limit.
 #include <gmock/gmock.h>
 
 #include <cstring>
@@ -46,7 +46,7 @@ TEST(MemoryBudget, CountsOverAllOfItsCopiesAndNeverOverflows) {
   EXPECT_EQ(copy.taken(), 100u);
   copy.give_back(60);
   EXPECT_EQ(budget.left(), 60u);
-  // Products and sums of these are 0 or small in 64 bits.
+  // In 64 bits, these products and sums overflow to 0 or to small values.
   for (const auto& [elements, each] :
        {std::pair(std::uint64_t(1) << 62, std::size_t(4)),
         std::pair(~std::uint64_t(0), std::size_t(1)), std::pair(std::uint64_t(2), ~std::size_t(0))})
@@ -79,7 +79,8 @@ TEST(MemoryBudget, CountsVectorsWhileTheyGrow) {
   ASSERT_TRUE(make_room(values, 1, budget));
   EXPECT_EQ(values.capacity(), 20u);
   EXPECT_EQ(budget.taken(), 80u);
-  // 80 bytes and 920 more would fit, but not beside the old ones while they are moved.
+  // 920 bytes more than 80 would fit, but the old elements need their 80 bytes until they are
+  // moved.
   EXPECT_FALSE(make_room(values, 230, budget));
   EXPECT_EQ(values.capacity(), 20u);
   EXPECT_EQ(budget.taken(), 80u);
@@ -90,16 +91,16 @@ TEST(MemoryBudget, CountsVectorsWhileTheyGrow) {
 
 TEST(DecoderMemory, IsZeroAndBounded) {
   MemoryBudget budget(2000);
-  EXPECT_EQ(decoder_memory::allocate(1), nullptr) << "outside of any scope";
+  EXPECT_EQ(decoder_memory::allocate(1), nullptr) << "outside any scope";
   const decoder_memory::Scope scope(budget, 1500);
   auto* block = static_cast<unsigned char*>(decoder_memory::allocate(500));
   ASSERT_NE(block, nullptr);
   for (int i = 0; i < 500; ++i) ASSERT_EQ(block[i], 0);
   std::memset(block, 7, 500);
-  // Old and new stand beside each other.
+  // While it reallocates, the old and the new block both exist.
   EXPECT_EQ(decoder_memory::reallocate(block, 1001), nullptr);
   EXPECT_TRUE(scope.beyond_limit());
-  EXPECT_EQ(decoder_memory::allocate(1), nullptr) << "what has been refused once stays so";
+  EXPECT_EQ(decoder_memory::allocate(1), nullptr) << "after one rejection, every allocation fails";
   decoder_memory::release(block);
   EXPECT_EQ(budget.taken(), 0u);
 }
@@ -128,7 +129,8 @@ TEST(DecoderMemory, OfAImageKeepsTheImageAlone) {
   EXPECT_EQ(budget.taken(), 30u * 20 * 4);
 }
 
-/// Whether the fixture is read under this limit; anything but a refusal for its memory fails.
+/// Whether the fixture is readable under this limit. Any error except the memory error fails the
+/// test.
 bool is_read(const fuzz::Fixture& fixture, const fuzz::Target& target, std::uint64_t limit) {
   const MemoryLimit scoped(limit);
   try {
@@ -147,13 +149,13 @@ TEST(MaxMemory, EveryReaderKeepsToItAndSaysSo) {
       if (fixture.target != target.name) continue;
       SCOPED_TRACE(fixture.target + "/" + fixture.name);
       EXPECT_FALSE(is_read(fixture, target, 1));
-      // There is one limit, below which it is refused and from which on it is read.
+      // There is one limit: reading fails below it, and succeeds from there on.
       std::uint64_t refused = 1, read = default_max_memory;
       while (read - refused > 1) {
         const std::uint64_t middle = (read + refused) / 2;
         (is_read(fixture, target, middle) ? read : refused) = middle;
       }
-      // A fixture has a few kilobytes; an image's decoder asks for tables of one megabyte.
+      // A fixture has a few kilobytes; an image decoder allocates tables of 1 MB.
       EXPECT_LT(read, 8u << 20);
       for (const std::uint64_t limit : {refused / 3, refused / 2, refused - 1})
         EXPECT_FALSE(is_read(fixture, target, limit));

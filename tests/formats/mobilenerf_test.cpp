@@ -55,7 +55,7 @@ const std::string one_quad =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.25 0.75\nvt 1 0.75\nvt 1 0\nvt 0.25 0\n"
     "f 1/1 2/2 3/3 4/4\n";
 
-/// A scene of two shapes, the second in two pieces.
+/// Writes a scene of two shapes, the second one in two pieces.
 void write_scene_folder(const TemporaryFolder& folder) {
   write_text(folder / "mlp.json", random_network(1, 2).dump());
   write_text(folder / "shape0.obj", one_quad);
@@ -80,7 +80,7 @@ TEST(Obj, VerticesAreUnifiedByPairAndPolygonsFanned) {
   EXPECT_EQ(mesh.triangles[2], glm::uvec3(4, 1, 5));
   ASSERT_EQ(mesh.positions.size(), 6u);
   EXPECT_EQ(mesh.positions[4], glm::vec3(5));
-  EXPECT_EQ(mesh.positions[5], mesh.positions[2]);  // the same v with another vt
+  EXPECT_EQ(mesh.positions[5], mesh.positions[2]);  // same v, other vt
   EXPECT_EQ(mesh.uv[5], glm::vec2(0, 0));
   EXPECT_EQ(mesh.uv[2], glm::vec2(1, 1));
 }
@@ -123,7 +123,7 @@ TEST(MobileNerf, AFolderBecomesOneSoup) {
   EXPECT_EQ(soup.triangles[2], glm::uvec3(4, 5, 6));
   const auto& textures = std::get<UvTextures>(soup.appearance);
   EXPECT_EQ(textures.material_of_face, (std::vector<std::uint32_t>{0, 0, 1, 1, 1, 1}));
-  // v grew upwards.
+  // In the file, v points upwards.
   EXPECT_EQ(textures.uv[0], glm::vec2(0.25f, 0.25f));
   EXPECT_EQ(textures.uv[2], glm::vec2(1.0f, 1.0f));
   const UvMaterial& material = textures.materials[1];
@@ -139,7 +139,7 @@ TEST(MobileNerf, AFolderBecomesOneSoup) {
   EXPECT_NEAR(glm::distance(scene.cameras[0].eye(), glm::dvec3(0, 2, 3.464)), 0, 1e-12);
 }
 
-// The network as it is published, evaluated as its viewer does, against the rewritten one.
+// The published network, evaluated as in its viewer, against the rewritten one.
 TEST(MobileNerf, TheNetworkGivesThePublishedColours) {
   const TemporaryFolder folder;
   write_scene_folder(folder);
@@ -170,7 +170,7 @@ TEST(MobileNerf, TheNetworkGivesThePublishedColours) {
       x = y;
     }
     const glm::dvec3 color = evaluate(mlp, features, -d);
-    // Weights are floats: 6e-8 of each, over a few dozen terms of order one.
+    // Weights are floats: relative errors of 6e-8, over a few dozen terms of order one.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c], x[std::size_t(c)], 1e-5);
   }
 }
@@ -252,10 +252,11 @@ TEST(MobileNerf, TruncatedFilesAreSurvived) {
   }
 }
 
-// A real scene of which only one part is there; see the data's licence: it stays where it is.
+// A real scene with only one part of its shapes. It stays outside the repository because of its
+// licence.
 TEST(MobileNerf, TheDrums) {
   const fs::path drums = fs::path(TUREEN_SOURCE_DIR) / "../shared/data/soups/mobilenerf_drums";
-  if (!fs::exists(drums)) GTEST_SKIP() << drums << " is not there";
+  if (!fs::exists(drums)) GTEST_SKIP() << drums << " does not exist";
   const Scene scene = read_mobilenerf(drums);
   const TriangleSoup& soup = soup_of(scene);
   EXPECT_EQ(defect(soup), std::nullopt);
@@ -266,7 +267,7 @@ TEST(MobileNerf, TheDrums) {
   EXPECT_EQ(image.width, 4096);
   std::size_t holes = 0;
   for (const glm::u8vec4& texel : image.pixels) holes += texel.r == 0;
-  // "Half of the texels are holes" is what is known of it; unused space counts here too.
+  // The source only states "half of the texels are holes"; unused space counts here, too.
   EXPECT_GT(double(holes) / double(image.pixels.size()), 0.4);
   EXPECT_LT(double(holes) / double(image.pixels.size()), 0.99);
 }

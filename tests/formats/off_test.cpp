@@ -116,7 +116,7 @@ TEST(Off, KeepsPositionsThatAreNotFinite) {
 // Row X5 of the catalogue of numerical hazards.
 TEST(Off, X5_CommentsMissingAlphaAndColoursFromZeroToOneAreRead) {
   const glm::vec4 grey(0.8f, 0.8f, 0.8f, 1.0f);
-  // Comments: lines of them, and the ends of lines, before, between and behind everything.
+  // Comments: whole lines and ends of lines, before, between and after everything.
   const std::string commented =
       "# by hand\nCOFF # kind\n# counts\n 3 1 0 # of them\n\n# corners\n0 0 0 # first\n# 1 1 1\n"
       "1 0 0\n0 1 0#last\n#\n3 0 1 2 # no colour\n# end\n";
@@ -125,7 +125,7 @@ TEST(Off, X5_CommentsMissingAlphaAndColoursFromZeroToOneAreRead) {
               ElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
   EXPECT_THAT(soup_of(scene).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
   EXPECT_THAT(face_rgba(scene), ElementsAre(grey));
-  // Of faces and of vertices, without and with an alpha, as bytes and from 0 to 1.
+  // Colours of faces and of vertices, without and with alpha, as bytes and from 0 to 1.
   const auto of_face = [](const std::string& color) {
     return face_rgba(read_text("OFF 3 1 0\n" + triangle + "3 0 1 2 " + color + "\n")).front();
   };
@@ -187,7 +187,7 @@ TEST(Off, SurvivesTruncationAndDamage) {
     EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
   };
   const auto bytes = std::as_bytes(std::span(text));
-  // Cut anywhere in the last colour, what is left may still be a colour or none.
+  // If the last colour is cut anywhere, the rest may still be a colour or no colour.
   const Survival cut = survive_truncation(bytes, read);
   EXPECT_GE(cut.refused, bytes.size() - 9);
   const Survival damaged = survive_damage(bytes, read);
@@ -242,13 +242,13 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
                           "OFF holds no background colour.", "OFF holds no cameras.",
                           "OFF holds no origin: positions are written relative to it.",
                           "OFF holds colours in 8 bits: they are rounded."));
-  // Half up: an alpha of one half stays drawn.
+  // Rounding is half up, so an alpha of one half stays visible.
   EXPECT_THAT(face_rgba(read_off(folder / "a.off")),
               ElementsAre(glm::vec4(128 / 255.0f, 0, 0, 128 / 255.0f)));
 }
 
 TEST(Off, WritesMeanColoursOfOtherAppearances) {
-  // Harmonics of degree 0 have the same colour from everywhere: 1/2 + Y_00 c.
+  // Harmonics of degree 0 have the same colour in every direction: 1/2 + Y_00 c.
   TriangleSoup soup;
   soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   soup.triangles.emplace_back(0, 1, 2);
@@ -289,7 +289,7 @@ TEST(Off, ReportsProgress) {
 
 TEST(Off, ReadsTheRealFicus) {
   const std::string path = data_folder + "soups/ficus_2dts.off";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " does not exist";
   const Scene scene = read_off(path);
   EXPECT_EQ(soup_of(scene).triangles.size(), 33417u);
   EXPECT_EQ(soup_of(scene).positions.size(), 100251u);
@@ -300,7 +300,7 @@ TEST(Off, ReadsTheRealFicus) {
 
 TEST(Off, HostileFilesEndWell) {
   const std::string folder = data_folder + "hostile/off/";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist";
   EXPECT_THAT(error_of([&] { read_off(folder + "empty.off"); }), ErrorAt(folder + "empty.off:1"));
   EXPECT_THAT(error_of([&] { read_off(folder + "invalid.off"); }),
               ErrorAt(folder + "invalid.off:7"));

@@ -70,7 +70,7 @@ TEST(Pickle, ReadsEveryKindOfValue) {
 }
 
 TEST(Pickle, TheMemoSharesValuesAndAllowsCycles) {
-  // A list that contains itself twice, by both sizes of memo opcode.
+  // A list that contains itself twice, with both sizes of memo opcode.
   const Pickle pickle = read(PickleFixture()
                                  .op("]q")
                                  .op(std::string(1, '\0'))
@@ -97,8 +97,8 @@ TEST(Pickle, DepthIsNoDanger) {
   EXPECT_EQ(pickle[pickle.root()].items.size(), 1u);
 }
 
-// Row X4 of the catalogue of numerical hazards: opcodes and names are those of a list, nothing is
-// executed. The third of it, zip bombs, is HostileBombs.X4_* (hostile_test.cpp).
+// Row X4 of the catalogue of numerical hazards: only listed opcodes and names are accepted, and
+// nothing is executed. Its third part, zip bombs, is HostileBombs.X4_* (hostile_test.cpp).
 TEST(Pickle, X4_EveryOtherOpcodeIsRefusedByNameAndByte) {
   const std::string known = "(.JKMNQRXabcehjqrstuG)]}\x85\x86\x87\x88\x89\x8a";
   int refused = 0;
@@ -130,7 +130,7 @@ TEST(Pickle, X4_EveryOtherGlobalIsRefusedByNameAndNothingIsExecuted) {
   EXPECT_THAT(refusal(calling("torch", "load")), ErrorAt("data.pkl@2", "torch.load"));
   EXPECT_THAT(refusal(calling("torch.FloatStorage", "x")),
               ErrorAt("data.pkl@2", "torch.FloatStorage.x"));
-  // A name from the file cannot write to a terminal through the message.
+  // A name from the file cannot send control codes to a terminal through the message.
   EXPECT_THAT(refusal(calling("evil\x1b[2J", "x")), ErrorAt("data.pkl@2", "evil\\u001b[2J.x"));
 }
 

@@ -65,7 +65,8 @@ TEST(PlyHeader, KnowsEveryTypeName) {
 }
 
 TEST(PlyHeader, EndsWhereItsOwnLineBreakEnds) {
-  // The body begins with a line feed, which only belongs to a header of CR LF.
+  // The body begins with a line feed, which belongs to the header only if its line breaks are CR
+  // LF.
   for (const std::string line_break : {"\n", "\r\n", "\r"}) {
     std::string text;
     for (const char* line : {"ply", "format ascii 1.0", "end_header"}) text += line + line_break;
@@ -117,7 +118,7 @@ TEST(PlyHeader, SaysThatItIsTooLongWhereverALineIsCut) {
   }
 }
 
-// A search of all earlier ones for each took eight seconds.
+// Comparing each element with all earlier ones took eight seconds.
 TEST(PlyHeader, TakesVeryManyElements) {
   std::string text = "ply\nformat ascii 1.0\n";
   for (int i = 0; i < 60000; ++i) text += "element e" + std::to_string(i) + " 0\n";

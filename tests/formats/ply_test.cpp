@@ -35,7 +35,7 @@ std::optional<Refusal> message_of(const std::string& text) {
   return error_of([&] { read_bytes(text); });
 }
 
-/// A PLY put together value by value, in any encoding.
+/// Builds a PLY value by value, in any encoding.
 class Builder {
  public:
   explicit Builder(std::string encoding, std::string line_break = "\n")
@@ -69,7 +69,7 @@ class Builder {
   std::string encoding_, break_, text_;
 };
 
-/// Every scalar type, odd orders, extra properties and lists, an unknown element before the rest.
+/// Every scalar type, unusual orders, extra properties and lists, and an unknown element first.
 std::string rich_file(const std::string& encoding, const std::string& line_break) {
   Builder b(encoding, line_break);
   for (const char* line :
@@ -188,7 +188,7 @@ TEST(Ply, RefusesWhatIsNotTriangles) {
 }
 
 TEST(Ply, RefusesByPlaceAndReason) {
-  const std::string head = ascii + vertices3 + faces1 + "end_header\n";  // body from line 10 on
+  const std::string head = ascii + vertices3 + faces1 + "end_header\n";  // body from line 10
   EXPECT_THAT(message_of(head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), ErrorAt("plant.ply:11"));
   EXPECT_THAT(message_of(head + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2\n"), ErrorAt("plant.ply:10", 7));
   EXPECT_THAT(message_of(head + body3 + "\n\n\n\n"), ErrorAt("plant.ply:17", "face"));
@@ -244,12 +244,12 @@ TEST(Ply, RefusesByPlaceAndReason) {
 
 const char* const encodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
-/// Four corners, and the faces that are named; `corner` in the place of the second x.
+/// A square with these faces; `corner` replaces the second x.
 std::string square(const std::string& encoding, const std::string& line_break,
                    const std::vector<std::vector<int>>& faces, float corner = 1.0f) {
   Builder b(encoding, line_break);
   b.line("element vertex 4").line("property float x").line("property float y");
-  b.line("property float nx").line("property float z");  // one that is passed over
+  b.line("property float nx").line("property float z");  // the reader skips nx
   b.line("element face " + std::to_string(faces.size()));
   b.line("property uchar flags").line("property list uchar int vertex_indices");
   b.line("end_header");
@@ -271,7 +271,7 @@ TEST(Ply, X1_BigEndianAsciiCarriageReturnsExtraPropertiesAndQuadsAreRead) {
       EXPECT_THAT(soup_of(scene).positions,
                   ElementsAre(glm::vec3(0, 0, 0.5f), glm::vec3(1, 0, 0.5f), glm::vec3(1, 1, 0.5f),
                               glm::vec3(0, 1, 0.5f)));
-      // A quad is a fan, in the place where it stands among the faces.
+      // A quad becomes a fan at its position among the faces.
       EXPECT_THAT(soup_of(scene).triangles,
                   ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3), glm::uvec3(1, 2, 3)));
     }
@@ -288,8 +288,8 @@ TEST(Ply, X1_FloatsThatAreNotFiniteAreKept) {
     }
 }
 
-// The catalogue would skip such a face and keep the numbers of the others; SECURITY.md says why we
-// do not.
+// The catalogue suggests to skip such a face and keep the numbers of the others. SECURITY.md gives
+// the reason for rejecting the file.
 TEST(Ply, X1_FacesThatNameNoVertexRefuseTheFileByTheirNumber) {
   for (const std::string encoding : encodings)
     for (const int index :
@@ -321,7 +321,7 @@ TEST(Ply, X1_ZeroFacesAreNoSceneUnlessThereIsNothingAtAll) {
     const TemporaryFolder folder;
     write_ply(empty, folder / "empty.ply");
     EXPECT_TRUE(soup_of(read_ply(folder / "empty.ply")).triangles.empty());
-    // As in every format: an image of nothing would leave open what is wrong.
+    // As in every format: an empty image would hide the error.
     EXPECT_THAT(error_of([&] { read_scene(folder / "empty.ply"); }), ErrorAt("empty.ply"));
   }
 }
@@ -340,7 +340,7 @@ TEST(Ply, X1_BodiesThatEndEarlyAreRefusedAtEveryLength) {
   for (const std::string encoding : encodings) {
     const std::string text = square(encoding, "\n", {{0, 1, 2, 3}, {1, 2, 3}});
     const std::size_t body = text.find("end_header\n") + 11;
-    // A text without its last line break is whole.
+    // A text without its last line break is complete.
     const std::size_t whole = encoding == "ascii" ? text.size() - 1 : text.size();
     for (std::size_t size = body; size < whole; ++size)
       EXPECT_THAT(message_of(text.substr(0, size)), ErrorIn("plant.ply"))
@@ -370,7 +370,7 @@ TEST(Ply, SurvivesTruncationAndDamage) {
     const std::string text = rich_file(encoding, "\n");
     const auto bytes = std::as_bytes(std::span(text));
     const Survival cut = survive_truncation(bytes, read);
-    // Every byte of a binary body is needed; a text may lose its last line break.
+    // Every byte of a binary body is needed. A text does not need its last line break.
     EXPECT_EQ(cut.read, encoding == "ascii" ? 1u : 0u);
     EXPECT_GT(cut.refused, 0u);
     const Survival damaged = survive_damage(bytes, read);
@@ -380,7 +380,7 @@ TEST(Ply, SurvivesTruncationAndDamage) {
 }
 
 TEST(Ply, ReadsAcrossBufferBordersAsASlowDecoderDoes_seed6) {
-  // Rows of 7 bytes and lists of random length, so that the borders of 64 KiB fall everywhere.
+  // Rows of 7 bytes and lists of random length put buffer borders, every 64 KiB, at all positions.
   std::mt19937 random(6);
   Builder b("binary_big_endian");
   const int vertices = 30000, faces = 20000;
@@ -449,7 +449,7 @@ TEST(Ply, RoundTripsBitForBit_seed7) {
 
 TEST(Ply, RealGaussianSplatsAreToldWhatTheyAre) {
   const std::string folder = data_folder + "gaussians/";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist";
   EXPECT_THAT(error_of([&] { read_ply(folder + "guitar_3dgs_dc.ply"); }),
               ErrorAt(folder + "guitar_3dgs_dc.ply:3", "3D", 90854));
   EXPECT_THAT(error_of([&] { read_ply(folder + "sh3_trailing_bytes.ply"); }),
@@ -458,7 +458,7 @@ TEST(Ply, RealGaussianSplatsAreToldWhatTheyAre) {
 
 TEST(Ply, HostileFilesEndWell) {
   const std::string folder = data_folder + "hostile/ply";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist";
   std::map<std::string, std::optional<Refusal>> errors;
   std::map<std::string, std::size_t> triangles;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -1,4 +1,4 @@
-// Random scenes of every appearance, and what it means that two scenes are the same to the bit.
+// Random scenes of every appearance, and a bitwise comparison of scenes.
 #pragma once
 
 #include <cstring>
@@ -29,7 +29,7 @@ class RandomScene {
     return result;
   }
 
-  /// Unshared: every face owns its vertices. Shared: faces draw on a third as many.
+  /// Unshared: every face has its own vertices. Shared: a third as many vertices.
   TriangleSoup geometry(std::size_t faces, bool shared) {
     TriangleSoup soup;
     soup.positions.resize(shared ? faces + 2 : 3 * faces);
@@ -137,7 +137,7 @@ class RandomScene {
     return soft;
   }
 
-  /// Everything beside the primitives.
+  /// A scene without primitives: all other members.
   Scene scene() {
     Scene result;
     result.origin = {1e6 + 1.0 / 3.0, -0.1, 1e-300};
@@ -160,7 +160,7 @@ class RandomScene {
   std::mt19937 engine_;
 };
 
-/// Bit by bit: -0 differs from 0 and a NaN equals itself.
+/// Equality bit by bit: -0 differs from 0, and a NaN equals itself.
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -170,7 +170,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 template <class T>
 bool same_bits(const T& a, const T& b) {
   static_assert(std::is_trivially_copyable_v<T>);
-  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the bits are what is compared
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): it compares bits on purpose
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
@@ -247,7 +247,7 @@ inline bool same(const Camera& a, const Camera& b) {
          same_bits(a.view_from_world, b.view_from_world);
 }
 
-/// What differs first, or nothing.
+/// Name of the first difference, or "".
 inline std::string difference(const Scene& a, const Scene& b) {
   if (!std::visit(SamePrimitives{}, a.primitives, b.primitives)) return "primitives";
   if (!same_bits(a.origin, b.origin)) return "origin";

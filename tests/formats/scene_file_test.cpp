@@ -41,7 +41,7 @@ TEST(SceneFile, AsksTheNameWhereTheContentSaysNothing) {
   EXPECT_THAT(error_of([&] { read_scene(folder / "a.OFF"); }), ErrorAt("a.OFF:2"));
 }
 
-/// An image of nothing would leave open whether the file or the view is to blame.
+/// An empty image would not show whether the file or the view is wrong.
 TEST(SceneFile, RefusesFilesWithoutTrianglesAlikeInEveryFormat) {
   const TemporaryFolder folder;
   write_text(folder / "a.off", "OFF\n1 0 0\n0 0 0\n");
@@ -95,7 +95,7 @@ TEST(SceneFile, SaysWhatAFileIsThatIsNoScene) {
 TEST(SceneFile, FindsMobileNerfByItsFolderAndByItsObj) {
   const std::string folder =
       std::string(TUREEN_SOURCE_DIR) + "/../shared/data/soups/mobilenerf_drums";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist";
   for (const char* name : {"", "/shape2.obj"})
     EXPECT_EQ(soup_of(read_scene(folder + name)).triangles.size(), 11026u) << name;
 }

@@ -1,5 +1,5 @@
-// Small torch files made by the tests themselves: pickles opcode by opcode, zip archives byte by
-// byte. What torch itself writes was compared by hand (torch 1.13).
+// Small torch files for tests: pickles opcode by opcode, zip archives byte by byte. They were
+// compared with files by torch 1.13 by hand.
 #pragma once
 
 #include <zlib.h>
@@ -48,7 +48,7 @@ struct ZipFixture {
       append_little(out, packed.size(), 4);
       append_little(out, entry.content.size(), 4);
       append_little(out, entry.name.size(), 2);
-      append_little(out, 5, 2);  // torch pads here, and only here
+      append_little(out, 5, 2);  // torch pads only here
       out += entry.name + std::string("FB\1\0Z", 5);
       out += packed;
 
@@ -120,7 +120,7 @@ struct ZipFixture {
 
 // ---- pickle
 
-/// Appends what Python's pickler writes with protocol 2, without the memo.
+/// Appends the output of Python's pickler with protocol 2, without the memo.
 struct PickleFixture {
   std::string out = "\x80\x02";
 
@@ -154,10 +154,10 @@ struct PickleFixture {
     out += '\n';
     return *this;
   }
-  /// One that need not fit into an integer of 32 bits: LONG1, as Python writes it.
+  /// An integer that may exceed 32 bits: LONG1, as Python writes it.
   PickleFixture& whole(std::uint64_t value) {
     if (value < 1u << 31) return integer(static_cast<std::int32_t>(value));
-    const int bytes = value >> 63 ? 9 : 8;  // the top bit is the sign's
+    const int bytes = value >> 63 ? 9 : 8;  // the top bit is the sign
     op("\x8a").op(std::string(1, static_cast<char>(bytes)));
     append_little(out, value, bytes);
     return *this;
@@ -179,7 +179,7 @@ struct TensorFixture {
   std::vector<std::uint64_t> shape;
   std::vector<std::uint64_t> strides{};  // empty: row-major
   std::uint64_t offset = 0;
-  std::optional<std::uint64_t> stored{};  // how many the storage says it holds; none: as it does
+  std::optional<std::uint64_t> stored{};  // stated number of elements; nullopt: the true one
   bool parameter = false;
 
   template <class T>
@@ -201,7 +201,7 @@ struct TensorFixture {
   }
 };
 
-/// A dict of tensors, numbers and one nested dict level, saved as torch.save does.
+/// A dict with tensors, numbers and one nested dict, in the format of torch.save.
 class TorchFixture {
  public:
   bool deflate = false;
@@ -222,7 +222,7 @@ class TorchFixture {
     pickle_.text(key).real(value);
     return *this;
   }
-  /// An OrderedDict with attributes, as state_dict() returns.
+  /// An OrderedDict with attributes, as state_dict() returns it.
   TorchFixture& add(std::string_view key,
                     const std::vector<std::pair<std::string, TensorFixture>>& state) {
     pickle_.text(key).global("collections", "OrderedDict").op(")R(");

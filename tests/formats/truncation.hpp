@@ -1,4 +1,4 @@
-// What every decoder must survive: its bytes cut short at every length, and every byte damaged.
+// Decoders on damaged bytes: cut at every length, and with every byte damaged.
 // Use:  EXPECT_EQ(survive_truncation(bytes, read).read, 0u);  EXPECT_GT(.. .refused, 0u);
 #pragma once
 
@@ -15,14 +15,14 @@
 
 namespace tureen::test {
 
-/// How the damaged inputs ended. Whatever ended in neither way has failed the test already.
+/// Outcomes of the damaged inputs. Every other outcome fails the test.
 struct Survival {
-  std::size_t read = 0;     // accepted; `read` may check the result itself
+  std::size_t read = 0;     // accepted; `read` may check the result
   std::size_t refused = 0;  // an InputError with a reason
 };
 
-/// Calls `read(std::span<const std::byte>)` once and files the outcome. Any exception but an
-/// InputError that names its file and gives a reason fails the test, as would a crash.
+/// Calls `read(std::span<const std::byte>)` once and counts the outcome. A crash fails the test,
+/// and so does any exception except an InputError with a file and a reason.
 template <class Read>
 void expect_survival(std::span<const std::byte> bytes, Read&& read, const std::string& damage,
                      Survival& survival) {
@@ -36,7 +36,7 @@ void expect_survival(std::span<const std::byte> bytes, Read&& read, const std::s
     EXPECT_FALSE(error.reason().empty()) << damage;
     EXPECT_FALSE(error.place().file.empty()) << damage << ": " << error.what();
   } catch (const std::exception& error) {
-    ADD_FAILURE() << damage << " ended in something else than an InputError: " << error.what();
+    ADD_FAILURE() << damage << " threw something other than an InputError: " << error.what();
   }
 }
 
@@ -55,7 +55,7 @@ Survival survive_truncation(std::span<const std::byte> bytes, Read&& read) {
   return survival;
 }
 
-/// Reads `bytes` with each byte in turn damaged: each single bit flipped, all bits flipped, 0,
+/// Reads `bytes` with each byte damaged in turn: each single bit flipped, all bits flipped, 0,
 /// 0x7f.
 template <class Read>
 Survival survive_damage(std::span<const std::byte> bytes, Read&& read) {

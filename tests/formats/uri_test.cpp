@@ -49,7 +49,7 @@ class ConfinedUri : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(base_); }
 
-  /// The error of resolving `uri`.
+  /// The error from resolving `uri`.
   std::string refused(std::string_view uri) {
     try {
       resolve_in_folder(base_ / "scene", uri);

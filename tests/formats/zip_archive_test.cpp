@@ -29,7 +29,7 @@ std::optional<Refusal> refusal(const std::string& bytes) {
   });
 }
 
-/// The second entry inflates to over 128 KiB: several buffers.
+/// The second entry inflates to more than 128 KiB, which is several buffers.
 ZipFixture sample(bool zip64) {
   std::string numbers;
   for (int i = 0; i < 30000; ++i) numbers += std::to_string(i) + ' ';
@@ -76,7 +76,7 @@ TEST(Zip, WhatIsRefusedIsNamed) {
   EXPECT_THAT(refusal(patched(20, 6, 4)), ErrorAt("a.zip@45", "entry"));
   EXPECT_THAT(refusal(patched(20, 5000, 4)), ErrorAt("a.zip@45", "entry"));
   EXPECT_THAT(refusal(patched(42, 5000, 4)), ErrorAt("a.zip@45", "entry"));
-  // A claim of 3 GiB out of five bytes, of 1 GiB, and of a size that is merely false.
+  // The file states 3 GiB for five bytes, then 1 GiB, then a slightly wrong size.
   const std::string packed = ZipFixture{{{"entry", "12345", true}}}.bytes();
   const auto claimed = [&](std::uint64_t size) {
     std::string bytes = packed, field;
@@ -87,7 +87,7 @@ TEST(Zip, WhatIsRefusedIsNamed) {
   EXPECT_THAT(refusal(claimed(3u << 30)), ErrorAt("a.zip@47", "2147483648"));
   EXPECT_THAT(refusal(claimed(1u << 30)), ErrorAt("a.zip@47", "entry"));
   EXPECT_THAT(refusal(claimed(6)), ErrorAt("a.zip@0", "entry"));
-  // A directory that promises more entries than its bytes can hold.
+  // The directory states more entries than its bytes can contain.
   std::string many = good;
   many.replace(many.size() - 12, 2, "\xfe\xff");
   EXPECT_THAT(refusal(many), ErrorAt("a.zip@45", 65534));

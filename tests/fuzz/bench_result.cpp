@@ -1,5 +1,6 @@
-// A result of `tureen bench`, which --against reads.
-#include "jobs/results/bench_json.hpp"
+// A result of `tureen bench`, as --against reads it.
+#include "cli/bench_result.hpp"
+
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

@@ -1,4 +1,4 @@
-// A camera path of ours.
+// A camera path in our format.
 #include "formats/dataset/camera_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

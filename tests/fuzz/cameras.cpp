@@ -1,4 +1,4 @@
-// Camera files in JSON: ours, transforms.json, and that of 3D Gaussian Splatting.
+// Camera files in JSON: our format, transforms.json, and the format of 3D Gaussian Splatting.
 #include "formats/dataset/camera_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

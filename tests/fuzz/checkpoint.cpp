@@ -1,4 +1,4 @@
-// A checkpoint by torch: the zip archive, the pickle in it, its tensors.
+// A checkpoint by torch: the zip archive, its pickle and its tensors.
 #include "formats/torch/checkpoint.hpp"
 
 #include "tests/fuzz/scratch.hpp"

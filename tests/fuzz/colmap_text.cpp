@@ -1,4 +1,4 @@
-// COLMAP's text files. The first byte says which of the three.
+// COLMAP's text files. The first byte selects one of the three.
 #include "formats/dataset/colmap.hpp"
 #include "tests/fuzz/targets.hpp"
 

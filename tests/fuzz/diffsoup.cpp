@@ -1,4 +1,4 @@
-// One file of a DiffSoup export beside valid others; the first byte says which.
+// One file of a DiffSoup export beside valid others. The first byte selects the file.
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/fuzz/scratch.hpp"

@@ -1,4 +1,4 @@
-// What libFuzzer calls. Built once a target, which TUREEN_FUZZ_TARGET names.
+// The entry points for libFuzzer. Built once for each target, TUREEN_FUZZ_TARGET.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -8,8 +8,8 @@
 #include "tests/fuzz/targets.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  // Far beyond what a valid input of some kilobytes takes, and far below what run.sh allows: who
-  // does not count is found out.
+  // More than a valid input of some kilobytes needs, and less than the limit in run.sh. So the
+  // fuzzer finds readers that do not count their memory.
   tureen::set_max_memory(32 << 20);
   return 0;
 }

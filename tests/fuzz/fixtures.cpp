@@ -56,7 +56,7 @@ class Collection {
   void add(const char* target, const std::string& name, std::string_view text) {
     add(target, name, content(text));
   }
-  /// What `write` makes of a path.
+  /// Adds the file that `write` makes at a path.
   template <class Write>
   void add_file(const char* target, const std::string& name, Write&& write) {
     const auto path = scratch_.folder() / name;
@@ -84,7 +84,7 @@ Scene compressed_scene() {
 }
 
 void add_glb(Collection& all) {
-  // Each appearance once: on shared vertices only the geometry is another one.
+  // Each appearance once: with shared vertices, only the geometry differs.
   for (const test::GlbKind& kind : test::glb_kinds()) {
     const std::string name = kind.name;
     if (name.find("_shared") != std::string::npos && name != "uv_shared") continue;
@@ -105,7 +105,7 @@ void add_glb(Collection& all) {
           with_first_byte(soup.triangles.size(), compressed.texels));
 }
 
-/// A triangle with a texture, a sparse accessor, a transform and a camera, all within the JSON.
+/// A triangle with a texture, a sparse accessor, a transform and a camera, all in one JSON.
 std::string foreign_gltf() {
   return R"({"asset": {"version": "2.0", "generator": "by hand"}, "scene": 0,
  "scenes": [{"nodes": [0, 1]}],
@@ -286,7 +286,7 @@ void add_cameras(Collection& all) {
 
 // ---- Images
 
-/// A progressive JPEG of 8 x 8 grey pixels, by hand: stb writes none.
+/// A progressive JPEG of 8 x 8 grey pixels, by hand: stb cannot write it.
 Content progressive_jpeg() {
   Content bytes;
   const auto append = [&](std::initializer_list<unsigned> values) {
@@ -295,7 +295,7 @@ Content progressive_jpeg() {
   append({0xff, 0xd8, 0xff, 0xdb, 0, 67, 0});
   for (int i = 0; i < 64; ++i) append({16});
   append({0xff, 0xc2, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0});
-  // Huffman tables: DC 0 is "0", DC 2 is "10"; AC's end of a block is "0".
+  // Huffman tables: DC 0 is "0", DC 2 is "10"; the end of an AC block is "0".
   append({0xff, 0xc4, 0, 21, 0x00, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2});
   append({0xff, 0xc4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   append({0xff, 0xda, 0, 8, 1, 1, 0x00, 0, 0, 0, 0xbf});   // a DC of 3
@@ -322,7 +322,7 @@ void add_images(Collection& all) {
   all.add(
       "image", "deep.png",
       PngFixture{.width = 5, .height = 1, .depth = 16, .rows = std::string(1, '\0') + row}.bytes());
-  // Interlaced, 2 x 2, grey: three of the seven passes hold pixels.
+  // Interlaced, 2 x 2, grey: three of the seven passes have pixels.
   all.add("image", "interlaced.png",
           PngFixture{.width = 2,
                      .height = 2,
@@ -350,7 +350,7 @@ Content training_checkpoint_bytes(const Scratch& scratch) {
   const auto path = scratch.folder() / "run.checkpoint";
   trainer::write_checkpoint(path, checkpoint);
   Content bytes = Input::open(path).read_rest();
-  bytes.erase(bytes.end() - 4, bytes.end());  // its checksum, which the target works out
+  bytes.erase(bytes.end() - 4, bytes.end());  // the checksum; the target computes it
   return bytes;
 }
 
@@ -367,11 +367,11 @@ constexpr char session_text[] = R"({ "tureen_session": 1, "window": [640, 480], 
   { "at": 0.2, "wheel": [0, -1] }, { "at": 0.3, "key": "A", "down": false },
   { "at": 0.4, "code_point": 228 }, { "at": 0.4, "drop": ["soup.glb"] },
   { "at": 0.5, "resize": [800, 600] }, { "at": 0.6, "focus": true }, { "at": 0.7, "await": true },
-  { "at": 0.8, "image": "end" }, { "at": 1, "close": true } ] })";
+  { "at": 0.8, "picture": "end" }, { "at": 1, "close": true } ] })";
 
 constexpr char settings_text[] =
     R"({ "window": [1280, 800], "vsync": true, "smooth_motion": false,
-  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "images": "/images" })";
+  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "pictures": "/images" })";
 
 // ---- Benchmarks
 

@@ -1,5 +1,5 @@
-// A valid input of every kind for every target, made by the tests' writers: what damage begins with
-// (tests/formats/hostile_test.cpp) and what fuzzers begin with (seeds.cpp).
+// A valid input of every kind for every target, by the tests' writers. Damage
+// (tests/formats/hostile_test.cpp) and fuzzers (seeds.cpp) start from them.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ struct Fixture {
   std::vector<std::byte> bytes;
 };
 
-/// Small, so that every length can be tried. Each is read without an error.
+/// Small inputs, so that tests can try every length. Each is readable without an error.
 std::vector<Fixture> fixtures();
 
-/// What a PNG of 8 or 16 bits says of itself. `rows` is deflated as it is, whatever the size.
+/// A PNG of 8 or 16 bits with this header. `rows` is deflated unchanged, at any size.
 struct PngFixture {
   std::uint32_t width = 1, height = 1;
   std::uint8_t depth = 8, color_type = 6, interlace = 0;

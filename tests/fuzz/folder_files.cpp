@@ -17,7 +17,7 @@ std::vector<std::byte> bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// 11-16-16-3, as the published pages have it.
+/// A network of 11-16-16-3, as in the published pages.
 std::string network_json() {
   std::string text = "{\"obj_num\": 1";
   const int widths[] = {11, 16, 16, 3};
@@ -41,7 +41,7 @@ FolderFiles diffsoup_files() {
   TriangleSoup soup = random.geometry(2, false);
   LatticeTexture texture = random.lattice_texture(2, 1, false);
   texture.mlp = random.diffsoup_mlp();
-  // Short in the file, which is tried at every length.
+  // Equal weights keep the file short, because tests try every length.
   for (DenseLayer& layer : texture.mlp->layers)
     std::fill(layer.weights.begin(), layer.weights.end(), 0.5f);
   soup.appearance = std::move(texture);
@@ -52,7 +52,7 @@ FolderFiles diffsoup_files() {
   FolderFiles files;
   for (const auto& entry : std::filesystem::directory_iterator(scratch.folder() / "export"))
     files.emplace_back(entry.path().filename().string(), Input::open(entry.path()).read_rest());
-  // Folders are listed in no order, but the first byte of an input must mean one file for good.
+  // Folders have no order, but the first byte of an input must always select the same file.
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -16,13 +16,14 @@ using FolderFiles = std::vector<std::pair<std::string, std::vector<std::byte>>>;
 FolderFiles diffsoup_files();
 FolderFiles mobilenerf_files();
 
-/// All of them in a folder, but for one, which holds something else.
+/// A folder with all these files, except one with other content.
 class ScratchFiles {
  public:
   ScratchFiles(const std::string& name, FolderFiles valid);
 
   const std::filesystem::path& folder() const { return scratch_.folder(); }
-  /// From now on it is file `index`, modulo the number of files, that holds `bytes`.
+  /// Gives file `index`, modulo the number of files, the content `bytes`, and restores the previous
+  /// one.
   void replace(std::size_t index, Bytes bytes);
 
  private:

@@ -1,4 +1,4 @@
-// A .glb or .gltf: ours with all its kinds, and everybody else's.
+// A .glb or .gltf, by this program in all its kinds, or by others.
 #include "formats/gltf/gltf.hpp"
 
 #include "tests/fuzz/scratch.hpp"

@@ -1,5 +1,5 @@
-// A PNG or a JPEG. The chunks of a PNG get the checksums that their bytes have, which no fuzzer
-// would find; that others are refused is in tests/image/png_test.cpp.
+// A PNG or a JPEG. The target corrects the checksums of a PNG's chunks, because no fuzzer would
+// find them. tests/image/png_test.cpp tests that wrong ones are errors.
 #include "image/png.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/image/png_sums.hpp"

@@ -1,4 +1,4 @@
-// One file of a MobileNeRF scene beside valid others; the first byte says which.
+// One file of a MobileNeRF scene beside valid others. The first byte selects the file.
 #include "formats/mesh/mobilenerf.hpp"
 
 #include "tests/fuzz/folder_files.hpp"

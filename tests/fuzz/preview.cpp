@@ -1,4 +1,4 @@
-// The first bytes of a GLB of ours, while it arrives.
+// The first bytes of a GLB in our format, while it arrives.
 #include "formats/tureen_glb/tureen_glb_preview.hpp"
 #include "tests/fuzz/scratch.hpp"
 

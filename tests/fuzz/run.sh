@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh SOURCE SEEDS BUILD TARGET SECONDS [CORPUS]: replays what is known of a target (seeds, crashes, and
-# what ./dev fuzz has collected in BUILD/corpus), then fuzzes it. What it finds on the way is kept in the
-# folder CORPUS, where one is given; a crash is left in BUILD/crashes/TARGET.
+# run.sh SOURCE SEEDS BUILD TARGET SECONDS [CORPUS]: replays the known inputs of a target (seeds, crashes, and
+# the corpus of ./dev fuzz in BUILD/corpus), then fuzzes it. It adds new inputs to the folder CORPUS, if given,
+# and writes a crash into BUILD/crashes/TARGET.
 set -eu
 source=$1 seeds=$2 build=$3 target=$4 seconds=$5
 here=$source/tests/fuzz
@@ -20,8 +20,8 @@ mkdir -p "$corpus" "$crashes"
 collected=$build/corpus/$target
 [ -d "$collected" ] || collected=$seeds/$target
 
-# Readers may take 32 MB here (entry.cpp); sanitizers take several times that. A read of kilobytes
-# takes milliseconds.
+# The memory limit of readers is 32 MB here (entry.cpp); sanitizers need several times that. Reading
+# kilobytes takes milliseconds.
 limits="-malloc_limit_mb=100 -rss_limit_mb=1024 -timeout=20 -print_final_stats=1"
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1"
 # shellcheck disable=SC2086 -- options without blanks

@@ -14,7 +14,7 @@ void require_whole(const Scene& scene) {
   const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
   const auto reason = soup ? defect(*soup) : std::nullopt;
   if (!reason) return;
-  std::fprintf(stderr, "a reader made a scene with a defect: %s\n", reason->c_str());
+  std::fprintf(stderr, "a reader returned a scene with a defect: %s\n", reason->c_str());
   std::abort();
 }
 

@@ -1,5 +1,4 @@
-// What targets share: scenes that readers promise to be whole, and folders for formats that are
-// folders.
+// Shared by targets: a check for scenes, and folders for formats that are folders.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +10,10 @@
 
 namespace tureen::fuzz {
 
-/// Ends the program where a reader broke its word: the scene has a defect.
+/// Aborts the program if the scene has a defect: readers must return scenes without defects.
 void require_whole(const Scene& scene);
 
-/// A folder of this process, empty at first, removed at its end.
+/// A new, empty folder of this process. The destructor removes it.
 class Scratch {
  public:
   explicit Scratch(const std::string& name);

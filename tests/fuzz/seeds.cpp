@@ -1,4 +1,4 @@
-// make_fuzz_seeds FOLDER: writes what fuzzers begin with, FOLDER/TARGET/NAME.
+// make_fuzz_seeds FOLDER: writes the initial inputs of fuzzers, FOLDER/TARGET/NAME.
 #include <cstdio>
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// What the window remembers between runs.
+// The settings that the window stores between runs.
 #include "viewer/files/settings.hpp"
 
 #include <cstdio>
@@ -14,7 +14,7 @@ void settings(Bytes bytes) {
   const viewer::Settings settings = viewer::read_settings(scratch.folder() / "viewer.json");
   if (settings.window.x < 1 || settings.window.y < 1 ||
       settings.recent.size() > viewer::most_recent) {
-    std::fprintf(stderr, "settings that no window has\n");
+    std::fprintf(stderr, "settings outside their ranges\n");
     std::abort();
   }
 }

@@ -1,5 +1,5 @@
-// What is fuzzed: every reader as a function of bytes (targets.def lists them). Fuzzers, the replay
-// of their corpora and tests/formats/hostile_test.cpp call the same functions.
+// Fuzz targets: every reader as a function of bytes (listed in targets.def). Fuzzers, the replay of
+// their corpora and tests/formats/hostile_test.cpp call the same functions.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace tureen::fuzz {
 
 using Bytes = std::span<const std::byte>;
 
-// Each reads what the bytes hold, or throws InputError. Anything else is a fault: another
-// exception, a scene with a defect, a crash.
+// Each reads the bytes, or throws InputError. Any other outcome is a fault: another exception, a
+// scene with a defect, a crash.
 #define TARGET(name) void name(Bytes bytes);
 #include "tests/fuzz/targets.def"
 #undef TARGET
@@ -20,7 +20,6 @@ struct Target {
   void (*read)(Bytes);
 };
 
-/// All of them by name.
 inline constexpr Target targets[] = {
 #define TARGET(name) {#name, name},
 #include "tests/fuzz/targets.def"

@@ -1,5 +1,5 @@
-// A checkpoint of ours: a training run that can go on. The bytes stand before their checksum, which
-// no fuzzer would find.
+// A training checkpoint in our format. The bytes come without their checksum, because no fuzzer
+// would find it.
 #include <zlib.h>
 
 #include <cstring>

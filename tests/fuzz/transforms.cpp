@@ -1,4 +1,4 @@
-// A dataset by its transforms.json, beside one image.
+// A dataset with this transforms.json and one image.
 #include "formats/dataset/dataset.hpp"
 #include "image/png.hpp"
 #include "tests/fuzz/scratch.hpp"

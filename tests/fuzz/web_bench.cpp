@@ -1,5 +1,5 @@
-// What bench.html measured in a browser.
-#include "jobs/results/web_bench.hpp"
+// Measurements by bench.html in a browser.
+#include "cli/web_bench.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

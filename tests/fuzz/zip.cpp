@@ -1,4 +1,4 @@
-// A zip archive and all that its entries hold.
+// A zip archive and the content of its entries.
 #include <algorithm>
 
 #include "formats/torch/zip_archive.hpp"

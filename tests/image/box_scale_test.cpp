@@ -12,7 +12,7 @@ namespace box_scale_test {
 TEST(BoxScale, AveragesByArea) {
   Image8 image(3, 2, glm::u8vec4(0, 0, 0, 255));
   image.at(0, 0) = image.at(0, 1) = glm::u8vec4(255, 255, 255, 255);
-  // Three columns on two: the first covers one white and half a black.
+  // Three columns become two: the first covers a white one and half a black one.
   const Image8 half = box_scaled(image, 2, 1);
   EXPECT_EQ(half.at(0, 0), glm::u8vec4(170, 170, 170, 255));
   EXPECT_EQ(half.at(1, 0), glm::u8vec4(0, 0, 0, 255));
@@ -35,7 +35,7 @@ TEST(BoxScale, EnlargesToBlocksAndKeepsTheSameSize) {
   EXPECT_EQ(box_scaled(image, 2, 1).pixels, image.pixels);
 }
 
-/// The definition, pixel by pixel: an integral over the covered rectangle.
+/// The definition for one pixel: an integral over the covered rectangle.
 glm::dvec4 mean_over(const Image8& image, double left, double top, double right, double bottom) {
   glm::dvec3 color(0);
   double alpha = 0;
@@ -67,7 +67,7 @@ TEST(BoxScale, AgreesWithItsDefinitionOnRandomImages) {
       for (int x = 0; x < width; ++x) {
         const double sx = double(image.width) / width, sy = double(image.height) / height;
         const glm::dvec4 want = mean_over(image, x * sx, y * sy, (x + 1) * sx, (y + 1) * sy);
-        // Rounding to a byte, and sums of floats that reach 255^2 with 24 bits: under 0.01.
+        // Rounding to a byte, plus less than 0.01 for sums of floats up to 255^2 with 24 bits.
         for (int c = 0; c < 4; ++c)
           EXPECT_NEAR(double(scaled.at(x, y)[c]), want[c], 0.51) << x << ' ' << y << ' ' << c;
       }

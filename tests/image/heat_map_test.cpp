@@ -1,4 +1,4 @@
-// The scale of differences, and where images differ.
+// The scale of differences, and maps of the differences between images.
 #include "image/heat_map.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Huffman tables that stb would write past its own for: found wherever a decoder could find them,
-// and nowhere else.
+// Huffman tables that would overflow stb's table: they are found wherever a decoder could find
+// them, and nowhere else.
 #include "image/jpeg_tables.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ Bytes operator+(Bytes a, const Bytes& b) {
   return a;
 }
 
-/// A table of `codes` codes, all of 16 bits but for 255 of 15.
+/// A table of `codes` codes of 16 bits; the first 255 have 15 bits.
 Bytes table(unsigned codes) {
   const unsigned longest = codes > 255 ? codes - 255 : 0;
   Bytes bytes{0xff, 0xc4, (19 + codes) >> 8, (19 + codes) & 255, 0x10};
@@ -52,10 +52,10 @@ TEST(JpegTables, OfMoreThan256CodesAreFoundWhereTheyStand) {
   EXPECT_THAT(found(soi + table(257) + scan), Eq(2u));
   EXPECT_THAT(found(soi + table(12) + table(300) + scan), Eq(2u + 21 + 12));
   EXPECT_THAT(found(Bytes{0xff, 0xff} + soi + table(257)), Eq(4u));
-  EXPECT_THAT(found(soi + Bytes{1, 2, 0xff} + table(257)), Eq(5u)) << "behind others";
+  EXPECT_THAT(found(soi + Bytes{1, 2, 0xff} + table(257)), Eq(5u)) << "after other bytes";
   EXPECT_THAT(found(soi + scan + Bytes{0x11, 0xff, 0} + table(257)), Eq(2u + scan.size() + 3))
-      << "behind a scan";
-  EXPECT_THAT(found(table(257)), Eq(std::nullopt)) << "no JPEG";
+      << "after a scan";
+  EXPECT_THAT(found(table(257)), Eq(std::nullopt)) << "not a JPEG";
   EXPECT_THAT(found({}), Eq(std::nullopt));
   EXPECT_THAT(found(soi), Eq(std::nullopt));
 }
@@ -83,7 +83,7 @@ TEST(JpegTables, BehindAImageAreNoneOfIt) {
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.target != "image" || fixture.bytes.at(0) != std::byte(0xff)) continue;
     ++images;
-    // As of a telephone that appends a video.
+    // As from a telephone that appends a video.
     std::vector<std::byte> with_video = fixture.bytes;
     const auto video = bytes_of(table(257) + Bytes(100, 0x5a));
     with_video.insert(with_video.end(), video.begin(), video.end());

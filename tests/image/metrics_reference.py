@@ -1,4 +1,4 @@
-# Prints the reference values of metrics_test.cpp by independent means: numpy, scipy and
+# Prints the reference values of metrics_test.cpp, computed independently with numpy, scipy and
 # scikit-image (python3-skimage), with full two-dimensional kernels. Run by hand, never by the build.
 import numpy as np
 from scipy import ndimage

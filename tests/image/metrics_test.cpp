@@ -21,8 +21,8 @@ ImageF constant(int width, int height, glm::vec3 color) {
   return ImageF(width, height, glm::vec4(color, 1.0f));
 }
 
-/// An image with flat parts, steps and waves, in 8 bits. tests/image/metrics_reference.py draws
-/// the same one.
+/// An image with flat parts, steps and waves, in 8 bits. tests/image/metrics_reference.py computes
+/// the same image.
 ImageF pattern(int shift, double gain) {
   Image8 image(64, 48);
   const auto to_byte = [](double v) {
@@ -88,7 +88,7 @@ TEST(Metrics, AnUnpaddedSsimOfConstantImagesIsTheLuminanceTerm) {
   const double c1 = 1e-4, a = 0.5, b = 0.25;
   const double expected = (2 * a * b + c1) / (a * a + b * b + c1);
   const ImageF x = constant(20, 20, glm::vec3(0.5f)), y = constant(20, 20, glm::vec3(0.25f));
-  // Flat images have no variance: any that cancellation leaves would move the result.
+  // Flat images have no variance. Any remainder of a cancellation would change the result.
   EXPECT_NEAR(ssim(x, y, SsimBorder::valid), expected, 1e-12);
   EXPECT_NEAR(ssim(x, y, SsimBorder::uniform7), expected, 1e-12);
 }
@@ -107,7 +107,7 @@ TEST(Metrics, TheNumberBordersTookInTheMeasurements) {
   for (const Case& c :
        {Case{1.0, 23.273, 0.7448, 0.7327, 0.7528}, Case{0.5, 29.294, 0.9273, 0.9237, 0.9265}}) {
     const ImageF a = measured_image(0), b = measured_image(c.shift);
-    // Half a unit of the last digit that was noted down.
+    // Half a unit of the last recorded digit.
     EXPECT_NEAR(psnr_from_mse(mean_squared_error(a, b)), c.psnr_db, 0.0006);
     EXPECT_NEAR(ssim(a, b, SsimBorder::zero_pad), c.zero_pad, 0.00006);
     EXPECT_NEAR(ssim(a, b, SsimBorder::valid), c.valid, 0.00006);
@@ -115,8 +115,8 @@ TEST(Metrics, TheNumberBordersTookInTheMeasurements) {
   }
 }
 
-// The numbers are scikit-image 0.19's (valid, uniform7) and those of full two-dimensional kernels
-// in numpy and scipy (zero_pad, FLIP): tests/image/metrics_reference.py prints them.
+// The numbers are by scikit-image 0.19 (valid, uniform7) and by full two-dimensional kernels in
+// numpy and scipy (zero_pad, FLIP): tests/image/metrics_reference.py prints them.
 TEST(Metrics, AgreeWithIndependentImplementations) {
   const ImageF a = pattern(0, 1.0), b = pattern(1, 0.9);
   const Metrics m = compare(a, b);
@@ -139,7 +139,8 @@ TEST(Metrics, AgreeWithIndependentImplementations) {
 
 TEST(Flip, ConstantImagesHaveNoFeaturesAndAClosedForm) {
   const glm::vec3 black(0), white(1), green(0, 1, 0), blue(0, 0, 1);
-  // Black and white lie 100 units of lightness apart; green and blue lie farthest of all.
+  // Black and white differ by 100 units of lightness. Green and blue have the largest difference of
+  // all colours.
   const double largest = 41.276570439672035, knee = 0.4 * largest;
   const double expected = 0.95 + 0.05 * (std::pow(100.0, 0.7) - knee) / (largest - knee);
   EXPECT_NEAR(flip(constant(30, 20, black), constant(30, 20, white)).mean, expected, 1e-9);
@@ -176,9 +177,9 @@ TEST(Metrics, CountCoverageAndFailuresByThePixel) {
   ImageF a = constant(20, 10, glm::vec3(0.5f)), b = a;
   b.at(3, 4).a = 0.49f;                         // no hit
   a.at(5, 5).a = b.at(5, 5).a = 0.2f;           // neither hits
-  b.at(0, 0).r += 1.0f / 255;                   // a rounding, does not fail
+  b.at(0, 0).r += 1.0f / 255;                   // rounding, does not fail
   b.at(1, 0).g += 3.0f / 255;                   // fails
-  b.at(2, 0) += glm::vec4(glm::vec3(0.1f), 0);  // fails once, though in three channels
+  b.at(2, 0) += glm::vec4(glm::vec3(0.1f), 0);  // three channels count as one failure
   const Metrics m = compare(a, b);
   EXPECT_DOUBLE_EQ(m.coverage_mismatch, 1.0 / 200);
   EXPECT_DOUBLE_EQ(m.failing_fraction, 2.0 / 200);
@@ -188,7 +189,7 @@ TEST(Metrics, CountCoverageAndFailuresByThePixel) {
 }
 
 TEST(Metrics, TheUpperPercentileIgnoresOneInAThousand) {
-  // 1000 pixels, 3000 values: three may be large, the fourth largest is the percentile.
+  // 1000 pixels, 3000 values: three may be large, and the fourth largest is the percentile.
   ImageF a = constant(40, 25, glm::vec3(0)), b = a;
   for (int i = 0; i < 3; ++i) b.pixels[i].r = 0.75f;
   EXPECT_EQ(compare(a, b).p999_abs, 0);

@@ -1,4 +1,4 @@
-// Images written row by row are the images that were given.
+// Writing row by row preserves images.
 #include "image/png_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace png_rows_test {
 
 namespace fs = std::filesystem;
 
-/// Noise, which no filter helps, beside ramps, for each of which one does.
-Image8 made_image(int width, int height, unsigned seed) {
+/// Noise, which no filter improves, and ramps, each of which suits one filter.
+Image8 image(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)
@@ -53,7 +53,7 @@ TEST(PngRows, ComeBackHoweverTheyAreCut) {
   fs::remove(path);
 }
 
-/// Several chunks: what is kept between rows must not be lost or doubled.
+/// Several chunks: the state between rows must not be lost or doubled.
 TEST(PngRows, ManyChunksComeBack) {
   const fs::path path = fs::path(testing::TempDir()) / "tureen_png_chunks.png";
   std::mt19937 random(2);
@@ -65,7 +65,7 @@ TEST(PngRows, ManyChunksComeBack) {
   fs::remove(path);
 }
 
-/// It is no larger than what the encoder of whole images makes of it, but for the chunks' frames.
+/// The file is as small as from the encoder of whole images, except for the chunks' frames.
 TEST(PngRows, AreAsSmallAsWholeImages) {
   const fs::path path = fs::path(testing::TempDir()) / "tureen_png_size.png";
   const Image8 image = made_image(400, 300, 3);

@@ -1,5 +1,4 @@
-// PNGs that were changed on purpose: the checksums that their bytes have, without which nobody
-// reads them.
+// Valid checksums for PNGs that were changed on purpose: readers reject other ones.
 #pragma once
 
 #include <zlib.h>
@@ -10,8 +9,7 @@
 
 namespace tureen::test {
 
-/// Writes over the checksum of every chunk; nothing of what is no PNG, or behind where it is cut
-/// short.
+/// Corrects the checksum of every chunk. It changes neither other formats nor a truncated chunk.
 inline std::vector<std::byte> with_png_sums(std::vector<std::byte> png) {
   constexpr std::size_t signature = 8, around = 12;  // a chunk's length, type and checksum
   const bool is_png = !png.empty() && png[0] == std::byte{0x89};

@@ -1,4 +1,4 @@
-// What the PNG encoder writes comes back to the bit, in chunks that other readers accept.
+// The PNG encoder preserves images bit by bit, in chunks that other readers accept.
 #include "image/png.hpp"
 
 #include <gmock/gmock.h>
@@ -60,12 +60,12 @@ std::uint32_t big_endian(const Bytes& bytes, std::size_t place) {
   return value;
 }
 
-/// The error of decoding.
+/// The error from decoding.
 std::optional<Refusal> refusal(const Bytes& png) {
   return error_of([&] { decode_image(png, "test.png"); });
 }
 
-/// stb does not check them; other readers do.
+/// stb does not check the checksums, but other readers do.
 TEST(Png, ChunksCarryTheirSums) {
   const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   std::string types;
@@ -82,7 +82,7 @@ TEST(Png, ChunksCarryTheirSums) {
 TEST(Png, NoBitOfAImageIsReadAsAnotherOne) {
   const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   ASSERT_EQ(refusal(png), std::nullopt);
-  // The last chunk ends the file whatever length it claims.
+  // The last chunk ends the file, with any stated length.
   const std::size_t end = png.size() - 12;
   for (std::size_t place = 0; place < png.size(); ++place)
     for (unsigned bit = 0; bit < 8 && (place < end || place >= end + 4); ++bit) {
@@ -99,7 +99,8 @@ TEST(Png, NoBitOfAImageIsReadAsAnotherOne) {
   EXPECT_THAT(refusal(damaged), ErrorAt("test.png@33"));
 }
 
-/// Others do not care for the sums of what is no part of an image; transparency is one.
+/// Other readers ignore checksums of chunks that do not belong to the image. Transparency belongs
+/// to it.
 TEST(Png, OnlyChunksOfTheImageCount) {
   const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   const auto with_chunk = [&](const char* type, std::uint32_t sum) {
@@ -109,7 +110,7 @@ TEST(Png, OnlyChunksOfTheImageCount) {
       chunk[4 + i] = static_cast<std::byte>(type[i]);
       chunk[8 + i] = static_cast<std::byte>(sum >> (24 - 8 * i) & 0xff);
     }
-    longer.insert(longer.begin() + 8 + 25, chunk.begin(), chunk.end());  // behind the header
+    longer.insert(longer.begin() + 8 + 25, chunk.begin(), chunk.end());  // after the header
     return refusal(longer);
   };
   EXPECT_EQ(with_chunk("tEXt", 0), std::nullopt);
@@ -118,8 +119,8 @@ TEST(Png, OnlyChunksOfTheImageCount) {
 }
 
 TEST(Png, SmoothImagesShrink) {
-  // A slope in both directions: whatever filter is chosen leaves next to nothing.
-  const Image8 image = made_image(256, 256, [](int x, int y, int c) { return x + 2 * y + c; });
+  // A slope in both directions: with any filter, the residual is almost 0.
+  const Image8 image = image(256, 256, [](int x, int y, int c) { return x + 2 * y + c; });
   EXPECT_LT(encode_png(image).size(), image.pixels.size() * 4 / 100);
 }
 

@@ -17,12 +17,12 @@ ImageF gray(int width, int height, float value, float alpha = 1) {
 }
 
 TEST(RenderError, PoolsSquaredErrorsNotDecibels) {
-  // Views at 20, 30 and 40 dB: the mean of decibels is 30, that of squared errors 24.3 dB.
+  // Views at 20, 30 and 40 dB: the mean of decibels is 30 dB, that of squared errors 24.3 dB.
   RenderErrorMeter meter;
   for (const double db : {20.0, 30.0, 40.0})
     meter.add(gray(16, 16, 0.5f), gray(16, 16, float(0.5 + std::pow(10.0, -db / 20))));
   const RenderError error = meter.result();
-  // Float images keep the differences to 1e-7 or so.
+  // Float images preserve the differences to about 1e-7.
   EXPECT_NEAR(error.mean_psnr_db, 30, 1e-4);
   EXPECT_NEAR(error.worst_psnr_db, 20, 1e-4);
   EXPECT_NEAR(error.mse, (1e-2 + 1e-3 + 1e-4) / 3, 1e-8);
@@ -66,8 +66,8 @@ TEST(RenderError, OneViewIsWhatCompareSays) {
 }
 
 TEST(RenderError, TheHighPercentileIsThatOfAllViewsTogether) {
-  // 2 of 2,000 pixels are off by a half: exactly the thousandth that the percentile leaves out; a
-  // third one is not.
+  // 2 of 2,000 pixels are off by a half: exactly the thousandth that the percentile ignores. A
+  // third pixel counts.
   RenderErrorMeter meter;
   ImageF bad = gray(40, 25, 0);
   bad.at(0, 0) = bad.at(5, 5) = glm::vec4(glm::vec3(0.5f), 1);
@@ -91,7 +91,7 @@ TEST(RenderError, EqualImagesAndImagesThatDoNotFit) {
 }
 
 TEST(DecibelsLost, AreThoseOfAddedErrors) {
-  // The table of the error budget: a model of 27 dB drawn at 40, 45, 50 and 55 dB.
+  // The table of the error budget: a model of 27 dB, drawn at 40, 45, 50 and 55 dB.
   EXPECT_NEAR(decibels_lost(27, 40), 0.212, 1e-3);
   EXPECT_NEAR(decibels_lost(27, 45), 0.068, 1e-3);
   EXPECT_NEAR(decibels_lost(27, 50), 0.022, 1e-3);

@@ -18,7 +18,7 @@ using test::error_of;
 using test::ErrorAt;
 namespace fs = std::filesystem;
 
-/// Other programs for as long as it lives.
+/// Sets PATH for its lifetime.
 class Path {
  public:
   explicit Path(const std::string& folders) : before_(std::getenv("PATH")) {
@@ -34,13 +34,13 @@ class Path {
 
 void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
-/// A program of that name which does as the lines of the shell say.
+/// Writes a program with these lines of shell.
 void write_program(const fs::path& path, const std::string& lines) {
   write_text(path, "#!/bin/sh\n" + lines + "\n");
   fs::permissions(path, fs::perms::owner_all);
 }
 
-/// A colour in each quarter, lighter with each frame; smooth, as coders like it.
+/// A colour in each quarter, lighter with each frame. Smooth images suit video codecs.
 Image8 frame(int width, int height, int number) {
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)
@@ -68,7 +68,7 @@ std::string output_of(const std::string& command) {
 Decoded decode(const fs::path& path) {
   Decoded result;
   const std::string name = "'file:" + path.string() + "'";
-  // The reader is told the matrix as the file has it; ffmpeg's own default is another.
+  // The reader needs the matrix of the file, because ffmpeg's default is another one.
   const std::string rgb = output_of("ffmpeg -nostdin -v error -i " + name +
                                     " -vf scale=in_color_matrix=bt709:in_range=tv -f rawvideo "
                                     "-pix_fmt rgb24 -");
@@ -97,15 +97,15 @@ TEST_F(Video, ShowsTheFramesThatWereWritten) {
     constexpr int width = 65, height = 47, count = 5;
     VideoFile video(folder / name, {width, height, 25});
     for (int i = 0; i < count; ++i) video.add(frame(width, height, i));
-    EXPECT_FALSE(fs::exists(folder / name)) << "whole or not at all";
+    EXPECT_FALSE(fs::exists(folder / name)) << "the file appears only when it is complete";
     video.commit();
     const Decoded decoded = decode(folder / name);
     const bool webm = std::string(name) == "video.WebM";
     EXPECT_EQ(decoded.description,
               (webm ? "vp9" : "h264") + std::string(",66,48,yuv420p,bt709,25/1\n"));
-    ASSERT_EQ(decoded.rgb.size(), std::size_t(3) * 66 * 48 * count);
-    // Away from the edges, where colours are mixed: the middle of each quarter, each frame. 4 steps
-    // of 8 bits: the range of 219 levels, the matrix and the coding each cost about one.
+    ASSERT_EQ(video.rgb.size(), std::size_t(3) * 66 * 48 * count);
+    // The middle of each quarter in each frame, because colours mix near the edges. The tolerance
+    // is 4 steps of 8 bits: the range of 219 levels, the matrix and the coding each cost about one.
     for (int i = 0; i < count; ++i) {
       const Image8 expected = frame(width, height, i);
       for (const auto& [x, y] : {std::pair(12, 10), {50, 10}, {12, 36}, {50, 36}})
@@ -140,13 +140,13 @@ TEST(VideoFile, TellsWhatFfmpegComplainsAbout) {
   const auto failure = [&] {
     return error_of<OutputError>([&] {
       VideoFile video(folder / "video.mp4", {64, 48, 30});
-      // Some frames fit into the connection before it shows that nobody reads.
+      // Some frames fit into the buffer of the connection before writing fails.
       for (int i = 0; i < 200; ++i) video.add(frame(64, 48, 1));
       video.commit();
     });
   };
   EXPECT_THAT(failure(), ErrorAt("video.mp4", "ffmpeg", "Unknown encoder"));
-  // One that dies on a signal, and says nothing.
+  // A program that ends by a signal, without a message.
   write_program(folder / "bin/ffmpeg", "kill -9 $$");
   EXPECT_THAT(failure(), ErrorAt("video.mp4", "ffmpeg"));
   EXPECT_EQ(files_in(folder / ""), 1u) << "only bin";
@@ -158,7 +158,7 @@ TEST(VideoFile, IsRefusedWithAdviceWhereFfmpegIsMissing) {
   EXPECT_FALSE(have_ffmpeg());
   try {
     VideoFile video(folder / "video.mp4", {64, 48, 30});
-    FAIL() << "nothing thrown";
+    FAIL() << "no exception";
   } catch (const UsageError& error) {
     EXPECT_EQ(error.reason(), ffmpeg_missing);
     EXPECT_EQ(error.hint(), ffmpeg_hint);

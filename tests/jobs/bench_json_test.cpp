@@ -1,6 +1,4 @@
-// The file of `tureen bench`: written, read back, and refused when bad.
-#include "jobs/results/bench_json.hpp"
-
+// The file of `tureen bench`: written, read back, and rejected if invalid.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,12 +6,13 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "cli/bench_result.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::results {
 namespace bench_json_test {
 
-/// Every field set, to values that no other field has.
+/// A result with every field set, each to a value that no other field has.
 BenchResult example() {
   BenchMeasurement hardware{.configuration = "tureen",
                             .camera_set = "hemisphere:3",
@@ -88,7 +87,7 @@ TEST(BenchResult, ComesBackFromJsonAsItWas) {
   const BenchResult read = bench_result_from_json(written.dump(), "bench.json");
   EXPECT_EQ(to_json(read), written);
   EXPECT_EQ(read.configurations[0].specialisations, example().configurations[0].specialisations);
-  // The order of passes is that of the frame.
+  // The order of passes is their order in the frame.
   ASSERT_EQ(read.measurements[0].passes_ms.size(), 3u);
   EXPECT_EQ(read.measurements[0].passes_ms[0].first, "visibility");
   EXPECT_EQ(read.measurements[0].frame_ms.p99, 1.0 / 3);
@@ -115,7 +114,7 @@ TEST(BenchResult, OfTooFewSamplesTheSlowestPercentIsNull) {
   EXPECT_EQ(to_json(bench_result_from_json(written.dump(), "bench.json")), written);
 }
 
-/// What `tureen bench` wrote when its files were of version 1.
+/// A document of version 1.
 nlohmann::json of_version_1() {
   nlohmann::json document = to_json(example());
   document["version"] = 1;
@@ -123,7 +122,7 @@ nlohmann::json of_version_1() {
   document["machine"].erase("rasteriser_threads");
   document.erase("peak_mib");
   document["protocol"].erase("processor_time");
-  document["measurements"][0]["rounds"] = 5;  // 15 samples, and a number all the same
+  document["measurements"][0]["rounds"] = 5;  // 15 samples; version 1 has a p99 nevertheless
   return document;
 }
 
@@ -142,7 +141,7 @@ TEST(BenchResult, OlderFilesHaveProcessorTimeAsAnOption) {
   EXPECT_TRUE(bench_result_from_json(document.dump(), "bench.json").protocol.processor_time);
 }
 
-/// Every key that stands in the document, as "measurements/0/frame_ms/mean".
+/// The path of every key in the document, as "measurements/0/frame_ms/mean".
 std::vector<nlohmann::json::json_pointer> all_keys(const nlohmann::json& document) {
   std::vector<nlohmann::json::json_pointer> result;
   const nlohmann::json flat = document.flatten();
@@ -161,7 +160,7 @@ TEST(BenchResult, MissesEveryKeyThatAllHave) {
   const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads", "/peak_mib",
                                        "/protocol/processor_time"};
   for (const auto& key : keys) {
-    // Files of earlier versions have no list of specialisations, and no kind of gap.
+    // Files of earlier versions have neither a list of specialisations nor a kind of gap.
     if (optional.contains(key.to_string()) || key.back() == "specialisations" ||
         key.back() == "passes_gap")
       continue;
@@ -231,7 +230,7 @@ TEST(Machine, IsKnownAndTakesMemory) {
 #endif
 }
 
-/// LP_NUM_THREADS as given, and after its life as it was.
+/// Sets LP_NUM_THREADS to the given value, and restores it at the end of its life.
 class LlvmpipeThreads {
  public:
   explicit LlvmpipeThreads(const char* value) {
@@ -255,7 +254,7 @@ TEST(Machine, KnowsWithHowManyThreadsLlvmpipeDraws) {
   const int usual = cores > 1 ? cores : 0;
   EXPECT_EQ(with(nullptr), usual);
   EXPECT_EQ(with("7"), 7);
-  EXPECT_EQ(with("0"), 0) << "the thread that calls OpenGL";
+  EXPECT_EQ(with("0"), 0) << "the thread that calls OpenGL draws";
   EXPECT_EQ(with("many"), usual);
   EXPECT_EQ(with("-1"), usual);
   const LlvmpipeThreads threads("7");

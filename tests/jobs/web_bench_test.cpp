@@ -1,5 +1,5 @@
-// Downloads of bench.html: what is made of them, and what is refused.
-#include "jobs/results/web_bench.hpp"
+// Downloads of bench.html: the results that they become, and the errors.
+#include "cli/web_bench.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(WebBench, SaysWhatThePageMeasured) {
   EXPECT_EQ(result.protocol.clock, fixture()["protocol"]["clock"].get<std::string>());
   EXPECT_EQ(result.load.read_ms, 81.5);
   EXPECT_EQ(result.load.plan_ms, 12.25);
-  EXPECT_EQ(result.load.peak_mib, 0) << "nobody looked";
+  EXPECT_EQ(result.load.peak_mib, 0) << "the page does not measure it";
   EXPECT_EQ(result.peak_mib, 64);
   EXPECT_EQ(result.load.device_mib, 45);
   EXPECT_EQ(result.configurations.at(1).device_mib, 66.5);
@@ -97,7 +97,7 @@ TEST(WebBench, JudgesTimesByTheStatisticsOfEveryBenchmark) {
 
 TEST(WebBench, HasTheSpecialisationsOfItsPlans) {
   EXPECT_THAT(read(fixture()).front().configurations.at(0).specialisations, IsEmpty())
-      << "a page of an earlier version";
+      << "an earlier version of the page";
   nlohmann::json page = fixture();
   page["scenes"][0]["configurations"][0]["specialisations"] = {
       {{"name", "alpha-test"}, {"count", 7}, {"total", 9}, {"margin", 0.25}}};
@@ -120,7 +120,7 @@ TEST(WebBench, BecomesAResultLikeAnyOther) {
 
 // ---- Hostile files ------------------------------------------------------------------------------
 
-/// Everything that stands in the document, values and the objects and lists around them.
+/// The path of every value, object and list in the document.
 std::vector<Pointer> all_places(const nlohmann::json& document) {
   std::set<std::string> places;
   const nlohmann::json flat = document.flatten();
@@ -130,7 +130,7 @@ std::vector<Pointer> all_places(const nlohmann::json& document) {
   return {places.begin(), places.end()};
 }
 
-/// The reader refuses it and names the file.
+/// Expects that the reader rejects the document and names the file.
 void expect_refused(const nlohmann::json& document, const std::string& what) {
   SCOPED_TRACE(what);
   EXPECT_THAT(refusal(document.dump()), ErrorIn("phone.json"));
@@ -155,7 +155,7 @@ TEST(WebBench, EveryValueIsOfItsKind) {
     for (const nlohmann::json& other :
          {nlohmann::json(true), nlohmann::json("text"), nlohmann::json(nullptr),
           nlohmann::json::object(), nlohmann::json::array()}) {
-      // Some texts may be any, and some lists empty.
+      // Some texts may have any value, and some lists may be empty.
       if (other.type() == complete.at(place).type()) continue;
       nlohmann::json document = complete;
       document.at(place) = other;

@@ -1,5 +1,5 @@
-// The oracle's rays against hand-computed cases and against a second, independent way to intersect
-// a triangle. Names in brackets are those of the stress catalogue of numerical cases.
+// The oracle's rays against cases computed by hand, and against a second, independent intersection
+// with a triangle. Names in brackets are rows of the catalogue of numerical hazards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +22,9 @@ using oracle::Rays;
 
 constexpr Coverage both_coverages[] = {Coverage::exact, Coverage::snapped};
 
-/// Looks along -z from the origin; on the plane z = -1 one pixel is 1/64 wide, and (x, y) pixels
-/// from the top left corner lie at at_pixel(x, y), exactly, for the halves and wholes used here.
+/// A camera at the origin that looks along -z. On the plane z = -1, one pixel is 1/64 wide.
+/// at_pixel(x, y) is exactly (x, y) pixels from the top left corner, for the integers and halves
+/// used here.
 Camera straight_camera(int width = 64, int height = 64) {
   Camera camera;
   camera.width = width;
@@ -59,8 +60,8 @@ std::vector<int> hit_counts(const TriangleSoup& soup, const Camera& camera, Cove
 
 TEST(OracleRays, OneTriangleCoversExactlyThePixelsWhoseCentresLieInIt) {
   const Camera camera = straight_camera(8, 8);
-  // Legs on the lines x = 1 and y = 1, hypotenuse x + y = 7, which runs through pixel centres; it
-  // faces right and down, so it owns none of them. Both windings.
+  // The legs are on the lines x = 1 and y = 1. The hypotenuse x + y = 7 runs through pixel centres,
+  // but it faces right and down, so the face owns none of them. Both windings.
   for (const bool swapped : {false, true})
     for (const Coverage coverage : both_coverages) {
       std::vector<glm::vec3> corners = {at_pixel(camera, 1, 1), at_pixel(camera, 6, 1),
@@ -74,7 +75,7 @@ TEST(OracleRays, OneTriangleCoversExactlyThePixelsWhoseCentresLieInIt) {
     }
 }
 
-/// 1 where the centres on a horizontal edge belong to the face above it.
+/// 1 if pixel centres on a horizontal edge belong to the face above it.
 int owner_shift(Coverage coverage) {
   return coverage == Coverage::snapped && !oracle::snapped_upper_edge_owns ? 1 : 0;
 }
@@ -97,8 +98,8 @@ TEST(OracleRays, ACentreOnAnEdgeBelongsToTheRightAndToOneOfUpperAndLower) {
 
 TEST(OracleRays, SnapsToTheGridOfTheDevice) {
   const Camera camera = straight_camera(8, 8);
-  // The left edge lies 3/64 pixel right of the centres of column 2: on a grid of 1/16 pixel it is
-  // rounded to 1/16, on one of 1/8 to the centres themselves, which are then its own.
+  // The left edge is 3/64 of a pixel right of the centres of column 2. A grid of 1/16 pixel rounds
+  // it to 1/16. A grid of 1/8 rounds it to the centres, which the face then owns.
   const double left = 2.5 + 3.0 / 64;
   const TriangleSoup soup =
       soup_of({at_pixel(camera, left, 1), at_pixel(camera, left, 7), at_pixel(camera, 14, 7)});
@@ -117,7 +118,7 @@ TEST(OracleRays, SnapsToTheGridOfTheDevice) {
 
 TEST(OracleRays, BarycentricsAndDepthArePerspectiveCorrect) {
   const Camera camera = straight_camera();
-  // Vertices at depths 1, 2 and 4; the hit is recomputed from the barycentrics it reports.
+  // Vertices are at depths 1, 2 and 4. The test recomputes the hit from its barycentrics.
   const TriangleSoup soup = soup_of({{-0.4f, -0.3f, -1}, {0.9f, -0.5f, -2}, {0.3f, 1.7f, -4}});
   for (const Attributes attributes : {Attributes::unsnapped, Attributes::snapped}) {
     const Rays rays(soup, glm::dvec3(0), camera,
@@ -127,7 +128,7 @@ TEST(OracleRays, BarycentricsAndDepthArePerspectiveCorrect) {
       const glm::dvec3 p = hit.b0 * glm::dvec3(soup.positions[0]) +
                            hit.b1 * glm::dvec3(soup.positions[1]) +
                            (1 - hit.b0 - hit.b1) * glm::dvec3(soup.positions[2]);
-      // Snapped corners are off by up to 1/512 pixel, and so is what they interpolate.
+      // Snapped corners are off by up to 1/512 pixel, and so are interpolated values.
       const double tolerance = attributes == Attributes::snapped ? 1.0 / 256 : 1e-9;
       EXPECT_NEAR(camera.cx + 64 * p.x / -p.z, column + 0.5, tolerance);
       EXPECT_NEAR(camera.cy - 64 * p.y / -p.z, row + 0.5, tolerance);
@@ -138,8 +139,8 @@ TEST(OracleRays, BarycentricsAndDepthArePerspectiveCorrect) {
   }
 }
 
-// The independent reference: Moeller and Trumbore, Fast, minimum storage ray/triangle
-// intersection (1997), in world space, with no image plane in it.
+// The independent reference: Moeller and Trumbore, Fast, minimum storage ray/triangle intersection
+// (1997). It works in world space, without an image plane.
 std::optional<Hit> moeller_trumbore(const TriangleSoup& soup, std::uint32_t face, glm::dvec3 eye,
                                     glm::dvec3 direction, double margin) {
   const glm::uvec3 t = soup.triangles[face];
@@ -156,8 +157,8 @@ std::optional<Hit> moeller_trumbore(const TriangleSoup& soup, std::uint32_t face
   return inside && std::isfinite(hit.depth) ? std::optional(hit) : std::nullopt;
 }
 
-/// Every hit that the oracle reports is one by the reference, and the other way round, but for
-/// barycentrics within 1e-9 of an edge, where either answer is right.
+/// Every hit by the oracle is a hit by the reference, and vice versa. Within 1e-9 of an edge, in
+/// barycentrics, either result is correct.
 void expect_brute_force_agrees(const TriangleSoup& soup, const Camera& camera) {
   const Rays rays(soup, glm::dvec3(0), camera);
   std::vector<std::vector<Hit>> found(std::size_t(camera.width) * camera.height);
@@ -187,7 +188,7 @@ void expect_brute_force_agrees(const TriangleSoup& soup, const Camera& camera) {
         } else {
           const auto same = moeller_trumbore(soup, face, camera.eye(), ray, -slack);
           ASSERT_TRUE(same) << "face " << face << " at " << column << ", " << row;
-          // Faces seen nearly edge-on lose digits in both.
+          // Both lose digits on faces seen nearly edge-on.
           ASSERT_NEAR(same->b0, hit->b0, 1e-7);
           ASSERT_NEAR(same->b1, hit->b1, 1e-7);
           ASSERT_NEAR(same->depth, hit->depth, 1e-7);
@@ -259,7 +260,7 @@ TEST(OracleRays, AFanOfNeedlesCoversEveryCentreOnce) {
   }
 }
 
-// [G4] A floor that reaches from behind the eye to the horizon.
+// [G4] A floor from behind the eye to the horizon.
 TEST(OracleRays, AFloorThroughTheCameraIsSeenBelowTheHorizonOnly) {
   const Camera camera = straight_camera();
   const glm::vec3 a(-500, -1, 100), b(500, -1, 100), c(500, -1, -100), d(-500, -1, -100);
@@ -280,7 +281,7 @@ TEST(OracleRays, AFloorThroughTheCameraIsSeenBelowTheHorizonOnly) {
 }
 
 // [G5] Vertices in the eye's plane, next to it, and behind it.
-TEST(OracleRays, VerticesInTheEyePlaneDoNoHarm) {
+TEST(OracleRays, VerticesInTheEyePlaneAgreeWithTheReference) {
   const Camera camera = straight_camera(32, 24);
   std::vector<glm::vec3> corners;
   for (const float z : {0.0f, -0.0f, 1e-30f, -1e-30f, 1.0f, 1e-7f, -1e-7f})
@@ -342,7 +343,7 @@ TEST(OracleRays, ViewDirectionsAreUnitAndPointBackToTheEye) {
     const glm::dvec3 p = hit.b0 * glm::dvec3(soup.positions[t[0]]) +
                          hit.b1 * glm::dvec3(soup.positions[t[1]]) +
                          (1 - hit.b0 - hit.b1) * glm::dvec3(soup.positions[t[2]]);
-    // Ten digits below the barycentrics' own.
+    // The tolerance is ten digits coarser than the barycentrics.
     ASSERT_NEAR(glm::distance(rays.to_eye(column, row), glm::normalize(camera.eye() - p)), 0, 1e-7);
     ++hits;
   });

@@ -1,5 +1,5 @@
-// Whole images by the oracle: which hit wins, what stays the same under transformations that
-// should change nothing, backgrounds, supersampling, and the soups that tests share.
+// Whole images by the oracle: the winning hit, transformations that must not change the image,
+// backgrounds, supersampling, and the soups that tests share.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using oracle::Coverage;
 const glm::dvec3 no_origin(0.0);
 
 struct Difference {
-  std::size_t faces = 0;  // pixels that name another face
-  double largest = 0;     // colour, where both name the same
+  std::size_t faces = 0;  // pixels with another face
+  double largest = 0;     // of a colour channel, where the faces are equal
 };
 
 Difference difference(const OracleImage& a, const OracleImage& b) {
@@ -51,7 +51,7 @@ class OracleImages : public testing::TestWithParam<test::Kind> {
   }();
 };
 
-// The definition: of all hits along the ray, in order, the first visible one.
+// The definition: the first visible hit along the ray.
 TEST_P(OracleImages, ShowTheFirstVisibleHitOfEveryRay) {
   const OracleImage image = render_oracle(soup_, no_origin, camera_);
   const oracle::Rays rays(soup_, no_origin, camera_);
@@ -89,8 +89,9 @@ TEST_P(OracleImages, DoNotChangeWhenSceneAndCameraMoveTogether) {
     moved.view_from_world = glm::translate(camera_.view_from_world, -offset);
     const Difference change = difference(here, render_oracle(soup_, offset, moved));
     EXPECT_EQ(change.faces, 0u) << "2^" << k;
-    // The camera's translation is rounded at 2^20 * 2^-53 = 1e-10; textures of a face seen
-    // edge-on magnify that, to 2.4e-7 here and 2.4e-6 at most with 11 other seeds: a quarter.
+    // The camera's translation is rounded at 2^20 * 2^-53 = 1e-10. Textures of faces seen edge-on
+    // magnify this, to 2.4e-7 here and at most 2.4e-6 with 11 other seeds. The limit is four times
+    // that.
     EXPECT_LT(change.largest, 1e-5) << "2^" << k;
   }
 }
@@ -104,18 +105,18 @@ TEST_P(OracleImages, DoNotChangeWithTheSceneScaled) {
     far.view_from_world[3] = glm::dvec4(double(scale) * glm::dvec3(camera_.view_from_world[3]), 1);
     const Difference change = difference(here, render_oracle(scaled, no_origin, far));
     const bool exact = std::abs(std::frexp(scale, std::array<int, 1>{}.data())) == 0.5f;
-    // By a power of two nothing rounds. Otherwise vertices move by 6e-8 of themselves, 1e-5 pixel:
-    // no centre changes sides, nor does one with 11 other seeds. Colours change by 2.3e-5 at most,
-    // of a lattice, and the budget is four times that; two of 11 other seeds exceed it, by up
-    // to 6.6e-4.
+    // Scaling by a power of two has no rounding. Other scales move vertices by 6e-8 of their
+    // coordinates, 1e-5 pixel. No centre changes sides, neither here nor with 11 other seeds.
+    // Colours change by at most 2.3e-5, for a lattice; the limit is four times that. Two of 11
+    // other seeds exceed it, by up to 6.6e-4.
     EXPECT_EQ(change.faces, 0u) << scale;
     EXPECT_LE(change.largest, exact ? 0.0 : 1e-4) << scale;
   }
 }
 
 TEST_P(OracleImages, MirrorWithTheScene) {
-  // x -> -x of scene and camera. Centres exactly on an edge would change sides; the random soup
-  // has none. Harmonics and color MLPs see other directions, so only faces are compared.
+  // x -> -x for scene and camera. Centres exactly on an edge would change sides, but the random
+  // soup has none. Harmonics and colour MLPs get other directions, so the test compares only faces.
   TriangleSoup mirrored = soup_;
   for (glm::vec3& p : mirrored.positions) p.x = -p.x;
   Camera camera = camera_;
@@ -197,8 +198,8 @@ TEST(OracleImage, CoincidentFacesAreWonByTheLowerIndex) {
   }
 }
 
-// Snapping moves edges by at most 1/512 pixel: few centres change sides, 2 of 19,200 here and 5 at
-// most with 11 other seeds. The budget is three times that.
+// Snapping moves edges by at most 1/512 pixel. Few centres change sides: 2 of 19,200 here, and at
+// most 5 with 11 other seeds. The limit is three times that.
 TEST(OracleImage, SnappedCoverageStaysCloseToExact) {
   const TriangleSoup soup = test::random_soup(51, {.faces = 200, .size = 0.3});
   test::Random random(52);
@@ -250,7 +251,7 @@ TEST(OracleImage, AnEmptySoupIsBackground) {
     EXPECT_EQ(pixel, glm::vec4(0.5f, 0.5f, 0.5f, 1));
 }
 
-// -- the shared soups themselves ---------------------------------------------------------------
+// -- the soups that tests share ---------------------------------------------------------------
 
 TEST(RandomSoups, HaveNoDefectAndRepeat) {
   for (const test::Kind kind : test::all_kinds)

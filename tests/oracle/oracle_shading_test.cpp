@@ -1,4 +1,4 @@
-// What the oracle takes a point of a face for, against values computed by hand.
+// The oracle's shading of a point, against values computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,7 @@ TEST(OracleShading, FaceHarmonicsLookFromTheCentroidByTheirConvention) {
   expect_color(oracle::color(one_face(sh), {0, 0.1, 0.1}, to_eye, eye),
                {0.5 + 0.5 * y, 0.5 - 0.25 * y, 1.0});
   EXPECT_TRUE(oracle::is_visible(one_face(sh), {0, 0.1, 0.1}));
-  // An eye at the centroid sees along (0, 0, 1) by either convention.
+  // An eye at the centroid gives (0, 0, 1) in either convention.
   expect_color(oracle::color(one_face(sh), {0, 0.1, 0.1}, to_eye, glm::dvec3(0)),
                {0.5 + 0.5 * y, 0.5 - 0.25 * y, 1.0});
 }
@@ -98,7 +98,7 @@ TEST(OracleShading, LatticesReturnTheirTexelsAtLatticePoints) {
           const auto [x, y] = lattice::texel_coordinates(i);
           const oracle::SurfacePoint point{face, double(x) / n, double(y) / n};
           const std::size_t texel = texture.patches[face].first_texel + i;
-          // The float that value() returns is rounded.
+          // value() returns a rounded float.
           expect_color(oracle::color(soup, point, to_eye, eye),
                        {texture.value(texel, 0), texture.value(texel, 1), texture.value(texel, 2)},
                        1e-7);
@@ -107,8 +107,7 @@ TEST(OracleShading, LatticesReturnTheirTexelsAtLatticePoints) {
     }
 }
 
-// What is negative becomes 0, and what adds up to more than 1 is divided by its sum, as in
-// simplex.glsl.
+// Negative values become 0, and sums above 1 are normalised, as in simplex.glsl.
 TEST(OracleShading, PointsBesideTheFaceTakeTheLatticeOfItsRim) {
   const TriangleSoup soup = test::random_soup(
       7, {.kind = test::Kind::lattice, .faces = 1, .level = 3, .float_texels = true});
@@ -125,7 +124,7 @@ TEST(OracleShading, TheColorMlpSeesInterpolatedFeatures) {
   const TriangleSoup soup =
       test::random_soup(8, {.kind = test::Kind::lattice_mlp, .faces = 1, .level = 0});
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
-  // Level 0 holds vertices 2, 0, 1 in that order.
+  // Level 0 has the texels of vertices 2, 0, 1 in that order.
   const double weights[3] = {0.25, 0.25, 0.5};
   std::array<double, 7> features{};
   for (int c = 0; c < 7; ++c)
@@ -137,7 +136,7 @@ TEST(OracleShading, TheColorMlpSeesInterpolatedFeatures) {
 
 // -- UV textures -------------------------------------------------------------------------------
 
-/// Three by two texels; the red byte names the texel: 10 x + 100 y.
+/// Three by two texels; the red byte identifies the texel: 10 x + 100 y.
 Image8 numbered_image() {
   Image8 image(3, 2);
   for (int y = 0; y < 2; ++y)
@@ -205,7 +204,7 @@ TEST(OracleUvSampling, CoordinatesThatAreNotFiniteOrHugeStayInTheImage) {
 
 UvTextures one_texture(UvMaterial material) {
   UvTextures textures;
-  // Constant over the face: the middle of texel (1, 1).
+  // Constant over the face: the centre of texel (1, 1).
   textures.uv.assign(3, glm::vec2(0.5f, 0.75f));
   textures.material_of_face = {0};
   textures.materials = {std::move(material)};

@@ -1,4 +1,4 @@
-// Colour without the network, held against its definition.
+// Colour without the network, compared with its definition.
 #include "scene/edit/baked_color.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ ColorMlp random_mlp(std::mt19937& random, int inputs, DirectionEncoding encoding
   return mlp;
 }
 
-/// One face of level 2, all of it visible.
+/// One face of level 2, entirely visible.
 LatticeTexture random_texture(std::mt19937& random, bool floats, ColorMlp mlp) {
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   LatticeTexture texture;
@@ -58,7 +58,7 @@ glm::dvec3 color_of(const LatticeTexture& texture, std::size_t texel) {
   return {texture.value(texel, 0), texture.value(texel, 1), texture.value(texel, 2)};
 }
 
-/// Of points that are nearly uniform on the sphere.
+/// The mean over points that are nearly uniform on the sphere.
 glm::dvec3 mean_over_sphere(const LatticeTexture& texture, std::size_t texel) {
   constexpr int count = 2000;
   const double golden_angle = M_PI * (3 - std::sqrt(5.0));
@@ -90,9 +90,9 @@ TEST(BakedColor, IsTheMeanOverAllDirections) {
         EXPECT_EQ(baked.value(texel, 3), 0.0f);
         EXPECT_EQ(baked.value(texel, 7), texture.value(texel, 7));
       }
-      // The rule of 26 points is exact up to degree 7 only. Of 400 networks like these it left a
-      // root mean square of at most 1.43e-3 over a texture, within half a step of 8 bits, though
-      // single texels are up to 6.1e-3 off. Texels of bytes add at most the other half.
+      // The rule of 26 points is exact only up to degree 7. For 400 such networks, its root mean
+      // square error over a texture is at most 1.43e-3, within half a step of 8 bits. Single texels
+      // are off by up to 6.1e-3. Texels of bytes add at most another half step.
       const double rms = std::sqrt(squares / (3.0 * double(texture.texel_count())));
       EXPECT_LT(rms, (floats ? 0.5 : 1.0) / 255);
     }
@@ -107,7 +107,7 @@ TEST(BakedColor, WithoutADirectionItIsExact) {
     const LatticeTexture baked = baked_color(texture);
     for (std::size_t texel = 0; texel < texture.texel_count(); ++texel) {
       const glm::dvec3 truth = network_color(texture, texel, {0, 0, 1});
-      // Half a step of 8 bits; without them the network's float arithmetic.
+      // Half a step of 8 bits. Without bytes, only the error of the network's float arithmetic.
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(color_of(baked, texel)[c], truth[c], (floats ? 0 : 0.5 / 255) + 3e-6);
     }
@@ -145,7 +145,7 @@ TEST(BakedColor, TexelsThatNobodySeesKeepTheirBase) {
   LatticeTexture texture =
       random_texture(random, false, random_mlp(random, 16, DirectionEncoding::harmonics2, 3));
   auto& bytes = std::get<std::vector<std::uint8_t>>(texture.texels);
-  // Only the corner of vertex 2 is opaque: its cell has texels 0, 1 and 2.
+  // Only the corner of vertex 2 is opaque; its cell has texels 0, 1 and 2.
   for (std::size_t texel = 1; texel < texture.texel_count(); ++texel)
     bytes[texel * LatticeTexture::channels + 7] = 0;
   const LatticeTexture baked = baked_color(texture);

@@ -12,7 +12,7 @@ namespace camera_test {
 glm::dvec2 pixel_of(const Camera& camera, glm::dvec3 world) {
   const glm::dvec4 clip =
       clip_from_view(camera, 0.1, 10.0) * camera.view_from_world * glm::dvec4(world, 1.0);
-  // Image rows run down, NDC y runs up.
+  // Image rows go down, NDC y goes up.
   return {(clip.x / clip.w + 1) * 0.5 * camera.width, (1 - clip.y / clip.w) * 0.5 * camera.height};
 }
 
@@ -24,7 +24,7 @@ TEST(Camera, ProjectsByThePinholeEquationWithAnOffCentrePrincipalPoint) {
   camera.fy = 450;
   camera.cx = 300;
   camera.cy = 200;
-  // A point one to the right, half up, two in front of the camera.
+  // A point 1 to the right, 0.5 up and 2 in front of the camera.
   const glm::dvec2 pixel = pixel_of(camera, {1.0, 0.5, -2.0});
   EXPECT_NEAR(pixel.x, 300 + 500 * 0.5, 1e-9);
   EXPECT_NEAR(pixel.y, 200 - 450 * 0.25, 1e-9);

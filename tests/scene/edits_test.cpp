@@ -46,7 +46,7 @@ const LatticeTexture& texture_of(const TriangleSoup& soup) {
   return std::get<LatticeTexture>(soup.appearance);
 }
 
-/// One of each kind, for random_lattice_soup().
+/// Every kind of edit, for random_lattice_soup().
 Edits all_edits() {
   return {.keeps_face = {0, 1, 1, 1, 1},
           .lattice_level = 2,

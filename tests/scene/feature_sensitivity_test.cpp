@@ -1,4 +1,4 @@
-// How colour follows features: against what can be worked out by hand.
+// Sensitivity of colour to features, against values computed by hand.
 #include "scene/edit/feature_sensitivity.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(FeatureSensitivity, WithoutANetworkItIsThatOfThreeColours) {
 
 TEST(FeatureSensitivity, FollowsTheNetworksSlopes) {
   TriangleSoup soup = plain_soup();
-  // One layer and a sigmoid: at 0 its slope is 1/4, and the weights shift nothing there.
+  // One layer and a sigmoid with the input 0, where its slope is 1/4.
   ColorMlp mlp;
   mlp.encoding = DirectionEncoding::none;
   DenseLayer layer{features, 3, std::vector<float>(3 * features, 0.0f), {0, 0, 0}};
@@ -46,7 +46,7 @@ TEST(FeatureSensitivity, FollowsTheNetworksSlopes) {
   mlp.layers = {layer};
   std::get<LatticeTexture>(soup.appearance).mlp = mlp;
   const FeatureMatrix s = mean_sensitivity(soup, eyes, {}, 100);
-  // The reach of the difference bends the sigmoid by about (0.8 * 12/255)^2 / 12 of itself.
+  // The finite difference changes the sigmoid's slope by about (0.8 * 12/255)^2 / 12, relatively.
   EXPECT_NEAR(s[0][0], 0.2 * 0.2, 1e-4);
   EXPECT_NEAR(s[5][5], 0.1 * 0.1, 1e-4);
   EXPECT_NEAR(s[0][5], 0.0, 1e-9);
@@ -57,7 +57,7 @@ TEST(FeatureSensitivity, FacesCountAsTheyAreShown) {
   TriangleSoup soup = plain_soup();
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   auto& texels = std::get<std::vector<float>>(texture.texels);
-  // Both visible; the second one where the sigmoid of red is flat.
+  // Both faces are visible. At the second one, the sigmoid of red is flat.
   for (std::size_t i = 6; i < 12; ++i) {
     texels[i * LatticeTexture::channels + features] = 1.0f;
     texels[i * LatticeTexture::channels] = 1.0f;
@@ -74,7 +74,7 @@ TEST(FeatureSensitivity, FacesCountAsTheyAreShown) {
   const double steep = red({1, 0}), flat = red({0, 1});
   EXPECT_GT(steep, 10.0);
   EXPECT_LT(flat, 1e-6);
-  // A quarter of 2,000 samples is off by 10 at a standard deviation of one; 6 of those.
+  // A quarter of 2,000 samples: the standard deviation is about 10, and the tolerance is 6 of them.
   EXPECT_NEAR(red({1, 3}) / steep, 0.25, 0.03);
   EXPECT_NEAR(red({}) / steep, 0.5, 0.07);
 }

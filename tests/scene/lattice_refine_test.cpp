@@ -31,7 +31,7 @@ TEST(LatticeRefine, TheFunctionOnTheFaceStaysTheSame) {
       for (int i = 0; i < 200; ++i) {
         double b0 = double(unit(random)), b1 = double(unit(random));
         if (b0 + b1 > 1) b0 = 1 - b0, b1 = 1 - b1;
-        // Texels are floats: one rounding each of a value below 1.
+        // Texels are floats: one rounding of each value below 1.
         ASSERT_NEAR(sampled(from, coarse, b0, b1), sampled(to, fine, b0, b1), 6e-8)
             << from << " to " << to << " at " << b0 << ", " << b1;
       }
@@ -56,7 +56,7 @@ TEST(Quantise, EveryByteIsItsOwnValueAndHalvesRoundUp) {
   EXPECT_EQ(quantised_unit(NAN), 0);
 }
 
-// docs/numerics.md, T3: no texel changes the side of 1/2 on which it is drawn or not.
+// docs/numerics.md, T3: no texel crosses 1/2, the threshold of visibility.
 TEST(Quantise, AlphaKeepsItsSideOfOneHalf) {
   const auto drawn = [](std::uint8_t byte) { return float(byte) / 255.0f >= 0.5f; };
   EXPECT_EQ(quantised_alpha(0.5f), 128);
@@ -65,7 +65,7 @@ TEST(Quantise, AlphaKeepsItsSideOfOneHalf) {
     const float alpha = float(i) * 1e-6f;
     const std::uint8_t byte = quantised_alpha(alpha);
     ASSERT_EQ(drawn(byte), alpha >= 0.5f) << alpha;
-    // Half a step, and the rounding of this very comparison.
+    // Half a step, and the rounding of this comparison.
     ASSERT_LE(std::abs(double(byte) / 255 - double(alpha)), 0.5 / 255 + 1e-12) << alpha;
   }
 }

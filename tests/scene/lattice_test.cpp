@@ -23,7 +23,7 @@ TEST(Lattice, IndexAndCoordinatesAreInverse) {
   }
 }
 
-// Level 0 is the classic trap: texel order is vertex 2, vertex 0, vertex 1.
+// Level 0 is a common source of errors: the texel order is vertex 2, vertex 0, vertex 1.
 TEST(Lattice, LevelZeroOrderIsVertexTwoZeroOne) {
   EXPECT_EQ(lattice::texel_index(0, 0), 0u);
   EXPECT_EQ(lattice::texel_index(1, 0), 1u);
@@ -64,7 +64,7 @@ TEST(Lattice, AffineFunctionsAreReproduced) {
   }
 }
 
-// docs/numerics.md, T1: points on and just outside the edges never leave the lattice.
+// docs/numerics.md, T1: lookups on and just outside the edges stay within the lattice.
 TEST(Lattice, PointsOutsideStayWithinTheTexels) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float values[] = {-1e30f,       -0.3f, -1e-7f, 0.0f,

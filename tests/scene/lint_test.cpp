@@ -15,7 +15,7 @@ namespace lint_test {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Faces with corners of their own, all opaque white.
+/// Faces with their own corners, all opaque white.
 TriangleSoup soup_of(const std::vector<std::array<glm::vec3, 3>>& faces) {
   TriangleSoup soup;
   for (const auto& face : faces) {
@@ -38,7 +38,7 @@ std::vector<Id> ids(const Lint& lint) {
   return ids;
 }
 
-/// The finding, or one of nothing.
+/// The finding, or an empty one.
 LintFinding found(const Lint& lint, Id id) {
   const LintFinding* finding = lint.find(id);
   return finding ? *finding : LintFinding{};
@@ -60,8 +60,8 @@ TEST(Lint, FindsVerticesThatAreNotFinite) {
 }
 
 TEST(Lint, FindsFacesWithoutArea) {
-  const Lint result = lint(soup_of({{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}},  // in a line
-                                    {{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}},  // two corners in one
+  const Lint result = lint(soup_of({{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}},  // on a line
+                                    {{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}},  // two equal corners
                                     {{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}},  // a point
                                     plain}));
   EXPECT_THAT(found(result, Id::degenerate_faces).first, ElementsAre(0, 1, 2));
@@ -117,7 +117,7 @@ TEST(Lint, DuplicatesAgreeWithComparingAllPairs) {
 TEST(Lint, FindsTransparentFacesByColour) {
   TriangleSoup soup = soup_of({plain, other});
   auto& rgba = std::get<FaceColors>(soup.appearance).rgba;
-  rgba[0].a = 0.5f;  // the threshold itself is drawn
+  rgba[0].a = 0.5f;  // visible: equal to the threshold
   rgba[1].a = std::nextafter(0.5f, 0.0f);
   EXPECT_THAT(found(lint(soup), Id::never_visible_faces).first, ElementsAre(1));
 }

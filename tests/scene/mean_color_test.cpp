@@ -1,4 +1,4 @@
-// mean_colors against slower, obvious means.
+// mean_colors against slower, simple means.
 #include "scene/edit/mean_color.hpp"
 
 #include <gtest/gtest.h>
@@ -66,10 +66,10 @@ TEST(MeanColor, FaceColoursAreThemselves) {
 
 TEST(MeanColor, CutOutVertexColoursCountOnlyWhatIsSeen) {
   TriangleSoup soup = one_face();
-  // Alpha falls from 1 at the red corner to 0 at the other two: what is seen is the corner piece
-  // of half the side, whose centroid has 2/3 of the red vertex.
+  // Alpha falls from 1 at the red corner to 0 at the other two. The visible part is the corner
+  // piece with half the side, whose centroid is 2/3 red.
   soup.appearance = VertexColors{{{1, 0, 0, 1}, {0, 1, 0, 0}, {0, 1, 0, 0}}};
-  // The 16 samples lie coarsely: a tenth.
+  // The 16 samples are coarse: a tolerance of a tenth.
   expect_near(mean_colors(soup)[0], {2.0 / 3.0, 1.0 / 3.0, 0.0}, 0.1);
   soup.appearance = VertexColors{{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}};
   expect_near(mean_colors(soup)[0], glm::dvec3(1.0 / 3.0), 1e-6);
@@ -105,14 +105,14 @@ TEST(MeanColor, HarmonicsThatClampStayNearADenseMean) {
     dense += glm::clamp(c, 0.0, 1.0) / double(points.size());
   }
   soup.appearance = sh;
-  // Clamping makes a kink that no small quadrature integrates exactly.
+  // Clamping causes a kink, which no small quadrature integrates exactly.
   expect_near(mean_colors(soup)[0], dense, 0.05);
 }
 
 TEST(MeanColor, LatticeCountsVisibleTexelsByTheirArea) {
   TriangleSoup soup = one_face();
   for (const int level : {0, 1, 3}) {
-    // Features linear over the face: their exact mean is the mean of the corners.
+    // Features are linear over the face: their exact mean is the mean of the corners.
     LatticeTexture texture;
     texture.patches = {{0, std::uint32_t(level)}};
     std::vector<float> texels;
@@ -125,7 +125,7 @@ TEST(MeanColor, LatticeCountsVisibleTexelsByTheirArea) {
     texture.texels = texels;
     soup.appearance = texture;
     expect_near(mean_colors(soup)[0], glm::dvec3(1.0 / 3.0), 1e-6);
-    // Only vertex 0's texel is left.
+    // Only the texel of vertex 0 is visible.
     for (std::size_t i = 0; i < texels.size(); i += 8) texels[i + 7] = texels[i] == 1.0f;
     texture.texels = texels;
     soup.appearance = texture;
@@ -154,7 +154,7 @@ TEST(MeanColor, MlpAgreesWithTheDoubleOne) {
         dense += evaluate(*texture.mlp, features, d) / (3.0 * double(points.size()));
     }
     soup.appearance = texture;
-    // The network is not a polynomial of degree 7, but a smooth one of degree 2 inside.
+    // The network is smooth, with inputs of degree 2, but it is not a polynomial of degree 7.
     expect_near(mean_colors(soup)[0], dense, 2e-3);
   }
 }

@@ -16,7 +16,7 @@ using testing::ElementsAre;
 TEST(Remark, EveryKindHasANameOfItsOwnAndASentence) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < Remark::kinds; ++i) {
-    // More values than any kind has.
+    // More values than any kind needs.
     const Remark remark{Kind(i), {1, 2, 3}, {0.25, 0.5}, {"a", "b"}};
     EXPECT_TRUE(names.insert(name_of(remark.kind)).second) << name_of(remark.kind);
     EXPECT_FALSE(describe(remark).empty()) << name_of(remark.kind);

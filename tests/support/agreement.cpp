@@ -15,7 +15,8 @@ namespace tureen::test {
 
 namespace {
 
-/// Of BUILD/agreement. The slashes in a parameterised test's name are no folders.
+/// The folder of `what` in BUILD/agreement. Slashes in a parameterised test's name do not become
+/// folders.
 std::filesystem::path evidence_folder(const std::string& what) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();
@@ -118,7 +119,7 @@ void expect_agreement(const OracleImage& oracle, const Drawn& drawn, const std::
           << found.face_mismatch << ", " << found.psnr << " dB, worst " << found.worst << ", "
           << found.compared << " of the image compared";
   std::string key = what;
-  std::replace(key.begin(), key.end(), ' ', '_');  // it becomes an attribute's name in XML
+  std::replace(key.begin(), key.end(), ' ', '_');  // the key becomes an attribute's name in XML
   testing::Test::RecordProperty(key, numbers.str());
   if (found.coverage_mismatch <= limits.max_coverage_mismatch &&
       found.face_mismatch <= limits.max_face_mismatch && found.psnr >= limits.min_psnr &&

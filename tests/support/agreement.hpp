@@ -1,8 +1,8 @@
-// Holds the GL path against the oracle, which rasterises as GL does (Coverage::snapped).
+// Compares the GL path with the oracle, which rasterises as GL does (Coverage::snapped).
 //
-// Two images agree where they cover the same pixels, name the same faces, and, where both name
-// the same face, show the same colour up to its rounding to 8 bits. A pixel whose two depths, or
-// whose alpha and threshold, float cannot tell apart may fall to the other side: hence budgets.
+// Two images agree if they cover the same pixels with the same faces. Where both name the same
+// face, the colours must be equal up to rounding to 8 bits. In float, two depths, or alpha and
+// threshold, may be indistinguishable. Such pixels may differ, hence the limits.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@
 
 namespace tureen::test {
 
-/// What GL drew. `faces` names one a pixel, and is empty where the plan shades forward.
+/// An image by GL. `faces` has the face of each pixel, and is empty if the plan shades forward.
 struct Drawn {
   Image8 color;
   std::vector<std::uint32_t> faces;
 };
 
-/// One frame on a black background, on a context that is made current for it.
+/// Draws one frame on a black background, and makes the context current.
 Drawn draw(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
            const PlanPreferences& plan = {.site = ShadingSite::deferred});
 
@@ -41,31 +41,31 @@ struct Agreement {
   double coverage_mismatch = 0;  // fraction of pixels that only one of the two covers
   double face_mismatch = 0;      // fraction of pixels that both cover, with different faces
   double psnr = 0;               // dB, over the pixels where both name the same face
-  double worst = 0;              // of a channel there
+  double worst = 0;              // largest difference of a channel there
   double compared = 0;           // fraction of pixels where both name the same face
 };
 
-/// Both images have the same size, and GL's names faces.
+/// Both images must have the same size, and `drawn` must have faces.
 Agreement agreement(const OracleImage& oracle, const Drawn& drawn);
 
 struct AgreementLimits {
-  /// Vertices that rounding in float sends to another 1/256 of a pixel, and alphas and depths that
-  /// float cannot tell from the threshold or from each other: docs/numerics.md, H10.
+  /// In float, rounding moves some vertices to another 1/256 of a pixel. Also, alphas and depths
+  /// may be indistinguishable from the threshold or from each other: docs/numerics.md, H10.
   double max_coverage_mismatch = 1e-4;
   double max_face_mismatch = 1e-4;
-  /// Rounding to 8 bits leaves 58.9 dB where errors are spread evenly over half a step to either
-  /// side, and 54.2 where all of them are half a step. Of a few flat colours some may be close to
-  /// that, all of them by chance never: 55 are nine tenths of half a step in every pixel.
+  /// In dB. Rounding to 8 bits gives 58.9 dB if errors are uniform within half a step, and 54.2 if
+  /// all of them are half a step. With few flat colours, some errors may be close to that, but not
+  /// all of them: 55 dB is nine tenths of half a step in every pixel.
   double min_psnr = 55.0;
-  /// Of the image where both name the same face: below it there is hardly anything to compare.
+  /// Fraction of the image where both name the same face: below it, there is too little to compare.
   double min_compared = 0.05;
 };
 
-/// Fails unless they agree within the limits. Records what it measured as a property of the test.
-/// `what` tells the comparisons of one test from each other, in messages and in the place of the
-/// evidence: a failure leaves expected.png (the oracle's), actual.png, difference.png (enlarged)
-/// and faces.png in BUILD/agreement/TEST/WHAT. The last shows in red what the oracle alone covers,
-/// in green what GL alone covers, in blue where they name different faces.
+/// Fails unless they agree within the limits. Records the measured values as a property of the
+/// test. `what` distinguishes the comparisons of one test, in messages and in the path of the
+/// evidence. A failure writes expected.png (by the oracle), actual.png, difference.png (enlarged)
+/// and faces.png into BUILD/agreement/TEST/WHAT. In faces.png, red pixels are covered only by the
+/// oracle, green ones only by GL, and blue ones by different faces.
 void expect_agreement(const OracleImage& oracle, const Drawn& drawn, const std::string& what,
                       const AgreementLimits& limits = {});
 

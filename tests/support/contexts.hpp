@@ -1,4 +1,4 @@
-// The GL contexts that image tests run on.
+// GL contexts for image tests.
 #pragma once
 
 #include <ostream>
@@ -9,13 +9,13 @@
 namespace tureen::test {
 
 struct NamedContext {
-  const char* name;  // of a test parameter
+  const char* name;  // the name of a test parameter
   gl::ContextRequest request;
 };
 inline void PrintTo(const NamedContext& context, std::ostream* out) { *out << context.name; }
 
 inline constexpr gl::ContextRequest osmesa{.backend = gl::Backend::osmesa};
-/// Drivers give the highest compatible version; the shaders ask for GLSL 3.30 all the same.
+/// Drivers return the highest compatible version, but the shaders use GLSL 3.30.
 inline constexpr gl::ContextRequest egl_core33{
     .backend = gl::Backend::egl, .api = gl::Api::desktop, .major = 3, .minor = 3};
 inline constexpr gl::ContextRequest egl_es30{

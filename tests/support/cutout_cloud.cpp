@@ -16,7 +16,7 @@ namespace {
 
 struct Recipe {
   double field_of_view;  // degrees
-  double deviation;      // of a vertex from its triangle's centre
+  double deviation;      // of a vertex from its triangle's centre, per coordinate
 };
 
 Recipe recipe(CloudCoverage coverage) {

@@ -1,11 +1,11 @@
-// Assertions on errors that hold whatever the words of a message: class, place and values.
+// Assertions on errors, independent of the message's wording: class, place and values.
 //
 //   EXPECT_THAT(error_of([&] { read_off("a.off"); }), ErrorAt("a.off:5", "face", 0, -1));
 //   EXPECT_THAT(error_of<UsageError>(write), ErrorAt("", "16-16-16-3"));
 //   EXPECT_THAT(program.err, Names("--scale", 0.25));
 //
-// A value is what a user needs to find the fault: the name of a property, option or file, or a
-// number that was wrong. Rewording keeps it. A word of English is not a value.
+// Values help a user to find the fault: the name of a property, option or file, or a wrong number.
+// They survive rewording. Plain words are not values.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -24,11 +24,11 @@
 
 namespace tureen::test {
 
-/// An error as a test looks at it.
+/// An error in the form that tests compare.
 struct Refusal {
   std::string file;
-  std::string position;  // ":LINE", "@BYTE" or nothing
-  std::string reason;    // with its hint
+  std::string position;  // ":LINE", "@BYTE" or ""
+  std::string reason;    // including its hint
 };
 
 inline std::ostream& operator<<(std::ostream& stream, const Refusal& refusal) {
@@ -43,8 +43,8 @@ inline Refusal refusal_of(const Error& error) {
   return refusal;
 }
 
-/// The error of exactly this class that `call` throws; nothing where it throws nothing. Any other
-/// exception passes through and fails the test.
+/// The error of exactly this class that `call` throws, or nullopt. Any other exception passes
+/// through and fails the test.
 template <class Expected = InputError, class Call>
 std::optional<Refusal> error_of(Call&& call) {
   try {
@@ -55,7 +55,7 @@ std::optional<Refusal> error_of(Call&& call) {
   return std::nullopt;
 }
 
-/// Whether `text` holds `value` as a whole: "3" is not in "13", "3.5" or "v3".
+/// Whether `text` contains `value` as a whole word: "3" is not in "13", "3.5" or "v3".
 inline bool holds_value(std::string_view text, std::string_view value) {
   const auto is_word = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -75,7 +75,7 @@ inline bool holds_value(std::string_view text, std::string_view value) {
   return value.empty();
 }
 
-/// A value as a message writes it. No template, as hundreds of assertions have values.
+/// A value in the form of messages. Not a template, because hundreds of assertions have values.
 struct Value {
   Value() = default;
   Value(const char* value) : text(value) {}
@@ -89,10 +89,10 @@ struct Value {
     stream << value;
     text = stream.str();
   }
-  std::string text;  // "" asks for nothing
+  std::string text;  // "" always matches
 };
 
-/// Matches a text or an error that carries each of the values.
+/// Matches a text or an error that contains each of the values.
 class NamesMatcher {
  public:
   using is_gtest_matcher = void;
@@ -129,8 +129,8 @@ inline NamesMatcher Names(const Value& a = {}, const Value& b = {}, const Value&
   return NamesMatcher({a, b, c, d, e, f, g});
 }
 
-/// Matches an error at exactly this place ("file", "file:LINE", "file@BYTE"; leading folders of the
-/// file may be left away) that carries each of the values.
+/// Matches an error at exactly this place ("file", "file:LINE", "file@BYTE"; without leading
+/// folders if desired) that contains each of the values.
 class ErrorAtMatcher {
  public:
   using is_gtest_matcher = void;
@@ -141,7 +141,7 @@ class ErrorAtMatcher {
   bool MatchAndExplain(const std::optional<Refusal>& refusal,
                        ::testing::MatchResultListener* listener) const {
     if (!refusal) {
-      *listener << "which is no error";
+      *listener << "which is not an error";
       return false;
     }
     std::string place = refusal->file;
@@ -174,7 +174,7 @@ inline ErrorAtMatcher ErrorAt(const std::string& place, const Value& a = {}, con
   return {place, ErrorAtMatcher::Position::exact, Names(a, b, c, d, e, f)};
 }
 
-/// The same at any line or byte of `file`.
+/// As ErrorAt, at any line or byte of `file`.
 inline ErrorAtMatcher ErrorIn(const std::string& file, const Value& a = {}, const Value& b = {},
                               const Value& c = {}, const Value& d = {}) {
   return {file, ErrorAtMatcher::Position::any, Names(a, b, c, d)};

@@ -1,4 +1,4 @@
-// What a failed image test leaves behind to look at.
+// Images that a failed image test writes.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace tureen::test {
 
-/// Writes `folder`/NAME.png; makes the folder.
+/// Writes `folder`/NAME.png, and creates the folder.
 void write_evidence(const Image8& image, const std::filesystem::path& folder,
                     const std::string& name);
 
-/// The difference of each colour channel, times 16 so that a single step can be seen; opaque. The
-/// sizes are equal.
+/// The difference of each colour channel, times 16 so that a single step is visible; opaque.
+/// Requires equal sizes.
 Image8 enlarged_difference(const Image8& a, const Image8& b);
 
 }  // namespace tureen::test

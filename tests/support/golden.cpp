@@ -40,7 +40,7 @@ void expect_golden(const Image8& actual, const std::string& name, const std::str
   write_evidence(actual, folder, "actual");
   if (!expected.pixels.empty()) write_evidence(expected, folder, "expected");
   if (same_size) write_evidence(enlarged_difference(expected, actual), folder, "difference");
-  ADD_FAILURE() << (expected.pixels.empty() ? "there is no golden "
+  ADD_FAILURE() << (expected.pixels.empty() ? "missing golden "
                     : !same_size            ? "the size differs from the golden "
                                             : "the image differs from the golden ")
                 << expected_path << ": " << off << " pixels off, " << off_by_more

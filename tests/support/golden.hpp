@@ -1,4 +1,4 @@
-// Holds an image against the approved one in tests/golden.
+// Compares an image with the approved one in tests/golden.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace tureen::test {
 
-/// Fails unless `actual` is tests/golden/NAME.png up to the differences that llvmpipe shows between
-/// CPU models: 100 of 307,200 pixels changed there, one of them by more than 1/255. We allow ten
-/// times the first and a hundred times the second: 1 pixel in 300 off at all, 1 in 3,000 by more
-/// than a step. A failure leaves expected.png, actual.png and difference.png (enlarged) in
-/// BUILD/golden/NAME; `./dev golden approve NAME` takes the actual one over. A `variant`, another
-/// way to draw the same image, leaves them in BUILD/golden-variants/NAME-VARIANT: it is never the
-/// one to approve.
+/// Fails unless `actual` equals tests/golden/NAME.png, up to the differences of llvmpipe between
+/// CPU models. As measured, 100 of 307,200 pixels differed, one of them by more than 1/255.
+/// The limits are ten times the first and a hundred times the second: 1 pixel in 300 may differ,
+/// and 1 in 3,000 by more than a step. A failure writes expected.png, actual.png and difference.png
+/// (enlarged) into BUILD/golden/NAME; `./dev golden approve NAME` approves the actual one. A
+/// `variant` is another way to draw the same image. It writes into
+/// BUILD/golden-variants/NAME-VARIANT, which is never approved.
 void expect_golden(const Image8& actual, const std::string& name, const std::string& variant = "");
 
 }  // namespace tureen::test

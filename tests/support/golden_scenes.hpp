@@ -1,4 +1,4 @@
-// The scenes that the approved images in tests/golden show, for every way to draw them: natively
+// Scenes of the approved images in tests/golden, for every way to draw them: natively
 // (tests/runtime/golden_test.cpp) and in a browser (tests/web/goldens.test.mjs).
 #pragma once
 
@@ -7,14 +7,14 @@
 
 namespace tureen::test {
 
-/// A random soup of this kind over a bright background; its one camera has 320 x 240 pixels.
+/// A random soup of this kind over a bright background, with one camera of 320 x 240 pixels.
 Scene golden_scene(Kind kind);
 
-/// A view of the example from near by, where lattices and edges can be told apart, over black:
-/// `example` with one camera, of 160 x 120 pixels.
+/// `example` with one camera of 160 x 120 pixels, over black. The view is close enough to
+/// distinguish lattices and edges.
 Scene golden_debug_view_scene(Scene example);
 
-/// Of the example's cameras the one that its golden is drawn from, at 320 x 240.
+/// Index of the example's camera for its golden image, at 320 x 240.
 inline constexpr std::size_t golden_example_camera = 40;
 
 }  // namespace tureen::test

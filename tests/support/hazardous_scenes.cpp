@@ -9,10 +9,11 @@ namespace tureen::test {
 
 namespace {
 
-/// Depths of corners in the eye's plane, at it and behind it, as far as floats hold them.
+/// Depths of corners in front of the eye's plane, in it and behind it, up to the precision of
+/// floats.
 constexpr double depths_next_to_the_eye[] = {0.0, 1e-30, -1e-30, 1e-7, -1e-7, 1e-3, -1e-3};
 
-/// Makes faces what hazard_of says. Three vertices a face.
+/// Changes each face as hazard_of states. Requires three vertices a face.
 void mix_in(Random& random, const Camera& camera, std::span<glm::vec3> positions) {
   const glm::dmat3 axes = camera.world_from_view_rotation();
   const glm::dvec3 eye = camera.eye(), forward = -axes[2];
@@ -31,7 +32,7 @@ void mix_in(Random& random, const Camera& camera, std::span<glm::vec3> positions
         for (glm::vec3& p : corners) p = glm::vec3(2.0 * eye - glm::dvec3(p));
         break;
       case Hazard::below_a_pixel: {
-        // About half a pixel large: some cover a centre, most do not.
+        // About half a pixel large: some faces cover a pixel centre, most do not.
         const glm::dvec3 centre(corners[0]);
         const double pixel = std::abs(glm::dot(centre - eye, forward)) / camera.fx;
         for (glm::vec3& p : corners)
@@ -49,7 +50,7 @@ void mix_in(Random& random, const Camera& camera, std::span<glm::vec3> positions
 }  // namespace
 
 Hazard hazard_of(std::uint32_t face) {
-  // Of four faces random_soup has made the second one degenerate; the first of eight stays.
+  // random_soup made every fourth face, t % 4 == 1, degenerate. The first of eight stays unchanged.
   if (face % 64 == 2) return Hazard::corner_at_the_eye;
   if (face % 64 == 34) return Hazard::behind_the_eye;
   if (face % 8 == 3) return Hazard::below_a_pixel;
@@ -66,7 +67,8 @@ HazardousScene hazardous_scene(std::uint64_t seed, Kind kind, int width, int hei
   if (seed % 4 == 0) scene.camera.view_from_world[3] *= glm::dvec4(0.25, 0.25, 0.25, 1);
   mix_in(random, scene.camera, scene.soup.positions);
 
-  // 2^10 units leave vertices 14 bits behind the point. An origin of doubles may be further away.
+  // At a distance of 2^10 units, vertices have 14 fractional bits. An origin of doubles may be
+  // further away.
   const glm::dvec3 direction(1, -0.5, 0.75);
   glm::dvec3 shift(0);
   switch (seed / 12 % 3) {

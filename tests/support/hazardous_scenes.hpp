@@ -14,24 +14,25 @@
 namespace tureen::test {
 
 struct HazardousScene {
-  TriangleSoup soup;  // of 200 faces, without a defect()
+  TriangleSoup soup;  // 200 faces, without a defect()
   glm::dvec3 origin{0.0};
   Camera camera;
 };
 
-/// What a face of a scene has been made to be.
+/// The hazard that a face of a scene was made for.
 enum class Hazard {
-  none,  // or without area, or a needle
+  none,  // ordinary, without area, or a needle
   corner_at_the_eye,
   behind_the_eye,
   below_a_pixel,
-  coincident,  // with the face four before it
+  coincident,  // with the fourth face before it
 };
 Hazard hazard_of(std::uint32_t face);
 
-/// Equal for equal arguments. What concerns single faces is in every scene. Of the others, by the
-/// seed: one in three is large faces, one in four is seen from within, and one in three each lies
-/// far away by its vertices, far away by its origin, and at home: 36 seeds have all of it together.
+/// Equal for equal arguments. Every scene has the hazards of single faces. The others depend on the
+/// seed: one scene in three has large faces, and one in four has the eye inside. A third of the
+/// scenes has distant vertices, a third a distant origin, a third neither. 36 seeds give all
+/// combinations.
 HazardousScene hazardous_scene(std::uint64_t seed, Kind kind, int width, int height);
 
 }  // namespace tureen::test

@@ -1,6 +1,6 @@
-// make_cutout_cloud OUT: writes the soup that speed and agreement are measured on
-// (support/cutout_cloud.hpp) in any format that tureen writes; a DiffSoup export folder where OUT
-// has no extension.
+// make_cutout_cloud OUT: writes the soup for measurements of speed and agreement
+// (support/cutout_cloud.hpp), in any format that tureen writes. Without an extension, OUT is the
+// folder of a DiffSoup export.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

@@ -1,7 +1,7 @@
 // make_golden_scenes EXAMPLE OUT: writes the scenes of support/golden_scenes.hpp into the folder
-// OUT, for who draws them with another program: NAME.glb for tests/golden/NAME.png,
-// debug_views.glb, and one soup as a DiffSoup export, in the
-// folder diffsoup.
+// OUT, for other programs that draw them. NAME.glb belongs to tests/golden/NAME.png.
+// debug_views.glb is the scene of the debug views, and the folder diffsoup is one soup as a
+// DiffSoup export.
 #include <cstdio>
 #include <exception>
 #include <filesystem>

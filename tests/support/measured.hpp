@@ -7,8 +7,8 @@
 
 namespace tureen::test {
 
-/// Appends `row` as one line, with `table` as its member "table", to the file that TUREEN_MEASURED
-/// names; without it, does nothing. Fails the running test where the file cannot be written.
+/// Appends `row` as one line, with `table` as its member "table", to the file in TUREEN_MEASURED.
+/// Without that variable, it does nothing. Fails the running test if the file cannot be written.
 void leave_measured(const std::string& table, nlohmann::json row);
 
 }  // namespace tureen::test

@@ -1,6 +1,6 @@
-// Random numbers that are the same with every standard library: std::mt19937_64 is specified bit by
-// bit, the standard distributions are not. (normal() and direction() call log and cos, where two C
-// libraries may differ in the last bit of a double.)
+// Random numbers that are the same with every standard library. The standard specifies
+// std::mt19937_64 bit by bit, but not the distributions. (normal() and direction() call log and
+// cos, whose last bit may differ between two C libraries.)
 #pragma once
 
 #include <cstdint>

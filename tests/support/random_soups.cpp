@@ -27,7 +27,7 @@ void add_geometry(Random& random, const SoupOptions& options, TriangleSoup& soup
   for (int t = 0; t < options.faces; ++t) {
     glm::uvec3 triangle;
     if (options.shared_vertices) {
-      // Neighbours in the pool, so that consecutive faces share edges as a strip does.
+      // Neighbours in the pool, so that consecutive faces share edges, as in a strip.
       for (int k = 0; k < 3; ++k) triangle[k] = std::uint32_t((t / 2 + k) % pool);
       if (t % 2) std::swap(triangle[0], triangle[2]), triangle[1] = (triangle[1] + 2) % pool;
     } else {
@@ -47,10 +47,10 @@ void add_geometry(Random& random, const SoupOptions& options, TriangleSoup& soup
           break;  // two corners coincide
         case 1:
           b = c = a;
-          break;  // all three do
+          break;  // all three corners coincide
         case 2:
           c = a + 2.0f * (b - a);
-          break;  // on a line, but for rounding
+          break;  // on a line, up to rounding
         default:
           c = b + 1e-5f * random_rgb(random);
           break;  // a needle
@@ -62,7 +62,7 @@ void add_geometry(Random& random, const SoupOptions& options, TriangleSoup& soup
 
 // -- appearances -------------------------------------------------------------------------------
 
-/// Most of the time anything, else exactly 0, the threshold's two sides, or 1.
+/// Usually any value; otherwise 0, 1, or a value on either side of the threshold.
 float random_alpha(Random& random) {
   switch (random.below(8)) {
     case 0:
@@ -103,7 +103,7 @@ Harmonics random_harmonics(Random& random, const SoupOptions& options, Harmonics
       .domain = domain, .degree = options.degree, .view = options.view, .coefficients = {}};
   for (std::size_t e = 0; e < elements; ++e)
     for (int i = 0; i < harmonics::count(options.degree); ++i) {
-      // The constant band wide enough that some colours clamp at both ends.
+      // The constant band varies so much that some colours clamp at both ends.
       const double deviation = i == 0 ? 1.0 : 0.15;
       glm::vec3 c;
       for (int k = 0; k < 3; ++k) c[k] = float(deviation * random.normal());
@@ -112,7 +112,7 @@ Harmonics random_harmonics(Random& random, const SoupOptions& options, Harmonics
   return sh;
 }
 
-/// Values of one face's lattice in one of the ways that plans tell apart.
+/// Values of one face's lattice, in one of the styles that plans distinguish.
 void add_patch(Random& random, int level, std::vector<float>& values) {
   enum Style { noise, smooth, affine, constant, opaque, transparent, styles };
   const auto style = Style(random.below(styles));
@@ -177,7 +177,7 @@ UvTextures uv_textures(Random& random, const SoupOptions& options, std::size_t v
   UvTextures textures;
   for (std::size_t v = 0; v < vertices; ++v)
     textures.uv.emplace_back(float(random.uniform(-1.5, 2.5)), float(random.uniform(-1.5, 2.5)));
-  // Sizes that are no powers of two; consecutive images are equal in size, for feature pairs.
+  // Sizes that are not powers of two. Consecutive images have equal sizes, for feature pairs.
   for (const auto& [width, height] : {std::pair{8, 8}, {5, 11}, {1, 3}})
     for (int i = 0; i < 2; ++i) textures.images.push_back(random_image(random, width, height));
   const Wrap wraps[] = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
@@ -186,7 +186,7 @@ UvTextures uv_textures(Random& random, const SoupOptions& options, std::size_t v
     const std::uint32_t image = 2 * random.below(3);
     if (with_mlp)
       material.images = {image, image + 1};
-    else if (m > 0)  // the first has its factor alone
+    else if (m > 0)  // the first has only its factor
       material.images = {image + random.below(2)};
     material.wrap_u = wraps[m % 3];
     material.wrap_v = wraps[random.below(3)];

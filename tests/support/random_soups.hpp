@@ -1,6 +1,6 @@
-// Small soups of every appearance, made to order from a seed, that mix the ordinary with what
-// breaks renderers: faces that are opaque, transparent, constant or affine, needles, faces without
-// area, faces through the eye.
+// Small random soups of every appearance, with options. They mix ordinary faces with difficult
+// ones: opaque, transparent, constant or affine faces, needles, faces without area, faces through
+// the eye.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Kind {
   face_harmonics,
   vertex_harmonics,
   lattice,      // features are the colour
-  lattice_mlp,  // features feed a color MLP
+  lattice_mlp,  // features are the input of a colour MLP
   uv_textures,
   uv_textures_mlp,
 };
@@ -35,7 +35,7 @@ struct SoupOptions {
   int faces = 200;
   /// Vertices are centre + size * N(0, 1), centres uniform in the unit ball.
   double size = 0.15;
-  bool shared_vertices = false;  // faces draw their vertices from a common pool
+  bool shared_vertices = false;  // faces take their vertices from a common pool
   bool degenerate = false;       // mixes in faces without area and needles
   int level = -1;                // of the lattice, 0..7; -1 mixes them
   bool float_texels = false;
@@ -47,13 +47,14 @@ struct SoupOptions {
 /// The soup has no defect(). Equal for equal arguments.
 TriangleSoup random_soup(std::uint64_t seed, const SoupOptions& options);
 
-/// DiffSoup's 16-16-16-3 for lattices: blends by channel 3, harmonics of the direction.
+/// DiffSoup's 16-16-16-3 for lattices: blends with channel 3, harmonics of the direction.
 ColorMlp random_lattice_mlp(Random& random);
 
-/// MobileNeRF's 11-16-16-3 for pairs of feature images: no blend, the bare direction.
+/// MobileNeRF's 11-16-16-3 for pairs of feature images: no blending, the plain direction.
 ColorMlp random_uv_mlp(Random& random);
 
-/// Looks at the unit ball from outside, from any side, with an off-centre principal point.
+/// A camera outside the unit ball, in any direction, aimed at it, with an off-centre principal
+/// point.
 Camera random_camera(Random& random, int width, int height);
 
 }  // namespace tureen::test

@@ -1,4 +1,4 @@
-// Evaluates a formula of shaders/ on the device, one input a pixel, and reads the results back.
+// Evaluates a formula of shaders/ on the device, one input a pixel, and reads back the results.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -13,7 +13,7 @@
 
 namespace tureen::test {
 
-/// Of `vec4 probe(vec4 input)`, which a shader text defines.
+/// Evaluates `vec4 probe(vec4 input)`, which the shader text must define.
 class Probe {
  public:
   Probe(gl::Api api, const std::string& text, const std::map<std::string, std::string>& constants,
@@ -24,13 +24,13 @@ class Probe {
                            .generated = with(std::move(generated), text + main_text)},
                           api)) {}
 
-  /// For uniforms of the text: in use, as they must be set.
+  /// The program, in use, so that the caller can set uniforms of the text.
   const gl::Program& program() const {
     program_.use();
     return program_;
   }
 
-  /// Texture unit 0 is the inputs'; the others stay as they are.
+  /// Uses texture unit 0 for the inputs; the other units stay unchanged.
   std::vector<glm::vec4> run(const std::vector<glm::vec4>& inputs) const {
     const int count = static_cast<int>(inputs.size());
     glActiveTexture(GL_TEXTURE0);

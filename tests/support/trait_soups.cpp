@@ -31,8 +31,8 @@ void for_each_texel(TriangleSoup& soup, const Change& change) {
   }
 }
 
-/// Every face gets texels of its own at the level of the first one, copied from those it had where
-/// there are as many.
+/// Gives every face its own texels at the level of the first face. They are copies of its previous
+/// texels if their number is equal.
 void unshare_texels(TriangleSoup& soup) {
   LatticeTexture& texture = lattice_of(soup);
   const std::uint32_t level = texture.patches.front().level;
@@ -52,7 +52,7 @@ void make_opaque(TriangleSoup& soup) {
   for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) { texel[7] = 255; });
 }
 
-/// Every face becomes four of its colour, at the middles of its edges.
+/// Splits every face into four faces of its colour, at the midpoints of its edges.
 void split_faces(TriangleSoup& soup) {
   TriangleSoup split;
   FaceColors colors;
@@ -73,7 +73,7 @@ void split_faces(TriangleSoup& soup) {
   soup = std::move(split);
 }
 
-/// Three values a channel that no two faces need share, for faces that are constant or affine.
+/// A value below 100 for each face and channel, for faces that are constant or affine.
 std::uint8_t face_value(std::size_t face, int channel) {
   return std::uint8_t((face * 37 + std::size_t(channel) * 59) % 100);
 }
@@ -130,7 +130,8 @@ void give_trait(Specialisation what, TriangleSoup& soup) {
     case Specialisation::harmonics_bands: {
       auto& sh = std::get<Harmonics>(soup.appearance);
       const auto count = std::size_t(harmonics::count(sh.degree));
-      // Bands 2, 3 and 4 can together move a channel by (5 + 7 + 9) / sqrt(4 pi) * 1e-4 < 1/510.
+      // Together, bands 2, 3 and 4 move a channel by at most (5 + 7 + 9) / sqrt(4 pi) * 1e-4 <
+      // 1/510.
       for (std::size_t i = 0; i < sh.coefficients.size(); ++i)
         if (i % count >= 4) sh.coefficients[i] = glm::vec3(i % 2 == 0 ? 1e-4f : -1e-4f);
       return;
@@ -163,7 +164,7 @@ void give_trait(Specialisation what, TriangleSoup& soup) {
     case Specialisation::affine_texels: {
       unshare_texels(soup);
       make_opaque(soup);
-      // Steps of whole bytes are affine without rounding; 2^level (1 + 2) of them fit below 155.
+      // Steps of whole bytes are affine without rounding. 2^level (1 + 2) of them stay below 155.
       const int level = int(lattice_of(soup).patches.front().level);
       const int step = std::max(1, 50 >> level);
       return for_each_texel(soup, [step](std::size_t face, int x, int y, std::uint8_t* texel) {
@@ -174,7 +175,7 @@ void give_trait(Specialisation what, TriangleSoup& soup) {
     case Specialisation::shading_pass:
     case Specialisation::background:
     case Specialisation::weight_uniforms:
-      return;  // their kind is enough
+      return;  // every soup of this kind has the trait
   }
   assert(!"a trait without a soup");
 }
@@ -186,7 +187,7 @@ TriangleSoup soup_without_trait(Specialisation what, std::uint64_t seed) {
       options.kind = Kind::face_harmonics;
       break;
     case Specialisation::background:
-      options.kind = Kind::face_colors;  // drawn forward
+      options.kind = Kind::face_colors;  // shaded forward
       break;
     case Specialisation::weight_uniforms:
       options.kind = Kind::lattice;
@@ -196,7 +197,7 @@ TriangleSoup soup_without_trait(Specialisation what, std::uint64_t seed) {
   }
   TriangleSoup soup = random_soup(seed, options);
   if (what == Specialisation::alpha_test || what == Specialisation::transparent_faces)
-    // A hole in one corner of each face, the other two at its very edge.
+    // A hole in one corner of each face; all other texels are opaque.
     for_each_texel(soup, [](std::size_t, int x, int y, std::uint8_t* texel) {
       texel[7] = x == 0 && y == 0 ? 0 : 255;
     });

@@ -1,6 +1,6 @@
-// Soups that have, or plainly lack, what lets a plan leave something out: one trait for each entry
-// of runtime/plan/specialisation.hpp. Tests prove with them that nothing changes, benchmarks what
-// it gains.
+// Soups with or clearly without the traits that specialisations need: one trait for each entry of
+// runtime/plan/specialisation.hpp. Tests prove with them that a specialisation changes no image,
+// and benchmarks measure its gain.
 #pragma once
 
 #include "runtime/plan/specialisation.hpp"
@@ -9,14 +9,14 @@
 
 namespace tureen::test {
 
-/// The appearance that a soup must have to be given this trait.
+/// The appearance that a soup needs for this trait.
 Kind kind_of_trait(Specialisation what);
 
-/// Changes a soup of that kind, with texels of 8 bits where it has any, so that `what` can be left
-/// out of it. Geometry stays; the appearance, its size included, may not.
+/// Changes a soup of that kind so that the specialisation `what` applies. Lattice texels must have
+/// 8 bits. The geometry stays; the appearance and its size may change.
 void give_trait(Specialisation what, TriangleSoup& soup);
 
-/// A soup of that kind of which `what` cannot be left out.
+/// A soup of that kind without the trait, so that `what` does not apply.
 TriangleSoup soup_without_trait(Specialisation what, std::uint64_t seed);
 
 }  // namespace tureen::test

@@ -92,7 +92,7 @@ TEST(Replay, DealsByItsOwnClock) {
 
 TEST(Replay, WaitsForRestAndEndsAFrameWithAnImage) {
   Replay replay(read(with_event(
-      R"({"at": 0, "await": true}, {"at": 0, "image": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
+      R"({"at": 0, "await": true}, {"at": 0, "picture": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(replay.next(false).events.empty());
   EXPECT_EQ(replay.now(), 0) << "the clock stops while it waits";
   const Replay::Step image = replay.next(true);

@@ -26,7 +26,7 @@ async function walk(page) {
   await assertAccessible(page, 'a scene');
   if (await page.isHidden('#panel')) await page.click('#toggle-panel');
   await page.evaluate(() => { for (const section of document.querySelectorAll('details')) section.open = true; });
-  await page.selectOption('#look', 'depth');
+  await page.selectOption('#debug-view', 'depth');
   await page.locator('#legend').waitFor();
   await page.fill('#view-name', 'mine');
   await page.press('#view-name', 'Enter');

@@ -34,7 +34,7 @@ test('a page of one file, from the disk', () => {
     assert.ok(!before.equals(await image(page)), 'it rotates');
     await pick(page, join(source, 'examples/soup.glb'));
     await sceneShown(page, 'soup');
-    await page.selectOption('#look', 'depth', { force: true });
+    await page.selectOption('#debug-view', 'depth', { force: true });
     await page.locator('#legend').waitFor();
   });
 });

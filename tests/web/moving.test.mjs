@@ -135,12 +135,12 @@ test('debug views, with legends', looking(async (page) => {
   await page.keyboard.press('v');
   await page.waitForFunction(() => location.hash.includes('look='));
   assert.ok(!colors.equals(await image(page)), 'another image');
-  await page.evaluate(() => { document.getElementById('look').closest('details').open = true; });
+  await page.evaluate(() => { document.getElementById('debug-view').closest('details').open = true; });
   for (const look of ['depth', 'normals', 'overdraw', 'triangle-id']) {
-    await page.selectOption('#look', look);
+    await page.selectOption('#debug-view', look);
     await page.waitForFunction((wanted) => location.hash.includes(`look=${wanted}`), look);
   }
-  await page.selectOption('#look', 'color');
+  await page.selectOption('#debug-view', 'color');
   await page.waitForFunction(() => !location.hash.includes('look='));
   assert.ok(colors.equals(await image(page)), 'the colours return');
 }));

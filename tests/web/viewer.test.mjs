@@ -142,7 +142,7 @@ test('invalid values are rejected, and change nothing', onViewer(async (page) =>
 
 test('of two debug views the later one is shown', onViewer(async (page) => {
   await tried(page, `await viewer.load({ url: 'soup.glb' });`);
-  const { result } = await tried(page, `await Promise.all([viewer.show('depth'), viewer.show('normals'), viewer.show('color')]); return viewer.shownLook;`);
+  const { result } = await tried(page, `await Promise.all([viewer.show('depth'), viewer.show('normals'), viewer.show('color')]); return viewer.debugView;`);
   assert.equal(result, 'color');
 }));
 

@@ -1,6 +1,6 @@
 // A camera in homogeneous pixels (X, Y, W): the pixel is (X / W, Y / W), W the distance from the
-// camera's plane, in world units. Points and the sides of the image are linear in them, so that
-// edges and faces are clipped before anything is divided.
+// camera's plane, in world units. World positions and the sides of the image are linear in these
+// coordinates, so edges and faces are clipped before the division.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -23,9 +23,9 @@ class HomogeneousPixels {
 
   static constexpr int sides = 4;
 
-  /// From the image's left, right, upper or lower side (0 .. 3), times W: not negative on the
-  /// inner side. All four together leave nothing behind the eye: their sums are width and height
-  /// times W.
+  /// Distance from the image's left, right, upper or lower side (0 .. 3), times W; at least 0 on
+  /// the inner side. All four are at least 0 only in front of the eye: opposite sides sum to width
+  /// times W and height times W.
   double from_side(int side, glm::dvec3 point) const {
     switch (side) {
       case 0:

@@ -10,7 +10,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// What nanoflann asks of a point cloud.
+/// The interface that nanoflann needs for a point cloud.
 struct Cloud {
   std::span<const glm::dvec3> points;
 
@@ -20,7 +20,7 @@ struct Cloud {
   }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
-    return false;  // it computes the box itself
+    return false;  // nanoflann then computes the box itself
   }
 };
 
@@ -38,7 +38,7 @@ std::vector<double> nearest_distances(std::span<const glm::dvec3> points) {
     std::size_t nearest[2];
     double squares[2];
     tree.knnSearch(&points[i][0], 2, nearest, squares);
-    distances[i] = std::sqrt(squares[1]);  // the first of the two is the point itself, or its twin
+    distances[i] = std::sqrt(squares[1]);  // the first is the point itself, or a coincident one
   }
   return distances;
 }
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> farthest_points(std::span<const glm::dvec3> points, s
   assert(points.empty() || first < points.size());
   count = std::min(count, points.size());
   std::vector<std::uint32_t> chosen;
-  // One array a coordinate, in floats relative to the first point, so that the loop vectorises.
+  // One array per coordinate, in floats relative to the first point, so that the loop vectorises.
   std::vector<float> x, y, z;
   for (const glm::dvec3& point : points) {
     const glm::vec3 relative(point - points[first]);
@@ -63,7 +63,7 @@ std::vector<std::uint32_t> farthest_points(std::span<const glm::dvec3> points, s
       const float dx = x[i] - at_x, dy = y[i] - at_y, dz = z[i] - at_z;
       squares[i] = std::min(squares[i], dx * dx + dy * dy + dz * dz);
     }
-    squares[next] = -1.0f;  // never again, also where all that is left coincides with it
+    squares[next] = -1.0f;  // excludes it, even if all remaining points coincide with it
     next = std::size_t(std::ranges::max_element(squares) - squares.begin());
   }
   return chosen;

@@ -1,4 +1,4 @@
-// Points and the distances between them, for choosing where triangles begin.
+// Points and the distances between them, to choose positions of the first triangles.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace tureen::trainer {
 
-/// The distance of every point to the nearest other one; of coincident points 0, of a single one
-/// 0. O(n log n).
+/// The distance from each point to the nearest other point; 0 for coincident points and for a
+/// single point. O(n log n).
 std::vector<double> nearest_distances(std::span<const glm::dvec3> points);
 
-/// Indices of `count` points (at most all), each the farthest from those before it (Gonzalez 1985),
-/// beginning with `first`. Of equally far ones the first. O(points x count).
+/// Indices of `count` points (at most all), beginning with `first`. Each next point is the farthest
+/// from all before it (Gonzalez 1985); ties go to the lower index. O(points x count).
 std::vector<std::uint32_t> farthest_points(std::span<const glm::dvec3> points, std::size_t count,
                                            std::uint32_t first);
 

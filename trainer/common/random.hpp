@@ -1,6 +1,6 @@
 // Random numbers that are the same on every machine: SplitMix64 (Steele, Lea, Flood: Fast
-// splittable pseudorandom number generators, 2014) and distributions made of its bits by arithmetic
-// that IEEE 754 defines exactly. The standard distributions differ between libraries.
+// splittable pseudorandom number generators, 2014). The distributions use only arithmetic that
+// IEEE 754 defines exactly; the standard distributions differ between libraries.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace tureen::trainer {
 
 class Random {
  public:
-  /// Streams of one seed are independent of each other: one a purpose.
+  /// Streams of one seed are independent of each other; each purpose has its own stream.
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
       : state_(mix(seed) + mix(~stream)) {}
 
@@ -25,14 +25,14 @@ class Random {
   /// [0, 1), in steps of 2^-53.
   double uniform() { return double(bits() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// 0 .. count - 1; count > 0. The bias is below count / 2^53.
+  /// Uniform in 0 .. count - 1, for count > 0. The bias is below count / 2^53.
   std::uint64_t below(std::uint64_t count) {
     assert(count > 0);
     return std::uint64_t(uniform() * double(count));
   }
   /// Uniform in the unit ball, by rejection.
   glm::dvec3 in_ball();
-  /// Uniform in SO(3): a unit quaternion from two points of a disc (Marsaglia 1972).
+  /// Uniform in SO(3): a unit quaternion from two points in a disc (Marsaglia 1972).
   glm::dmat3 rotation();
 
  private:
@@ -66,8 +66,8 @@ inline glm::dmat3 Random::rotation() {
           {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-/// `count` different numbers of 0 .. of - 1 in random order (at most all): the first steps of
-/// Fisher and Yates' shuffle.
+/// `count` different numbers (at most all) from 0 .. of - 1 in random order: the first steps of
+/// the Fisher-Yates shuffle.
 inline std::vector<std::uint32_t> draw(Random& random, std::size_t count, std::size_t of) {
   std::vector<std::uint32_t> all(of);
   std::iota(all.begin(), all.end(), 0u);

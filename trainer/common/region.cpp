@@ -14,11 +14,11 @@ namespace tureen::trainer {
 
 namespace {
 
-/// The smallest mean of sin^2 of the angles between axes and their mean for which they meet: 3
-/// degrees. Below, the errors of the poses decide how far away they do.
+/// Axes meet if the mean of sin^2 of the angles to their mean axis is at least this (3 degrees).
+/// Below it, pose errors determine the distance of the meeting point.
 constexpr double min_spread = 3e-3;
 
-/// Distances below this part of the eyes' coordinates are the roundings of poses written in floats.
+/// Distances below this fraction of the eyes' coordinates are rounding errors of poses in floats.
 constexpr double rounding = 1e-6;
 
 double median(std::vector<double> values) {
@@ -29,7 +29,7 @@ double median(std::vector<double> values) {
 
 glm::dvec3 forward(const Camera& camera) { return -camera.world_from_view_rotation()[2]; }
 
-/// min over c of the sum of |(I - d d^T)(c - eye)|^2, where the axes (eye, d) determine it.
+/// The c with the smallest sum of |(I - d d^T)(c - eye)|^2, if the axes (eye, d) determine it.
 std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) {
   glm::dmat3 normal(0.0);
   glm::dvec3 right(0.0);
@@ -49,7 +49,7 @@ std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) 
   return inverse * right;
 }
 
-/// The region around a centre that most cameras look at; nothing where most have it at their back.
+/// The region around a centre that most cameras look at; nothing if it is behind most cameras.
 std::optional<Region> looked_at(const std::vector<Photograph>& views, glm::dvec3 centre) {
   std::vector<double> half_sides;
   for (const Photograph& view : views) {
@@ -95,7 +95,7 @@ Region of_eyes(const std::vector<Photograph>& views, bool outwards) {
 }  // namespace
 
 Region region_of_interest(const Dataset& dataset) {
-  if (dataset.train.empty()) throw InputError({}, "the dataset has no view to train on");
+  if (dataset.train.empty()) throw InputError({}, "the dataset has no training views");
   const std::optional<glm::dvec3> centre = nearest_to_axes(dataset.train);
   if (centre)
     if (const auto region = looked_at(dataset.train, *centre)) return *region;
@@ -105,8 +105,8 @@ Region region_of_interest(const Dataset& dataset) {
   if (!(region.half_side > 0)) region = of_eyes(dataset.train, centre.has_value());
   if (!(region.half_side > 0) || !std::isfinite(region.half_side))
     throw InputError({},
-                     "nothing tells how large the scene is: the cameras stand at one place and "
-                     "there are no points");
+                     "the size of the scene is unknown: all cameras are at one position and the "
+                     "dataset has no points");
   return region;
 }
 

@@ -1,5 +1,5 @@
-// The region of interest of a dataset: what its cameras look at, and how large that is. Lengths of
-// training are in units of it (Config), random points begin in it.
+// The region of interest of a dataset: the part of the scene that its cameras look at. It is the
+// unit of training lengths (Config). Random initial points lie in it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,15 +14,18 @@ struct Region {
   double half_side = 1.0;
 };
 
-/// Of the training cameras and points.
+/// The region for the training cameras and points, from the first of these that applies:
 ///
-/// Where the optical axes meet, the centre is the point nearest to all of them (least squares), and
-/// the half side is what a camera's image shows at its depth, from the middle to the nearer
-/// border; the median over the cameras. NeRF-synthetic lego: 1.45 around the origin, nearly.
-/// Where they do not meet (parallel axes, cameras that look outwards) points decide, if there are
-/// any: their median and the median distance from it. Else the cameras must: outward ones stand in
-/// the middle of a region of twice their extent; parallel ones look at a distance of eight times
-/// theirs. Throws InputError when nothing gives a scale: one camera, or all at one place.
+/// 1. The optical axes meet in front of most cameras: the centre is the point nearest to all axes
+///    (least squares). A camera's half side is the extent of its image at that depth, from the
+///    middle to the nearer border; the result is the median over the cameras. NeRF-synthetic lego:
+///    about 1.45 around the origin.
+/// 2. The dataset has points: their median, and the median distance from it.
+/// 3. The cameras look outwards: their mean position, and twice their extent.
+/// 4. The cameras are parallel: the centre lies ahead of them at eight times their extent, and the
+///    half side is computed as in case 1.
+///
+/// Throws InputError if nothing determines a scale: one camera, or all cameras at one position.
 Region region_of_interest(const Dataset& dataset);
 
 }  // namespace tureen::trainer

@@ -14,8 +14,8 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Whether this descriptor is still the file of that name: the run that held the lock before may
-/// have taken the file away between our opening and locking it.
+/// Whether this descriptor is still the file with that name. The previous holder of the lock may
+/// have removed the file between our open and flock.
 bool is_still(int descriptor, const std::filesystem::path& file) {
   struct stat ours {
   }, named{};
@@ -42,7 +42,7 @@ RunLock::RunLock(std::filesystem::path file) : file_(std::move(file)) {
 }
 
 RunLock::~RunLock() {
-  unlink(file_.c_str());  // before the lock goes: whoever waits for the name makes a new file
+  unlink(file_.c_str());  // before the lock is released: the next run then creates a new file
   close(descriptor_);
 }
 

@@ -1,5 +1,5 @@
-// One training run a set of files: a second one on the same output would write into the log and the
-// checkpoint of the first.
+// One training run per set of files: a second run with the same output would write into the log and
+// the checkpoint of the first.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@ namespace tureen::trainer {
 
 class RunLock {
  public:
-  /// Holds `file`, which is made where it is not there and goes again with the lock. It is the
-  /// system's advisory lock on the open file that counts, not that the file exists: what a run that
-  /// was killed leaves behind stops nobody. Where the file system has no locks nothing is held.
-  /// Throws UsageError where another run holds it, OutputError where it cannot be made.
+  /// Locks `file`; creates it if needed, and removes it with the lock. The lock is the system's
+  /// advisory lock on the open file, so a file left by a killed run does not block the next run.
+  /// On file systems without locks nothing is locked.
+  /// Throws UsageError if another run holds the lock, OutputError if the file cannot be created.
   explicit RunLock(std::filesystem::path file);
   RunLock(const RunLock&) = delete;
   RunLock& operator=(const RunLock&) = delete;

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A log and where its lines end.
+/// A log and the ends of its lines.
 struct ParsedLog {
   std::vector<TrainingRecord> records;
   std::vector<std::uint64_t> ends;  // byte after each record's line
@@ -69,7 +69,7 @@ ParsedLog parse_log(const std::filesystem::path& path) {
   return log;
 }
 
-/// JSON has no NaN and no infinities: nlohmann writes null for them.
+/// JSON has no NaN and no infinity: nlohmann writes null for them.
 Json to_json(const TrainingRecord& record) {
   Json json{{"step", record.step}, {"seconds", record.seconds},
             {"loss", record.loss}, {"l1", record.l1},

@@ -6,7 +6,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// One channel over the background, straight alpha. Opaque bytes stay what they are.
+/// One channel over the background, straight alpha. Opaque bytes do not change.
 std::uint8_t composited(std::uint8_t value, std::uint8_t alpha, float background) {
   const double opacity = alpha / 255.0;
   return static_cast<std::uint8_t>(opacity * value + (1 - opacity) * 255.0 * background + 0.5);

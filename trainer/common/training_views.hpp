@@ -1,4 +1,4 @@
-// Photographs as a trainer takes them: planes of bytes, without alpha.
+// Photographs in the form that a trainer needs: planes of bytes, without alpha.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace tureen::trainer {
 
-/// An image to learn from. Colours are composited on the background already.
+/// A training image. Its colours are already composited on the background.
 struct TrainingView {
   Camera camera;
   /// Three planes of width x height, row 0 on top: red, green, blue; value = byte / 255.
   std::vector<std::uint8_t> target;
-  /// One a pixel, 1 where there is nothing to learn from; empty where all pixels count.
+  /// One per pixel, 1 for ignored pixels; empty if no pixel is ignored.
   std::vector<std::uint8_t> ignored;
 };
 
-/// The photograph over a background (red, green, blue in [0, 1]), rounded to the nearest byte;
-/// every pixel counts.
+/// The photograph over a background (red, green, blue in [0, 1]), rounded to the nearest byte; no
+/// pixel is ignored.
 TrainingView training_view(const Photograph& photograph, std::span<const float, 3> background);
 
-/// All of them, in their order. Takes the images: what stays in `photographs` are cameras, so
-/// that no image is in memory twice.
+/// All photographs, in their order. Clears the images in `photographs` and keeps the cameras, so no
+/// image is in memory twice.
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
                                               std::span<const float, 3> background);
 

@@ -1,4 +1,4 @@
-// The arithmetic of a training step, by a processor (cpu/) or a GPU (cuda/).
+// The arithmetic of a training step, on the processor (cpu/) or a GPU (cuda/).
 #pragma once
 
 #include <memory>
@@ -13,28 +13,28 @@
 
 namespace tureen::trainer {
 
-/// Rates of one step, after decay.
+/// Learning rates of one step, after decay.
 struct Rates {
   float texture, mlp, vertex;
 };
 
 struct StepReport {
-  double loss = 0;  // mean over the batch, as the gradient sees it
+  double loss = 0;  // mean over the batch, the differentiated loss
   double l1 = 0;
   double ssim = 0;
   double mse = 0;                // of the stochastic images
   std::uint64_t non_finite = 0;  // pixels and parameters quarantined in this step
 };
 
-/// Where the time of steps went: seconds of wall time, summed over the steps since the last
-/// take_times(), and what there was to do.
+/// Wall time of each stage in seconds, and the amount of work. Both are sums over the steps since
+/// the last take_times().
 struct StageTimes {
   double visibility = 0, shading = 0, loss = 0, shading_backward = 0, faces = 0;
   std::uint64_t fragments = 0;  // pixel centres that triangles cover, hidden or not
   std::uint64_t shaded_pixels = 0, pixels = 0, steps = 0;
 };
 
-/// How fragments are accepted when no gradient is wanted.
+/// How fragments are accepted: stochastic in training steps, threshold for images.
 enum class Masking { threshold, stochastic };
 
 class Backend {
@@ -44,9 +44,9 @@ class Backend {
   /// "CPU, 2 threads", "NVIDIA ..".
   virtual std::string description() const = 0;
 
-  /// Takes over a state; the views are the constructor's.
+  /// Replaces the state; the views stay those of the constructor.
   virtual void upload(const TrainingState& state) = 0;
-  /// The state as it is now.
+  /// Copies the current state.
   virtual void download(TrainingState& state) const = 0;
 
   /// One step of the optimiser on the named views.
@@ -54,14 +54,14 @@ class Backend {
 
   virtual StageTimes take_times() = 0;
 
-  /// How many pixels each face wins, threshold masking, all `cameras` together.
+  /// Visible pixels of each face, summed over all `cameras`, with threshold masking.
   virtual std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) = 0;
 
-  /// The image, three planes of floats in [0, 1], threshold masking.
+  /// The image with threshold masking: three planes of floats in [0, 1].
   virtual std::vector<float> render(const Camera& camera) = 0;
 };
 
-/// `threads` 0 means all cores. The views must outlive the backend.
+/// `threads`: number of threads, 0 for all cores. The views must outlive the backend.
 std::unique_ptr<Backend> make_cpu_backend(std::span<const TrainingView> views, const Config& config,
                                           int threads);
 

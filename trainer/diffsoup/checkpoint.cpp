@@ -22,11 +22,11 @@ namespace {
 using Magic = std::array<char, 8>;
 constexpr Magic magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
 
-/// As large as the images of our own files may be.
+/// Maximum side of an image, as in our own files.
 constexpr std::int32_t max_side = 65'536;
 
 std::uint32_t checksum(std::uint32_t sum, std::span<const std::byte> bytes) {
-  if (bytes.empty()) return sum;  // no address means the sum's beginning to zlib
+  if (bytes.empty()) return sum;  // for a null pointer zlib returns the initial sum
   return std::uint32_t(crc32_z(sum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
@@ -103,8 +103,8 @@ void visit_view(Archive& archive, View& view) {
   archive(pixels, "the checksum of a photograph");
 }
 
-/// Every member of a state, in the order of the file. One that is added to the structs does not
-/// compile until it is named here.
+/// Visits every member of a state, in the order of the file. A new member of the structs causes a
+/// compile error until it is added here.
 template <class Archive, class State>
 void visit_state(Archive& archive, State& state) {
   auto& [model, moments, step, errors, baseline, non_finite] = state;
@@ -141,16 +141,16 @@ bool all_finite(const Values& values) {
 std::optional<std::string> defect(const Model& model) {
   if (model.min_level < 0 || model.max_level > lattice::max_level ||
       model.min_level > model.max_level)
-    return fmt::format("levels {} to {} are none", model.min_level, model.max_level);
+    return fmt::format("levels {} to {} are invalid", model.min_level, model.max_level);
   if (model.positions.size() % 3 != 0)
-    return fmt::format("{} positions are not three a face", model.positions.size());
+    return fmt::format("{} positions are not a multiple of three", model.positions.size());
   if (model.logits.size() != model.faces() * model.texels() * channels)
-    return fmt::format("{} faces do not have {} texel values", model.faces(), model.logits.size());
+    return fmt::format("{} faces cannot have {} texel values", model.faces(), model.logits.size());
   bool finite = all_finite(model.logits) && all_finite(model.mlp);
   for (const glm::vec3& position : model.positions)
     finite = finite && all_finite(std::span(glm::value_ptr(position), 3));
   for (int axis = 0; axis < 3; ++axis) finite = finite && std::isfinite(model.origin[axis]);
-  if (!finite) return "the model holds numbers that are not finite";
+  if (!finite) return "the model has numbers that are not finite";
   return std::nullopt;
 }
 
@@ -159,44 +159,47 @@ std::optional<std::string> defect(const Moments& moments, const Model& model) {
       moments.vertex_first.size() != model.positions.size() ||
       moments.vertex_second.size() != model.positions.size() ||
       moments.steps.size() != model.faces())
-    return "its moments are not the model's";
+    return "the moments do not match the model's size";
   return std::nullopt;
 }
 
-/// Why this state does not belong to this run, or nothing.
+/// The first error in the checkpoint's state; nothing if it fits its configuration and views.
 std::optional<std::string> defect(const Checkpoint& checkpoint) {
   const TrainingState& state = checkpoint.state;
   std::uint64_t pixels = 0;
   for (const ViewFingerprint& view : checkpoint.views) {
     if (view.width < 1 || view.width > max_side || view.height < 1 || view.height > max_side)
-      return fmt::format("a view of {} x {} pixels", view.width, view.height);
+      return fmt::format("a view has an invalid size of {} x {} pixels", view.width, view.height);
     pixels += std::uint64_t(view.width) * std::uint64_t(view.height);
   }
   if (!std::isfinite(checkpoint.seconds) || checkpoint.seconds < 0)
-    return "the seconds so far are no time";
+    return "the training time is not a number of seconds";
   if (state.step < 0 || state.step > checkpoint.config.steps)
-    return fmt::format("step {} of {} is none", state.step, checkpoint.config.steps);
+    return fmt::format("step {} is not from 0 to {}", state.step, checkpoint.config.steps);
   if (!state.baseline.empty() && state.baseline.size() != pixels)
-    return fmt::format("a baseline of {} pixels for views of {}", state.baseline.size(), pixels);
+    return fmt::format("the baseline has {} pixels, but the views have {}", state.baseline.size(),
+                       pixels);
   if (auto reason = defect(state.model)) return reason;
   if (!state.errors.empty() && state.errors.size() != state.model.faces())
-    return fmt::format("errors of {} faces for {}", state.errors.size(), state.model.faces());
+    return fmt::format("{} faces have errors, but the model has {} faces", state.errors.size(),
+                       state.model.faces());
   return defect(state.moments, state.model);
 }
 
-/// Text that this version writes for what it says; an older or newer version has other fields.
+/// Requires exactly the text that this version writes for the configuration: the text from an older
+/// or newer version has other fields.
 Config parsed_config(const std::string& text, const Input& input) {
   try {
     Input memory = Input::memory(input.name(), std::as_bytes(std::span(text)));
     const Config config = read_config(memory);
     if (config_to_json(config) == text) return config;
   } catch (const InputError& error) {
-    throw InputError({input.name(), {}, {}}, "its configuration cannot be used: " + error.reason(),
+    throw InputError({input.name(), {}, {}}, "the configuration cannot be used: " + error.reason(),
                      error.hint());
   }
   throw InputError({input.name(), {}, {}},
-                   "its configuration lacks constants that training has now: another version of "
-                   "Tureen wrote it");
+                   "the configuration has other fields than this version of Tureen needs: resume "
+                   "with the version that wrote it");
 }
 
 }  // namespace
@@ -234,25 +237,25 @@ Checkpoint read_checkpoint(Input& input) {
   Reader reader(input);
   Magic begin{};
   reader(begin, "the file's kind");
-  if (begin != magic) input.fail_at(0, "this is no checkpoint of tureen train");
+  if (begin != magic) input.fail_at(0, "this is not a checkpoint of tureen train");
   std::uint32_t version = 0;
   reader(version, "the version");
   if (version != checkpoint_version)
-    input.fail_at(magic.size(), fmt::format("version {} of checkpoints is not the one that is read "
-                                            "here, {}",
+    input.fail_at(magic.size(), fmt::format("checkpoint version {} is not supported; this build "
+                                            "reads version {}",
                                             version, checkpoint_version));
   Checkpoint checkpoint;
   std::string config;
   reader(config, "the configuration");
   std::uint64_t views = 0;
   reader(views, "the number of views");
-  // Appended one by one, so that a count without views behind it costs nothing.
+  // Appended one by one: a wrong count then allocates no memory.
   for (std::uint64_t i = 0; i < views; ++i) visit_view(reader, checkpoint.views.emplace_back());
   reader(checkpoint.seconds, "the seconds so far");
   visit_state(reader, checkpoint.state);
   if (input.read_value<std::uint32_t>("the checksum") != reader.sum())
-    input.fail_at(0, "it is damaged: its checksum is not that of its bytes");
-  if (input.remaining() > 0) input.fail("bytes after the end of the checkpoint");
+    input.fail_at(0, "the file is damaged: its checksum does not match its bytes");
+  if (input.remaining() > 0) input.fail("the file has bytes after the end of the checkpoint");
   checkpoint.config = parsed_config(config, input);
   if (const auto reason = defect(checkpoint)) input.fail_at(0, *reason);
   return checkpoint;
@@ -267,7 +270,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
 std::optional<std::string> difference(const Config& now, const Config& checkpoint) {
   for (const ConfigField& field : config_fields()) {
     const std::string here = value_text(now, field), there = value_text(checkpoint, field);
-    if (here != there) return fmt::format("{} is {}, the checkpoint's {}", field.name, here, there);
+    if (here != there)
+      return fmt::format("{} is {}, but the checkpoint has {}", field.name, here, there);
   }
   return std::nullopt;
 }
@@ -275,16 +279,18 @@ std::optional<std::string> difference(const Config& now, const Config& checkpoin
 std::optional<std::string> difference(std::span<const ViewFingerprint> now,
                                       std::span<const ViewFingerprint> checkpoint) {
   if (now.size() != checkpoint.size())
-    return fmt::format("{} training views, the checkpoint has {}", now.size(), checkpoint.size());
+    return fmt::format("the dataset has {} training views, but the checkpoint has {}", now.size(),
+                       checkpoint.size());
   for (std::size_t i = 0; i < now.size(); ++i) {
     const ViewFingerprint &here = now[i], &there = checkpoint[i];
     if (here.name != there.name)
-      return fmt::format("training view {} is {}, the checkpoint's {}", i, here.name, there.name);
+      return fmt::format("training view {} is {}, but the checkpoint has {}", i, here.name,
+                         there.name);
     if (here.width != there.width || here.height != there.height)
-      return fmt::format("{} is {} x {}, the checkpoint's {} x {}", here.name, here.width,
+      return fmt::format("{} is {} x {}, but the checkpoint has {} x {}", here.name, here.width,
                          here.height, there.width, there.height);
-    if (here.camera != there.camera) return here.name + ": another camera than the checkpoint's";
-    if (here.pixels != there.pixels) return here.name + ": other pixels than the checkpoint's";
+    if (here.camera != there.camera) return here.name + ": the camera differs from the checkpoint";
+    if (here.pixels != there.pixels) return here.name + ": the pixels differ from the checkpoint";
   }
   return std::nullopt;
 }

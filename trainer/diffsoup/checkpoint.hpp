@@ -1,11 +1,11 @@
-// A training run on disk: everything that going on needs, bit by bit, and what it belongs to.
+// A training run on disk: the exact state to resume from, with its configuration and views.
 //
-// The bytes: "TUREENTR", the version (u32), the configuration (as a --config file holds it), the
+// The bytes: "TUREENTR", the version (u32), the configuration (as text of a --config file), the
 // training views by name, size and checksums, the seconds so far, the state member by member, and
-// last a CRC-32 of all before it. Texts and arrays have their count before them (u64); numbers lie
-// as they do in memory, so a checkpoint is for machines of the same byte order.
+// last a CRC-32 of all before it. A count (u64) precedes texts and arrays. Numbers have the byte
+// order of the machine, so a checkpoint needs a machine with the same byte order.
 //
-// What it does not do: it does not hold the photographs, and no version reads another's.
+// The file does not contain the photographs. A version does not read checkpoints of other versions.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace tureen::trainer {
 
 inline constexpr std::uint32_t checkpoint_version = 1;
 
-/// What a photograph is known by.
+/// Identifies a photograph and its camera.
 struct ViewFingerprint {
   std::string name;
   std::int32_t width = 0, height = 0;
@@ -35,26 +35,26 @@ struct ViewFingerprint {
 std::vector<ViewFingerprint> fingerprint(std::span<const Photograph> photographs);
 
 struct Checkpoint {
-  Config config;                       // with lengths of training, before scaled_to
-  std::vector<ViewFingerprint> views;  // trained on, in their order
-  double seconds = 0;                  // of training so far
+  Config config;                       // with training lengths, before scaled_to
+  std::vector<ViewFingerprint> views;  // training views, in their order
+  double seconds = 0;                  // training time so far
   TrainingState state;
 };
 
-/// The file appears whole or not at all. Throws OutputError.
+/// Writes the complete file or none. Throws OutputError.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// Every count is checked against the bytes that are there before anything is allocated. The state
-/// belongs to the configuration and the views: its arrays have their sizes, its model is finite.
-/// Throws InputError.
+/// Checks each count against the remaining bytes before it allocates memory. The result is
+/// consistent: the state's arrays have the sizes that the configuration and the views need, and the
+/// model is finite. Throws InputError.
 Checkpoint read_checkpoint(Input& input);
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
-/// The first field in which a run that goes on differs from the one that was left, as in
-/// "steps is 300, the checkpoint's 40"; nothing where there is none.
+/// The first field that differs between a resumed run and its checkpoint, for example "steps is
+/// 300, but the checkpoint has 40"; nothing if all are equal.
 std::optional<std::string> difference(const Config& now, const Config& checkpoint);
 
-/// Likewise of the training views: "train/r_3: other pixels than the checkpoint's".
+/// The same for the training views: "train/r_3: the pixels differ from the checkpoint".
 std::optional<std::string> difference(std::span<const ViewFingerprint> now,
                                       std::span<const ViewFingerprint> checkpoint);
 

@@ -8,14 +8,16 @@ Config preset(Preset kind) {
   Config config;
   config.preset = kind;
   if (kind == Preset::scene) {
-    // Photographs show walls and trees behind what they look at.
+    // Photographs show walls and trees behind their subject.
     config.far_points = 0.5f;
     config.around_points = 0.3f;
-    // Nothing contradicts what hangs before one camera alone, and it spoils the views beside it.
+    // A face right in front of one camera appears in no other photograph. No loss corrects it, and
+    // it spoils the neighbouring views.
     config.near = 0.8f;
     config.clear_near = true;
     config.min_views = 3;
-    // Nothing was behind the photographs: what no triangle covers is an error, not a white wall.
+    // Photographs of a scene have no background: a pixel without a triangle is an error. With a
+    // white background it would match white walls.
     for (float& channel : config.background) channel = 0.0f;
   } else {
     config.near = 0.1f;
@@ -40,9 +42,9 @@ Config published(Preset kind) {
   config.resample_textures = false;
   if (kind == Preset::object) {
     config.vertex_rate = 1e-3f;
-    // Random points there are 100,000 in a box of half side s = 1.2 .. 2.0, with a circumradius of
-    // 0.01. The mean distance to the nearest of n uniform points is 0.554 * 2 s / cbrt(n) (Chandra-
-    // sekhar 1943), 0.0358 for s = 1.5, of which 0.01 is this much.
+    // Published: 100,000 random points in a box of half side s = 1.2 .. 2.0, circumradius 0.01. The
+    // mean distance to the nearest of n uniform points is 0.554 * 2 s / cbrt(n) (Chandrasekhar
+    // 1943): 0.0358 for s = 1.5. 0.01 / 0.0358 = 0.28.
     config.initial_triangles = 100'000;
     config.initial_radius = 0.28f;
   } else {

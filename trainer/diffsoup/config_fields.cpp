@@ -23,24 +23,25 @@ constexpr const char* presets[] = {"object", "scene"};
 constexpr const char* initialisations[] = {"automatic", "points", "random", "mesh"};
 constexpr const char* precisions[] = {"float32", "float16"};
 
-// Whole numbers beyond these are typing errors rather than wishes.
-constexpr Range steps{1, 1e7, {}, "a run takes at least one step", "it would take weeks"};
+// Larger whole numbers are probably typing errors.
+constexpr Range steps{1, 1e7, {}, "a run needs at least one step", "the run would take weeks"};
 constexpr Range views{
-    1, 1024, {}, "a step looks at one view or more", "a step holds all of its images in memory"};
-// The texels of so many faces at level 3, a byte a channel, come to 1.4 GB.
+    1, 1024, {}, "a step needs at least one view", "a step keeps all its images in memory"};
+// 4 million faces at level 3 have 1.4 GB of texels, with one byte per channel.
 constexpr Range faces{
-    1, 4e6, {}, "a soup has one triangle or more", "their textures would fill gigabytes"};
-constexpr Range levels{0, lattice::max_level, {}, "a lattice has these levels"};
-constexpr Range fraction{0, 1, {}, "it is a fraction"};
-constexpr Range share{0, 1, Range::Ends::high_open, "some must stay for others to be cut from"};
-constexpr Range part{0, 1, Range::Ends::low_open, "it is a fraction, and nothing moves at 0"};
-constexpr Range weight{0, 1000, {}, "a weight below 0 would reward the error"};
-constexpr Range rate{0, 1e6, {}, "a rate below 0 would climb the loss; 0 keeps things as they are"};
-constexpr Range memory{0, 1, Range::Ends::high_open,
-                       "at 1 a mean would remember its first value alone"};
-constexpr Range length{0, 1e9, Range::Ends::low_open, "it is a distance in front of the camera"};
-// 2^64 is not exact as a double's neighbour below; every value of the type is in the range.
-constexpr Range any_seed{0, 18446744073709551616.0, {}, "it is an unsigned number of 64 bits"};
+    1, 4e6, {}, "a soup needs at least one triangle", "the textures would need gigabytes"};
+constexpr Range levels{0, lattice::max_level, {}, "a lattice has only these levels"};
+constexpr Range fraction{0, 1, {}, "the value is a fraction"};
+constexpr Range share{0, 1, Range::Ends::high_open, "new triangles are cut from remaining ones"};
+constexpr Range part{0, 1, Range::Ends::low_open, "the value is a fraction; 0 stops all updates"};
+constexpr Range weight{0, 1000, {}, "a negative weight would increase the error"};
+constexpr Range rate{0, 1e6, {}, "a negative rate would increase the loss; 0 changes nothing"};
+constexpr Range memory{0, 1, Range::Ends::high_open, "at 1 the mean would never change"};
+constexpr Range length{0, 1e9, Range::Ends::low_open,
+                       "the value is a distance in front of the camera"};
+// 2^64 - 1 is not a double, so the range ends at 2^64; it contains all values of the type.
+constexpr Range any_seed{
+    0, 18446744073709551616.0, {}, "the seed is an unsigned number of 64 bits"};
 constexpr Range none{};
 
 const ConfigField fields[] = {
@@ -49,14 +50,18 @@ const ConfigField fields[] = {
     {"steps", &Config::steps, steps, {}, "Optimiser steps"},
     {"batch", &Config::batch, views, {}, "Views per step"},
     {"seed", &Config::seed, any_seed, {}, "Random seed; equal seeds give equal soups"},
-    {"triangles", &Config::triangles, faces, {}, "Triangles at the end, met exactly"},
+    {"triangles", &Config::triangles, faces, {}, "Exact number of triangles at the end"},
     {"initialisation", &Config::initialisation, none, initialisations,
-     "First triangles: at points of the dataset, at random, or a mesh; automatic is points if "
-     "there are any"},
-    {"initial_triangles", &Config::initial_triangles, faces, {}, "Triangles at the first step"},
+     "Source of the first triangles: points of the dataset, random points, or a mesh; automatic "
+     "uses points if the dataset has any"},
+    {"initial_triangles",
+     &Config::initial_triangles,
+     faces,
+     {},
+     "Number of triangles at the first step"},
     {"initial_radius",
      &Config::initial_radius,
-     {0, 100, Range::Ends::low_open, "a triangle needs an extent"},
+     {0, 100, Range::Ends::low_open, "a triangle needs a size"},
      {},
      "Circumradius of the first triangles, in mean distances to the nearest neighbour"},
     {"local_radius",
@@ -66,7 +71,7 @@ const ConfigField fields[] = {
      "With points: each triangle uses the distance to its own neighbour instead of the mean"},
     {"box",
      &Config::box,
-     {0, 1e9, {}, "it is a length"},
+     {0, 1e9, {}, "the value is a length"},
      {},
      "Half side of the box for random points, in world units; 0 derives it from the cameras"},
     {"far_points",
@@ -76,9 +81,9 @@ const ConfigField fields[] = {
      "Fraction of the random points outside the box"},
     {"far_extent",
      &Config::far_extent,
-     {1, 1e6, {}, "they lie outside of the box"},
+     {1, 1e6, {}, "the points lie outside the box"},
      {},
-     "Largest distance of these points, in half sides of the box"},
+     "Largest distance of these points from the centre, in half sides of the box"},
     {"around_points",
      &Config::around_points,
      fraction,
@@ -87,14 +92,22 @@ const ConfigField fields[] = {
      "found no points"},
     {"coarse_level", &Config::coarse_level, levels, {}, "Lattice level before lift_at"},
     {"min_level", &Config::min_level, levels, {}, "Coarsest lattice level after lift_at"},
-    {"max_level", &Config::max_level, levels, {}, "Finest lattice level, which is written"},
+    {"max_level",
+     &Config::max_level,
+     levels,
+     {},
+     "Finest lattice level after lift_at, and level of the written soup"},
     {"lift_at", &Config::lift_at, fraction, {}, "Fraction of the steps before the levels change"},
     {"lift_keeps_opacity",
      &Config::lift_keeps_opacity,
      none,
      {},
-     "Opacity keeps its values at the lift; otherwise it restarts at one half"},
-    {"l1_weight", &Config::l1_weight, weight, {}, "Weight of the mean difference in the loss"},
+     "Keep the opacity when the levels change; otherwise it restarts at one half"},
+    {"l1_weight",
+     &Config::l1_weight,
+     weight,
+     {},
+     "Weight of the mean absolute difference in the loss"},
     {"ssim_weight", &Config::ssim_weight, weight, {}, "Weight of (1 - SSIM) / 2 in the loss"},
     {"opacity_l1_weight",
      &Config::opacity_l1_weight,
@@ -106,7 +119,7 @@ const ConfigField fields[] = {
      none,
      {},
      "Subtract a running mean from the score's loss: less variance, the same expectation"},
-    {"baseline_rate", &Config::baseline_rate, part, {}, "How fast that mean follows"},
+    {"baseline_rate", &Config::baseline_rate, part, {}, "Update rate of that running mean"},
     {"texture_slide",
      &Config::texture_slide,
      weight,
@@ -120,12 +133,16 @@ const ConfigField fields[] = {
      rate,
      {},
      "Learning rate of positions, for a scene of half side 1.5"},
-    {"decay", &Config::decay, part, {}, "Final factor of all rates, exponential"},
-    {"beta1", &Config::beta1, memory, {}, "Adam's decay of the gradient's mean"},
-    {"beta2", &Config::beta2, memory, {}, "Adam's decay of its square's mean"},
+    {"decay",
+     &Config::decay,
+     part,
+     {},
+     "Factor on all learning rates at the last step; the decay is exponential"},
+    {"beta1", &Config::beta1, memory, {}, "Adam's decay rate for the mean gradient"},
+    {"beta2", &Config::beta2, memory, {}, "Adam's decay rate for the mean squared gradient"},
     {"epsilon",
      &Config::epsilon,
-     {0, 1, Range::Ends::low_open, "it keeps Adam from dividing by zero"},
+     {0, 1, Range::Ends::low_open, "it prevents a division by zero"},
      {},
      "Constant added to Adam's denominator"},
     {"dense_updates",
@@ -164,36 +181,40 @@ const ConfigField fields[] = {
      "Split the triangles with the largest error instead of the longest edges"},
     {"split_fraction",
      &Config::split_fraction,
-     {0, 100, Range::Ends::low_open, "at 0 every edge would be split for ever"},
+     {0, 100, Range::Ends::low_open, "at 0 every edge would be split again and again"},
      {},
      "Projected edges longer than this fraction of the image height are split"},
-    {"split_views", &Config::split_views, steps, {}, "Views that choose the edges, at most"},
+    {"split_views",
+     &Config::split_views,
+     steps,
+     {},
+     "Maximum number of views that choose the edges"},
     {"split_beyond_budget",
      &Config::split_beyond_budget,
      none,
      {},
-     "Projected edges are split beyond the number of triangles, which the next pruning restores"},
+     "Split projected edges beyond the number of triangles; the next pruning restores that number"},
     {"least_views",
      &Config::min_views,
      steps,
      {},
-     "Triangles that fewer training images show are removed at each resampling; limited to one and "
-     "a twentieth of all images"},
+     "Remove triangles visible in fewer training images at each resampling; at most 1 + images / "
+     "20"},
     {"near", &Config::near, length, {}, "Near plane, for a scene of half side 1.5"},
     {"far", &Config::far, length, {}, "Far plane, for a scene of half side 1.5"},
     {"clear_near",
      &Config::clear_near,
      none,
      {},
-     "Triangles before the near plane of a training image are removed at each resampling"},
+     "Remove triangles between a training camera and its near plane at each resampling"},
     {"background",
      &Config::background,
-     {0, 1, {}, "it is a display-referred colour"},
+     {0, 1, {}, "the value is a display-referred colour"},
      {},
-     "Colour where no triangle is: red, green, blue"},
+     "Colour of pixels without a triangle: red, green, blue"},
 };
 
-/// The numbers of a field that its range speaks of.
+/// The numbers of a field that its range limits.
 std::vector<double> numbers(const Config& config, const ConfigField& field) {
   const auto visitor = Overloaded{
       [&](int Config::*m) { return std::vector{double(config.*m)}; },
@@ -224,7 +245,7 @@ std::string number_text(double value) {
 bool Range::contains(double value) const {
   const bool above = ends == Ends::low_open ? value > low : value >= low;
   const bool below = ends == Ends::high_open ? value < high : value <= high;
-  return above && below;  // neither holds for NaN
+  return above && below;  // both are false for NaN
 }
 
 std::string Range::text() const {
@@ -240,7 +261,8 @@ std::string Range::text() const {
 }
 
 std::string Range::refusal(double value, const std::string& written) const {
-  return written + " is not " + text() + " (" + (value > high ? reason_above : reason) + ")";
+  return written + " is out of range; allowed: " + text() + " (" +
+         (value > high ? reason_above : reason) + ")";
 }
 
 std::span<const ConfigField> config_fields() { return fields; }
@@ -256,18 +278,18 @@ std::optional<std::string> defect(const Config& config) {
            level(config.max_level);
   if (config.coarse_level > config.min_level)
     return "coarse_level: " + level(config.coarse_level) + " is above min_level, " +
-           level(config.min_level) + " (the lift would lose what was learned)";
+           level(config.min_level) + " (the lift would lose the learned texture)";
   // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel).
   const std::uint64_t texels = lattice::texel_count(config.max_level);
   if (const auto most = std::numeric_limits<std::uint32_t>::max() / texels;
       std::uint64_t(config.triangles) > most)
-    return "triangles: " + std::to_string(config.triangles) + " of level " +
-           level(config.max_level) + " have more texels than a soup can number; at most " +
-           std::to_string(most) + " can be of that level";
+    return "triangles: " + std::to_string(config.triangles) + " at level " +
+           level(config.max_level) + " have more texels than a soup supports; the limit is " +
+           std::to_string(most) + " at that level";
   if (!(config.near < config.far))
     return "near: " + float_text(config.near) + " is not below far, " + float_text(config.far);
   if (config.l1_weight == 0 && config.ssim_weight == 0)
-    return "l1_weight: 0, as ssim_weight is (there would be no loss)";
+    return "l1_weight: 0, and ssim_weight is 0 too (one of them must be above 0)";
   return std::nullopt;
 }
 

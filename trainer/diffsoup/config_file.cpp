@@ -15,8 +15,8 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Sets one member to what the file holds. Ranges are checked afterwards, all at once: only here do
-/// types matter.
+/// Sets one member to the value in the file and checks its type. Ranges are checked later, all at
+/// once.
 struct Assign {
   Config& config;
   const ConfigField& field;
@@ -25,7 +25,7 @@ struct Assign {
   void operator()(int Config::*member) const {
     const double number = value.number();
     if (number != std::floor(number)) value.fail("expected a whole number, not " + written());
-    // Beyond an int is beyond every range as well.
+    // A number that does not fit an int is outside every range.
     if (std::abs(number) > std::numeric_limits<int>::max())
       value.fail(field.range.refusal(number, written()));
     config.*member = static_cast<int>(number);
@@ -55,13 +55,13 @@ std::vector<std::string> field_names() {
   return names;
 }
 
-/// Names all that are unknown at once: whoever mistyped one may have mistyped more.
+/// Rejects unknown keys and lists all of them in one error.
 void require_known(const JsonView& root, const nlohmann::json& document,
                    const std::vector<std::string>& names) {
   std::string unknown, hint;
   for (const auto& [key, ignored] : document.items())
     if (std::find(names.begin(), names.end(), key) == names.end()) {
-      unknown += (unknown.empty() ? "\"" : "; \"") + key + "\" is no constant of training";
+      unknown += (unknown.empty() ? "\"" : "; \"") + key + "\" is not a training constant";
       const std::string near = did_you_mean(key, names);
       hint += (hint.empty() || near.empty() ? "" : " ") + near;
     }

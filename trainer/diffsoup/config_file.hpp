@@ -13,19 +13,19 @@
 
 namespace tureen::trainer {
 
-/// What the fields are that a file does not name.
+/// Defaults for fields that are not in the file.
 struct ConfigDefaults {
-  Preset preset = Preset::object;  // where the file names none
+  Preset preset = Preset::object;  // if the file has no preset
   bool published = false;          // published() instead of preset()
 };
 
-/// Throws InputError with the file and the field: text that is no JSON object, a name that is no
-/// field (with the nearest that is), a value of another type, one out of range or at odds with
-/// another (with the reason).
+/// Throws InputError with the file and the field: for text that is not a JSON object, for an
+/// unknown field (suggests the nearest one), for a value of a wrong type, and for a value that is
+/// out of range or conflicts with another (with the reason).
 Config read_config(Input& input, const ConfigDefaults& defaults = {});
 Config read_config(const std::filesystem::path& path, const ConfigDefaults& defaults = {});
 
-/// All fields, a line each; reading it back gives the same bits.
+/// All fields, one per line; read_config returns the same bits from it.
 std::string config_to_json(const Config& config);
 
 }  // namespace tureen::trainer

@@ -18,7 +18,7 @@ bool has_cuda_backend() { return false; }
 namespace {
 
 void require_cuda() {
-  throw ContextError("this build has no CUDA backend (nvcc was not there)", "use --device cpu");
+  throw ContextError("this build has no CUDA backend (nvcc was not found)", "use --device cpu");
 }
 
 std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView>, const Config&) {
@@ -41,7 +41,7 @@ std::unique_ptr<Backend> make_backend(std::span<const TrainingView> views, const
     try {
       return make_cuda_backend(views, config);
     } catch (const ContextError&) {      // no GPU
-    } catch (const DeviceLimitError&) {  // too small a one
+    } catch (const DeviceLimitError&) {  // too little GPU memory
     }
   }
   return make_cpu_backend(views, config, threads);

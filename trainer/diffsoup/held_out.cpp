@@ -43,7 +43,7 @@ double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const C
 
 Image8 preview(Backend& backend, const Photograph& view, const Config& config) {
   Image8 image = side_by_side(truth(view, config), to_float(drawn(backend, view.camera)));
-  // The photograph is shown over its background already.
+  // The photograph is already composited on the background.
   for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
   return image;
 }

@@ -1,5 +1,5 @@
-// How near a run has come to views that it does not train on, drawn by the trainer itself: quick
-// enough for every few hundred steps. What is reported in the end is drawn by the runtime
+// The error of a run in held-out views, which it does not train on. The trainer draws them itself,
+// quickly enough for every few hundred steps. The runtime draws the images for the final report
 // (jobs/eval/evaluation.hpp).
 #pragma once
 
@@ -14,18 +14,18 @@
 
 namespace tureen::trainer {
 
-/// The camera's image as a device would write it, 8 bits a channel, opaque.
+/// The camera's image with 8 bits per channel, opaque.
 Image8 drawn(Backend& backend, const Camera& camera);
 
-/// The mean over views of the PSNR against the photograph over the background, as evaluate()
-/// measures it. `progress`, where there is one, is called with the fraction done and may throw.
+/// The mean PSNR over the views, against the photograph over the background, as in evaluate().
+/// `progress`: optional function, called with the completed fraction; it may throw.
 double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const Config& config,
                     const std::function<void(double)>& progress = {});
 
-/// The view's photograph, what the trainer draws, and where they differ.
+/// The view's photograph, the trainer's image, and their difference, side by side.
 Image8 preview(Backend& backend, const Photograph& view, const Config& config);
 
-/// At most `count` of the views, evenly spread, the first among them.
+/// At most `count` of the views, evenly spread, including the first.
 std::vector<Photograph> some_of(std::span<const Photograph> views, std::size_t count);
 
 }  // namespace tureen::trainer

@@ -25,7 +25,7 @@ double mean(std::span<const double> values) {
   return values.empty() ? 0 : sum / double(values.size());
 }
 
-/// Positions in their order; of those that coincide, the first.
+/// The positions in their order, without repeats of earlier ones.
 std::vector<glm::dvec3> once_each(const std::vector<glm::dvec3>& points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -42,7 +42,7 @@ std::vector<glm::dvec3> once_each(const std::vector<glm::dvec3>& points) {
   return kept;
 }
 
-/// The positions without those that are likely mistakes: see seeds_at_points.
+/// The positions without likely outliers: see seeds_at_points.
 std::vector<glm::dvec3> plausible(std::span<const DatasetPoint> points) {
   glm::dvec3 centre;
   std::vector<double> values(points.size());
@@ -66,7 +66,7 @@ std::vector<glm::dvec3> plausible(std::span<const DatasetPoint> points) {
   return once_each(kept);
 }
 
-/// All points, and others beside them.
+/// All points, and random positions near them, `count` together.
 std::vector<glm::dvec3> extended(const std::vector<glm::dvec3>& points, std::size_t count,
                                  double lone_spacing, Random& random) {
   std::vector<double> distances = nearest_distances(points);
@@ -100,7 +100,7 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& points, std::size
 /// Around the cube: uniform in direction, and in the logarithm of the distance.
 glm::dvec3 far_point(const Region& region, double far_extent, Random& random) {
   glm::dvec3 direction(0.0);
-  while (glm::length(direction) < 0.1) direction = random.in_ball();  // nearer it is inexact
+  while (glm::length(direction) < 0.1) direction = random.in_ball();  // short ones are inexact
   direction = glm::normalize(direction);
   const glm::dvec3 size = glm::abs(direction);
   const double border = 1 / std::max({size.x, size.y, size.z});  // where it leaves the cube
@@ -132,7 +132,7 @@ Model from_mesh(const Scene& mesh, const Config& config) {
   return split(model, splits, ChildTexture::resampled).model;
 }
 
-/// Those of the seeds that do not lie around the region are put at points instead.
+/// Replaces the seeds inside the region with seeds at points.
 void put_at_points(const Dataset& dataset, const Region& region, const Config& config, double far,
                    Seeds& seeds, Random& random) {
   const auto count = std::size_t(config.initial_triangles);
@@ -218,8 +218,8 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
   if (mesh) return from_mesh(*mesh, config);
   const bool has_points = !dataset.points.empty();
   if (config.initialisation == Initialisation::points && !has_points)
-    throw InputError({}, "the dataset has no points to begin at",
-                     "random initialisation needs none");
+    throw InputError({}, "the dataset has no points for the first triangles",
+                     "use random initialisation");
   const auto count = std::size_t(config.initial_triangles);
   Region region = region_of_interest(dataset);
   Random random(config.seed, begin_stream);

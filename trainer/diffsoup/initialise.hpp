@@ -1,6 +1,6 @@
-// Where the first triangles are: at points of structure from motion, at random, or a mesh
-// (DiffSoup, arXiv 2603.27151, section 4). All begin at logits of 0, with opacity one half and grey
-// features, but for those of a mesh that has colours.
+// The first triangles: at points from structure from motion, at random points, or a mesh (DiffSoup,
+// arXiv 2603.27151, section 4). Their logits begin at 0, opacity one half and grey features, except
+// for a mesh with colours.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,34 +16,34 @@
 
 namespace tureen::trainer {
 
-/// The model that training begins with, on the level config.coarse_level: config.initial_triangles
-/// faces, positions relative to the centre of the region of interest (a mesh: see from_scene). A
-/// function of its arguments alone, the same on every machine but for rounding.
+/// The initial model of training at level config.coarse_level, with config.initial_triangles faces.
+/// Positions are relative to the centre of the region of interest (for a mesh: see from_scene). The
+/// result depends only on the arguments, and is the same on every machine within rounding.
 ///
-/// `mesh` is there exactly where config.initialisation is mesh; where it has fewer triangles its
-/// longest edges are bisected, where it has more it keeps them all: pruning needs to see them
-/// first. Throws InputError where points are asked for and there are none, and what
-/// region_of_interest throws.
+/// `mesh`: the scene for config.initialisation mesh, null for all others. Its longest edges are
+/// bisected if it has fewer triangles. If it has more, all stay until the first pruning, which
+/// needs their visible pixels. Throws InputError if points are required and the dataset has none,
+/// and the errors of region_of_interest.
 Model initial_model(const Dataset& dataset, const Config& config, const Scene* mesh = nullptr);
 
-/// Where triangles are put, and how large.
+/// Positions and sizes of triangles.
 struct Seeds {
   std::vector<glm::dvec3> centres;  // in world coordinates
   std::vector<double> radii;        // circumradii
 };
 
-/// Two thirds of `count` by farthest-point sampling, the others uniform among the points that are
-/// left. Where there are too few points all are taken, and the others lie beside points chosen
-/// uniformly, within the distance of their nearest neighbours. Of the points, the farthest half
-/// percent is left out where it is twice as far from the median as the rest: mistakes of
-/// structure from motion that farthest-point sampling would find first.
+/// Two thirds of `count` come from farthest-point sampling, the others are uniform among the
+/// remaining points. If there are too few points, all are used; the others lie near uniformly
+/// chosen points, within the distance to the nearest neighbour. Points more than twice as far from
+/// the median as 99.5 % of all points are skipped: they are errors of structure from motion, and
+/// farthest-point sampling would choose them first.
 ///
-/// Of points that coincide one is taken. Where there is but one, the others lie within
-/// `lone_spacing` of it, and a lone triangle's neighbour is taken to be as far away.
+/// Only one of several coincident points is used. If there is only one point, the others lie within
+/// `lone_spacing` of it. `lone_spacing` is also the neighbour distance of a single triangle.
 ///
-/// A circumradius is `radius` times the distance to the nearest other centre: its mean, or
-/// (`local`) that of the centre itself, but at least a tenth of the mean, as
-/// points may nearly coincide.
+/// A circumradius is `radius` times the distance to the nearest other centre. The distance is the
+/// mean over all centres, or with `local` the centre's own. With `local` it is at least a tenth of
+/// the mean, because points may nearly coincide.
 struct PointSeeds {
   std::size_t count;
   double radius;
@@ -53,11 +53,11 @@ struct PointSeeds {
 Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
                       Random& random);
 
-/// Uniform in the cube `region`, but for a fraction `far` that lies around it, out to `far_extent`
-/// half sides from its centre, uniform in the logarithm of the distance. What no camera of `views`
-/// has in its image is drawn again, a hundred times at most. Circumradii are `radius` times the
-/// mean distance to the nearest neighbour in the cube; outside of it they grow like the distance
-/// from the centre.
+/// Points are uniform in the cube `region`. A fraction `far` lies around it instead, up to
+/// `far_extent` half sides from its centre, uniform in the logarithm of the distance. A point
+/// outside the images of all `views` is drawn again, up to 100 times. Circumradii are `radius`
+/// times the mean distance to the nearest neighbour in the cube; outside they are proportional to
+/// the distance from the centre.
 struct RandomSeeds {
   std::size_t count;
   double radius;
@@ -67,7 +67,7 @@ struct RandomSeeds {
 Seeds random_seeds(const Region& region, std::span<const Photograph> views,
                    const RandomSeeds& options, Random& random);
 
-/// Three corners a seed, relative to `origin`: equilateral, uniform in SO(3).
+/// Three corners per seed, relative to `origin`: equilateral, with orientations uniform in SO(3).
 std::vector<glm::vec3> equilateral_triangles(const Seeds& seeds, glm::dvec3 origin, Random& random);
 
 }  // namespace tureen::trainer

@@ -31,8 +31,8 @@ const std::vector<Parents>& parents(int level) {
   return tables[level];
 }
 
-/// `values` holds level - 1 at its front and becomes `level`: from the back, as a texel's parents
-/// never have a higher index.
+/// Refines `values`, which holds level - 1 at its front, to `level`. The loop runs backwards
+/// because a texel's parents never have a higher index.
 void refine_in_place(int level, int channels, std::span<float> values) {
   const std::vector<Parents>& table = parents(level);
   for (std::size_t texel = table.size(); texel-- > 0;) {
@@ -76,8 +76,8 @@ void decompose(int min, int max, int channels, std::span<const float> fine, std:
   assert(0 <= min && min <= max && max <= lattice::max_level);
   assert(all.size() == texel_count(min, max) * channels);
   assert(fine.size() == std::size_t(lattice::texel_count(max)) * channels);
-  // Residuals are taken from what the levels below add up to in floats, so roundings do not pile
-  // up.
+  // Residuals are relative to the float sum of the lower levels, so rounding errors do not
+  // accumulate.
   std::vector<float> sum(fine.size());
   float* level_values = all.data();
   for (int level = min; level <= max; ++level) {

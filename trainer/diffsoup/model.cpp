@@ -42,7 +42,7 @@ Model lifted(const Model& from, int min_level, int max_level, LiftedOpacity opac
            .mlp = from.mlp,
            .origin = from.origin};
   to.logits.resize(to.faces() * to.texels() * channels);
-  // Taken through the finer of the two highest levels, all lattices lie within each other.
+  // The detour over the finer of the two highest levels makes all lattices nested.
   const int through = std::max(from.max_level, max_level);
   std::vector<float> padded(levels::texel_count(from.min_level, through) * channels);
   std::vector<float> fine(std::size_t(lattice::texel_count(through)) * channels);

@@ -1,4 +1,4 @@
-// from_scene: any soup becomes a model to be trained further.
+// from_scene: converts any soup to a model for further training.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -14,11 +14,11 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Values are kept this far from 0 and 1: see from_scene.
+/// Minimum distance of values from 0 and 1: see from_scene.
 constexpr double value_margin = 1e-4;
 
-/// The logit of the blend between base colour and network where the network is not trained yet:
-/// it has a weight of 0.12, so that the image begins as the scene was.
+/// The logit of the blend between base colour and an untrained network. It gives the network a
+/// weight of 0.12, so the first image is close to the scene.
 constexpr float quiet_blend = -2.0f;
 
 float logit(double value) {
@@ -34,7 +34,7 @@ class FaceLogits {
     const bool has_own_detail = std::holds_alternative<LatticeTexture>(soup.appearance) ||
                                 std::holds_alternative<VertexColors>(soup.appearance);
     const auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
-    // Features of a network that we cannot hold are no colours.
+    // Features of a network with another shape are not colours.
     if (!has_own_detail || (texture && texture->mlp && !keeps_features))
       colors_ = mean_colors(soup);
   }
@@ -88,14 +88,14 @@ class FaceLogits {
   const TriangleSoup& soup_;
   int level_;
   bool keeps_features_;
-  std::vector<glm::vec3> colors_;  // one a face, where there is no finer detail to keep
+  std::vector<glm::vec3> colors_;  // one per face, or empty if the texture has finer detail
 };
 
 }  // namespace
 
 Model from_scene(Scene scene, const FromScene& options) {
   const TriangleSoup& soup = opaque_soup(scene);
-  if (soup.triangles.empty()) throw InputError({}, "the scene to begin with has no triangle");
+  if (soup.triangles.empty()) throw InputError({}, "the initial scene has no triangle");
   Model model{.min_level = options.min_level,
               .max_level = options.max_level,
               .positions = {},

@@ -40,12 +40,12 @@ class NearPyramid {
 
  private:
   static constexpr int planes = 1 + HomogeneousPixels::sides;
-  /// A convex polygon gains one corner at a plane. Rounding bends one that is as small as its
-  /// error, at the very eye say: every second corner may be outside, which gives half as many
-  /// again, from three 4, 6, 9, 13 and 19.
+  /// A convex polygon gains one corner at a plane. Rounding may make a polygon concave if it is as
+  /// small as the rounding error, for example at the eye. Then every second corner may be outside,
+  /// and the number of corners grows by one half: from 3 to 4, 6, 9, 13 and 19.
   static constexpr std::size_t max_corners = 19;
 
-  /// Not negative on the inner side. The first plane leaves most triangles out.
+  /// At least 0 on the inner side. Plane 0, the near plane, excludes most triangles.
   double distance(int plane, glm::dvec3 point) const {
     return plane == 0 ? near_ - point.z : pixels_.from_side(plane - 1, point);
   }
@@ -54,7 +54,7 @@ class NearPyramid {
   double near_;
 };
 
-/// In front of the camera's plane, whether in its image or not.
+/// Distance in front of the camera's plane, for any point.
 double depth(const Camera& camera, glm::dvec3 point) {
   return -(camera.view_from_world * glm::dvec4(point, 1.0)).z;
 }
@@ -65,14 +65,14 @@ double quantile(std::vector<double>& values, double fraction) {
   return *at;
 }
 
-/// Nothing is nearer, as far as the dataset tells; 0 where it does not.
+/// The distance from the cameras to the nearest surface, estimated from the dataset; 0 if unknown.
 double nearest_surface(const Dataset& dataset, const Region& region) {
   std::vector<double> depths;
   for (const Photograph& view : dataset.train)
     for (const DatasetPoint& point : dataset.points)
       if (in_image(view.camera, point.position))
         depths.push_back(depth(view.camera, point.position));
-  // Some points of structure from motion are mistakes, often right before a camera.
+  // Some points from structure from motion are errors, often right in front of a camera.
   if (!depths.empty()) return quantile(depths, 0.01);
   for (const Photograph& view : dataset.train)
     if (const double d = depth(view.camera, region.centre); d > 0) depths.push_back(d);

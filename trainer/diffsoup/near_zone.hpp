@@ -1,7 +1,7 @@
-// The room before the cameras, where a photograph shows no surface.
+// The empty space in front of the cameras, where photographs show no surface.
 //
-// A triangle that hangs before one camera alone may explain its photograph perfectly: no other
-// photograph looks at that place, so nothing contradicts it, and every view beside it is spoilt.
+// A triangle right in front of one camera may fit its photograph perfectly. No other photograph
+// shows that place, so no loss corrects the triangle, and it spoils all neighbouring views.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,19 @@
 
 namespace tureen::trainer {
 
-/// One a face: not 0 where some part of it lies in the image of one of `cameras` and nearer to
-/// its plane than `near` (world units, more than 0). Exact but for rounding: faces that surround
-/// the pyramid count only if they cut it. Corners that are not finite are in no image.
+/// One value per face: not 0 if a part of it lies in the image of one of `cameras` and nearer to
+/// its plane than `near` (world units, more than 0). The test is exact within rounding: a face
+/// around the pyramid counts only if it cuts it. Corners that are not finite are in no image.
 std::vector<std::uint8_t> reaching_near_zone(const Model& model, std::span<const Camera> cameras,
                                              double near);
 
-/// A configuration (its lengths in the dataset's units) whose near zone is empty as far as the
-/// dataset tells, where faces are removed from it (clear_near): `near` is at most half the distance
-/// of the points that are in the images, the nearest hundredth of them left out, or, without
-/// points, half the distance at which the cameras look at the region's centre. Where most have
-/// that at their back, as in a room, nothing is known: then near is the published one and no face
-/// is removed.
+/// Limits `near` for clear_near, so that the near zone contains no surface according to the
+/// dataset. Lengths are in the dataset's units. `near` is at most
+///   - half the distance to the points in the images, without the nearest 1 % of them;
+///   - without points, half the median distance from the cameras to the region's centre;
+///   - if most cameras have the centre behind them, as inside a room: the published `near`.
+/// In the last case clear_near becomes false. `near` is never below the published one unless
+/// config.near is.
 Config with_empty_near_zone(const Config& config, const Dataset& dataset, const Region& region);
 
 }  // namespace tureen::trainer

@@ -16,9 +16,10 @@ namespace tureen::trainer {
 namespace {
 
 constexpr int record_every = 50;
-/// Held-out views that are measured as the run goes: more tell little more, and take time.
+/// Number of held-out views in measurements during the run. More views add time, but little
+/// information.
 constexpr std::size_t measured_views = 5;
-/// Writing one takes about a second: little of two minutes, and no more than those are ever lost.
+/// Time between checkpoints. Writing one takes about 1 s; an interrupted run loses at most 120 s.
 constexpr double checkpoint_seconds = 120;
 
 double clock_seconds() {
@@ -26,10 +27,10 @@ double clock_seconds() {
   return std::chrono::duration<double>(now).count();
 }
 
-/// Forty points on the curve of a long run; in a short one every 250 steps, or four points.
+/// 40 tests in a long run; in a shorter run every 250 steps, but at least 4 tests.
 int steps_between_tests(int steps) { return std::max({steps / 40, std::min(steps / 4, 250), 1}); }
 
-/// Follows the last hundred steps or so.
+/// Exponential mean; each new value has a weight of 1/50.
 double smoothed(double mean, double value) {
   return mean > 0 ? mean + 0.02 * (value - mean) : value;
 }
@@ -66,7 +67,7 @@ void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
   try {
     work();
   } catch (const Error&) {
-    // This error is the one to report; a checkpoint that fails as well adds nothing.
+    // Report this error and ignore a second one from the checkpoint.
     try {
       if (!in_step_) keep();
     } catch (const OutputError&) {
@@ -149,7 +150,7 @@ void TrainingSession::save_checkpoint() {
   run_.state = trainer_.state();
   run_.seconds = seconds();
   write_checkpoint(options_.checkpoint, run_);
-  run_.state = {};  // hundreds of megabytes at times
+  run_.state = {};  // frees up to hundreds of megabytes
   last_checkpoint_ = seconds();
 }
 

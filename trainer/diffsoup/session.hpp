@@ -16,23 +16,23 @@
 
 namespace tureen::trainer {
 
-/// A moment of the run, for people who wait.
+/// Progress of a run, for display.
 struct SessionStatus {
-  int step = 0, steps = 0;             // done, of all
+  int step = 0, steps = 0;             // completed steps, total steps
   double loss = 0;                     // smoothed; 0 before the first step
-  std::optional<double> test_psnr_db;  // of the held-out views, when last measured
+  std::optional<double> test_psnr_db;  // last measurement on held-out views
   double seconds_per_step = 0;         // smoothed; 0 before the first step
 };
 
 struct SessionOptions {
-  std::filesystem::path checkpoint;             // replaced at each
-  std::filesystem::path log;                    // JSON lines
-  std::filesystem::path previews;               // a folder that exists, where preview_every > 0
-  std::optional<int> checkpoint_every;          // steps; by default every two minutes
-  int preview_every = 0;                        // steps; 0 draws none
-  std::span<const Photograph> test_views = {};  // at least one
-  double seconds_before = 0;  // of training, in sessions that this one goes on from
-  /// Called before each step; what it throws ends the run.
+  std::filesystem::path checkpoint;        // replaced by each checkpoint
+  std::filesystem::path log;               // JSON lines
+  std::filesystem::path previews;          // an existing folder, if preview_every > 0
+  std::optional<int> checkpoint_every;     // steps; by default every two minutes
+  int preview_every = 0;                   // steps; 0 for no previews
+  std::span<const Photograph> test_views;  // at least one
+  double seconds_before = 0;               // training time of earlier sessions of this run
+  /// Called before each step; an exception ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
   std::function<void(int step)> interrupted = {};
@@ -40,18 +40,18 @@ struct SessionOptions {
 
 class TrainingSession {
  public:
-  /// `run` is what checkpoints say of it; its state and seconds are filled in here. `trainer`,
-  /// and what the options point to, must outlive the session.
+  /// `run`: configuration and views for the checkpoints; the session fills in state and seconds.
+  /// `trainer` and the spans in `options` must outlive the session.
   TrainingSession(Trainer& trainer, SessionOptions options, Checkpoint run);
 
-  /// Trains to the last step. Throws OutputError where a file cannot be written, and what
-  /// SessionOptions::progress throws. Either way a checkpoint is written first, where that can be.
+  /// Trains to the last step. Throws OutputError if a file cannot be written, and the exceptions of
+  /// SessionOptions::progress. In both cases it first writes a checkpoint if possible.
   void run();
 
-  /// Does what is left to do after run(); where it throws the checkpoint is written first.
+  /// Runs `work` after run(). If it throws, a checkpoint is written first.
   void keep_if_it_fails(const std::function<void()>& work);
 
-  /// Of training, sessions before this one included.
+  /// Training time, including earlier sessions.
   double seconds() const;
 
  private:
@@ -59,7 +59,7 @@ class TrainingSession {
   struct Recent {
     int steps = 0;
     double loss = 0, l1 = 0, ssim = 0, mse = 0;
-    double begin = 0;  // seconds() at the first of them
+    double begin = 0;  // seconds() before the first of them
   };
 
   void train_to_the_end();
@@ -80,7 +80,7 @@ class TrainingSession {
   double start_ = 0;            // of the clock
   double last_checkpoint_ = 0;  // seconds()
   Recent recent_;
-  bool in_step_ = false;  // the state may be half of one step and half of the next
+  bool in_step_ = false;  // the state may be between two steps: no checkpoint then
   std::uint64_t non_finite_ = 0;
   double loss_ = 0;  // smoothed, as shown
   double seconds_per_step_ = 0;

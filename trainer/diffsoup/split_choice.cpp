@@ -14,20 +14,20 @@ namespace tureen::trainer {
 
 namespace {
 
-/// No cut is nearer to a corner, as a fraction of its edge: each makes progress, also in floats, so
-/// that no extreme perspective spends the budget on one edge.
+/// Minimum distance from a cut to a corner, as a fraction of the edge. Each cut then shortens the
+/// edge, even in floats, and an extreme perspective cannot spend the whole budget on one edge.
 constexpr double min_cut = 0x1p-10;
 
 struct Candidate {
   double priority;  // a length, or an error
   Split split;
 
-  bool operator<(const Candidate& other) const {  // a queue's top is its greatest
+  bool operator<(const Candidate& other) const {  // the top of a priority_queue is the greatest
     return priority != other.priority ? priority < other.priority : split.face > other.split.face;
   }
 };
 
-/// Faces as the splits so far have left them, and those splits.
+/// The faces after the splits so far, and those splits.
 struct Faces {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> origin;
@@ -39,7 +39,7 @@ struct Faces {
 
   std::size_t count() const { return origin.size(); }
 
-  /// In the world, cut in its middle.
+  /// The longest edge in world units, cut in its middle.
   Candidate longest_edge(std::uint32_t face) const {
     const glm::vec3* corner = &positions[3 * std::size_t(face)];
     Candidate best{-1, {face, 0, 0.5f}};
@@ -58,9 +58,9 @@ struct Faces {
   }
 };
 
-/// Splits by priority until there are `budget` faces or no candidate is left. `candidate` names the
-/// longest edge of a face, if one is to be split; it is asked for every face that `starts` accepts,
-/// and for children.
+/// Splits by priority until there are `budget` faces or no candidate is left. `candidate` returns
+/// the edge to split of a face, or nothing. It is called for every face that `starts` accepts, and
+/// for the children.
 template <class Starts, class MakeCandidate>
 void split_longest(Faces& faces, std::size_t budget, const Starts& starts,
                    const MakeCandidate& candidate) {
@@ -80,7 +80,7 @@ void split_longest(Faces& faces, std::size_t budget, const Starts& starts,
   }
 }
 
-/// What of an edge a camera sees, beyond its near plane.
+/// The part of an edge in a camera's image and beyond its near plane.
 class ViewProjection {
  public:
   ViewProjection(const Camera& camera, glm::dvec3 origin, double near)
@@ -93,7 +93,7 @@ class ViewProjection {
     double t;       // where the projected part is halved
   };
 
-  /// The part of an edge that is in the image; nothing where there is none.
+  /// The part of an edge in the image; nothing if the edge is outside.
   std::optional<Visible> visible(glm::dvec3 a, glm::dvec3 b) const {
     double low = 0, high = 1;
     for (int plane = 0; plane <= HomogeneousPixels::sides; ++plane) {
@@ -111,7 +111,7 @@ class ViewProjection {
   }
 
  private:
-  /// Not negative on the inner side.
+  /// At least 0 on the inner side.
   double distance(int plane, glm::dvec3 point) const {
     return plane == 0 ? point.z - near_ : pixels_.from_side(plane - 1, point);
   }
@@ -138,14 +138,14 @@ std::vector<Split> greatest_errors(const Model& model, std::span<const float> er
   split_longest(
       faces, budget, [](std::size_t) { return true; },
       [&](std::uint32_t face) {
-        // Asked for again after a cut: for the half in its place, then for the one at the end.
+        // Called again after a cut, first for the half in its place, then for the half at the end.
         if (face == error.size())
           error.push_back(error[faces.splits.back().face]);
         else if (!faces.splits.empty() && faces.splits.back().face == face)
           error[face] *= 0.5;
         Candidate candidate = faces.longest_edge(face);
-        // Halves of no error have none either: among those the longest edge comes first, or one
-        // face would take all that is left of the budget. Edges of no length come last.
+        // Among faces without error the longest edge comes first; otherwise one face and its halves
+        // would take the rest of the budget. Edges of length 0 come last.
         const double length = std::max(candidate.priority, 1e-30);
         candidate.priority = error[face] > 0 ? error[face] : -1 / length;
         return std::optional(candidate);

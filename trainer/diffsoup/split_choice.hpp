@@ -1,5 +1,6 @@
-// Which edges are split: the two rules of DiffSoup (arXiv 2603.27151, supplement). Both return
-// splits in order, longest first, of faces and of their children, for `split` to carry out.
+// The choice of edges to split: two rules from DiffSoup (arXiv 2603.27151, supplement),
+// longest_edges and longest_projected_edges, and our greatest_errors. Each returns the splits of
+// faces and their children in the order for `split`.
 #pragma once
 
 #include <cstddef>
@@ -12,37 +13,36 @@
 
 namespace tureen::trainer {
 
-/// Bisects the longest edge in the world, again and again, until there are `budget` faces: as
-/// published for random initialisation. Of equal edges the one of the lower face. Exact unless
-/// there is no face at all.
+/// Bisects the longest edge in world units until there are `budget` faces, as published for random
+/// initialisation. Ties go to the lower face. The final number is exact unless the model has no
+/// faces.
 std::vector<Split> longest_edges(const Model& model, std::size_t budget);
 
-/// Bisects the face of the greatest error, again and again, at its longest edge, until there are
-/// `budget` faces; each child has half of its parent's error. `errors` has one number a face; faces
-/// without error come after all others, the longest edge first.
-/// Triangles go where the image needs them, which a length alone does not tell.
+/// Bisects the face with the greatest error at its longest edge until there are `budget` faces.
+/// Each child has half its parent's error. `errors`: one number per face. Faces without error come
+/// after all others, the longest edge first.
 std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
                                    std::size_t budget);
 
 /// One view that chooses edges.
 struct SplitView {
   Camera camera;
-  /// One a face, not 0 where the face is the nearest in some pixel of this view.
+  /// One per face, not 0 if the face is the nearest in a pixel of this view.
   std::span<const std::uint8_t> visible;
 };
 
 struct ProjectedSplits {
   double fraction = 0.2;   // of the image's height: longer edges are split
-  std::size_t budget = 0;  // never more faces than this
-  double near = 0.01;      // what is nearer to the camera's plane is not in the image
+  std::size_t budget = 0;  // maximum number of faces
+  double near = 0.01;      // near plane: distance from the camera's plane, world units
 };
 
-/// View by view, splits the longest projected edge of the faces that are visible in it, and of
-/// their children, as long as it is longer than the threshold; where the projected edge is halved.
+/// In each view, splits the longest projected edge of the visible faces and their children while it
+/// is longer than the threshold. The cut halves the projected edge.
 ///
-/// Published code leaves out every edge with an end outside the image, and so never splits the
-/// largest faces. Here an edge counts by the part of it that is in the image and before the near
-/// plane, and is cut in the middle of that part.
+/// The published code skips every edge with an end outside the image, and so never splits the
+/// largest faces. Here, only the part of an edge in the image and beyond the near plane counts; the
+/// cut is in the middle of that part.
 std::vector<Split> longest_projected_edges(const Model& model, std::span<const SplitView> views,
                                            const ProjectedSplits& rule);
 

@@ -8,7 +8,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// How many of the numbers are none; they become 0.
+/// Sets numbers that are not finite to 0 and returns their count.
 std::uint64_t cleared(std::span<float> values) {
   std::uint64_t count = 0;
   for (float& value : values)
@@ -19,7 +19,8 @@ std::uint64_t cleared(std::span<float> values) {
   return count;
 }
 
-/// A number and its moments: where one of the three is none, the moments begin again.
+/// The same for numbers and their moments. If one of the three is not finite, both moments restart
+/// at 0.
 std::uint64_t cleared(std::span<float> values, std::span<float> first, std::span<float> second) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {

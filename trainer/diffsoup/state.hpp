@@ -1,5 +1,5 @@
-// Everything that a training run has learned, and all that the next step needs: a checkpoint is
-// this and nothing else.
+// The state of a training run: the trained model and the additional data for the next step. A
+// checkpoint stores it.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace tureen::trainer {
 struct Moments {
   std::vector<float> first, second;     // of the logits
   std::vector<glm::vec3> vertex_first;  // of the positions
-  std::vector<float> vertex_second;     // one a vertex: VectorAdam
-  std::vector<std::uint32_t> steps;     // one a face: how often it was stepped
+  std::vector<float> vertex_second;     // one per vertex: VectorAdam
+  std::vector<std::uint32_t> steps;     // optimiser steps of each face
   MlpParameters mlp_first{}, mlp_second{};
   std::uint32_t mlp_steps = 0;
 
-  /// Zeros for all faces of `model`; what belongs to the MLP stays.
+  /// Sets the moments of all faces of `model` to zero; those of the MLP do not change.
   void reset_faces(const Model& model);
 };
 
@@ -26,20 +26,20 @@ struct TrainingState {
   Model model;
   Moments moments;
   int step = 0;  // steps done
-  /// The error that each face showed since the last resampling: the sum over its pixels and their
-  /// channels of |C - G|. Empty: none yet.
+  /// The error of each face since the last resampling: the sum of |C - G| over its pixels and their
+  /// channels. Empty at the start.
   std::vector<float> errors;
-  /// Running mean of the score's loss, a pixel of each training image in its order, image after
-  /// image, stored as round(65535 sqrt(l / 3)); empty without a baseline.
+  /// Running mean l of the score's loss for each pixel of each training image, image after image,
+  /// stored as round(65535 sqrt(l / 3)); empty without a baseline.
   std::vector<std::uint16_t> baseline;
-  std::uint64_t non_finite = 0;  // pixels and parameters that were quarantined so far
+  std::uint64_t non_finite = 0;  // number of quarantined pixels and parameters so far
 };
 
-/// Puts numbers in the place of what is none, as a mesh to begin with may bring it: 0 for logits
-/// and weights, and of a face with a corner that is none all three become the origin, a face that
-/// no image shows. Left as they are they would never learn: what is no number has no gradient
-/// that is one. Moments of what was replaced begin again. Returns how many numbers were replaced,
-/// and adds them to non_finite.
+/// Replaces numbers that are not finite, for example from an initial mesh. Logits and weights
+/// become zero. If a corner of a face is not finite, all three corners move to the origin, and no
+/// image shows the face. Such numbers would never train, because their gradients are not finite
+/// either. Moments of replaced numbers restart at 0. Returns the count of replaced numbers and adds
+/// it to non_finite.
 std::uint64_t quarantine(TrainingState& state);
 
 }  // namespace tureen::trainer

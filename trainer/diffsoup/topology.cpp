@@ -14,7 +14,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// A model of the same kind without faces.
+/// A model with the same levels, MLP and origin, but without faces.
 Model without_faces(const Model& model) {
   return {.min_level = model.min_level,
           .max_level = model.max_level,
@@ -49,7 +49,7 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249u;
 }
 
-/// A face of the new model: where its corners lie on the face it came from, in barycentrics.
+/// A face of the new model: the positions of its corners on the old face, in barycentrics.
 struct Piece {
   std::uint32_t origin;
   bool is_new = false;
@@ -72,8 +72,8 @@ void cut(const Split& split, std::vector<Piece>& pieces, std::vector<glm::vec3>&
   cut_face(positions, split);
 }
 
-/// What a face shows, sampled anywhere: sigmoids of its fine texels, interpolated. Both alpha and
-/// 1 - alpha are kept, so that logits of any size come back without cancellation.
+/// Samples the texture of a face at any point: interpolated sigmoids of its fine texels. It stores
+/// both the value and 1 - value, so large logits are recovered without cancellation.
 class ShownTexture {
  public:
   explicit ShownTexture(const Model& model) : model_(model) {
@@ -84,19 +84,19 @@ class ShownTexture {
   void set_face(std::size_t face) {
     fine_logits(model_, face, logits_);
     for (std::size_t i = 0; i < logits_.size(); ++i) {
-      // Beyond +-500 a sigmoid's smaller side leaves double's range; such logits mean 0 or 1.
+      // e^710 would overflow. Beyond +-500 the sigmoids are 0 or 1 in any case.
       const double e = std::exp(std::clamp(double(logits_[i]), -500.0, 500.0));
       values_[i] = {e / (1 + e), 1 / (1 + e)};
     }
   }
 
-  /// The logits that show the same at one texel of a piece.
+  /// The logits of one texel of a piece, for the same value as the parent at that point.
   void sample(glm::dvec3 barycentrics, std::span<float> out) const {
     const auto at = lattice::footprint(model_.max_level, barycentrics[0], barycentrics[1]);
     for (int c = 0; c < channels; ++c) {
       double one = 0, zero = 0;
       for (int k = 0; k < 3; ++k) {
-        // A border texel may have a weight of -1e-17, which logits of 40 would feel.
+        // A border texel may have a weight of -1e-17, which would change logits of 40.
         const double weight = std::max(at.weights[k], 0.0);
         const Value& value = values_[std::size_t(at.texels[k]) * channels + c];
         one += weight * value.one;
@@ -115,7 +115,7 @@ class ShownTexture {
   std::vector<Value> values_;
 };
 
-/// Texels of one piece, level by level.
+/// Writes the texels of one piece, level by level.
 void resample(const Model& model, const ShownTexture& parent, const Piece& piece,
               std::span<float> out) {
   std::vector<float> fine(std::size_t(lattice::texel_count(model.max_level)) * channels);
@@ -171,7 +171,7 @@ Resampled in_space_order(const Model& model) {
     low = glm::min(low, glm::dvec3(p));
     high = glm::max(high, glm::dvec3(p));
   }
-  // 2^21 steps along the longest side; positions that are not finite land anywhere.
+  // 2^21 steps along the longest side. The order of positions that are not finite is arbitrary.
   const glm::dvec3 size = high - low;
   const double steps = 2097151 / std::max({size.x, size.y, size.z, 1e-30});
   std::vector<std::uint64_t> places;

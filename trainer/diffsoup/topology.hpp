@@ -1,6 +1,5 @@
-// Triangles come and go: pruning and splitting. Which edges are split:
-// trainer/diffsoup/split_choice.hpp; where the first triangles are:
-// trainer/diffsoup/initialise.hpp.
+// Pruning and splitting of triangles. trainer/diffsoup/split_choice.hpp chooses the edges to split;
+// trainer/diffsoup/initialise.hpp places the first triangles.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +10,23 @@
 
 namespace tureen::trainer {
 
-/// A changed set of faces. origin[t] is the face of the old model that face t came from; it is the
-/// same triangle with the same texels, unless is_new[t].
+/// A changed set of faces. origin[t] is the old face of the new face t. Both have the same corners
+/// and texels, unless is_new[t].
 struct Resampled {
   Model model;
   std::vector<std::uint32_t> origin;
   std::vector<std::uint8_t> is_new;
 };
 
-/// The `count` faces of most `pixels` (one number a face), in their old order; of equal ones the
-/// first. With more than there are, all.
+/// The `count` faces with the most `pixels` (one number per face), at most all, in their old order.
+/// Ties go to the lower index.
 Resampled prune(const Model& model, std::span<const std::uint64_t> pixels, std::size_t count);
 
-/// The faces that have any pixels, in their old order.
+/// The faces with at least one pixel, in their old order.
 Resampled prune_unseen(const Model& model, std::span<const std::uint64_t> pixels);
 
-/// All faces along a curve that fills space (Morton 1966): faces that are neighbours there are
-/// mostly neighbours in every image, and what one has read the next finds in the cache.
+/// All faces in the order of a space-filling curve (Morton 1966). Neighbours on the curve are
+/// mostly neighbours in every image, so they share data in the cache.
 Resampled in_space_order(const Model& model);
 
 /// A split: the edge from corner `edge` to the next one, cut at `t` (0..1, from the first corner).
@@ -38,21 +37,22 @@ struct Split {
 };
 
 enum class ChildTexture {
-  resampled,  // the image stays: a child shows what its parent showed there
-  copied,     // both children copy the parent's texels: as published, the image pops
+  resampled,  // a child has its parent's values at the same points: the image stays the same
+  copied,     // both children copy the parent's texels (published): the image jumps
 };
 
-/// Cuts faces in two, one after the other. The half with the edge's first corner stands where the
-/// parent stood, the other at the end, so a later split may name either: face F + i is the second
-/// half of split i, where F is the old number of faces. Orientation is kept.
+/// Cuts faces in two, one after the other. The half with the edge's first corner takes the parent's
+/// index, the other half goes to the end. Later splits may use either: face F + i is the second
+/// half of split i, where F is the old number of faces. Orientation does not change.
 ///
-/// Resampled, every texel of max_level takes the value (after the sigmoid, as it is drawn) that the
-/// face of the old model shows at its place, however often that was cut; between texels both are
-/// piecewise linear, on other cells. At t = 1/2 every second texel lies on one of the old.
+/// With ChildTexture::resampled, every texel of max_level takes the old face's value (after the
+/// sigmoid, as drawn) at its position, after any number of cuts. Between texels both textures are
+/// piecewise linear, but on different cells. At t = 1/2 every second texel coincides with an old
+/// one.
 Resampled split(const Model& model, std::span<const Split> splits, ChildTexture texture);
 
-/// What a split does to the corners, three a face: the first half in its place, the second at the
-/// end. Both take the very same point.
+/// Applies a split to the corners, three per face: the first half in its place, the second at the
+/// end. Both halves have exactly the same new corner.
 void cut_face(std::vector<glm::vec3>& positions, const Split& split);
 
 }  // namespace tureen::trainer

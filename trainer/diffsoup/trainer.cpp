@@ -15,16 +15,16 @@ namespace tureen::trainer {
 
 namespace {
 
-// Streams of random numbers, one a purpose.
+// Streams of random numbers, one per purpose.
 constexpr std::uint64_t epoch_stream = std::uint64_t(1) << 32;
 constexpr std::uint64_t split_stream = std::uint64_t(2) << 32;
 
-/// Config::min_views rises by one for so many training images at most.
+/// Config::min_views is limited to 1 + training images / this number.
 constexpr std::size_t images_a_view = 20;
 
-/// Splits beyond the budget end at so many times the budget. A view has room for about 25 edges of
-/// a fifth of its height side by side, so twenty views come nowhere near it: this bounds memory
-/// where a threshold is tiny.
+/// Splits beyond the budget end at this multiple of the budget. Only about 25 edges of a fifth of
+/// the image's height fit into a view, so 20 views stay far below it. It limits memory for tiny
+/// thresholds.
 constexpr std::size_t max_beyond = 8;
 
 std::vector<std::uint32_t> shuffled(std::size_t count, Random random) {
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> shuffled(std::size_t count, Random random) {
   return order;
 }
 
-/// Moments follow their faces; those of new faces begin at zero.
+/// The moments for the resampled faces; those of new faces begin at zero.
 Moments carried(const Moments& from, const Resampled& resampled) {
   Moments to;
   to.reset_faces(resampled.model);
@@ -58,10 +58,10 @@ Moments carried(const Moments& from, const Resampled& resampled) {
   return to;
 }
 
-/// Changes a state's faces, and knows where each came from.
+/// Changes a state's faces and tracks the origin of each.
 class Renewal {
  public:
-  /// `errors`: one a face of the state as it is now.
+  /// `errors`: one per face of the current state.
   Renewal(TrainingState& state, std::vector<float> errors)
       : state_(state), errors_(std::move(errors)), origin_(state.model.faces()) {
     std::iota(origin_.begin(), origin_.end(), 0u);
@@ -76,7 +76,7 @@ class Renewal {
     state_.model = std::move(resampled.model);
   }
 
-  /// Of the faces that are there now.
+  /// The errors of the current faces.
   std::vector<float> errors() const {
     std::vector<float> ordered;
     ordered.reserve(origin_.size());
@@ -169,8 +169,8 @@ void Trainer::resample() {
   std::vector<Camera> cameras;
   for (const TrainingView& view : views_) cameras.push_back(half_size(view.camera));
   std::vector<std::uint64_t> pixels = evident_pixels(state.model, cameras);
-  // Where nothing is seen (yet), there is nothing to go by; in the end the budget is met all the
-  // same.
+  // If no face is visible yet, there is no data to choose by. The last resampling still has to meet
+  // the budget.
   const bool seen = std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
   if (!seen && !last) return;
   if (seen && !beyond) {  // published: only the budget removes faces of scenes
@@ -192,11 +192,11 @@ void Trainer::resample() {
           split(state.model, edges,
                 config_.resample_textures ? ChildTexture::resampled : ChildTexture::copied));
   };
-  // What is split beyond the budget needs a pruning after it.
+  // Splits beyond the budget need a later pruning, so the last resampling has none.
   if (!(last && beyond))
     cut(config_.split_by_error ? greatest_errors(state.model, renewal.errors(), budget)
                                : choose_splits(state, cameras));
-  // Projected edges may all be short enough before the budget is met; in the end it is.
+  // Projected edges may all be short before the budget is met; the last resampling meets it.
   if (last) cut(longest_edges(state.model, budget));
   renewal.apply(in_space_order(state.model));
   if (config_.reset_moments) state.moments.reset_faces(state.model);
@@ -204,11 +204,11 @@ void Trainer::resample() {
   backend_->upload(state);
 }
 
-/// How many pixels each face wins; none for a face that too few images show, or that hangs right
-/// before a camera.
+/// The number of visible pixels of each face; 0 for a face that too few images show, or that lies
+/// right in front of a camera.
 std::vector<std::uint64_t> Trainer::evident_pixels(const Model& model,
                                                    std::span<const Camera> cameras) {
-  // Of few images one alone may be all that shows a place.
+  // With few images, a place may be visible in only one of them.
   const int least = std::min(config_.min_views, 1 + int(cameras.size() / images_a_view));
   std::vector<std::uint64_t> pixels;
   if (least > 1) {
@@ -241,7 +241,7 @@ std::vector<Split> Trainer::choose_splits(const TrainingState& state,
   if (state.model.faces() == 0) return {};
   std::vector<Split> splits;
   if (config_.preset == Preset::scene) {
-    // What is large in an image is large there, whatever it is in the world.
+    // Scenes: the size in the image counts, not the size in the world.
     backend_->upload(state);
     const std::vector<std::uint32_t> chosen =
         shuffled(cameras.size(), Random(config_.seed, split_stream + std::uint64_t(step_)));

@@ -1,9 +1,8 @@
-// A training run: steps, and between them the schedule that turns a cloud of triangles into a soup
-// (DiffSoup, arXiv 2603.27151, section 4 and supplement): rates that decay, the lift from coarse to
-// fine levels, pruning and splitting.
+// A training run: steps, and the schedule between them (DiffSoup, arXiv 2603.27151, section 4 and
+// supplement): decay of the rates, the lift from coarse to fine levels, pruning and splitting.
 //
-// What a run does next is a function of its configuration, its views and its state alone: a run
-// that goes on from a saved state ends with the same bits as one that never stopped.
+// The next step depends only on the configuration, the views and the state. A resumed run therefore
+// ends with the same bits as an uninterrupted one.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +17,18 @@
 
 namespace tureen::trainer {
 
-/// What the last resampling did.
+/// Counts from the last resampling.
 struct ResampleReport {
-  std::size_t unseen = 0;  // removed: no training image showed them
-  std::size_t pruned = 0;  // removed for the budget
+  std::size_t unseen = 0;  // faces removed because no training image showed them
+  std::size_t pruned = 0;  // faces removed to meet the budget
   std::size_t split = 0;   // splits
 };
 
 class Trainer {
  public:
-  /// `views` are the backend's too, and must outlive both. The state is new or a saved one, and
-  /// what in it is no number is put aside (quarantine); the configuration's lengths are in the
-  /// dataset's units by now (scaled_to).
+  /// `views`: the backend's views; they must outlive both objects. `state`: new or saved; numbers
+  /// that are not finite are replaced (quarantine). `config`: with lengths in the dataset's units
+  /// (scaled_to).
   Trainer(const Config& config, std::span<const TrainingView> views,
           std::unique_ptr<Backend> backend, TrainingState state);
 
@@ -37,10 +36,10 @@ class Trainer {
   bool done() const { return step_ >= config_.steps; }
   std::size_t faces() const { return faces_; }
 
-  /// One step, and what the schedule has after it.
+  /// One step, and the schedule's changes after it.
   StepReport step();
 
-  /// The state as it is now, for a checkpoint or the result.
+  /// The current state, for a checkpoint or the result.
   TrainingState state() const;
 
   const ResampleReport& last_resample() const { return last_resample_; }
@@ -62,10 +61,10 @@ class Trainer {
   ResampleReport last_resample_;
 };
 
-/// The views of step `step` (1, 2, ..): `batch` of `count`, so that every epoch shows each view
-/// once, in an order that only seed and epoch decide. The last batch of an epoch is shorter where
-/// `batch` does not divide `count`: no view is in a batch twice, as the same draws would count
-/// double and two tasks would write to the same pixels of the baseline.
+/// The views of step `step` (1, 2, ..): `batch` of `count` views. Every epoch uses each view once,
+/// in an order that depends only on seed and epoch. The last batch of an epoch is shorter if
+/// `batch` does not divide `count`. A view must not be in a batch twice: the same draws would count
+/// twice, and two tasks would write to the same pixels of the baseline.
 std::vector<std::uint32_t> batch_of(int step, int batch, std::size_t count, std::uint64_t seed);
 
 }  // namespace tureen::trainer

@@ -1,6 +1,6 @@
-// bench.html: measures how long this device takes to draw scenes, with the viewer's own pipeline.
-// A link can ask for everything (request.ts); what comes of it is also at window.tureenBench, for
-// programs that drive the page.
+// bench.html: measures the time this device needs to draw scenes, with the viewer's pipeline.
+// A link can set everything (request.ts). The result is also in window.tureenBench, for programs that
+// drive the page.
 
 import { block, button, fillFacts, make } from '../page/dom.js';
 import { Messages } from '../page/messages.js';
@@ -13,7 +13,7 @@ import { Settings } from './settings.js';
 
 declare global {
   interface Window {
-    /** Of the last measurement that was begun, or of the first before there is one. Rejected where it fails. */
+    /** The result of the latest measurement, or of the first before one begins. Rejects if it fails. */
     tureenBench: Promise<BenchFile>;
   }
 }
@@ -21,7 +21,7 @@ declare global {
 function save(name: string, type: string, content: string): void {
   const url = URL.createObjectURL(new Blob([content], { type }));
   make('a', { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), 60_000);  // the browser may take its time to begin
+  setTimeout(() => URL.revokeObjectURL(url), 60_000);  // browsers may start the download late
 }
 
 class Bench {
@@ -64,21 +64,21 @@ class Bench {
     }
   }
 
-  /** Tells the person and the program that drives the page. */
+  /** Reports the error on the page and to the program that drives it. */
   private fail(error: unknown): void {
     this.messages.thrown(error);
     this.promise.reject(error);
   }
 
-  /** An engine on a canvas of its own: one whose context was lost is left behind. */
+  /** An engine on its own canvas. Replaces an engine with a lost context. */
   private async start(): Promise<BenchEngine> {
     if (this.engine && !this.engine.isLost) return this.engine;
     this.engine?.canvas.remove();
-    const canvas = make('canvas', { 'aria-label': 'What is measured', role: 'img', hidden: true });
+    const canvas = make('canvas', { 'aria-label': 'Measured image', role: 'img', hidden: true });
     this.engine = await BenchEngine.start(canvas);
     block('image').append(canvas);
     const { renderer, limits } = this.engine.device;
-    fillFacts(block('device'), [['Drawn by', renderer], ['Pixel ratio', String(devicePixelRatio)]]);
+    fillFacts(block('device'), [['Renderer', renderer], ['Pixel ratio', String(devicePixelRatio)]]);
     block('software').hidden = !limits.software;
     return this.engine;
   }
@@ -96,7 +96,7 @@ class Bench {
       const scenes = await new Measuring(engine, request, mine.signal, tell).run();
       this.show({ file: benchFile(engine.device, scenes), scenes });
     } catch (error) {
-      if (mine.signal.aborted) this.messages.notice('Measuring was cancelled.');
+      if (mine.signal.aborted) this.messages.notice('The measurement was cancelled.');
       else this.messages.thrown(error);
       this.promise.reject(error);
     } finally {
@@ -115,7 +115,7 @@ class Bench {
 
   private tell(what: string, fraction: number): void {
     const percent = Math.round(100 * fraction);
-    if (block('what').textContent !== what) block('what').textContent = what;  // it is read aloud
+    if (block('what').textContent !== what) block('what').textContent = what;  // screen readers read every change
     block('progress').setAttribute('aria-valuenow', String(percent));
     block('progress-bar').style.width = `${percent}%`;
   }
@@ -136,7 +136,7 @@ class Bench {
 
   private promiseResult(): void {
     window.tureenBench = new Promise((resolve, reject) => { this.promise = { resolve, reject }; });
-    window.tureenBench.catch(() => {});  // it has been told to the person, too
+    window.tureenBench.catch(() => {});  // the page shows the error
   }
 }
 

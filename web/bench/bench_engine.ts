@@ -1,5 +1,5 @@
-// An engine that measures: scenes side by side on one canvas, and frames timed by the protocol of
-// `tureen bench` (web/engine/bench.cpp). Drawn is by the very pipeline of the viewer.
+// An engine for measurements: several scenes on one canvas, and frames timed by the protocol of
+// `tureen bench` (web/engine/bench.cpp). It draws with the viewer's pipeline.
 
 import { assetsAt, type Assets } from '../viewer/assets.js';
 import { compile, Engine } from '../viewer/engine.js';
@@ -13,7 +13,7 @@ export interface Device {
   readonly renderer: string;
   readonly vendor: string;
   readonly gl_version: string;
-  /** With `software` where the processor draws. */
+  /** `software`: whether the processor draws. */
   readonly limits: { readonly software: boolean };
   readonly max_image_side: number;
 }
@@ -23,7 +23,7 @@ export interface Files {
   readonly name: string;
 }
 
-/** What a plan does not draw or compute: docs/json.md. */
+/** Work that a plan omits: docs/json.md. */
 export interface Specialisation {
   readonly name: string;
   readonly count: number;
@@ -44,7 +44,7 @@ export interface AddedScene {
   readonly description: SceneDescription;
   readonly pipeline: Pipeline;
   readonly readMs: number;
-  /** Set where the device has no memory for more. */
+  /** The reduced lattice level if the device has too little memory; otherwise null. */
   readonly level: number | null;
 }
 
@@ -52,10 +52,10 @@ export type BenchCase =
   | { readonly name: string; readonly scene: number; readonly published: boolean }
   | { readonly name: string; readonly grid: readonly number[] };
 
-/** Milliseconds a frame: round by round, in each the same views in the same order. */
+/** Milliseconds per frame, [round][view]; all rounds have the same views in the same order. */
 export type FrameTimes = readonly (readonly number[])[];
 
-/** Milliseconds where nothing else is said: jobs/timing/frame_statistics.hpp. */
+/** In milliseconds, except ratios and rates: jobs/timing/frame_statistics.hpp. */
 export interface Statistics {
   readonly mean: number;
   readonly median: number;
@@ -76,31 +76,31 @@ export interface CaseResult {
 
 export interface RunResult {
   readonly frames_per_sample: number;
-  /** Of the first against itself: the difference that means nothing. */
+  /** Spread of the first case against itself: smaller differences are noise. */
   readonly aa_spread: number;
   readonly self_test_ms: readonly [FrameTimes, FrameTimes];
   readonly entrants: readonly CaseResult[];
 }
 
-/** Of the canvas, in its own pixels from its bottom left corner. */
+/** A part of the canvas, in pixels from its bottom left corner. */
 export interface Cell extends Size {
   readonly scene: number;
   readonly x: number;
   readonly y: number;
 }
 
-/** Between two breaths of the page. Long enough for several samples of any device, short enough for
- *  a person who wants to cancel. */
+/** Time of one measuring step, between which the page handles events. Long enough for several samples
+ *  on any device, and short enough for a responsive Cancel button. */
 const stepMs = 50;
 
-/** Follows the browser's frames, so it pauses with a page that is hidden. */
+/** Waits for the browser's next frame, so it pauses while the page is hidden. */
 const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));
 
 const contextLost = () => new ViewerError(
-  'The browser took the graphics device away, most likely for want of memory or because a frame took too long. ' +
-  'Measure again with less.', 'device');
+  'The browser reset the graphics device. Probable causes are too little memory or a frame that took too long. ' +
+  'Measure again with fewer scenes or a smaller image size.', 'device');
 
-/** Rejects with the signal's reason, which may be long after anybody waits for it. */
+/** Rejects with the signal's reason. The caller may have stopped waiting by then. */
 function aborted(signal: AbortSignal): Promise<never> {
   const ended = new Promise<never>((_, reject) => {
     if (signal.aborted) reject(signal.reason);
@@ -116,7 +116,7 @@ export class BenchEngine {
   private constructor(private readonly engine: Engine, private readonly program: WebAssembly.Module,
                       private readonly assets: Assets, readonly canvas: HTMLCanvasElement, readonly device: Device) {
     canvas.addEventListener('webglcontextlost', (event) => {
-      event.preventDefault();  // or it never comes back
+      event.preventDefault();  // otherwise the browser does not restore the context
       this.lost.abort(contextLost());
     }, { signal: this.lost.signal });
   }
@@ -129,14 +129,14 @@ export class BenchEngine {
     return new BenchEngine(engine, program, assets, canvas, engine.call<Device>('start'));
   }
 
-  /** Then a new one is needed. The event comes later than the first command that fails of it. */
+  /** Whether the context is lost; a new engine is then needed. Commands may fail before the event. */
   get isLost(): boolean { return this.lost.signal.aborted || this.canvas.getContext('webgl2')!.isContextLost(); }
   get wasmBytes(): number { return this.engine.memoryBytes; }
 
-  /** Forgets all scenes. */
+  /** Removes all scenes. */
   clear(): void { this.engine.call('bench_clear'); }
 
-  /** Its number is how many there were before. Rejects with ViewerError and the signal's reason. */
+  /** Adds a scene; its number is the previous count. Rejects with ViewerError or the signal's reason. */
   async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
     let added: AddedScene | null = null;
     const program = Promise.resolve(this.program), limits = Promise.resolve(this.device.limits);
@@ -175,7 +175,7 @@ export class BenchEngine {
     }
   }
 
-  /** The same scene drawn by the baseline. Rejects with ViewerError where that cannot. */
+  /** Prepares the same scene for the baseline. Rejects with ViewerError if the baseline cannot draw it. */
   async addPublished(scene: number, { files, name }: Files): Promise<Pipeline> {
     return readWith<Pipeline>(this.engine, 'bench_add_published', await openFiles(files, name), { scene });
   }
@@ -185,7 +185,7 @@ export class BenchEngine {
     this.engine.call('bench_cameras', { scene, ...from, width, height });
   }
 
-  /** Frames without a pause but the page's breaths. Rejects with ViewerError and the signal's reason. */
+  /** Draws frames, with pauses only between steps. Rejects with ViewerError or the signal's reason. */
   async run(entrants: readonly BenchCase[], how: { readonly rounds: number; readonly minSampleMs: number },
             signal: AbortSignal, tell: (fraction: number) => void): Promise<RunResult> {
     this.engine.call('bench_run', { entrants, rounds: how.rounds, least_sample_ms: how.minSampleMs });
@@ -199,7 +199,7 @@ export class BenchEngine {
     return this.ask<RunResult>('bench_result');
   }
 
-  /** A lost context draws nothing, in no time: nothing that it says counts. */
+  /** Throws if the context is lost: a lost context draws nothing and reports wrong times. */
   private ask<T>(command: string, given: unknown = null): T {
     try {
       const answer = this.engine.call<T>(command, given);
@@ -210,7 +210,7 @@ export class BenchEngine {
     throw contextLost();
   }
 
-  /** Not timed: what a person sees. */
+  /** Draws the visible image; it is not timed. */
   show(cells: readonly Cell[], { width, height }: Size, camera: number): void {
     if (this.isLost) return;
     this.canvas.width = width;

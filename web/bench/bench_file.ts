@@ -1,11 +1,10 @@
-// The page's downloads: the JSON that docs/json.md explains, which `tureen report`
-// reads, and a table for spreadsheets.
+// The page's downloads: JSON for `tureen report` (docs/json.md), and CSV for spreadsheets.
 
 import { clockSentence } from './clock.js';
 import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';
 import type { Device, FrameTimes, Specialisation } from './bench_engine.js';
 
-/** From the build: build.mjs. */
+/** Set by build.mjs. */
 declare const builtVersion: string, builtCommit: string;
 
 export interface BenchFile {
@@ -73,7 +72,7 @@ export function benchFile(device: Device, scenes: readonly MeasuredScene[]): Ben
 
 const quoted = (text: string) => (/[,"\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-/** A line a configuration and size, with the names that `tureen bench` gives its columns. */
+/** One line per configuration and size, with the column names of `tureen bench`. */
 export function benchCsv(file: BenchFile, scenes: readonly MeasuredScene[]): string {
   const rows = scenes.flatMap((scene) => scene.measurements.flatMap(({ cameraSet, width, height, result }) =>
     result.entrants.map(({ name, stable, frame_ms, pixels_hash, statistics: ms }) => ({

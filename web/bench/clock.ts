@@ -1,10 +1,10 @@
-// The browser's clock, which is made coarse on purpose: how coarse decides how long a sample must be.
+// The browser's clock. Browsers limit its resolution, which determines the minimum length of a sample.
 
 const looks = 20;
 
 let step: number | null = null;
 
-/** The smallest step that performance.now() was seen to make, in milliseconds. */
+/** The smallest observed step of performance.now(), in milliseconds. */
 export function clockStepMs(): number {
   if (step !== null) return step;
   step = Infinity;
@@ -17,9 +17,9 @@ export function clockStepMs(): number {
   return step;
 }
 
-/** "0.1 ms": without the digits that come of subtracting. */
+/** "0.1 ms": two digits, because subtraction adds rounding errors. */
 const stepText = () => `${Number(clockStepMs().toPrecision(2))} ms`;
 
 export const clockSentence = (minSampleMs: number) =>
-  `the browser's performance.now(), which steps by ${stepText()} here; a sample lasts at least ` +
-  `${Number(minSampleMs.toPrecision(2))} ms, from an idle device until one pixel of the last frame was read back`;
+  `the browser's performance.now() with steps of ${stepText()}; a sample lasts at least ` +
+  `${Number(minSampleMs.toPrecision(2))} ms, from an idle device until one pixel of the last frame is read back`;

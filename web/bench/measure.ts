@@ -1,5 +1,5 @@
-// A request from its scenes' bytes to frame times: each scene at each size, one after the other; or
-// all of them on a grid, as one frame.
+// Runs a request, from the bytes of its scenes to frame times. It measures each scene at each size, one
+// after the other, or all scenes on a grid in one frame.
 
 import { nameOf, urlOf } from '../viewer/addresses.js';
 import { download } from '../viewer/download.js';
@@ -19,7 +19,7 @@ export interface Measurement extends Size {
   readonly result: RunResult;
 }
 
-/** What one scene, or one grid of them, has led to. */
+/** The results of one scene, or of one grid of scenes. */
 export interface MeasuredScene {
   readonly name: string;
   /** The address, or the name of the file. */
@@ -33,17 +33,17 @@ export interface MeasuredScene {
   readonly notes: readonly string[];
 }
 
-/** Says what goes on, and how far all of it is: 0..1. */
+/** Reports the current task and the completed fraction of the request, 0..1. */
 export type Tell = (what: string, fraction: number) => void;
 
-/** Loading is quick beside measuring; the bar knows no better. */
+/** Assumed fraction of the time for loading, for the progress bar. */
 const loadingShare = 0.1;
 
-/** A sample that the clock can tell from the next to one in a hundred, and no shorter than `tureen
- *  bench` has it. */
+/** Minimum length of a sample: 100 clock steps, so that the clock's error is 1 %, and at least the 5 ms
+ *  of `tureen bench`. */
 export const minSampleMs = () => Math.max(5, 100 * clockStepMs());
 
-/** Cells of `count` images in one of this size, row by row from the top; what does not divide is left. */
+/** Cells for `count` images in an image of this size, row by row from the top. A remainder stays empty. */
 export function gridCells(count: number, size: Size): Cell[] {
   const columns = Math.ceil(Math.sqrt(count)), rows = Math.ceil(count / columns);
   const width = Math.max(Math.floor(size.width / columns), 1), height = Math.max(Math.floor(size.height / rows), 1);
@@ -75,7 +75,7 @@ export class Measuring {
     return measured;
   }
 
-  /** What is drawn as one frame. */
+  /** Measures the scenes of one frame. */
   private async measureFrame(sources: readonly SceneSource[], tell: Tell): Promise<MeasuredScene> {
     const { bench, request } = this;
     const hidden = new Hidden();
@@ -100,7 +100,7 @@ export class Measuring {
       measurements.push(await this.measureAt(size, added, configurations, (what, fraction) =>
         tell(what, loadingShare + ((1 - loadingShare) * (index + fraction)) / request.sizes.length)));
     if (hidden.end())
-      notes.push('The page was hidden in between; browsers slow down what nobody sees.');
+      notes.push('The page was hidden during the measurement; browsers slow down hidden pages.');
     return {
       ...this.described(sources, added), wasmBytes: bench.wasmBytes, configurations, measurements, notes,
     };
@@ -135,7 +135,7 @@ export class Measuring {
     };
   }
 
-  /** The baseline for this scene, or the reason why it cannot be drawn. */
+  /** The baseline for this scene, or the reason why the baseline cannot draw it. */
   private async published(source: SceneSource, tell: Tell): Promise<{ configuration?: Configuration; failure?: string }> {
     tell(`${nameOf(source)}: preparing the baseline`, loadingShare);
     try {
@@ -182,7 +182,7 @@ export class Measuring {
   }
 }
 
-/** Whether the page was hidden, from now on. */
+/** Records whether the page is hidden, from its construction to end(). */
 class Hidden {
   private was = document.hidden;
   private readonly watching = new AbortController();

@@ -1,4 +1,4 @@
-// What is to be measured: as the form has it, and as the page's address carries it.
+// A request: the settings of a measurement, in the form and in the page's address.
 //
 //   bench.html?scenes=soup.glb,models/fox.glb&set=hemisphere:8&size=1280x720,1920x1080&rounds=5&published=1&run=1
 //   bench.html?scenes=soup.glb&grid=1&copies=14&run=1
@@ -10,7 +10,7 @@ export interface Size {
   readonly height: number;
 }
 
-/** A set that an address can name. `recorded`: the scene's own cameras. */
+/** A camera set that an address can contain. `recorded`: the scene's own cameras. */
 export interface CameraSet {
   readonly kind: 'hemisphere' | 'orbit' | 'recorded';
   readonly count: number;
@@ -18,28 +18,28 @@ export interface CameraSet {
 
 const isSet = (kind: string): kind is CameraSet['kind'] => ['hemisphere', 'orbit', 'recorded'].includes(kind);
 
-/** Where frames are looked at from. Of a path as many cameras as are asked for, evenly in time; of a
- *  list the first ones. */
+/** The cameras of a measurement. A camera path gives `count` cameras evenly in time; a list gives its
+ *  first ones. */
 export type CameraChoice =
   | CameraSet
   | { readonly kind: 'file'; readonly count: number; readonly name: string; readonly text: string };
 
 export interface BenchRequest {
-  /** The same one may be there more than once. */
+  /** May contain a scene more than once. */
   readonly scenes: readonly SceneSource[];
-  /** All of them at once, in one frame, instead of one after the other. */
+  /** Whether all scenes are in one frame instead of one after the other. */
   readonly grid: boolean;
-  /** Of each scene, on a grid. */
+  /** Number of copies of each scene on a grid. */
   readonly copies: number;
   readonly cameras: CameraChoice;
   readonly sizes: readonly Size[];
-  /** How often the cameras are gone through. */
+  /** Number of passes over the cameras. */
   readonly rounds: number;
-  /** Whether the baseline takes turns with ours; never on a grid. */
+  /** Whether the baseline is measured too, in alternation with ours; never on a grid. */
   readonly published: boolean;
 }
 
-/** What a form has at first, where the address says nothing else. */
+/** The initial values of the form, from the page's address or its defaults. */
 export interface AddressRequest {
   readonly scenes: readonly string[];
   readonly grid: boolean;
@@ -48,11 +48,11 @@ export interface AddressRequest {
   readonly sizes: readonly Size[];
   readonly rounds: number;
   readonly published: boolean;
-  /** Whether it begins at once. */
+  /** Whether the measurement starts at once. */
   readonly run: boolean;
 }
 
-/** More would take hours where the processor draws. */
+/** Upper limits. Larger values would take hours if the processor draws. */
 export const most = { views: 1000, rounds: 1000, copies: 100, side: 16384 } as const;
 
 const usage = (sentence: string) => new ViewerError(sentence, 'usage');
@@ -61,23 +61,23 @@ const usage = (sentence: string) => new ViewerError(sentence, 'usage');
 export function countOf(text: string, what: string, limit: number): number {
   const value = Number(text);
   if (!/^\d+$/.test(text.trim()) || value < 1 || value > limit)
-    throw usage(`“${text}” is no number of ${what}: it has to be 1 to ${limit}.`);
+    throw usage(`“${text}” is not a number of ${what}: enter a number from 1 to ${limit}.`);
   return value;
 }
 
-/** Of "1280x720, 1920x1080". Throws ViewerError. */
+/** The sizes in a text like "1280x720, 1920x1080". Throws ViewerError. */
 export function sizesOf(text: string): Size[] {
   return text.split(',').map((part) => part.trim()).filter(Boolean).map((part) => {
     const sides = /^(\d+)\s*[x×]\s*(\d+)$/i.exec(part)?.slice(1).map(Number);
     if (!sides?.every((side) => side >= 1 && side <= most.side))
-      throw usage(`“${part}” is no size: it has to be like 1280x720, with sides of 1 to ${most.side}.`);
+      throw usage(`“${part}” is not a size: enter a size like 1280x720, with sides from 1 to ${most.side}.`);
     return { width: sides[0]!, height: sides[1]! };
   });
 }
 
 export const sizeKey = ({ width, height }: Size) => `${width}x${height}`;
 export const sizeText = ({ width, height }: Size) => `${width} × ${height}`;
-/** As results name it: "hemisphere:8". */
+/** The name in results: "hemisphere:8". */
 export const setName = (cameras: CameraChoice) => `${cameras.kind === 'file' ? cameras.name : cameras.kind}:${cameras.count}`;
 
 /** Throws ViewerError. */
@@ -86,7 +86,7 @@ export function readAddress(query: string): AddressRequest {
   const flag = (name: string) => given.has(name) && given.get(name) !== '0';
   const [kind = '', count = '8'] = (given.get('set') ?? 'hemisphere').split(':');
   if (!isSet(kind))
-    throw usage(`“${kind}” is no set of cameras: there are hemisphere:8, orbit:8 and recorded:8, with any number.`);
+    throw usage(`“${kind}” is not a camera set: use hemisphere:8, orbit:8 or recorded:8, with any number.`);
   return {
     scenes: given.getAll('scenes').flatMap((list) => list.split(',')).filter(Boolean),
     grid: flag('grid'),
@@ -99,7 +99,7 @@ export function readAddress(query: string): AddressRequest {
   };
 }
 
-/** The query that asks for this; null where no address can: of files at hand, and cameras of a file. */
+/** The query for this request; null if it uses local files, which an address cannot contain. */
 export function writeAddress(request: BenchRequest): string | null {
   const { scenes, grid, copies, cameras, sizes, rounds, published } = request;
   const addresses = scenes.map((scene) => ('url' in scene ? scene.url : null));

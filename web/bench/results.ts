@@ -1,4 +1,4 @@
-// What was measured, for people: a sentence a scene, two tables, notes.
+// Results on the page: a sentence for each scene, two tables, and notes.
 
 import { block, fillSentences, make } from '../page/dom.js';
 import { bytesText, millisecondsText } from '../page/numbers.js';
@@ -9,11 +9,11 @@ import { sizeText } from './request.js';
 
 const percentText = (part: number) => `${(100 * part).toFixed(1)} %`;
 
-/** Of fewer no spread of rounds is known, as jobs/timing/frame_statistics.hpp has it. */
+/** Minimum number of rounds for a spread, as in jobs/timing/frame_statistics.hpp. */
 const minRounds = 3;
 
-/** Of the smallest medians of a round, as `tureen bench` has its ratios: null where the difference is none that
- *  the spreads leave, and not a number where too few rounds tell. */
+/** The ratio of the smallest medians of a round, as in `tureen bench`. Null if the difference is within twice the
+ *  spread; NaN if there are too few rounds. */
 function ratio(timed: CaseResult, first: CaseResult, { result }: Measurement): number | null {
   if (first.frame_ms.length < minRounds) return NaN;
   const a = timed.statistics.min_of_medians, b = first.statistics.min_of_medians;
@@ -21,7 +21,7 @@ function ratio(timed: CaseResult, first: CaseResult, { result }: Measurement): n
   return a !== b && Math.abs(a - b) >= 2 * spread * Math.min(a, b) ? a / b : null;
 }
 
-/** The text where there are the hundred samples of which the slowest is more than chance. */
+/** The text if there are at least 100 samples; with fewer, the slowest 1 % is less than one sample. */
 const ofSlowest = ({ frame_ms }: CaseResult, text: string) =>
   (frame_ms.length * frame_ms[0]!.length >= 100 ? text : '–');
 
@@ -38,9 +38,9 @@ function head(table: HTMLElement, names: readonly (readonly [string, string])[])
 }
 
 const timeColumns = [
-  ['Drawn by', ''], ['median', 'half of all samples take less'], ['p95', '95 of 100 samples take less'],
-  ['p99', '99 of 100 samples take less'], ['1 % low', 'frames a second at the pace of the slowest one in a hundred'],
-  ['ratio', 'of the rounds’ smallest medians, to the first one’s'], ['at rest', 'whether its times had settled before they counted'],
+  ['Configuration', ''], ['median', '50 % of all samples take less'], ['p95', '95 % of all samples take less'],
+  ['p99', '99 % of all samples take less'], ['1 % low', 'frames per second of the slowest 1 % of samples'],
+  ['ratio', 'smallest median of a round, divided by that of the first configuration'], ['stable', 'whether the times were stable after the warm-up'],
 ] as const;
 
 function timesRow(timed: CaseResult, measurement: Measurement): HTMLElement {
@@ -55,7 +55,7 @@ function timesRow(timed: CaseResult, measurement: Measurement): HTMLElement {
 function timesGroup(scene: MeasuredScene, measurement: Measurement): HTMLElement {
   const { result, cameraSet } = measurement, times = result.entrants[0]!.frame_ms;
   const samples = `${counted(times[0]!.length, 'view')}, ${counted(times.length, 'round')}` +
-    (result.frames_per_sample > 1 ? ` of ${result.frames_per_sample} frames a view` : '');
+    (result.frames_per_sample > 1 ? `, ${result.frames_per_sample} frames per view` : '');
   const title = make('th', { scope: 'rowgroup', colspan: timeColumns.length }, `${scene.name}, ${sizeText(measurement)} `,
                      make('small', {}, `${cameraSet}: ${samples}; A/A spread ${percentText(result.aa_spread)}`));
   return make('tbody', {}, make('tr', {}, title), ...result.entrants.map((timed) => timesRow(timed, measurement)));
@@ -68,11 +68,11 @@ function memoryRow(scene: MeasuredScene, { name, device_bytes, plan_ms, upload_m
 }
 
 const memoryColumns = [
-  ['Scene', ''], ['on the device', 'buffers and textures'], ['WebAssembly', 'its memory, which never shrinks'],
-  ['reading', 'from the file’s bytes to the soup'], ['planning', 'what the device gets'], ['handing over', 'to the device'],
+  ['Scene', ''], ['GPU memory', 'buffers and textures'], ['WebAssembly', 'its memory, which never shrinks'],
+  ['reading', 'from the file’s bytes to the soup'], ['planning', 'preparation of the device’s data'], ['upload', 'transfer to the device'],
 ] as const;
 
-/** "6.42 ms a frame at 1280 × 720, 3.1 times as fast as the baseline." */
+/** "6.42 ms per frame at 1280 × 720, 3.1 times as fast as the baseline." */
 function summary(scene: MeasuredScene): HTMLElement[] {
   return scene.measurements.map((measurement) => {
     const [first, ...others] = measurement.result.entrants;
@@ -80,7 +80,7 @@ function summary(scene: MeasuredScene): HTMLElement[] {
     const to = published && ratio(published, first!, measurement);
     const compared = !published || Number.isNaN(to) ? '' : to === null ? ', as fast as the baseline' :
       `, ${to!.toFixed(to! < 10 ? 1 : 0)} times as fast as the baseline`;
-    return make('p', {}, `${scene.name}: `, make('strong', {}, `${millisecondsText(first!.statistics.median)} a frame`),
+    return make('p', {}, `${scene.name}: `, make('strong', {}, `${millisecondsText(first!.statistics.median)} per frame`),
                 ` at ${sizeText(measurement)}${compared}.`);
   });
 }
@@ -97,6 +97,6 @@ export function showResults(scenes: readonly MeasuredScene[]): void {
   const notes = scenes.flatMap(({ name, notes }) => notes.map((note) => (several ? `${name}: ${note}` : note)));
   fillSentences(block('notes'), notes);
   block('notes-part').hidden = notes.length === 0;
-  block('clock').textContent = `Times are read from ${clockSentence(minSampleMs())}.`;
+  block('clock').textContent = `Clock: ${clockSentence(minSampleMs())}.`;
   block('results').hidden = false;
 }

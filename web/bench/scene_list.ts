@@ -1,4 +1,4 @@
-// The scenes that may be measured, with a box each: those of the gallery, of addresses, and files that
+// The list of available scenes with check boxes: from the gallery, from addresses, and from files that
 // were picked or dropped.
 
 import { block, button, input, make } from '../page/dom.js';
@@ -17,7 +17,7 @@ export class SceneList {
     button('add-address').addEventListener('click', () => this.addTyped());
     input('address').addEventListener('keydown', (event) => {
       if (event.key !== 'Enter') return;
-      event.preventDefault();  // which would measure
+      event.preventDefault();  // Enter would start the measurement
       this.addTyped();
     });
     this.attachPicker('choose-files', 'files');
@@ -25,7 +25,7 @@ export class SceneList {
     this.attachDrop();
   }
 
-  /** Those of the address, or the gallery's, of which the first is chosen. */
+  /** Adds the scenes of the address and of the gallery. The first gallery scene is chosen if the address has none. */
   async fill(addresses: readonly string[]): Promise<void> {
     for (const address of addresses) this.add({ url: address });
     for (const { name, url, triangles, bytes } of await readModels()) {
@@ -77,7 +77,7 @@ export class SceneList {
       sign.hidden = true;
       if (!carriesFiles(event)) return;
       event.preventDefault();
-      const dropped = sourceOfDropped(event.dataTransfer!);  // gone after the event
+      const dropped = sourceOfDropped(event.dataTransfer!);  // dataTransfer is empty after the event
       void this.take(() => dropped);
     });
   }

@@ -1,4 +1,4 @@
-// The form: what the address asks for at first, and what a person makes of it.
+// The form with the settings. The page's address sets the initial values.
 
 import { block, button, byId, input, make, select } from '../page/dom.js';
 import type { Messages } from '../page/messages.js';
@@ -13,10 +13,10 @@ const usualSizes: readonly Size[] = [
 ];
 
 const cameraHints: Readonly<Record<CameraChoice['kind'], string>> = {
-  hemisphere: 'Spread evenly over the upper half of a sphere around the scene (Fibonacci).',
-  orbit: 'On a circle around the scene, looking down a little.',
-  recorded: 'The first of the cameras that the scene itself holds, mostly those of its photographs.',
-  file: 'A camera path, cameras of Tureen or a transforms.json: of a path evenly in time, of a list the first ones.',
+  hemisphere: 'Cameras at even distances on the upper half of a sphere around the scene (Fibonacci).',
+  orbit: 'Cameras on a circle around the scene, looking slightly downwards.',
+  recorded: 'The first cameras in the scene’s file, usually those of its photographs.',
+  file: 'A camera path (cameras evenly in time), or a list of cameras from Tureen or a transforms.json (the first ones).',
 };
 
 export class Settings {
@@ -25,11 +25,11 @@ export class Settings {
   private readonly sizes: { size: Size; box: HTMLInputElement }[] = [];
   private cameraFile: { name: string; text: string } | null = null;
 
-  /** `refused` is told what is wrong with a request. */
+  /** `refused`: receives the error of an invalid request. */
   constructor(private readonly messages: Messages, private readonly begin: (request: BenchRequest) => void,
               private readonly refused: (why: unknown) => void) {
     this.scenes = new SceneList(messages);
-    this.form.noValidate = true;  // sentences say more
+    this.form.noValidate = true;  // our messages are more precise
     this.form.addEventListener('submit', (event) => {
       event.preventDefault();
       this.submit();
@@ -38,7 +38,7 @@ export class Settings {
     this.attachCameraFile();
   }
 
-  /** Once at the beginning. */
+  /** Sets the initial values; called once. */
   async fill(asked: AddressRequest): Promise<void> {
     input('grid').checked = asked.grid;
     input('copies').value = String(asked.copies);
@@ -51,7 +51,7 @@ export class Settings {
     await this.scenes.fill(asked.scenes);
   }
 
-  /** There is an engine to measure with. */
+  /** Whether the engine is ready. */
   set ready(ready: boolean) { button('run').disabled = !ready; }
 
   submit(): void {
@@ -65,7 +65,7 @@ export class Settings {
     this.begin(request);
   }
 
-  /** While something is measured nothing can be set. */
+  /** Disables the form during a measurement. */
   set busy(busy: boolean) {
     for (const part of this.form.querySelectorAll('fieldset')) part.disabled = busy;
     button('run').disabled = busy;
@@ -74,10 +74,10 @@ export class Settings {
   /** Throws ViewerError. */
   private request(): BenchRequest {
     const scenes = this.scenes.chosen, grid = input('grid').checked;
-    if (scenes.length === 0) throw new ViewerError('There is no scene to measure: choose or add one.', 'usage');
+    if (scenes.length === 0) throw new ViewerError('No scene is selected: choose or add one.', 'usage');
     const sizes = new Map([...this.sizes.filter(({ box }) => box.checked).map(({ size }) => size),
                            ...sizesOf(input('other-sizes').value)].map((size) => [sizeKey(size), size]));
-    if (sizes.size === 0) throw new ViewerError('There is no size to measure at: choose one.', 'usage');
+    if (sizes.size === 0) throw new ViewerError('No image size is selected: choose one.', 'usage');
     return {
       scenes, grid, cameras: this.cameras(), sizes: [...sizes.values()],
       copies: countOf(input('copies').value, 'copies', most.copies),
@@ -90,11 +90,11 @@ export class Settings {
     const kind = select('camera-kind').value as CameraChoice['kind'];
     const count = countOf(input('camera-count').value, 'cameras', most.views);
     if (kind !== 'file') return { kind, count };
-    if (!this.cameraFile) throw new ViewerError('There is no camera file: choose one.', 'usage');
+    if (!this.cameraFile) throw new ViewerError('No camera file is selected: choose one.', 'usage');
     return { kind, count, ...this.cameraFile };
   }
 
-  /** The usual ones, this screen's and those that were asked for. */
+  /** Lists the usual sizes, the screen's size and those of the address. */
   private fillSizes(asked: readonly Size[]): void {
     const own = { width: Math.round(screen.width * devicePixelRatio), height: Math.round(screen.height * devicePixelRatio) };
     const all = new Map([...usualSizes, own, ...asked].map((size) => [sizeKey(size), size]));
@@ -112,7 +112,7 @@ export class Settings {
     block('camera-hint').textContent = cameraHints[kind];
     block('camera-file-part').hidden = kind !== 'file';
     block('copies-field').hidden = !grid;
-    input('published').disabled = grid;  // it takes no part on a grid
+    input('published').disabled = grid;  // a grid has no baseline
   }
 
   private attachCameraFile(): void {

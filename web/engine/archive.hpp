@@ -1,5 +1,5 @@
-// Values as bytes and back, for messages between two instances of this very program: no versions,
-// no byte order, and the bytes are trusted.
+// Converts values to bytes and back, for messages between two instances of the same program. The
+// format has no version and no fixed byte order, and the reader trusts the bytes.
 #pragma once
 
 #include <cassert>
@@ -93,7 +93,7 @@ class ArchiveReader {
   }
   void extract(void* data, std::size_t size) {
     assert(size <= bytes_.size());
-    if (size == 0) return;  // an empty vector's data may be null, which memcpy does not take
+    if (size == 0) return;  // data of an empty vector may be null, which memcpy does not allow
     std::memcpy(data, bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
   }

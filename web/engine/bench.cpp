@@ -1,4 +1,4 @@
-// bench.html's commands: scenes side by side, and frames timed by the protocol of `tureen bench`
+// The commands of bench.html: several scenes, and frames timed by the protocol of `tureen bench`
 // (jobs/timing/benchmark.hpp), a few samples at a time.
 #include <chrono>
 #include <filesystem>
@@ -31,10 +31,10 @@ struct BenchScene {
   std::optional<Renderer> published;
   Subject subject;
   std::vector<Camera> recorded;
-  std::vector<Camera> cameras;  // of the run that comes
+  std::vector<Camera> cameras;  // for the next run
 };
 
-/// A case of a run: one scene, or several as one frame.
+/// A case of a run: one scene, or several scenes in one frame.
 struct BenchCase {
   std::string name;
   std::vector<Renderer*> renderers;
@@ -77,7 +77,7 @@ Json clear(const Json&) {
   return nullptr;
 }
 
-/// {"scene": what "read" said}
+/// {"scene": result of "read"}
 Json add_scene(const Json& arguments) {
   const Json& scene = arguments.at("scene");
   const double start = milliseconds();
@@ -91,7 +91,7 @@ Json add_scene(const Json& arguments) {
   return result;
 }
 
-/// {"scene", "folder", "paths"}: the same scene drawn by the baseline.
+/// {"scene", "folder", "paths"}: adds the baseline for the same scene.
 Json add_published(const Json& arguments) {
   BenchScene& to = scene_at(arguments.at("scene"));
   Scene scene = read_scene(scene_path(arguments));
@@ -116,18 +116,19 @@ std::vector<Camera> first_of(std::vector<Camera> cameras, int count, const Lens&
 
 CameraSetName set_of(const std::string& text) {
   if (const auto set = parse_camera_set(text, {"hemisphere", "orbit", "recorded"})) return *set;
-  throw UsageError("views are hemisphere:N, orbit:N, recorded:N or a file, not '" + text + "'");
+  throw UsageError("'" + text +
+                   "' is not a camera set: use hemisphere:N, orbit:N, recorded:N or a file");
 }
 
 std::vector<Camera> named_set(const CameraSetName& set, const BenchScene& scene, const Lens& lens) {
   if (set.kind == "hemisphere") return hemisphere(scene.subject, set.count, lens);
   if (set.kind == "orbit")
     return orbit(scene.subject, set.count, {three_quarter_view.azimuth, orbit_elevation}, lens);
-  if (scene.recorded.empty()) throw UsageError("the scene has no cameras of its own");
+  if (scene.recorded.empty()) throw UsageError("the scene has no recorded cameras");
   return first_of(scene.recorded, set.count, lens);
 }
 
-/// Of a path as many as are asked for, evenly in time; of recorded cameras the first ones.
+/// A camera path gives `count` cameras evenly in time; a list of cameras gives its first ones.
 std::vector<Camera> cameras_in(const std::string& text, int count, const Lens& lens) {
   const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
   std::vector<Camera> cameras;
@@ -177,7 +178,8 @@ BenchCase bench_case_of(const Json& benchmark_case) {
   return result;
 }
 
-/// The protocol knows one list of cameras. Theirs have numbers for names: each scene has its own.
+/// The protocol uses one list of cameras, but each scene has its own. The names of the protocol's
+/// cameras are indices into the scenes' lists.
 BenchmarkCase benchmark_case_of(const BenchCase& bench_case) {
   return {.name = bench_case.name,
           .draw =
@@ -202,11 +204,11 @@ Json begin(const Json& arguments) {
     for (const BenchScene* scene : bench().cases.back().scenes) {
       if (scene->cameras.empty()) throw UsageError("a scene has no cameras yet");
       if (views > 0 && scene->cameras.size() != views)
-        throw UsageError("all that take part must have as many cameras");
+        throw UsageError("all scenes must have the same number of cameras");
       views = scene->cameras.size();
     }
   }
-  if (bench().cases.empty() || views == 0) throw UsageError("there is no case to time");
+  if (bench().cases.empty() || views == 0) throw UsageError("there is no case to measure");
   std::vector<Camera> numbers(views);
   for (std::size_t i = 0; i < views; ++i) numbers[i].name = std::to_string(i);
   std::vector<BenchmarkCase> cases;
@@ -218,11 +220,11 @@ Json begin(const Json& arguments) {
 }
 
 BenchmarkRun& run() {
-  if (!bench().run) throw UsageError("nothing is being measured");
+  if (!bench().run) throw UsageError("no measurement is running");
   return *bench().run;
 }
 
-/// So many milliseconds of samples, and one at least.
+/// Takes samples for `budget` milliseconds, at least one.
 Json step(const Json& budget) {
   const double end = milliseconds() + budget.get<double>();
   bool goes_on = run().step();
@@ -249,7 +251,7 @@ Json to_json(const FrameStatistics& ms) {
           {"low_1_percent_fps", ms.low_1_percent_fps}};
 }
 
-/// Of the images of a frame, one below the other where it has several.
+/// The hash of a frame's images, in their order.
 std::string hash_of(const BenchCase& bench_case) {
   Image8 all;
   for (const Renderer* renderer : bench_case.renderers) {

@@ -30,10 +30,10 @@ void pull_block(std::size_t blob, std::uint64_t offset, std::span<std::byte> out
 
 namespace {
 
-constexpr const char* no_memory = "there is not enough memory for this scene in a page";
+constexpr const char* no_memory = "the page has not enough memory for this scene";
 
-/// JSON for the next command. JavaScript writes it here: on the stack, which is where Emscripten's
-/// own strings go, a scene of many cameras would not fit.
+/// JSON for the next command. JavaScript writes it here: Emscripten's own strings go to the stack,
+/// which is too small for a scene with many cameras.
 std::string& arguments() {
   static std::string text;
   return text;
@@ -50,7 +50,7 @@ Json failure(const char* kind, const std::string& message) {
   return {{"error", {{"kind", kind}, {"message", message}}}};
 }
 
-/// Every error becomes a value: an exception that reached JavaScript would be a number there.
+/// Converts every error to a value: JavaScript would get an exception only as a number.
 Json run(const std::string& name, const std::string& given) {
   static const Commands commands = all_commands();
   try {
@@ -74,7 +74,7 @@ Json run(const std::string& name, const std::string& given) {
 
 extern "C" {
 
-/// Makes room for so many bytes of JSON, UTF-8, for the next command; 0 where there is no memory.
+/// Allocates `size` bytes of UTF-8 JSON for the next command. Returns null if the memory is full.
 EMSCRIPTEN_KEEPALIVE char* tureen_arguments(int size) {
   try {
     arguments().resize(std::size_t(size));
@@ -84,11 +84,11 @@ EMSCRIPTEN_KEEPALIVE char* tureen_arguments(int size) {
   return arguments().data();
 }
 
-/// {"result": ..} or {"error": {"kind", "message"}}; good until the next call.
+/// Returns {"result": ..} or {"error": {"kind", "message"}}, valid until the next call.
 EMSCRIPTEN_KEEPALIVE const char* tureen_call(const char* name) {
   static std::string answer;
   try {
-    // Names in files need not be UTF-8.
+    // Names in files may not be UTF-8.
     answer = run(name, arguments()).dump(-1, ' ', false, Json::error_handler_t::replace);
   } catch (const std::bad_alloc&) {
     answer = failure("memory", no_memory).dump();
@@ -96,8 +96,8 @@ EMSCRIPTEN_KEEPALIVE const char* tureen_call(const char* name) {
   return answer.c_str();
 }
 
-/// Makes buffer() so large and says where it lies; 0 where there is no memory. A negative size
-/// keeps it as it is.
+/// Resizes buffer() and returns its address, or null if the memory is full. A negative size does
+/// not change it.
 EMSCRIPTEN_KEEPALIVE void* tureen_buffer(int size) {
   try {
     if (size >= 0) buffer().resize(std::size_t(size));

@@ -1,5 +1,5 @@
-// The one way from JavaScript into this program: a command by its name, JSON in, JSON out, and a
-// buffer for bytes. web/viewer/engine.ts is the other side.
+// The only interface from JavaScript to this program: named commands with JSON as input and output,
+// and a buffer for bytes. web/viewer/engine.ts is the other side.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,26 @@
 
 namespace tureen::web {
 
-/// Takes what JSON.parse would give; returns null where there is nothing to say.
+/// `arguments`: a JSON value. Returns null without a result.
 using Command = std::function<Json(const Json& arguments)>;
 using Commands = std::map<std::string, Command>;
 
-/// The bytes that go with a command: written by the caller before it, or by the command for the
-/// caller. One for all commands, and good until the next one that uses it.
+/// The bytes of a command: input from the caller, or output for the caller. All commands share it;
+/// it is valid until the next command that uses it.
 std::vector<std::byte>& buffer();
 
-/// For the instance in the worker: reads scenes and prepares them.
+/// Commands of the instance in the worker, which reads and prepares scenes.
 Commands loader_commands();
-/// For the instance of the page: draws what was prepared.
+/// Commands of the instance in the page, which draws prepared scenes.
 Commands viewer_commands();
-/// For that of bench.html.
+/// Commands of the instance in bench.html.
 Commands bench_commands();
 
-/// Tells the page that a command under way is so far: 0..1.
+/// Reports the progress of the current command to the page, 0..1.
 void report_progress(double fraction);
 
-/// Bytes of a blob of the scene that is being unpacked (web/engine/prepared_archive.hpp): the page
-/// keeps them, as Module.blobs.
+/// Copies bytes from a blob of the scene that is being unpacked (web/engine/prepared_archive.hpp).
+/// The page keeps the blobs in Module.blobs.
 void pull_block(std::size_t blob, std::uint64_t offset, std::span<std::byte> out);
 
 }  // namespace tureen::web

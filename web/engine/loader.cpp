@@ -1,4 +1,4 @@
-// Reads a scene and prepares it for a device that another instance has.
+// Reads a scene and prepares it for the device of another instance.
 #include <algorithm>
 #include <optional>
 
@@ -16,13 +16,13 @@ namespace tureen::web {
 
 namespace {
 
-/// A page shares its device's memory with all others: from here on half the memory counts more than
-/// an alpha test that takes a third less time (docs/decisions/alpha-cells.md).
+/// A page shares the device's memory with all other pages. Above this size, half the memory is more
+/// important than an alpha test in two thirds of the time (docs/decisions/alpha-cells.md).
 constexpr std::uint64_t max_alpha_cell_bytes = 16 << 20;
 
 struct Loader {
   std::optional<Scene> scene;
-  std::optional<TriangleSoup> reduced;   // for want of memory
+  std::optional<TriangleSoup> reduced;   // at a lower lattice level, to save memory
   std::optional<PreparedSoup> prepared;  // reads the scene's soup, or the reduced one
 
   const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
@@ -33,19 +33,19 @@ Loader& loader() {
   return one;
 }
 
-Json looks_of(const TriangleSoup& soup) {
-  Json looks = Json::array();
+Json debug_views_of(const TriangleSoup& soup) {
+  Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not(name.what, soup);
-    looks.push_back({{"look", name.name},
-                     {"title", name.title},
-                     {"meaning", name.meaning},
-                     {"missing", reason ? Json(*reason) : Json()}});
+    list.push_back({{"name", name.name},
+                    {"title", name.title},
+                    {"meaning", name.meaning},
+                    {"missing", reason ? Json(*reason) : Json()}});
   }
-  return looks;
+  return list;
 }
 
-/// Without the options of the program that would read otherwise: a page has none.
+/// The remarks without the program's options: a page has no options.
 Json notes_of(const Scene& scene) {
   Json notes = scene.info.notes;
   for (const Remark& remark : scene.info.remarks) notes.push_back(describe(remark));
@@ -68,7 +68,7 @@ Json describe(const Scene& scene) {
           {"background", to_json(glm::dvec3(scene.info.background))},
           {"subject", to_json(subject)},
           {"up_reason", describe(up)},
-          {"looks", looks_of(soup)},
+          {"debug_views", debug_views_of(soup)},
           {"feature_count", feature_count(soup)}};
 }
 
@@ -80,27 +80,28 @@ Json take(Scene scene) {
   return describe(*loader().scene);
 }
 
-/// {"folder", "paths"}: any scene, in the file system of this instance.
+/// {"folder", "paths"}: reads any scene from the file system of this instance.
 Json read(const Json& arguments) {
   ReadOptions options;
   options.progress = report_progress;
   return take(read_scene(scene_path(arguments), options));
 }
 
-/// {"name"}; the buffer holds the first bytes of a file. How many of them a preview takes; 0 where
-/// there will be none, null where that cannot be told yet.
+/// {"name"}; the buffer holds the first bytes of a file. Returns the number of bytes for a preview;
+/// 0 if the file has none, null if more bytes are needed to decide.
 Json preview_size(const Json& arguments) {
   const auto size = tureen_glb_preview_size(buffer(), arguments.at("name").get<std::string>());
   return size ? Json(*size) : Json();
 }
 
-/// {"name"}; the buffer holds so many bytes.
+/// {"name"}; the buffer holds the number of bytes from "preview_size".
 Json preview(const Json& arguments) {
   auto scene = read_tureen_glb_preview(buffer(), arguments.at("name").get<std::string>());
   return scene ? take(std::move(*scene)) : Json();
 }
 
-/// {"limits", "level"?: no lattice above it}. The head is then in the buffer.
+/// {"limits", "level"?: maximum lattice level}. Writes the head to the buffer and returns the
+/// blobs.
 Json prepare(const Json& arguments) {
   const Scene& scene = loader().scene.value();
   loader().prepared.reset();
@@ -121,7 +122,7 @@ Json prepare(const Json& arguments) {
   return blobs;
 }
 
-/// {"blob", "offset", "size"}: the bytes are then in the buffer.
+/// {"blob", "offset", "size"}: writes the bytes to the buffer.
 Json read_block(const Json& arguments) {
   buffer().resize(arguments.at("size").get<std::size_t>());
   read_blob(loader().prepared.value(), arguments.at("blob"), arguments.at("offset"), buffer());

@@ -51,12 +51,12 @@ void PageView::set_viewport(int width, int height) {
 void PageView::drop_scene() {
   stage_.reset();
   debug_renderer_.reset();
-  look_ = DebugView::color;
+  debug_view_ = DebugView::color;
 }
 
-void PageView::look(DebugView what, const FeatureChoice& features) {
+void PageView::show(DebugView what, const FeatureChoice& features) {
   if (what != DebugView::color) debug_renderer_.value().show(what, features);
-  look_ = what;
+  debug_view_ = what;
 }
 
 void PageView::set_debug_view_renderer(DebugViewRenderer debug_renderer) {
@@ -64,13 +64,15 @@ void PageView::set_debug_view_renderer(DebugViewRenderer debug_renderer) {
   debug_renderer_->set_background(glm::vec4(background_, 1.0f));
 }
 
-Legend PageView::legend() const { return looks_into() ? debug_renderer_->legend() : Legend{}; }
+Legend PageView::legend() const {
+  return shows_debug_view() ? debug_renderer_->legend() : Legend{};
+}
 
 bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
 
 bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   if (!shows_scene()) return false;
-  // A small image would do, but this one's depth is what the person sees.
+  // A smaller image would suffice, but only this size has exactly the visible depth.
   Stage& stage = *current();
   const glm::ivec2 size(viewport);
   stage.renderer.draw(stage.controls.camera(size.x, size.y));
@@ -90,14 +92,14 @@ void PageView::draw(int width, int height, double seconds) {
   controls().advance(seconds, flight_);
   if (!shows_scene()) return clear_canvas(width, height);
   draw_frame(controls().camera(width, height));
-  if (looks_into())
+  if (shows_debug_view())
     debug_renderer_->blit_to(0);
   else
     current()->renderer.blit_to(0);
 }
 
 void PageView::draw_frame(const Camera& camera) {
-  if (looks_into())
+  if (shows_debug_view())
     debug_renderer_->draw(camera);
   else
     current()->renderer.draw(camera);
@@ -116,7 +118,7 @@ Image8 PageView::image(int width, int height) { return image(controls().camera(w
 
 Image8 PageView::image(const Camera& camera) {
   draw_frame(camera);
-  return looks_into() ? debug_renderer_->read_color() : current()->renderer.read_color();
+  return shows_debug_view() ? debug_renderer_->read_color() : current()->renderer.read_color();
 }
 
 }  // namespace tureen::web

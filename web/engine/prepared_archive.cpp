@@ -6,7 +6,7 @@ namespace tureen::web {
 
 namespace {
 
-// One function a type says what of it is archived, in both directions.
+// One function per type lists its archived members, for both directions.
 
 template <class Archive, class Plan>
 void archive_plan(Archive& archive, Plan& plan) {

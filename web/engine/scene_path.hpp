@@ -1,4 +1,4 @@
-// Which of the files that the page has put into this instance's file system is the scene.
+// Finds the scene among the files that the page put into this instance's file system.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace tureen::web {
 
-/// {"folder", "paths"}: the first of the paths, relative to the folder, that a reader recognises;
-/// else the last, whose reader says what is wrong. Makes the folder the current one, so that errors
-/// name files as the page does.
+/// {"folder", "paths"}: the first path, relative to the folder, that a reader recognises; otherwise
+/// the last, whose reader reports the error. Makes the folder current, so that errors have the same
+/// file names as the page.
 std::filesystem::path scene_path(const Json& arguments);
 
 }  // namespace tureen::web

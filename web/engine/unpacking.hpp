@@ -1,5 +1,4 @@
-// A scene that arrives at the instance of the page: its head in the buffer, its blobs in
-// Module.blobs.
+// Unpacks a scene in the page's instance: the head is in the buffer, the blobs are in Module.blobs.
 #pragma once
 
 #include "runtime/renderer.hpp"
@@ -7,10 +6,10 @@
 
 namespace tureen::web {
 
-/// The buffer is a head, which waits to be unpacked.
+/// Takes the head of a scene from the buffer, for unpacked().
 Json take_head(const Json& arguments);
 
-/// The scene of the head that was taken, which is forgotten.
+/// A renderer for the scene of that head; frees the head.
 Renderer unpacked(const gl::Context& context);
 
 }  // namespace tureen::web

@@ -1,5 +1,6 @@
-// Between the page's JSON and our types. What is missing or of another type throws nlohmann::json's
-// exceptions: only our own script speaks here, so it is a sentence for its author.
+// Conversions between the page's JSON and our types. They throw nlohmann::json's exceptions for
+// missing values and wrong types. Only our own script sends this JSON, so the messages are for
+// developers.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// What the page asks of a PageView, command by command.
+// The page's commands to its PageView.
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -44,14 +44,14 @@ Json facts() {
           {"device_bytes", view().renderer().device_bytes()}};
 }
 
-/// {"scene": what "read" said, "role": "preview" or "scene"}
+/// {"scene": result of "read", "role": "preview" or "scene"}
 Json show(const Json& arguments) {
   const ShownScene scene = scene_of(arguments.at("scene"));
   if (arguments.at("role") == "preview") {
     view().show_preview(unpacked(view().context()), scene);
     return facts();
   }
-  view().drop_scene();  // or both would have to fit
+  view().drop_scene();  // before unpacking: the device's memory may not hold both scenes
   view().show(unpacked(view().context()), scene);
   return facts();
 }
@@ -71,7 +71,7 @@ Json drop_preview(const Json&) {
 
 Json moving() { return view().moving(); }
 
-/// What is shown, at no size in particular.
+/// The side of an image for poses, which do not depend on it.
 constexpr int any_side = 1000;
 
 Json pose() {
@@ -91,13 +91,13 @@ bool is_direction(const glm::dvec3& axis) {
 }
 
 Json set_up(const Json& axis) {
-  if (!is_direction(vector_of(axis))) throw UsageError("what is up is a direction");
+  if (!is_direction(vector_of(axis))) throw UsageError("the up axis must be a direction");
   controls().set_up(vector_of(axis));
   return nullptr;
 }
 
 Json set_fov(const Json& fov) {
-  if (!is_angle(fov.get<double>())) throw UsageError("an angle is above 0 and below pi");
+  if (!is_angle(fov.get<double>())) throw UsageError("the angle must be above 0 and below pi");
   controls().set_fov(fov);
   return nullptr;
 }
@@ -110,8 +110,8 @@ Json set_pose(const Json& arguments) {
   const double distance = glm::length(target - eye), fov = pose.at("fov");
   if (!(distance > 0 && std::isfinite(distance) && is_angle(fov) && is_direction(up)))
     throw UsageError(
-        "a view looks from one point at another, at an angle between 0 and pi, and has a direction "
-        "that is up");
+        "a view needs different eye and target points, an angle between 0 and pi, and an up "
+        "direction");
   ViewState state =
       state_of(look_at(eye, target, up, fov, any_side, any_side), glm::normalize(up), distance);
   state.roll += pose.at("roll").get<double>();
@@ -139,7 +139,7 @@ Json show_camera(const Json& index) {
 }
 
 Commands looking_around() {
-  // Most change the view and say whether it moves now.
+  // Most commands change the view and return whether it is moving.
   const auto moves = [](auto move) {
     return [move](const Json& a) {
       move(a);
@@ -187,21 +187,21 @@ Commands looking_around() {
 
 // -- drawing ------------------------------------------------------------------------------------
 
-/// {"width", "height", "seconds"}; says whether another frame is wanted.
+/// {"width", "height", "seconds"}; returns whether another frame is needed.
 Json draw(const Json& arguments) {
   view().draw(arguments.at("width"), arguments.at("height"), arguments.at("seconds"));
   return moving();
 }
 
-/// The image's pixels, RGBA, row 0 on top, are then in the buffer.
+/// Writes the image's pixels to the buffer: RGBA, row 0 on top.
 void keep_pixels(const Image8& image) {
   buffer().resize(image.pixels.size() * sizeof image.pixels[0]);
   std::memcpy(buffer().data(), image.pixels.data(), buffer().size());
 }
 
-/// {"width", "height"} of what is shown, or {"camera"}.
+/// {"width", "height"} for the current view, or {"camera"}.
 Json image(const Json& arguments) {
-  if (!view().shows_scene()) throw UsageError("there is no scene to make an image of");
+  if (!view().shows_scene()) throw UsageError("there is no scene for an image");
   const auto camera = arguments.find("camera");
   keep_pixels(camera != arguments.end()
                   ? view().image(camera_of(*camera))
@@ -214,7 +214,8 @@ Json background(const Json& color) {
   return nullptr;
 }
 
-/// {"folder", "paths"}: the scene again, for looks that want more of it than the renderer has.
+/// {"folder", "paths"}: reads the scene again, for debug views that need more data than the
+/// renderer has.
 Json open_debug_view_renderer(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
   opaque_soup(scene);
@@ -223,12 +224,12 @@ Json open_debug_view_renderer(const Json& arguments) {
   return nullptr;
 }
 
-/// {"look", "first"?, "count"?}
-Json look(const Json& arguments) {
-  const auto name = arguments.at("look").get<std::string>();
+/// {"name", "first"?, "count"?}
+Json show(const Json& arguments) {
+  const auto name = arguments.at("name").get<std::string>();
   const auto what = debug_view_named(name);
-  if (!what) throw UsageError("there is no look \"" + name + "\"");
-  view().look(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
+  if (!what) throw UsageError("there is no debug view \"" + name + "\"");
+  view().show(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
   return nullptr;
 }
 
@@ -254,7 +255,7 @@ Commands viewer_commands() {
                    {"has_debug_view_renderer",
                     [](const Json&) { return Json(view().has_debug_view_renderer()); }},
                    {"open_debug_view_renderer", open_debug_view_renderer},
-                   {"look", look},
+                   {"show", show},
                    {"legend", legend}});
   return commands;
 }

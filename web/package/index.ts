@@ -1,4 +1,4 @@
-// What the package tureen-viewer exports.
+// The exports of the package tureen-viewer.
 
 export { createViewer } from '../viewer/viewer.js';
 export { attachControls } from '../viewer/controls.js';

@@ -1,31 +1,31 @@
-// The part of a link after '#': a camera and a look, in numbers that can be read and typed.
+// The part of a link after '#': a camera and a debug view, in readable numbers.
 //
 //   #eye=4.269,-5.968,3.39&target=0,0,0.7&up=0,0,1&fov=35&look=depth
 //
-// Lengths are the scene's units; `fov`, the vertical angle, is in degrees: what `tureen render --eye
-// --target --up --fov` takes. So is `roll`, which only recorded cameras have.
+// Lengths are in the scene's units, as in `tureen render --eye --target --up --fov`. `fov` (the vertical
+// angle) and `roll` are in degrees; only recorded cameras have a roll.
 
 import type { Vec3, ViewPose } from '../viewer/types.js';
 import { degreesPerRadian, plainNumber } from './numbers.js';
 
-/** `up` is null where the link leaves it to the scene. */
+/** `up`: null for the scene's own up axis. */
 export type LinkedPose = Omit<ViewPose, 'up'> & { readonly up: Vec3 | null };
 
 export interface LinkedView {
   readonly pose: LinkedPose | null;
-  /** Null for the final colours. */
-  readonly look: string | null;
-  /** Why the camera could not be read, in a sentence; null where it could or there is none. */
+  /** The debug view; null for the final colours. */
+  readonly debugView: string | null;
+  /** The error in the link's camera, as a sentence; null without an error or a camera. */
   readonly defect: string | null;
 }
 
-/** As many decimals as keep the eye still to a hundred-thousandth of its distance. */
+/** Number of decimals for a precision of 1e-5 of the distance from eye to target. */
 function decimalsFor(pose: ViewPose): number {
   const distance = Math.hypot(...pose.eye.map((value, axis) => value - pose.target[axis]!));
   return distance > 0 ? Math.ceil(5 - Math.log10(distance)) : 6;
 }
 
-export function writeFragment(pose: ViewPose | null, look: string | null): string {
+export function writeFragment(pose: ViewPose | null, debugView: string | null): string {
   const parts: string[] = [];
   if (pose) {
     const decimals = decimalsFor(pose);
@@ -35,7 +35,7 @@ export function writeFragment(pose: ViewPose | null, look: string | null): strin
     const roll = plainNumber(pose.roll * degreesPerRadian, 3);
     if (roll !== '0') parts.push(`roll=${roll}`);
   }
-  if (look && look !== 'color') parts.push(`look=${encodeURIComponent(look)}`);
+  if (debugView && debugView !== 'color') parts.push(`look=${encodeURIComponent(debugView)}`);
   return parts.length ? '#' + parts.join('&') : '';
 }
 
@@ -47,19 +47,19 @@ function readVector(text: string | null): Vec3 | null {
 
 export function readFragment(fragment: string): LinkedView {
   const parts = new URLSearchParams(fragment.replace(/^#/, ''));
-  const look = parts.get('look') || null;
-  if (!parts.has('eye') && !parts.has('target')) return { pose: null, look, defect: null };
+  const debugView = parts.get('look') || null;
+  if (!parts.has('eye') && !parts.has('target')) return { pose: null, debugView, defect: null };
 
-  const without = (defect: string): LinkedView => ({ pose: null, look, defect });
+  const without = (defect: string): LinkedView => ({ pose: null, debugView, defect });
   const eye = readVector(parts.get('eye')), target = readVector(parts.get('target'));
   if (!eye || !target)
     return without('The link\'s camera needs eye and target, three numbers each: #eye=4,-6,3&target=0,0,0.');
   if (eye.every((value, axis) => value === target[axis]))
-    return without('The link\'s camera has its eye where its target is.');
+    return without('The link\'s camera has the same eye and target: they must differ.');
   const up = parts.has('up') ? readVector(parts.get('up')) : null;
-  if (parts.has('up') && (!up || up.every((value) => value === 0))) return without('The link\'s camera has no direction that is up.');
+  if (parts.has('up') && (!up || up.every((value) => value === 0))) return without('The link\'s up is not a direction: it needs three numbers, up=0,0,1.');
   const fov = Number(parts.get('fov') ?? 40), roll = Number(parts.get('roll') ?? 0);
-  if (!(fov > 0 && fov < 180)) return without('The link\'s angle, fov, is not between 0 and 180 degrees.');
-  if (!Number.isFinite(roll)) return without('The link\'s roll is no number of degrees.');
-  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, look, defect: null };
+  if (!(fov > 0 && fov < 180)) return without('The link\'s fov is not an angle between 0 and 180 degrees.');
+  if (!Number.isFinite(roll)) return without('The link\'s roll is not a number of degrees.');
+  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, debugView, defect: null };
 }

@@ -1,9 +1,9 @@
-// The few things that all parts of a page do with elements. Its markup is index.html or bench.html;
-// what depends on a scene is made here. Text always becomes a text node: names come from files.
+// Common functions for elements. The markup is in index.html and bench.html; scripts create only the
+// parts that depend on a scene. Texts always become text nodes, because names come from files.
 
 type Attributes = Readonly<Record<string, string | number | boolean | null>>;
 
-/** The element of the page that has this id and is of this class. Its absence is a mistake of ours. */
+/** The element with this id and class. Throws if the page lacks it, which is an error in the page. */
 export function byId<T extends Element>(id: string, type: abstract new () => T): T {
   const found = document.getElementById(id);
   if (!(found instanceof type)) throw new Error(`The page has no ${type.name} with the id ${id}.`);
@@ -15,7 +15,7 @@ export const input = (id: string) => byId(id, HTMLInputElement);
 export const select = (id: string) => byId(id, HTMLSelectElement);
 export const block = (id: string) => byId(id, HTMLElement);
 
-/** An element with attributes (true: there without a value; false and null: not there) and contents. */
+/** An element with attributes (true: no value; false or null: omitted) and contents. */
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K, attributes: Attributes = {}, ...contents: (Node | string)[]
 ): HTMLElementTagNameMap[K] {
@@ -37,19 +37,19 @@ export function icon(name: string): SVGSVGElement {
   return svg;
 }
 
-/** Replaces the contents of a list by sentences, whose first letter the style makes large. */
+/** Replaces the contents of a list by sentences. The style capitalises their first letters. */
 export function fillSentences(list: HTMLElement, sentences: readonly string[]): void {
   list.replaceChildren(...sentences.map((one) => make('li', { class: 'sentence' }, one)));
 }
 
-/** Replaces the contents of a dl by names and values; those without a value are left out. */
+/** Replaces the contents of a dl by names and values; skips those without a value. */
 export function fillFacts(list: HTMLElement, facts: readonly (readonly [string, string | null])[]): void {
   list.replaceChildren(
     ...facts.filter(([, value]) => value).map(([name, value]) =>
       make('div', {}, make('dt', {}, name), make('dd', {}, value!))));
 }
 
-/** Whether a person types into this. */
+/** Whether the element is a text input. */
 export function takesText(target: EventTarget | null): boolean {
   if (target instanceof HTMLInputElement)
     return !['button', 'checkbox', 'color', 'radio', 'range', 'submit'].includes(target.type);

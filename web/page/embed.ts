@@ -1,13 +1,13 @@
-// The page in somebody's frame (?embed): it shows the image alone and obeys messages of the window
-// that it is framed by. docs/web.md describes them.
+// The page in a frame (?embed): it shows only the image and answers messages from the parent window.
+// docs/web.md describes them.
 //
 //   {tureen: 1, id, call: 'setView', arguments: [pose, {glide: true}]}
-//     is answered by {tureen: 1, id, result} or {tureen: 1, id, error: {message, kind}}
-//   {tureen: 1, event: 'view', data}    comes after {call: 'subscribe', arguments: ['view']}
-//   {tureen: 1, event: 'ready'}         comes first, once calls are answered
+//     gets the answer {tureen: 1, id, result} or {tureen: 1, id, error: {message, kind}}
+//   {tureen: 1, event: 'view', data}    follows {call: 'subscribe', arguments: ['view']}
+//   {tureen: 1, event: 'ready'}         is the first message, when the page can answer calls
 //
-// Only the parent window is heard, and with ?origin=https://a.example (which may be repeated) only
-// while it is of one of these origins. Whatever comes is checked as a file would be.
+// The page answers only the parent window. With ?origin=https://a.example (may be repeated) the window
+// must have one of these origins. All data is checked like a file.
 
 import { ViewerError, type Viewer, type ViewerEvents } from '../viewer/types.js';
 import { embedCalls } from './embed_calls.js';
@@ -27,18 +27,18 @@ function readCall(data: unknown): Call | null {
   return call.arguments === undefined || Array.isArray(call.arguments) ? (call as Call) : null;
 }
 
-/** Null: everyone's. */
+/** The allowed origins; null for all. */
 function allowedOrigins(): readonly string[] | null {
   const given = new URLSearchParams(location.search).getAll('origin').map((origin) => origin.replace(/\/+$/, ''));
   return given.length ? given : null;
 }
 
-/** Answers the window that frames this page; none does where it was opened by itself. */
+/** Answers the parent window; does nothing without a frame. */
 export function answerEmbedder(viewer: Viewer, loading: Loading): void {
   const parent = window.parent;
   if (parent === window) return;
   const allowed = allowedOrigins();
-  // A page from the disk or in a sandbox is of the origin "null", which cannot be addressed.
+  // A page from the disk or in a sandbox has the origin "null", which postMessage does not accept.
   const post = (origin: string, message: object) =>
     parent.postMessage({ tureen: 1, ...message }, origin === 'null' ? '*' : origin);
 
@@ -60,12 +60,12 @@ export function answerEmbedder(viewer: Viewer, loading: Loading): void {
     const calls = embedCalls(viewer, loading, (name) => subscribe(name, origin), unsubscribe);
     try {
       const known = calls.get(call.call);
-      if (!known) throw new ViewerError(`There is no call named “${call.call}”.`, 'usage');
+      if (!known) throw new ViewerError(`The call “${call.call}” does not exist.`, 'usage');
       post(origin, { id, result: await known(call.arguments ?? []) });
     } catch (error) {
       const kind = error instanceof ViewerError ? error.kind : 'usage';
       post(origin, { id, error: { message: error instanceof Error ? error.message : String(error), kind } });
     }
   });
-  parent.postMessage({ tureen: 1, event: 'ready' }, '*');  // which is no secret
+  parent.postMessage({ tureen: 1, event: 'ready' }, '*');  // contains no private data
 }

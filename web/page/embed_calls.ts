@@ -1,5 +1,5 @@
-// What an embedding page can call, and the checks on what it hands over. Names, order and meaning
-// are those of Viewer (viewer/types.ts); a property becomes setX.
+// The calls of an embedding page, and checks of their arguments. Names, order and meaning are the same
+// as in Viewer (viewer/types.ts); a property becomes setX.
 
 import { urlOf } from '../viewer/addresses.js';
 import {
@@ -18,41 +18,41 @@ const object = (value: unknown): Record<string, unknown> =>
   typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {};
 
 function number(value: unknown, name: string): number {
-  return typeof value === 'number' && Number.isFinite(value) ? value : refuse(`${name} is no number.`);
+  return typeof value === 'number' && Number.isFinite(value) ? value : refuse(`${name} is not a number.`);
 }
 
 function whole(value: unknown, name: string): number {
   return Number.isInteger(value) && (value as number) >= 0 ? (value as number) :
-    refuse(`${name} is no whole number from 0 on.`);
+    refuse(`${name} is not a whole number of at least 0.`);
 }
 
 function text(value: unknown, name: string): string {
-  return typeof value === 'string' ? value : refuse(`${name} is no text.`);
+  return typeof value === 'string' ? value : refuse(`${name} is not a text.`);
 }
 
 const vector = (value: unknown, name: string): Vec3 =>
   isVector(value) ? value : refuse(`${name} is not three numbers.`);
 
 function oneOf<T extends string>(value: unknown, choices: readonly T[], name: string): T {
-  return choices.includes(value as T) ? (value as T) : refuse(`${name} is none of ${choices.join(', ')}.`);
+  return choices.includes(value as T) ? (value as T) : refuse(`${name} must be one of ${choices.join(', ')}.`);
 }
 
 function pose(value: unknown): ViewPose {
-  return isPose(value) ? value : refuse('A view has eye, target and up, three numbers each, and fov and roll in radians.');
+  return isPose(value) ? value : refuse('A view needs eye, target and up, three numbers each, and fov and roll in radians.');
 }
 
 function file(value: unknown): SceneFile {
   const { path, data } = object(value);
   if (data instanceof ArrayBuffer) return { path: text(path, 'path'), data: new Blob([data]) };
   if (data instanceof Blob) return { path: text(path, 'path'), data };
-  return refuse('A file\'s data is neither a Blob nor an ArrayBuffer.');
+  return refuse('A file\'s data must be a Blob or an ArrayBuffer.');
 }
 
 function source(value: unknown): SceneSource {
   const { url, files, name } = object(value);
   const named = name === undefined ? {} : { name: text(name, 'name') };
   if (Array.isArray(files)) return { files: files.map(file), ...named };
-  if (typeof url !== 'string') refuse('A scene is {url} or {files: [{path, data}]}.');
+  if (typeof url !== 'string') refuse('A scene must be {url} or {files: [{path, data}]}.');
   return { url: urlOf({ url }), ...named };
 }
 
@@ -90,10 +90,10 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
     ['setFov', ([fov]) => { viewer.fov = number(fov, 'fov'); }],
     ['setBackground', ([color]) => { viewer.background = vector(color, 'The colour'); }],
     ['setResolution', ([value]) => { viewer.resolution = resolution(value); }],
-    ['show', ([look, features]) => {
-      if (features === undefined) return viewer.show(text(look, 'look'));
+    ['show', ([name, features]) => {
+      if (features === undefined) return viewer.show(text(name, 'name'));
       const { first, count } = object(features);
-      return viewer.show(text(look, 'look'), { first: whole(first, 'first'), count: whole(count, 'count') });
+      return viewer.show(text(name, 'name'), { first: whole(first, 'first'), count: whole(count, 'count') });
     }],
     ['screenshot', ([size]) => {
       if (size === undefined) return viewer.screenshot();

@@ -1,24 +1,23 @@
-// What a person drops or picks, as the files of one scene: paths are relative to its folder, with
-// the folder's own name left out.
+// Dropped or picked files as one scene. Paths are relative to the scene's folder, without its name.
 
 import { ViewerError, type SceneFile, type SceneSource } from '../viewer/types.js';
 
-/** More than any scene has; a home folder that was dropped by mistake has more. */
+/** More files than any scene has, but fewer than a home folder that was dropped by mistake. */
 const maxFiles = 10_000;
 
 function tooMany(): ViewerError {
   const most = maxFiles.toLocaleString('en');
-  return new ViewerError(`There are more than ${most} files; drop the scene's own folder.`, 'input');
+  return new ViewerError(`There are more than ${most} files: choose the folder of the scene itself.`, 'input');
 }
 
-/** A file is named by itself, a folder by its name, loose files by the first. */
+/** Names the scene after its folder, or after its first file without a folder. */
 function sourceOf(files: readonly SceneFile[], folder: string | null): SceneSource {
   if (files.length === 0)
-    throw new ViewerError(folder ? `The folder ${folder} is empty.` : 'There is no file to open.', 'input');
+    throw new ViewerError(folder ? `The folder ${folder} is empty.` : 'No file was chosen.', 'input');
   return { files, name: folder ?? files[0]!.path };
 }
 
-/** Of <input type=file>, with or without webkitdirectory. */
+/** The scene of an <input type=file>, with or without webkitdirectory. */
 export function sourceOfPicked(list: FileList): SceneSource {
   if (list.length > maxFiles) throw tooMany();
   const first = list[0]?.webkitRelativePath ?? '';
@@ -30,7 +29,7 @@ export function sourceOfPicked(list: FileList): SceneSource {
 const fileOf = (entry: FileSystemFileEntry) =>
   new Promise<File>((resolve, reject) => entry.file(resolve, reject));
 
-/** A reader gives at most 100 entries a call, and none when it has given all. */
+/** All entries of a folder. A reader returns at most 100 entries per call, and none at the end. */
 async function entriesOf(folder: FileSystemDirectoryEntry): Promise<FileSystemEntry[]> {
   const reader = folder.createReader();
   const all: FileSystemEntry[] = [];
@@ -50,9 +49,9 @@ async function collect(folder: FileSystemDirectoryEntry, path: string, files: Sc
   }
 }
 
-/** Of a drop. To be called within the event: what was dropped is gone after it. */
+/** The scene of a drop. Call it within the event: `transfer` is empty afterwards. */
 export function sourceOfDropped(transfer: DataTransfer): Promise<SceneSource> {
-  // A page from the disk gets dropped files themselves, but may be refused those of their entries.
+  // A page from the disk gets the dropped files, but the browser may refuse to read their entries.
   const items = [...transfer.items].filter((item) => item.kind === 'file')
     .map((item) => ({ entry: item.webkitGetAsEntry?.() ?? null, file: item.getAsFile() }));
   return (async () => {
@@ -66,7 +65,7 @@ export function sourceOfDropped(transfer: DataTransfer): Promise<SceneSource> {
     } catch (error) {
       if (error instanceof ViewerError) throw error;
       throw new ViewerError(
-        'The browser could not read the folder that was dropped; choose it with the button instead.', 'input');
+        'The browser could not read the dropped folder: choose it with the button instead.', 'input');
     }
     return sourceOf(files, alone);
   })();

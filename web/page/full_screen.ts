@@ -1,4 +1,4 @@
-// The page over the whole screen, where the browser has that for pages (an iPhone has not).
+// Full screen for the page, if the browser supports it (an iPhone does not).
 
 import { button } from './dom.js';
 
@@ -13,7 +13,7 @@ export class FullScreen {
   }
 
   toggle(): void {
-    const refused = () => { /* a browser may refuse; then nothing changes */ };
+    const refused = () => { /* if the browser refuses, nothing changes */ };
     if (document.fullscreenElement) document.exitFullscreen().catch(refused);
     else document.documentElement.requestFullscreen?.().catch(refused);
   }

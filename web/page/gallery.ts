@@ -1,6 +1,6 @@
-// The gallery: what models.json, beside the page, lists. Addresses in it are relative to it.
+// The gallery: the models in models.json, next to the page. Addresses are relative to that file.
 //
-//   [{"name": "Tureen", "url": "soup.glb", "image": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
+//   [{"name": "Tureen", "url": "soup.glb", "picture": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
 
 import { block, make } from './dom.js';
 import { bytesText, trianglesText } from './numbers.js';
@@ -15,9 +15,9 @@ export interface Model {
 
 const count = (value: unknown) => (typeof value === 'number' && Number.isFinite(value) && value >= 0 ? value : null);
 
-/** Null where the entry has no name or no address. */
+/** Null if the entry has no name or no address. */
 function readModel(entry: unknown): Model | null {
-  const { name, url, image, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
+  const { name, url, picture: image, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
   if (typeof name !== 'string' || typeof url !== 'string' || !url) return null;
   return {
     name, url, image: typeof image === 'string' ? image : null,
@@ -36,18 +36,18 @@ function card(model: Model, choose: (address: string) => void): HTMLElement {
   return make('li', {}, button);
 }
 
-/** Those that the site lists. One without models.json has none; that is no error. */
+/** The site's models. A site without models.json has none, which is not an error. */
 export async function readModels(): Promise<Model[]> {
-  if (location.protocol === 'file:') return [];  // nothing can be fetched there
+  if (location.protocol === 'file:') return [];  // pages from the disk cannot fetch files
   let entries: unknown = null;
   try {
     const answer = await fetch('models.json');
     if (answer.ok) entries = await answer.json();
-  } catch { /* no list, or none that can be read */ }
+  } catch { /* no list, or an unreadable one */ }
   return Array.isArray(entries) ? entries.map(readModel).filter((model) => model !== null) : [];
 }
 
-/** Fills the gallery, where there is one. */
+/** Fills the gallery, and hides an empty one. */
 export async function fillGallery(choose: (address: string) => void): Promise<void> {
   const models = await readModels();
   block('gallery-list').replaceChildren(...models.map((model) => card(model, choose)));

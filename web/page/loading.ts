@@ -1,5 +1,5 @@
-// Opening a scene: its progress, in words and as a bar, the button that stops it, and the sentence
-// when it fails. A new load takes the place of the one before.
+// The loading of a scene: progress as text and bar, the Cancel button, and the error message. A new load
+// cancels the previous one.
 
 import { nameOf } from '../viewer/addresses.js';
 import type { LoadProgress, LoadStage, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
@@ -8,7 +8,7 @@ import type { Messages } from './messages.js';
 import { bytesText, trianglesText } from './numbers.js';
 
 const stageText: Readonly<Record<LoadStage, string>> = {
-  download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'handing over to the graphics device',
+  download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'uploading to the graphics device',
 };
 
 export class Loading {
@@ -26,19 +26,19 @@ export class Loading {
     button('cancel').addEventListener('click', () => this.cancel());
     viewer.on('progress', (progress) => this.show(progress));
     viewer.on('preview', ({ triangles }) => {
-      this.preview = `; a first image of ${trianglesText(triangles)} stands`;
-      this.show(this.progressNow);  // or a download that stalls would never say so
+      this.preview = `; preview with ${trianglesText(triangles)}`;
+      this.show(this.progressNow);  // a stalled download would not update the text
     });
   }
 
-  /** Calls when another scene is asked for. */
+  /** Calls `listener` when a load begins. */
   onBegin(listener: () => void): void { this.listeners.push(listener); }
 
   get busy(): boolean { return this.current !== null; }
 
   cancel(): void { this.current?.abort(); }
 
-  /** The scene, or null where it failed (which has been said then) or was cancelled. */
+  /** The scene; null if loading failed (the page then shows the error) or was cancelled. */
   async load(source: SceneSource): Promise<SceneSummary | null> {
     try {
       return await this.attempt(source);
@@ -48,7 +48,7 @@ export class Loading {
     }
   }
 
-  /** The same for a caller who tells of errors. */
+  /** The same, but rejects with the error for the caller. */
   async attempt(source: SceneSource): Promise<SceneSummary> {
     const mine = this.begin(nameOf(source));
     try {

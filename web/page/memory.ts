@@ -1,10 +1,10 @@
-// What the page remembers: localStorage where the browser has it, else only until the page is
-// closed (a page from the disk, or one whose storage is switched off or full).
+// Stored settings: in localStorage, or only until the page is closed if that is not available (a page
+// from the disk, or disabled or full storage).
 
 const prefix = 'tureen.';
 const fallback = new Map<string, string>();
 
-/** What was written under this name, as JSON has it; null where there is nothing that can be read. */
+/** The stored JSON value with this name; null if there is none or it is unreadable. */
 export function recall(name: string): unknown {
   let text = fallback.get(name) ?? null;
   try {
@@ -17,7 +17,7 @@ export function recall(name: string): unknown {
   }
 }
 
-/** Null takes it away. False where it is kept only until the page is closed. */
+/** Stores a value; null removes it. Returns false if it lasts only until the page is closed. */
 export function remember(name: string, value: unknown): boolean {
   const text = JSON.stringify(value);
   try {

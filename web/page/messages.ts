@@ -1,31 +1,31 @@
-// Sentences for the person at the page: errors, which stay until they are closed or another scene is
-// asked for, and notices, which go by themselves. Screen readers read both.
+// Messages on the page: errors, which stay until they are closed or a load begins, and notices, which
+// disappear. Screen readers read both.
 
 import { type ErrorKind, ViewerError } from '../viewer/types.js';
 import { block, icon, make } from './dom.js';
 
-/** Long enough to read two sentences twice. */
+/** Time to read two sentences twice. */
 const noticeMs = 10_000;
 
-/** What to tell of something that was thrown; null where it is no more than a person's own cancelling. */
+/** The message for a thrown value; null if the user cancelled. */
 export function sentenceOf(thrown: unknown): string | null {
   if (thrown instanceof ViewerError) return thrown.kind === 'cancelled' ? null : thrown.message;
   if (thrown instanceof DOMException && thrown.name === 'AbortError') return null;
-  return `Something went wrong in the page itself: ${thrown instanceof Error ? thrown.message : String(thrown)}`;
+  return `Error in the page: ${thrown instanceof Error ? thrown.message : String(thrown)}`;
 }
 
 export class Messages {
   private readonly errors = block('errors');
   private readonly notices = block('notices');
 
-  /** What it returns takes it away again. The element's data-kind is `kind`. */
+  /** Shows an error and returns a function that removes it. The element's data-kind is `kind`. */
   error(sentence: string, kind: ErrorKind | 'page'): () => void {
     const message = this.show(this.errors, sentence);
     message.dataset.kind = kind;
     return () => message.remove();
   }
 
-  /** Tells of what was thrown, unless there is nothing to tell. */
+  /** Shows the message for a thrown value, if it has one. */
   thrown(what: unknown): void {
     const sentence = sentenceOf(what);
     if (sentence) this.error(sentence, what instanceof ViewerError ? what.kind : 'page');
@@ -33,7 +33,7 @@ export class Messages {
 
   notice(sentence: string): void {
     const message = this.show(this.notices, sentence);
-    // It waits for who reads it with the pointer or the focus on it.
+    // The notice stays while the pointer or the focus is on it.
     const leave = () => {
       if (message.matches(':hover, :focus-within')) setTimeout(leave, noticeMs / 4);
       else message.remove();

@@ -1,4 +1,4 @@
-// Numbers as people read them, and colours as forms have them.
+// Numbers as readable text, and colours in the notation of forms.
 
 import type { Vec3 } from '../viewer/types.js';
 
@@ -12,7 +12,7 @@ export const countText = (count: number) => counts.format(count);
 /** "15,000 triangles", "1 triangle" */
 export const trianglesText = (count: number) => `${countText(count)} ${count === 1 ? 'triangle' : 'triangles'}`;
 
-/** "640 bytes", "9.4 MB": powers of 1000, as networks and disks are measured. */
+/** "640 bytes", "9.4 MB": powers of 1000, as usual for networks and disks. */
 export function bytesText(bytes: number): string {
   if (bytes < 1000) return `${bytes}\u00a0bytes`;
   const units = ['kB', 'MB', 'GB'];
@@ -27,21 +27,21 @@ export function bytesText(bytes: number): string {
 /** "4.27 ms", "157 ms" */
 export const millisecondsText = (ms: number) => `${ms.toFixed(ms < 9.95 ? 2 : ms < 99.5 ? 1 : 0)} ms`;
 
-/** Without zeros at the end and without exponent: "0.25", "12". */
+/** Without trailing zeros and without exponent: "0.25", "12". */
 export function plainNumber(value: number, decimals: number): string {
   const text = value.toFixed(Math.min(Math.max(decimals, 0), 20));
   const short = text.includes('.') ? text.replace(/\.?0+$/, '') : text;
   return short === '-0' ? '0' : short;
 }
 
-/** "#20242e" for colours of 0..1. */
+/** "#20242e" for colours with channels in 0..1. */
 export function hexColor(color: Vec3): string {
   const digits = (part: number) =>
     Math.round(Math.min(Math.max(part, 0), 1) * 255).toString(16).padStart(2, '0');
   return '#' + color.map(digits).join('');
 }
 
-/** Null where the text is no "#20242e". */
+/** Null if the text does not have the form "#20242e". */
 export function colorFromHex(text: string): Vec3 | null {
   const parts = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text);
   if (!parts) return null;

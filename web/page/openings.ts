@@ -1,5 +1,5 @@
-// All ways to a scene end here: what is opened, whether the page's address can carry it, and from
-// where it is looked at first.
+// Opens scenes from all sources. Sets the page's address, if it can contain the scene, and the first
+// view.
 
 import { urlOf } from '../viewer/addresses.js';
 import type { SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
@@ -8,14 +8,14 @@ import type { LinkedView } from './camera_link.js';
 import type { Loading } from './loading.js';
 import type { Messages } from './messages.js';
 
-/** Where the scene that is shown came from. */
+/** The origin of the current scene. */
 export type Origin =
   | { readonly kind: 'address'; readonly address: string }
   | { readonly kind: 'files'; readonly name: string }
-  /** It is part of the page. */
+  /** The scene is part of the page. */
   | { readonly kind: 'page' };
 
-const noView: LinkedView = { pose: null, look: null, defect: null };
+const noView: LinkedView = { pose: null, debugView: null, defect: null };
 
 export class Openings {
   private origin_: Origin | null = null;
@@ -24,13 +24,13 @@ export class Openings {
   constructor(private readonly viewer: Viewer, private readonly loading: Loading,
               private readonly messages: Messages, private readonly bar: AddressBar) {}
 
-  /** Of what is shown; null while nothing is. */
+  /** The origin of the current scene; null without one. */
   get origin(): Origin | null { return this.viewer.scene ? this.origin_ : null; }
 
-  /** Calls when a scene has been opened and is looked at from where it was asked to be. */
+  /** Calls `listener` after a scene is open and its first view is set. */
   onOpened(listener: () => void): void { this.listeners.push(listener); }
 
-  /** By an address, relative to the page's. */
+  /** Opens an address, relative to the page's. */
   async openAddress(address: string, view: LinkedView = noView): Promise<boolean> {
     let source;
     try {
@@ -42,7 +42,8 @@ export class Openings {
     return this.open(source, { kind: 'address', address }, view);
   }
 
-  /** A link to a view of a file has no scene: it is for who opens that file, first of all. */
+  /** Opens files. A link to a view of a file contains no scene, so its view applies to the first opened
+   *  files. */
   openFiles(source: SceneSource): Promise<boolean> {
     const linked = !this.origin_ && this.bar.scene() === null;
     return this.open(source, { kind: 'files', name: source.name ?? '' }, linked ? this.bar.view() : noView);
@@ -52,12 +53,12 @@ export class Openings {
     return this.open(source, { kind: 'page' }, view);
   }
 
-  /** Looks from where a link says. */
+  /** Applies the camera and the debug view of a link. */
   async look(view: LinkedView): Promise<void> {
     if (view.defect) this.messages.notice(view.defect);
     this.lookFrom(view);
     try {
-      if ((view.look ?? 'color') !== this.viewer.shownLook) await this.viewer.show(view.look ?? 'color');
+      if ((view.debugView ?? 'color') !== this.viewer.debugView) await this.viewer.show(view.debugView ?? 'color');
     } catch (error) {
       this.messages.thrown(error);
     }
@@ -68,7 +69,7 @@ export class Openings {
   }
 
   private async open(source: SceneSource, origin: Origin, view: LinkedView): Promise<boolean> {
-    // The first image is already seen from there, and a person may move on while the rest arrives.
+    // The preview already has this view, and the user may move it before the whole scene arrives.
     let looked = false;
     const forget = this.viewer.on('preview', () => {
       this.lookFrom(view);

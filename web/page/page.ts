@@ -1,4 +1,4 @@
-// The page as a site serves it: engine, worker and gallery lie beside it.
+// The page of a site: engine, worker and gallery are separate files next to it.
 
 import { openViewerPage } from './viewer_page.js';
 

@@ -1,5 +1,5 @@
-// The panel beside the image; on a phone held upright a sheet below it. Its sections fold by
-// themselves (<details>); which are open is remembered.
+// The panel next to the image, or a sheet below it on an upright phone. Its sections are <details>; the
+// page stores which are open.
 
 import { block, button } from './dom.js';
 import { recall, remember } from './memory.js';
@@ -30,7 +30,7 @@ export class Panel {
     this.toggler.setAttribute('aria-expanded', String(open));
   }
 
-  /** A pull makes the sheet higher or lower, a tap or a long pull down closes it. */
+  /** A drag changes the height of the sheet; a tap or a long drag down closes it. */
   private attachHandle(): void {
     const { handle, panel } = this;
     let from: { y: number; height: number } | null = null;

@@ -1,5 +1,5 @@
-// Views that a person has kept, by name, for each scene. What is stored may have been changed by
-// others: what is no view is passed over.
+// The user's saved views of each scene, by name. Other scripts may change the storage, so invalid
+// entries are skipped.
 
 import type { Vec3, ViewPose } from '../viewer/types.js';
 import { recall, remember } from './memory.js';
@@ -12,7 +12,7 @@ export interface SavedView {
 export const isVector = (value: unknown): value is Vec3 =>
   Array.isArray(value) && value.length === 3 && value.every((part) => Number.isFinite(part));
 
-/** Whether something that came from outside is a camera. */
+/** Whether an untrusted value is a camera. */
 export function isPose(value: unknown): value is ViewPose {
   const pose = value as Partial<ViewPose> | null;
   return typeof pose === 'object' && pose !== null && isVector(pose.eye) && isVector(pose.target) &&
@@ -22,10 +22,10 @@ export function isPose(value: unknown): value is ViewPose {
 const isView = (value: unknown): value is SavedView =>
   typeof (value as SavedView | null)?.name === 'string' && isPose((value as SavedView).pose);
 
-/** The views of one scene; `key` tells scenes apart. */
+/** The views of one scene; `key` identifies the scene. */
 export class SavedViews {
   private views: SavedView[];
-  /** Whether they outlast the page, as far as is known. */
+  /** Whether the last write was stored permanently. */
   lasting = true;
 
   constructor(private readonly key: string) {
@@ -35,7 +35,7 @@ export class SavedViews {
 
   list(): readonly SavedView[] { return this.views; }
 
-  /** Replaces the view of the same name. An empty name becomes "View 3". */
+  /** Saves a view; replaces one with the same name. An empty name becomes a free one, "View 3". */
   save(name: string, pose: ViewPose): string {
     const wanted = name.trim() || this.freeName();
     const at = this.views.findIndex((view) => view.name === wanted);

@@ -1,13 +1,13 @@
-// Keys of the page. They are the desktop window's (viewer/input/shortcuts.cpp) where a browser leaves them
-// free. Keys that move the view belong to the canvas (viewer/controls.ts) and come first.
+// Keys of the page: the same as in the desktop window (viewer/input/shortcuts.cpp), unless browsers use
+// them. Keys that move the view belong to the canvas (viewer/controls.ts) and have priority.
 
 import { block, byId, input, make, takesText } from './dom.js';
 import { recall, remember } from './memory.js';
 
 export interface Shortcut {
-  /** As KeyboardEvent.key has it, letters small. */
+  /** A value of KeyboardEvent.key, in lower case. */
   readonly key: string;
-  /** Null: it is listed otherwise. */
+  /** The text in the help; null if another row lists the key. */
   readonly meaning: string | null;
   run(): void;
 }
@@ -15,20 +15,20 @@ export interface Shortcut {
 type Row = readonly [string, string];
 
 const pointerRows: readonly Row[] = [
-  ['Drag', 'turns the scene, or the head when flying'],
-  ['Right drag, Shift drag', 'moves the scene along'],
-  ['Wheel', 'nearer and farther; flying: faster and slower'],
-  ['Double click', 'brings a point to the centre'],
+  ['Drag', 'turn the scene; when flying, turn the camera'],
+  ['Right drag, Shift drag', 'move the scene'],
+  ['Wheel', 'zoom; when flying, change the speed'],
+  ['Double click', 'centre a point'],
 ];
 const touchRows: readonly Row[] = [
-  ['One finger', 'turns'], ['Two fingers', 'move and pinch'], ['Two taps', 'bring a point to the centre'],
+  ['One finger', 'turn'], ['Two fingers', 'move and zoom'], ['Two taps', 'centre a point'],
 ];
 const movingRows: readonly Row[] = [
-  ['W A S D, Q E', 'fly; Shift: fast, Alt: slow'], ['Arrows', 'turn, with Shift move'], ['+ −', 'nearer, farther'],
+  ['W A S D, Q E', 'fly; Shift: fast, Alt: slow'], ['Arrows', 'turn; with Shift, move'], ['+ −', 'zoom in, zoom out'],
   ['1 to 9', 'front, back, sides, top, bottom, corners'],
 ];
 
-/** Keys as they stand on a keyboard. */
+/** The label of a key. */
 const capOf = (key: string) => (key.length === 1 ? key.toUpperCase() : key);
 
 function table(title: string, rows: readonly Row[], cap: (text: string) => Node | string): HTMLElement {
@@ -36,8 +36,8 @@ function table(title: string, rows: readonly Row[], cap: (text: string) => Node 
     make('div', {}, make('dt', {}, cap(what)), make('dd', {}, meaning)))));
 }
 
-/** Single keys are not for everyone: who speaks to the computer sets them off by mistake. So they can
- *  be kept to the image. */
+/** The page's keys and their help. Speech input may press single keys by mistake, so the user can
+ *  restrict them to the image. */
 export class Shortcuts {
   private readonly help = byId('help', HTMLDialogElement);
   private readonly everywhere = input('keys-everywhere');
@@ -61,7 +61,7 @@ export class Shortcuts {
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
     if (takesText(event.target) || document.querySelector('dialog[open]')) return;
     if (!this.everywhere.checked && event.target !== this.canvas) return;
-    // A list that has the focus finds its entries by their first letters.
+    // A focused list uses letters to find its entries.
     if (event.target instanceof HTMLSelectElement) return;
     const digit = event.shiftKey ? null : /^(?:Digit|Numpad)(\d)$/.exec(event.code);  // on any layout
     const key = digit ? digit[1]! : event.key.length === 1 ? event.key.toLowerCase() : event.key;

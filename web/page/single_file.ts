@@ -1,15 +1,15 @@
-// The page as one file that opens from the disk: engine and worker are in it as base64, and so is
-// the scene that `tureen convert SCENE page.html` put there. Nothing is fetched.
+// The page as one file that opens from the disk. It contains the engine, the worker and the scene from
+// `tureen convert SCENE page.html` as base64, and fetches nothing.
 
 import type { Assets } from '../viewer/assets.js';
 import type { SceneSource } from '../viewer/types.js';
 import { openViewerPage } from './viewer_page.js';
 
-/** Four characters are three bytes; a piece is small enough for atob and a multiple of four. */
+/** Characters per call of atob: a multiple of four, because four characters are three bytes. */
 const piece = 1 << 20;
 
-/** The bytes that an element of the page has as its text, without white space; null where it is
- *  empty. The text is given up: it may be the larger part of the page. */
+/** Decodes the base64 text of an element, which must contain no white space inside; null if it is empty.
+ *  Clears the text, which may be most of the page. */
 function takeBytes(id: string): Uint8Array<ArrayBuffer> | null {
   const element = document.getElementById(id);
   const text = element?.textContent?.trim() ?? '';
@@ -30,8 +30,8 @@ function partsOf(): Assets {
   const script = URL.createObjectURL(new Blob(worker ? [worker] : [], { type: 'text/javascript' }));
   return {
     async wasm() {
-      if (!engine) throw new Error('This page is not whole: its engine is missing.');
-      return engine.slice().buffer;  // whoever gets it may hand it on to a worker
+      if (!engine) throw new Error('This page is incomplete: its engine is missing.');
+      return engine.slice().buffer;  // a copy: the caller may transfer it to a worker
     },
     loaderWorker: async () => new Worker(script),
   };

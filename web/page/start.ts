@@ -1,5 +1,5 @@
-// The card that opens scenes: from files, a folder, an address or the gallery. It lies over the
-// image as long as there is none, and when it is asked for.
+// The card for opening scenes from files, a folder, an address or the gallery. It covers the image while
+// there is no scene, and on request.
 
 import type { Viewer } from '../viewer/types.js';
 import { block, byId, button, input } from './dom.js';
@@ -34,21 +34,21 @@ export class Start {
     viewer.on('scene', () => this.update());
   }
 
-  /** Opens or closes the card, with the focus. */
+  /** Opens or closes the card and moves the focus. */
   toggle(): void {
     if (!this.card.hidden) return this.close();
     this.show(true);
     block('start-title').focus();
   }
 
-  /** Without a scene it stays open. */
+  /** Closes the card, unless there is no scene. */
   close(): void {
     if (this.card.hidden || !this.viewer.scene) return;
     this.show(false);
     this.opener.focus();
   }
 
-  /** Where nothing is shown and nothing is on its way, the card is there. */
+  /** Opens the card if there is no scene and no load is running; otherwise closes it. */
   update(): void { this.show(!this.viewer.scene && !this.loading.busy); }
 
   private show(open: boolean): void {
@@ -76,20 +76,20 @@ export class Start {
     }
   }
 
-  /** The card makes way; where nothing came of it, it is back. */
+  /** Closes the card while a scene opens; opens it again if that fails. */
   private async leaveFor(opening: Promise<boolean>): Promise<void> {
     const held = this.card.contains(document.activeElement);
     this.show(false);
     if (held) this.viewer.canvas.focus();
     if (!(await opening)) this.update();
-    else if (held && document.activeElement === document.body) this.viewer.canvas.focus();  // it was not to be seen before
+    else if (held && document.activeElement === document.body) this.viewer.canvas.focus();  // the canvas was invisible before
   }
 
-  /** Takes what is dropped anywhere on the page. */
+  /** Opens files that are dropped anywhere on the page. */
   attachDrop(): void {
     const sign = block('drop-here');
     const carriesFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
-    let depth = 0;  // elements that the pointer has entered and not left
+    let depth = 0;  // number of elements that the pointer has entered and not left
     const over = (change: number) => {
       depth = Math.max(depth + change, 0);
       sign.hidden = depth === 0;

@@ -1,4 +1,4 @@
-// The page: makes a viewer of the canvas and puts everything around it.
+// The page: creates a viewer on the canvas, and the controls around it.
 
 import { urlOf } from '../viewer/addresses.js';
 import type { Assets } from '../viewer/assets.js';
@@ -15,7 +15,7 @@ import { Panel } from './panel.js';
 import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
 import { LinkSection } from './sections/link.js';
-import { LookSection } from './sections/look.js';
+import { DebugViewSection } from './sections/debug_view.js';
 import { ImageSection } from './sections/image.js';
 import { SavedSection } from './sections/saved.js';
 import { SceneSection } from './sections/scene.js';
@@ -25,13 +25,13 @@ import { Shortcuts } from './shortcuts.js';
 import { Start } from './start.js';
 
 export interface ViewerPageOptions {
-  /** Beside the script where they are not given. */
+  /** By default the files next to the script. */
   readonly assets?: Assets;
   /** A scene that is part of the page. */
   readonly scene?: SceneSource | null;
 }
 
-/** What the page will open, where that can be fetched; what is wrong with it is said when it is opened. */
+/** The source for an address if the page can fetch it, otherwise null. Opening it later reports the error. */
 function fetchable(address: string): SceneSource | null {
   try {
     return { url: urlOf({ url: address }) };
@@ -40,7 +40,7 @@ function fetchable(address: string): SceneSource | null {
   }
 }
 
-/** Says in place of the image why there is none. */
+/** Shows the error of a viewer that did not start, instead of the image. */
 function explain(error: unknown): void {
   const missing = error instanceof ViewerError && error.kind === 'no-webgl2';
   const why = error instanceof Error ? error.message : String(error);
@@ -48,14 +48,14 @@ function explain(error: unknown): void {
     make('h2', {}, missing ? 'This browser has no WebGL2' : 'The viewer did not start'),
     make('p', {}, why),
     make('p', {}, missing ?
-      'Tureen draws with WebGL2. A current Firefox, Chrome, Edge or Safari has it; where it is one of them already, ' +
-      'look whether graphics acceleration is switched off in its settings.' :
-      'Reload the page; if that does not help, the folder that it is served from may not be whole.')));
+      'Tureen needs WebGL2. Use a current Firefox, Chrome, Edge or Safari. If you already do, check that graphics ' +
+      'acceleration is on in its settings.' :
+      'Reload the page. If that does not help, files may be missing on the server.')));
   document.body.classList.add('without-viewer');
   block('panel').hidden = true;
 }
 
-/** Moves views at once for who asked for less motion, now or later. */
+/** Disables gliding while the user prefers reduced motion. */
 function obeyReducedMotion(viewer: Viewer): void {
   const reduced = matchMedia('(prefers-reduced-motion: reduce)');
   const obey = () => { viewer.gliding = !reduced.matches; };
@@ -63,24 +63,24 @@ function obeyReducedMotion(viewer: Viewer): void {
   obey();
 }
 
-/** Without a scene, whole or at its first image, there is nothing to set. */
+/** Marks the page as empty while there is no scene and no preview; the style then hides the controls. */
 function markEmpty(viewer: Viewer): void {
   viewer.on('preview', () => document.body.classList.remove('empty'));
   viewer.on('scene', (scene) => document.body.classList.toggle('empty', scene === null));
 }
 
 function tellOfContext(viewer: Viewer, messages: Messages): void {
-  const lost = () => 'The browser took the graphics device away.' +
-    (viewer.scene ? ' The scene comes back as soon as the device does.' : '');
+  const lost = () => 'The browser reset the graphics device.' +
+    (viewer.scene ? ' The scene returns when the device is available again.' : '');
   let takeAway = () => {};
   viewer.on('context', (what) => {
     takeAway();
     if (what === 'lost') takeAway = messages.error(lost(), 'device');
-    else messages.notice(`The graphics device is back${viewer.scene ? ', and so is the scene' : ''}.`);
+    else messages.notice(`The graphics device${viewer.scene ? ' and the scene are' : ' is'} available again.`);
   });
 }
 
-/** Everything around the image but opening. */
+/** All controls around the image, except those for opening scenes. */
 function addControls(viewer: Viewer, messages: Messages, loading: Loading, openings: Openings, bar: AddressBar,
                  start: Start): void {
   const tell = (sentence: string) => messages.notice(sentence);
@@ -98,43 +98,43 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
   const image = new ImageSection(viewer, tell, failed);
   const link = new LinkSection(viewer, bar, openings, tell);
   const follow = () => {
-    // While another scene is on its way, or did not come, the address is that one's.
+    // During another load, or after it failed, the address belongs to that scene.
     const origin = openings.origin;
     if (origin && bar.scene() === (origin.kind === 'address' ? origin.address : null))
-      bar.showView(viewer.getView(), viewer.shownLook);
+      bar.showView(viewer.getView(), viewer.debugView);
     link.update();
   };
-  const look = new LookSection(viewer, failed, follow);
+  const debugViews = new DebugViewSection(viewer, failed, follow);
   new TimesSection(viewer);
   viewer.on('view', follow);
-  viewer.on('context', () => look.update());
+  viewer.on('context', () => debugViews.update());
   openings.onOpened(() => {
     saved.follow(sceneKey());
-    look.update();
+    debugViews.update();
     follow();
   });
 
   new Shortcuts(viewer.canvas, [
-    { key: 'f', meaning: 'all of the scene in the image', run: () => views.frame() },
-    { key: 'r', meaning: 'back to the first view', run: () => views.first() },
-    { key: 'm', meaning: 'a drag turns the scene, or the head', run: () => views.changeMode() },
-    { key: 'u', meaning: 'another axis is up', run: () => views.nextUp() },
-    { key: '[', meaning: 'the recorded camera before', run: () => cameras.step(-1) },
-    { key: ']', meaning: 'the next recorded camera', run: () => cameras.step(1) },
-    { key: 'k', meaning: 'keeps this view', run: () => saved.save() },
-    { key: 'v', meaning: 'the next thing to look at', run: () => look.next() },
-    { key: 'p', meaning: 'saves the image', run: () => void image.save() },
-    { key: 'l', meaning: 'copies a link to this view', run: () => void link.copy() },
-    { key: 'o', meaning: 'opens a scene', run: () => start.toggle() },
-    { key: 'h', meaning: 'hides or shows the panel', run: () => panel.toggle() },
-    { key: 'x', meaning: 'the whole screen, or not', run: () => fullScreen.toggle() },
-    { key: '?', meaning: 'this list', run: () => byId('open-help', HTMLButtonElement).click() },
+    { key: 'f', meaning: 'frame the whole scene', run: () => views.frame() },
+    { key: 'r', meaning: 'return to the first view', run: () => views.first() },
+    { key: 'm', meaning: 'switch between orbit and fly', run: () => views.changeMode() },
+    { key: 'u', meaning: 'change the up axis', run: () => views.nextUp() },
+    { key: '[', meaning: 'previous recorded camera', run: () => cameras.step(-1) },
+    { key: ']', meaning: 'next recorded camera', run: () => cameras.step(1) },
+    { key: 'k', meaning: 'save this view', run: () => saved.save() },
+    { key: 'v', meaning: 'next debug view', run: () => debugViews.next() },
+    { key: 'p', meaning: 'save the image', run: () => void image.save() },
+    { key: 'l', meaning: 'copy a link to this view', run: () => void link.copy() },
+    { key: 'o', meaning: 'open a scene', run: () => start.toggle() },
+    { key: 'h', meaning: 'show or hide the panel', run: () => panel.toggle() },
+    { key: 'x', meaning: 'full screen on or off', run: () => fullScreen.toggle() },
+    { key: '?', meaning: 'show this list', run: () => byId('open-help', HTMLButtonElement).click() },
     ...namedViews.map((view, index) =>
       ({ key: String(index + 1), meaning: null, run: () => views.lookFrom(view) })),
   ]);
 }
 
-/** Opens what the page's address asks for, now and when a person goes back or forward. */
+/** Opens the scene and view of the page's address when the user goes back or forward. */
 function followAddress(viewer: Viewer, openings: Openings, bar: AddressBar, start: Start): void {
   bar.onChange(() => {
     const wanted = bar.scene();
@@ -158,7 +158,7 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
   window.addEventListener('error', (event) => messages.thrown(event.error ?? event.message));
   window.addEventListener('unhandledrejection', (event) => messages.thrown(event.reason));
 
-  // Until there is somewhere to take it, what is dropped must not replace the page.
+  // Until the page can open dropped files, they must not replace it.
   const starting = new AbortController();
   for (const event of ['dragover', 'drop'])
     window.addEventListener(event, (drag) => drag.preventDefault(), { signal: starting.signal });

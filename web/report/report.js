@@ -1,6 +1,6 @@
-// The report page: shows the results in #data, a list of {file, folder, kind, data}. `data` is what a
-// command wrote (docs/json.md; of a training, the list of its log's lines), `folder` the address of
-// the file's folder, which images are relative to. All of it is untrusted: it becomes text, never HTML.
+// The report page: shows the results in #data, a list of {file, folder, kind, data}. `data` is the output
+// of a command (docs/json.md), or the list of lines of a training log. `folder` is the address of the
+// file's folder; images are relative to it. All data are untrusted: they become text, never HTML.
 'use strict';
 
 // -- numbers and names -----------------------------------------------------------------------------
@@ -27,7 +27,7 @@ const isBaseline = (name) => name === 'published' || name === 'baseline';
 /** Whether a linear axis would hide the smallest of these values. */
 const spansDecades = (values) => Math.min(...values) > 0 && Math.max(...values) > 8 * Math.min(...values);
 
-/** The first of these descriptions that gives each entry another label. */
+/** Labels from the first description that is unique for each entry. */
 function labels(entries, ...describe) {
   const all = [...describe, (entry) => entry.file, (entry, i) => `${entry.file} ${i + 1}`].map((each) => entries.map(each));
   return all.find((names) => unique(names).length === names.length && names.every(Boolean));
@@ -49,8 +49,8 @@ const facts = (all) => element('dl', {}, all.filter(([, value]) => value !== und
   .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
 
 /**
- * Columns are [heading with its unit, value of a row, how a number is written]. A column
- * without values is not shown, and a click on a heading sorts.
+ * Columns are [heading with its unit, value of a row, format of a number]. Columns without values are
+ * hidden. A click on a heading sorts the rows.
  */
 function table(label, columns, rows, isStrong = () => false) {
   if (!rows.length) return null;
@@ -79,13 +79,13 @@ function table(label, columns, rows, isStrong = () => false) {
 
 // -- plots -----------------------------------------------------------------------------------------
 const hasPlots = typeof Chart !== 'undefined';
-const drawn = [];  // every plot's function, for when the colours change
+const drawn = [];  // draw functions of all plots, to redraw them when the colours change
 const dots = ['circle', 'rect', 'triangle', 'rectRot', 'star', 'crossRot'];
 
 /**
- * `x` and `y` are the axes' titles. Series are {name, points: [{x, y, name}]}, with `line` joined and
- * with `dash` a level without points. With `names` instead of `x`: bars, and `points` are their heights.
- * Axes are logarithmic where values span decades, but for x where `linear` is set.
+ * `x`, `y`: titles of the axes. `series`: {name, points: [{x, y, name}]}; `line` joins the points, `dash`
+ * draws a horizontal level without points. `names` instead of `x` gives bars, and `points` are their
+ * heights. Axes are logarithmic if values span decades; `linear` keeps the x axis linear.
  */
 function plot(title, { x, names, y, series, linear }) {
   const present = series.filter(({ points }) => points.length);
@@ -137,10 +137,10 @@ const images = (all, className = '') => all.length ? element('div', { className:
   element('a', { href: address }, element('img', { src: address, alt: caption, loading: 'lazy' })), element('figcaption', {}, caption)))) : null;
 const imageAddress = (entry, path) => entry.folder + encodeURIComponent(base(path));
 
-// -- what all results have in common ---------------------------------------------------------------
+// -- common parts of all results -------------------------------------------------------------------
 function provenance({ scene, machine, device, program, date, protocol, notes }) {
   const quoted = (program?.arguments ?? []).map((word) => /^[\w\-./:,=@+%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
-  return fold('Where and how it was measured', facts([
+  return fold('Measurement conditions', facts([
     ['scene', scene && `${scene.name} (${scene.path}), ${count(scene.triangles)} triangles, ${scene.appearance}`],
     ['renderer', device && device.renderer + (device.software ? ' (software)' : '')], ['driver', device?.version], ['context', device?.context],
     ['machine', machine && [machine.cpu, machine.cores && `${machine.cores} cores`, machine.memory_mib && `${count(machine.memory_mib)} MiB`,
@@ -150,13 +150,13 @@ function provenance({ scene, machine, device, program, date, protocol, notes }) 
   ]), list(notes));
 }
 const subtitle = ({ scene, device, date }) => paragraph([scene && `${count(scene.triangles)} triangles`, device?.renderer,
-  device?.software && 'software: says nothing about a GPU', date?.slice(0, 10)].filter(Boolean).join(' · '), 'faint');
+  device?.software && 'software renderer: not comparable with a GPU', date?.slice(0, 10)].filter(Boolean).join(' · '), 'faint');
 
 // -- tureen bench ----------------------------------------------------------------------------------
 const place = (m) => `${m.camera_set}, ${m.size}`;
 const best = (m) => m.frame_ms?.min_of_medians;
 
-/** How many times as fast `m` is as `other`: a number, or a word where noise decides (verdict_on in jobs/timing/frame_statistics.hpp). */
+/** Speed of `m` relative to `other`: a number, or a word if noise hides it (verdict_on in jobs/timing/frame_statistics.hpp). */
 function speedup(m, other) {
   if (!other || m === other) return other ? 1 : undefined;
   const rounds = Math.min(m.rounds, other.rounds), smaller = Math.min(best(m), best(other));
@@ -178,15 +178,15 @@ function showBench(entry) {
     subtitle(data),
     cards(
       reference !== first && (ratios.length ? [times(geometricMean(ratios)), `as fast as ${isBaseline(reference) ? `the baseline (${reference})` : reference}${range}`]
-        : [String(speedup(largest, at(reference, largest)) ?? '–'), `no difference from ${reference} can be claimed`]),
-      [`${ms(best(largest))} ms`, `a frame: ${first}, ${place(largest)}`], [`${fixed(largest.fps < 100 ? 1 : 0)(largest.fps)} FPS`, `mean of ${count(largest.frames)} frames`],
+        : [String(speedup(largest, at(reference, largest)) ?? '–'), `no significant difference from ${reference}`]),
+      [`${ms(best(largest))} ms`, `per frame: ${first}, ${place(largest)}`], [`${fixed(largest.fps < 100 ? 1 : 0)(largest.fps)} FPS`, `mean of ${count(largest.frames)} frames`],
       data.load && [`${fixed(1)(data.load.device_mib)} MiB`, 'on the device']),
     plots(sets.map((set) => {
       const here = all.filter((m) => m.camera_set === set);
       if (unique(here.map((m) => m.size)).length < 2) return null;
-      return plot(`Frame time by size: ${set}`, { x: 'pixels', y: 'best ms a frame', series: names.map((name) => ({
+      return plot(`Frame time by size: ${set}`, { x: 'pixels', y: 'best time per frame (ms)', series: names.map((name) => ({
         name, line: true, points: here.filter((m) => m.configuration === name).map((m) => ({ x: m.width * m.height, y: best(m), name: `${name}, ${m.size}` })) })) });
-    }), largest.views_ms?.length > 1 ? plot(`Frame time by view: ${place(largest)}`, { x: 'view', y: 'median ms a frame',
+    }), largest.views_ms?.length > 1 ? plot(`Frame time by view: ${place(largest)}`, { x: 'view', y: 'median time per frame (ms)',
       series: names.map((name) => ({ name, line: true, points: (at(name, largest)?.views_ms ?? []).map((y, i) => ({ x: i + 1, y, name })) })) }) : null),
     table('Frame times', [
       ['configuration', (m) => m.configuration + (m.stable === false ? ' †' : '')], ['cameras', (m) => m.camera_set], ['size', (m) => m.size],
@@ -194,23 +194,23 @@ function showBench(entry) {
       ['p99 (ms)', (m) => m.frame_ms.p99, ms], ['GPU (ms)', (m) => m.gpu_ms, ms], ['FPS', (m) => m.fps, fixed(1)], ['1 % low (FPS)', (m) => m.low_1_percent_fps, fixed(1)],
       ['rounds', (m) => m.rounds, count], ['spread (%)', (m) => m.rounds < 3 ? '–' : m.frame_ms.spread, percent], ['A/A (%)', (m) => m.aa_spread, percent],
     ], all, (m) => m.configuration === first),
-    paragraph('Best is the smallest of the rounds\' medians; ratios use it. "equal": closer than twice the spread.', 'faint'),
-    all.some((m) => m.stable === false) ? paragraph('† The warm-up had not settled when timing began.', 'faint') : null,
+    paragraph('Best is the smallest median of a round; ratios use it. "equal": the difference is below twice the spread.', 'faint'),
+    all.some((m) => m.stable === false) ? paragraph('† The times were not stable after the warm-up.', 'faint') : null,
     ...(data.comparison ? [element('h3', {}, `Against ${data.comparison.against}`), list([...data.comparison.circumstances, ...data.comparison.unmatched]),
       table('Comparison', [['configuration', (r) => r.configuration], ['cameras', (r) => r.camera_set], ['size', (r) => r.size], ['then (ms)', (r) => r.then_ms, ms],
         ['now (ms)', (r) => r.now_ms, ms], ['now / then', (r) => r.ratio, fixed(3)], ['spread (%)', (r) => r.spread, percent], ['verdict', (r) => r.verdict],
-        ['image', (r) => r.same_pixels ? 'the same' : 'another']], data.comparison.ratios)] : []),
-    table('Passes by the device\'s clock', [['configuration', (r) => r.m.configuration], ['cameras', (r) => r.m.camera_set], ['size', (r) => r.m.size],
-      ['pass', (r) => r.pass], ['device\'s clock (ms)', (r) => r.ms, ms]], all.flatMap((m) => (m.passes_ms ?? []).map((pass) => ({ m, ...pass })))),
-    list(firstOfEach(all.filter((m) => m.passes_gap !== 'one_pass' && m.passes_reason), (m) => m.passes_gap).map((m) => `Times of passes, incomplete or missing: ${m.passes_reason}`)),
-    images(all.filter((m) => m.image).map((m) => [imageAddress(entry, m.image), `${m.configuration}, ${place(m)}: the last frame timed`]), 'small'),
+        ['image', (r) => r.same_pixels ? 'same' : 'different']], data.comparison.ratios)] : []),
+    table('Times of passes (device clock)', [['configuration', (r) => r.m.configuration], ['cameras', (r) => r.m.camera_set], ['size', (r) => r.m.size],
+      ['pass', (r) => r.pass], ['time (ms)', (r) => r.ms, ms]], all.flatMap((m) => (m.passes_ms ?? []).map((pass) => ({ m, ...pass })))),
+    list(firstOfEach(all.filter((m) => m.passes_gap !== 'one_pass' && m.passes_reason), (m) => m.passes_gap).map((m) => `Times of passes are incomplete or missing: ${m.passes_reason}`)),
+    images(all.filter((m) => m.picture).map((m) => [imageAddress(entry, m.picture), `${m.configuration}, ${place(m)}: last timed frame`]), 'small'),
     fold('Configurations', (data.configurations ?? []).map(({ name, options, plan, plan_ms, upload_ms, device_mib }) => [element('h3', {}, name),
       paragraph(`${options?.length ? `tureen render ${options.join(' ')}: ` : ''}plan ${ms(plan_ms)} ms, upload ${ms(upload_ms)} ms, ${fixed(1)(device_mib)} MiB on the device`), list(plan)]).flat()),
     provenance(data),
   ];
 }
 
-/** Several results of bench: a column each. */
+/** Several results of bench, one per column. */
 function showBenches(entries) {
   const names = labels(entries, stem, folderName, (e) => `${stem(e)}, ${e.data.scene.name}`);
   const key = ({ scene }, m) => [scene.name, scene.triangles, place(m), m.configuration].join('\n');
@@ -221,24 +221,24 @@ function showBenches(entries) {
   }));
   const shared = [...rows.values()].filter(({ of }) => Object.keys(of).length > 1).slice(0, 24);
   return [
-    plots(plot('Best ms a frame', { names: shared.map(({ m }) => `${m.configuration}, ${m.size}`), y: 'best ms a frame',
+    plots(plot('Best time per frame', { names: shared.map(({ m }) => `${m.configuration}, ${m.size}`), y: 'best time per frame (ms)',
       series: names.map((name, i) => ({ name, points: shared.map(({ of }) => of[i] ?? null) })) })),
-    table('Best ms a frame', [['configuration', (r) => r.m.configuration], ['size', (r) => r.m.size], ...names.map((name, i) => [`${name} (ms)`, (r) => r.of[i], ms]),
+    table('Best time per frame', [['configuration', (r) => r.m.configuration], ['size', (r) => r.m.size], ...names.map((name, i) => [`${name} (ms)`, (r) => r.of[i], ms]),
       ['cameras', (r) => r.m.camera_set], ['scene', (r) => r.scene.name], ['triangles', (r) => r.scene.triangles, count]], [...rows.values()]),
-    list(entries.map(({ data }, i) => `${names[i]}: ${data.device.renderer}${data.device.software ? ' (software: never compare it with hardware)' : ''}; ${data.machine.cpu}; commit ${data.program.commit}`)),
+    list(entries.map(({ data }, i) => `${names[i]}: ${data.device.renderer}${data.device.software ? ' (software renderer: not comparable with hardware)' : ''}; ${data.machine.cpu}; commit ${data.program.commit}`)),
   ];
 }
 
 // -- tureen tradeoff -------------------------------------------------------------------------------
 const isPlain = (c) => c.method === 'tureen';
-/** The points that no faster one beats in decibels. */
+/** The Pareto front: points without a faster point that has at least the same decibels. */
 const front = (points) => [...points].sort((a, b) => a.x - b.x || b.y - a.y).filter((p, i, all) => all.slice(0, i).every((faster) => faster.y < p.y));
 
 function errorPlot(title, x, y, configurations, time, error, onFront, levels = []) {
   const points = (filter) => configurations.filter((c, i) => known(time(c)) && known(error(c)) && filter(c, i)).map((c) => ({ x: time(c), y: error(c), name: c.name }));
   const xs = configurations.map(time).filter(known);
   return plot(title, { x, y, series: [
-    { name: 'worth having (front)', line: true, points: points(onFront).sort((a, b) => a.x - b.x) },
+    { name: 'Pareto front', line: true, points: points(onFront).sort((a, b) => a.x - b.x) },
     { name: 'other settings', points: points((c, i) => isPlain(c) && !onFront(c, i)) },
     { name: 'without specialisation', points: points((c) => c.method === 'tureen --no-specialise') },
     { name: 'baseline', points: points((c) => isBaseline(c.method)) },
@@ -251,9 +251,9 @@ function showTradeoff(entry) {
   const baseline = drawing.configurations.find((c) => isBaseline(c.method)), chosen = choice && drawing.configurations[choice.configuration];
   const panel = (title, panel, words) => [
     element('h3', {}, title), paragraph(words, 'faint'),
-    plots(errorPlot(`${title}: error against time`, 'best ms a frame', 'PSNR (dB)', panel.configurations, (c) => c.ms, (c) => c.e_render.psnr_db, (c) => c.on_front,
+    plots(errorPlot(`${title}: error against time`, 'best time per frame (ms)', 'PSNR (dB)', panel.configurations, (c) => c.ms, (c) => c.e_render.psnr_db, (c) => c.on_front,
       [['reference in 8 bits (R1)', panel.r1?.psnr_db], ['limit', panel === drawing ? limits?.least_psnr_db : null]])),
-    table(title, [['configuration', (c) => c.name], ['drawn by', (c) => c.method], ['best (ms)', (c) => c.ms, ms], ['p95 (ms)', (c) => c.ms_p95, ms], ['MiB', (c) => c.mib, fixed(1)],
+    table(title, [['configuration', (c) => c.name], ['method', (c) => c.method], ['best (ms)', (c) => c.ms, ms], ['p95 (ms)', (c) => c.ms_p95, ms], ['MiB', (c) => c.mib, fixed(1)],
       ['PSNR (dB)', (c) => c.e_render.psnr_db, db], ['exact (dB)', (c) => c.e_render_exact?.psnr_db, db], ['max', (c) => c.e_render.max, fixed(3)], ['99.9 %', (c) => c.e_render.p999, fixed(4)],
       ['SSIM', (c) => c.e_render.ssim, fixed(4)], ['FLIP', (c) => c.e_render.flip, fixed(4)], ['coverage', (c) => c.e_render.coverage, small],
       ['', (c) => c === chosen ? 'choice' : c.on_front ? 'front' : '']], panel.configurations, (c) => c === chosen),
@@ -264,27 +264,27 @@ function showTradeoff(entry) {
   return [
     subtitle(data),
     cards(
-      baseline && [times(baseline.ms / defaults.ms), `as fast as the baseline: ${ms(defaults.ms)} against ${ms(baseline.ms)} ms`],
-      chosen ? [`${ms(chosen.ms)} ms`, `the choice: ${chosen.name}${chosen === defaults ? '' : `, ${times(defaults.ms / chosen.ms)} as fast as the defaults`}`] : ['no choice', `no configuration keeps ${limits?.least_psnr_db} dB`],
+      baseline && [times(baseline.ms / defaults.ms), `as fast as the baseline: ${ms(defaults.ms)} ms instead of ${ms(baseline.ms)} ms`],
+      chosen ? [`${ms(chosen.ms)} ms`, `the choice: ${chosen.name}${chosen === defaults ? '' : `, ${times(defaults.ms / chosen.ms)} as fast as the defaults`}`] : ['no choice', `no configuration reaches ${limits?.least_psnr_db} dB`],
       [`${db((chosen ?? defaults).e_render.psnr_db)} dB`, `error of ${chosen ? 'the choice' : 'the defaults'} against the reference`],
       photographed[0] && [`${db(photographed[0].e_model.psnr_db)} dB`, `the defaults against ${data.e_model?.photographs} photographs`]),
-    ...panel('Settings of drawing', drawing, `Against the reference image of the same model, ${data.protocol.samples === 'exact' ? 'of exact triangles' : 'at the device\'s sample points'}.`),
-    ...panel('Settings of antialiasing', data.antialiasing, 'Against the reference image with 8 × 8 samples a pixel.'),
-    ...(photographed.length ? [element('h3', {}, 'Against photographs'), paragraph('The error of the model, not of drawing: never compare it with the errors above.', 'faint'),
-      plots(errorPlot('Photographs: error against time', 'best ms a frame', 'PSNR against photographs (dB)', photographed, (c) => c.ms, (c) => c.e_model.psnr_db, (c) => c.on_front)),
-      table('Against photographs', [['configuration', (c) => c.name], ['drawn by', (c) => c.method], ['PSNR (dB)', (c) => c.e_model.psnr_db, db],
+    ...panel('Drawing settings', drawing, `Error against the reference image of the same model, ${data.protocol.samples === 'exact' ? 'with exact triangles' : 'at the device\'s sample points'}.`),
+    ...panel('Antialiasing settings', data.antialiasing, 'Error against the reference image with 8 × 8 samples per pixel.'),
+    ...(photographed.length ? [element('h3', {}, 'Against photographs'), paragraph('This is the error of the model, not of drawing. Do not compare it with the errors above.', 'faint'),
+      plots(errorPlot('Photographs: error against time', 'best time per frame (ms)', 'PSNR against photographs (dB)', photographed, (c) => c.ms, (c) => c.e_model.psnr_db, (c) => c.on_front)),
+      table('Against photographs', [['configuration', (c) => c.name], ['method', (c) => c.method], ['PSNR (dB)', (c) => c.e_model.psnr_db, db],
         ['against the defaults (dB)', (c) => c.e_model.psnr_db - photographed[0].e_model.psnr_db, fixed(3)], ['SSIM', (c) => c.e_model.ssim, fixed(4)], ['FLIP', (c) => c.e_model.flip, fixed(4)]], photographed)] : []),
     provenance(data),
   ];
 }
 
-/** The configuration of a panel that asks for these settings by this method; undefined where the panel lacks one of them. */
+/** The configuration of a panel with this method and these settings; undefined if the panel has none. */
 function findWay(panel, method, settings) {
   const own = (key) => panel.knobs.find((knob) => knob.key === key)?.settings[0];
   return panel.configurations.find((c) => c.method === method && Object.keys({ ...c.knobs, ...settings }).every((key) => c.knobs[key] === (settings[key] ?? own(key))));
 }
 
-/** Several results of tradeoff: what all scenes have, with its means. */
+/** Several results of tradeoff: the configurations that all scenes have, with means. */
 function showTradeoffs(entries) {
   const names = labels(entries, (e) => e.data.scene.name, stem, folderName);
   const joined = (title, key) => {
@@ -304,12 +304,12 @@ function showTradeoffs(entries) {
       element('h3', {}, title),
       baseline && cards([times(baseline.time), `as fast as the baseline: geometric mean of ${names.length} scenes`]),
       plots(errorPlot(`${title}: error against time, means`, 'time relative to the defaults', 'mean PSNR (dB)', rows, (r) => r.time, (r) => r.mean, (r) => shown.has(r))),
-      table(title, [['configuration', (r) => r.name], ['drawn by', (r) => r.method], ['time / defaults', (r) => r.time, fixed(3)], ['mean (dB)', (r) => r.mean, db], ['worst (dB)', (r) => r.worst, db],
+      table(title, [['configuration', (r) => r.name], ['method', (r) => r.method], ['time / defaults', (r) => r.time, fixed(3)], ['mean (dB)', (r) => r.mean, db], ['worst (dB)', (r) => r.worst, db],
         ['worst in', (r) => r.where], ['', (r) => shown.has(r) ? 'front' : ''], ...names.flatMap((name, i) => [[`${name} (ms)`, (r) => r.of[i].ms, ms], [`${name} (dB)`, (r) => r.of[i].e_render.psnr_db, db]])], rows),
-      rows.length < ways.size ? paragraph(`${ways.size - rows.length} configurations are not here: not every scene has them.`, 'faint') : null,
+      rows.length < ways.size ? paragraph(`${ways.size - rows.length} configurations are omitted, because some scenes lack them.`, 'faint') : null,
     ];
   };
-  return [paragraph('Times are geometric means of each scene\'s ratio to its own defaults, errors means of decibels.', 'faint'), ...joined('Settings of drawing', 'drawing'), ...joined('Settings of antialiasing', 'antialiasing')];
+  return [paragraph('Times are geometric means of the scenes\' ratios to their defaults. Errors are means of decibels.', 'faint'), ...joined('Drawing settings', 'drawing'), ...joined('Antialiasing settings', 'antialiasing')];
 }
 
 // -- tureen train and eval -------------------------------------------------------------------------
@@ -321,11 +321,11 @@ function showTrainings(entries) {
   const seconds = (r) => r.seconds, steps = (r) => r.step;
   return [
     cards([`${db(best.test)} dB`, `on held-out views${runs.length > 1 ? `: ${best.name}` : ''}`], [count(best.last.step), `steps in ${any(best.last.seconds)} s`],
-      [count(best.last.triangles), 'triangles'], [`${any(best.last.step / best.last.seconds)}`, 'steps a second']),
+      [count(best.last.triangles), 'triangles'], [`${any(best.last.step / best.last.seconds)}`, 'steps per second']),
     plots(curve('Held-out views', 'training time (s)', 'PSNR (dB)', (r) => r.test_psnr_db, seconds), curve('Loss', 'step', 'loss', (r) => r.loss, steps),
       curve('Training views', 'step', 'PSNR (dB)', (r) => r.train_psnr_db, steps), curve('Triangles', 'step', 'triangles', (r) => r.triangles, steps)),
     table('Trainings', [['run', (r) => r.name], ['steps', (r) => r.last.step, count], ['time (s)', (r) => r.last.seconds, any], ['held-out (dB)', (r) => r.test, db], ['training views (dB)', (r) => r.last.train_psnr_db, db],
-      ['loss', (r) => r.last.loss, fixed(4)], ['SSIM', (r) => r.last.ssim, fixed(4)], ['triangles', (r) => r.last.triangles, count], ['steps a second', (r) => r.last.step / r.last.seconds, any], ['not finite', (r) => r.last.non_finite, count]], runs),
+      ['loss', (r) => r.last.loss, fixed(4)], ['SSIM', (r) => r.last.ssim, fixed(4)], ['triangles', (r) => r.last.triangles, count], ['steps per second', (r) => r.last.step / r.last.seconds, any], ['not finite', (r) => r.last.non_finite, count]], runs),
   ];
 }
 
@@ -343,11 +343,11 @@ function showEvals(entries) {
     table('Views', [['view', (name) => name], ...entries.flatMap((_, i) => figures.map(([head, key, write]) => [one ? head : `${names[i]}: ${head}`, (name) => of(i, name)?.[key], write]))], views),
     ...entries.flatMap((entry, i) => [images(entry.data.views.map((v, k) => [v, entry.data.output?.[k]]).filter(([, path]) => path)
       .map(([v, path]) => [imageAddress(entry, path), `${one ? '' : `${names[i]}: `}${v.name}, ${db(v.psnr_db)} dB: photograph, rendering, difference`]))]),
-    fold('How it was drawn', facts([['scene', winner.data.scene], ['photographs', winner.data.dataset], ['renderer', renderer], ['context', winner.data.context]]), list(winner.data.plan)),
+    fold('Drawing conditions', facts([['scene', winner.data.scene], ['photographs', winner.data.dataset], ['renderer', renderer], ['context', winner.data.context]]), list(winner.data.plan)),
   ];
 }
 
-// -- ./dev: tables of whatever was measured --------------------------------------------------------
+// -- ./dev: tables of any measurements -------------------------------------------------------------
 const units = { ms: 'ms', ns: 'ns', s: 's', db: 'dB', mib: 'MiB', mb: 'MB', kb: 'kB', bytes: 'bytes', fps: 'FPS' };
 const heading = (key) => {
   const [, words, unit] = key.match(/^(.*?)(?:_(ms|ns|s|db|mib|mb|kb|bytes|fps))?$/);
@@ -370,7 +370,7 @@ function showMeasurements({ data }) {
 }
 
 // -- the page --------------------------------------------------------------------------------------
-/** By kind: the title of one result, what shows one, and what shows several together. */
+/** By kind: the title of one result, and the functions for one result and for several together. */
 const kinds = {
   bench: { title: ({ data }) => `Frame times: ${data.scene.name}`, one: showBench, together: showBenches, all: 'Frame times side by side' },
   tradeoff: { title: ({ data }) => `Error against time: ${data.scene.name}`, one: showTradeoff, together: showTradeoffs, all: 'Error against time over all scenes' },
@@ -383,7 +383,7 @@ function showAll(entries) {
   const sections = [];
   const add = (title, show) => {
     let content;
-    try { content = show(); } catch (error) { content = [paragraph(`This result cannot be shown: ${error.message}`, 'error')]; }
+    try { content = show(); } catch (error) { content = [paragraph(`This result cannot be displayed: ${error.message}`, 'error')]; }
     sections.push([title, content]);
   };
   for (const [kind, { title: titleOf, one, together, all }] of Object.entries(kinds)) {
@@ -396,12 +396,12 @@ function showAll(entries) {
   document.title = `${name} – Tureen`;
   document.querySelector('#report').replaceChildren(element('h1', {}, name),
     single ? '' : element('nav', { 'aria-label': 'Results' }, sections.map(([title], i) => element('a', { href: `#part${i}` }, title))),
-    hasPlots ? '' : paragraph('There are no plots: this program was built without chart.js (Debian: libjs-chart.js).', 'faint'),
+    hasPlots ? '' : paragraph('Plots are missing: this program was built without chart.js (Debian package libjs-chart.js).', 'faint'),
     ...sections.map(([title, content], i) => element('section', { id: `part${i}` }, single ? '' : element('h2', {}, title), ...content)));
   drawAll();
 }
 
-/// A plot that cannot be drawn leaves the others.
+/// Draws all plots; an error in one does not affect the others.
 function drawAll() {
   for (const draw of drawn) try { draw(); } catch (error) { console.error(error); }
 }

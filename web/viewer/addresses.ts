@@ -1,26 +1,26 @@
-// Addresses of scenes: whole ones, those that can be fetched, and the names of their files.
+// Addresses of scenes: absolute addresses, checks, and file names.
 
 import { ViewerError, type SceneSource } from './types.js';
 
 const fetchedProtocols: readonly string[] = ['http:', 'https:', 'blob:', 'data:'];
 
-/** Whole, where it is relative to the page's. Throws ViewerError where it is no address, or one that pages
- *  cannot fetch. */
+/** The absolute address; a relative one refers to the page. Throws ViewerError if it is not an address, or
+ *  one that pages cannot fetch. */
 export function urlOf({ url }: { readonly url: string }): string {
   let whole;
   try {
     whole = new URL(url, document.baseURI);
   } catch {
-    throw new ViewerError(`“${url}” is no address of a scene.`, 'usage');
+    throw new ViewerError(`“${url}” is not a valid address.`, 'usage');
   }
   if (whole.protocol === 'file:' || /^[a-z]:$/.test(whole.protocol))  // or C:\soup.glb
-    throw new ViewerError('Pages cannot fetch files of this computer; drop the scene on the page instead.', 'usage');
+    throw new ViewerError('Pages cannot fetch files from this computer: drop the scene on the page instead.', 'usage');
   if (!fetchedProtocols.includes(whole.protocol))
-    throw new ViewerError(`Scenes are fetched by http and https, not by ${whole.protocol.slice(0, -1)}.`, 'usage');
+    throw new ViewerError(`The protocol ${whole.protocol.slice(0, -1)} is not supported: use http or https.`, 'usage');
   return whole.href;
 }
 
-/** The last part of an address's path, readable where it can be decoded; empty where it ends in a slash. */
+/** The last part of an address's path, decoded if possible; empty if the path ends with a slash. */
 export function fileNameOf(url: string): string {
   const path = url.replace(/[?#].*$/s, ''), name = path.slice(path.lastIndexOf('/') + 1);
   try {
@@ -30,7 +30,7 @@ export function fileNameOf(url: string): string {
   }
 }
 
-/** What people know a scene by before it is read: its given name, or that of its file. */
+/** The name of a scene before it is read: its given name, or its file's name. */
 export function nameOf(source: SceneSource): string {
   if (source.name) return source.name;
   if ('files' in source) return source.files[0]?.path ?? 'the scene';

@@ -1,38 +1,38 @@
-// What a person does on the canvas, turned into what a viewer is asked: pointers, wheel and keys.
+// Input on the canvas (pointers, wheel and keys) as calls of a viewer.
 //
 //   const detach = attachControls(canvas, viewer);
 //
-// - One finger or the left button turns (the scene, or the head when flying). Two fingers move and
-//   pinch. Right or middle button, or Shift and left, move. Two quick taps bring a point to the
-//   centre. The wheel goes nearer and farther towards the pointer or, flying, changes the speed.
-// - W A S D Q E fly for as long as they are held, Shift fast and Alt slow; arrows turn, with Shift
-//   they move; + and - go nearer and farther.
+// - One finger or the left button turns the scene, or the camera when flying. Two fingers move and
+//   zoom. The right or middle button, or Shift with the left button, moves. Two quick taps centre a
+//   point. The wheel zooms towards the pointer; when flying, it changes the speed.
+// - W A S D Q E fly while they are held: Shift fast, Alt slow. Arrows turn; with Shift they move. + and
+//   - zoom.
 //
-// The canvas becomes focusable and says what it is, unless its page has said so. It takes keys with
-// the focus alone. No scene is needed: a viewer without one ignores what it is asked.
+// The canvas becomes focusable and gets a description, unless the page has set these attributes. It
+// receives keys only with the focus. A viewer without a scene ignores the calls.
 
 import type { Viewer, Vec3 } from './types.js';
 
-/** As the desktop window's: Shift and Alt while flying. */
+/** Factors for Shift and Alt while flying, as in the desktop window. */
 const fastFactor = 4, slowFactor = 0.25;
-/** What Viewer.dolly takes a step: a tenth of the distance. */
+/** Distance ratio of one step of Viewer.dolly: a step removes a tenth of the distance. */
 const stepRatio = 1 / 0.9;
-/** An arrow key turns by 3 degrees: half a turn is the canvas's height. */
+/** An arrow key turns by 3 degrees: a drag over the canvas's height is half a turn. */
 const turnsPerHeight = 60;
-/** Two taps are one gesture within so many milliseconds and CSS pixels, which is what phones take. */
+/** Limits for a double tap in milliseconds and CSS pixels, as usual on phones. */
 const doubleTapMs = 300, doubleTapPixels = 24;
-/** A tap may tremble by so many CSS pixels. */
+/** Maximum motion of a tap, in CSS pixels. */
 const tapPixels = 6;
-/** Pixels of a notch of a wheel, and lines of one, as browsers report them. */
+/** Pixels and lines of one wheel notch, as reported by browsers. */
 const notchPixels = 100, notchLines = 3;
 
-/** By place on the keyboard, so that they lie together on every layout. In the camera's axes. */
+/** Directions in the camera's axes, by position on the keyboard: the keys are adjacent on every layout. */
 const pushes: Readonly<Record<string, Vec3>> = {
   KeyW: [0, 0, -1], KeyS: [0, 0, 1], KeyA: [-1, 0, 0], KeyD: [1, 0, 0], KeyQ: [0, -1, 0], KeyE: [0, 1, 0],
 };
 
-/** How many steps of Viewer.dolly a turn of the wheel stands for: away from the person is nearer.
- *  A pinch on a touchpad comes as a wheel with Ctrl whose delta is -100 ln(ratio). */
+/** The steps of Viewer.dolly for a wheel event; a turn away from the user zooms in. Browsers report a
+ *  pinch on a touchpad as a wheel event with Ctrl and a delta of -100 ln(ratio). */
 export function wheelSteps(event: Pick<WheelEvent, 'deltaY' | 'deltaMode' | 'ctrlKey'>): number {
   if (event.deltaMode === 1) return -event.deltaY / notchLines;
   if (event.deltaMode === 2) return -event.deltaY * notchLines;
@@ -41,23 +41,23 @@ export function wheelSteps(event: Pick<WheelEvent, 'deltaY' | 'deltaMode' | 'ctr
 
 interface Finger { x: number; y: number }
 
-/** The pointers that are down, in CSS pixels from the canvas's corner. */
+/** The pressed pointers, in CSS pixels from the canvas's corner. */
 class Pointers {
   private readonly down = new Map<number, Finger>();
   private panning = false;
-  /** Where the first one of a tap came down; null once it is a drag. */
+  /** Start of a possible tap; null for a drag. */
   private tap: Finger | null = null;
   private lastTap: (Finger & { time: number }) | null = null;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly viewer: Viewer) {}
 
   press(event: PointerEvent): void {
-    // A second button of the same mouse does not come as a pointerdown, a second finger does.
+    // A second finger causes a pointerdown; a second button of the same mouse does not.
     const finger = this.place(event);
     this.down.set(event.pointerId, finger);
     try {
       this.canvas.setPointerCapture(event.pointerId);
-    } catch { /* the pointer is gone already */ }
+    } catch { /* the pointer is already released */ }
     this.panning = event.button !== 0 || event.shiftKey;
     this.tap = this.down.size === 1 && !this.panning ? finger : null;
   }
@@ -100,8 +100,7 @@ class Pointers {
     else this.viewer.look(dx, dy);
   }
 
-  /** One of two fingers moved: the point between them takes the scene along, their distance brings
-   *  it nearer. */
+  /** Handles the motion of one of two fingers: their midpoint moves the scene, their distance zooms. */
   private pinch(id: number, before: Finger, now: Finger): void {
     const other = [...this.down].find(([otherId]) => otherId !== id)?.[1];
     if (!other) return;
@@ -114,14 +113,14 @@ class Pointers {
   }
 }
 
-/** The keys that fly, while they are held. */
+/** The held keys for flying. */
 class Flight {
   private readonly held = new Set<string>();
   private flying = false;
 
   constructor(private readonly viewer: Viewer) {}
 
-  /** Whether the key is one of flying's. */
+  /** Handles a key event. Returns whether the key is for flying. */
   change(event: KeyboardEvent): boolean {
     const known = event.code in pushes;
     if (known && event.type === 'keydown') {
@@ -133,7 +132,7 @@ class Flight {
     return known;
   }
 
-  /** Keys that are let go of elsewhere are never reported. */
+  /** Releases all keys: without the focus, the canvas gets no keyup events. */
   stop(): void {
     this.held.clear();
     this.tell(1);
@@ -150,13 +149,13 @@ class Flight {
   }
 }
 
-/** Whether the key was one that moves the view. */
+/** Handles a key that moves the view. Returns whether it was one. */
 function pressKey(event: KeyboardEvent, canvas: HTMLCanvasElement, viewer: Viewer): boolean {
   if (event.key === '+' || event.key === '=' || event.key === '-' || event.key === '_') {
     viewer.dolly(event.key === '-' || event.key === '_' ? -1 : 1);
     return true;
   }
-  // The scene, or the head, goes the way the arrow points, as if a pointer had dragged it there.
+  // An arrow acts like a drag of the pointer in its direction.
   const step = canvas.clientHeight / turnsPerHeight;
   const way = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
   if (!way) return false;
@@ -167,26 +166,27 @@ function pressKey(event: KeyboardEvent, canvas: HTMLCanvasElement, viewer: Viewe
   return true;
 }
 
-/** Attributes that say what the canvas is, where its page has not; returns what takes them away. */
+/** Sets the canvas's missing attributes. Returns a function that restores the old state. */
 function describe(canvas: HTMLCanvasElement): () => void {
   const wanted = {
     tabindex: '0',
     role: 'application',
-    'aria-label': 'Image of the scene. Arrow keys turn it, with Shift they move it; plus and minus go ' +
-        'nearer and farther; W, A, S, D, Q and E fly.',
+    'aria-label': 'Image of the scene. Arrow keys turn it; with Shift they move it. Plus and minus zoom. ' +
+        'W, A, S, D, Q and E fly.',
   };
   const added = Object.keys(wanted).filter((name) => !canvas.hasAttribute(name));
   for (const name of added) canvas.setAttribute(name, wanted[name as keyof typeof wanted]);
   const { touchAction, userSelect } = canvas.style;
-  canvas.style.touchAction = 'none';  // the page neither scrolls nor zooms under these fingers
-  canvas.style.userSelect = 'none';   // nor does a double click select what is beside
+  canvas.style.touchAction = 'none';  // touches must not scroll or zoom the page
+  canvas.style.userSelect = 'none';   // a double click must not select text
   return () => {
     for (const name of added) canvas.removeAttribute(name);
     Object.assign(canvas.style, { touchAction, userSelect });
   };
 }
 
-/** Lets pointers, wheel and keys on the canvas move the view, until what is returned is called. */
+/** Connects pointers, wheel and keys on the canvas with the viewer. Returns a function that disconnects
+ *  them. */
 export function attachControls(canvas: HTMLCanvasElement, viewer: Viewer): () => void {
   const undescribe = describe(canvas);
   const pointers = new Pointers(canvas, viewer);
@@ -199,7 +199,7 @@ export function attachControls(canvas: HTMLCanvasElement, viewer: Viewer): () =>
   on('pointerdown', (event) => pointers.press(event));
   on('mousedown', (event) => {
     if (event.button !== 1) return;
-    event.preventDefault();  // or the browser scrolls
+    event.preventDefault();  // otherwise the browser scrolls
     canvas.focus({ preventScroll: true });
   });
   on('pointermove', (event) => pointers.move(event));

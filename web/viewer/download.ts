@@ -1,18 +1,18 @@
-// Bytes of an address as they arrive, in one growing piece of memory.
+// Downloads an address into one growing buffer, and reports the bytes as they arrive.
 
 import { ViewerError } from './types.js';
 
-/** A server need not say how much is to come; more is asked for as it comes. */
+/** Initial buffer size if the server does not report a length; the buffer grows as needed. */
 const firstGuess = 1 << 20;
 
 export interface Arrival {
-  /** All that has come so far; a view that the next arrival may leave behind. */
+  /** All bytes so far; a view that is valid until the next arrival. */
   readonly bytes: Uint8Array<ArrayBuffer>;
-  /** null where the server does not say. */
+  /** Total number of bytes; null if unknown. */
   readonly total: number | null;
 }
 
-/** How many bytes are to come: what was packed for the way says nothing of what comes out of it. */
+/** The announced number of bytes; null for compressed transfers, whose length is the compressed one. */
 function announced(response: Response): number | null {
   const length = Number(response.headers.get('content-length'));
   return length > 0 && !response.headers.get('content-encoding') ? length : null;
@@ -23,12 +23,12 @@ async function request(url: string): Promise<Response> {
   try {
     response = await fetch(url);
   } catch {
-    throw new ViewerError(`${url} cannot be reached: there is no network, or the server does not let pages ` +
-                          'of other addresses read it (CORS).', 'network');
+    throw new ViewerError(`${url} cannot be reached: there is no network, or the server does not allow pages ` +
+                          'from other sites to read it (CORS).', 'network');
   }
   if (!response.ok) {
     const answer = [response.status, response.statusText].filter(Boolean).join(' ');  // HTTP/2 has no text
-    throw new ViewerError(`${url} cannot be had: the server answers ${answer}.`, 'network');
+    throw new ViewerError(`${url} cannot be loaded: the server answered ${answer}.`, 'network');
   }
   return response;
 }
@@ -37,11 +37,11 @@ function room(url: string, bytes: number): Uint8Array<ArrayBuffer> {
   try {
     return new Uint8Array(bytes);
   } catch {
-    throw new ViewerError(`There is not enough memory for the ${bytes.toLocaleString('en')} bytes of ${url}.`, 'memory');
+    throw new ViewerError(`The page has not enough memory for the ${bytes.toLocaleString('en')} bytes of ${url}.`, 'memory');
   }
 }
 
-/** Calls `arrived` with each piece that comes, and waits for it before the next. Rejects with ViewerError. */
+/** Calls `arrived` after each piece, and waits for it before the next. Rejects with ViewerError. */
 export async function download(url: string, arrived: (arrival: Arrival) => void | Promise<void>): Promise<Uint8Array<ArrayBuffer>> {
   const response = await request(url);
   let total = announced(response), size = 0;
@@ -49,11 +49,11 @@ export async function download(url: string, arrived: (arrival: Arrival) => void 
   const reader = response.body!.getReader();
   for (;;) {
     const { done, value } = await reader.read().catch(() => {
-      throw new ViewerError(`${url} broke off after ${size.toLocaleString('en')} bytes.`, 'network');
+      throw new ViewerError(`The download of ${url} stopped after ${size.toLocaleString('en')} bytes: try again.`, 'network');
     });
     if (done) break;
     if (size + value.length > memory.length) {
-      total = null;  // of another server it is not told that it packs what it sends
+      total = null;  // from other sites, the page may not see that the transfer is compressed
       const larger = room(url, Math.max(2 * memory.length, size + value.length));
       larger.set(memory.subarray(0, size));
       memory = larger;
@@ -63,7 +63,7 @@ export async function download(url: string, arrived: (arrival: Arrival) => void 
     try {
       await arrived({ bytes: memory.subarray(0, size), total });
     } catch (error) {
-      void reader.cancel().catch(() => {});  // the server need not go on
+      void reader.cancel().catch(() => {});  // stops the transfer
       throw error;
     }
   }

@@ -1,5 +1,5 @@
-// One instance of the engine: WebAssembly, its memory, and commands by name (web/engine/commands.hpp).
-// A page has one that draws; each load has another, in a worker, that is gone with what it has used.
+// One instance of the engine: WebAssembly, its memory, and named commands (web/engine/commands.hpp).
+// A page has one instance for drawing. Each load has another in a worker, which frees all its memory.
 
 import createTureen, { type TureenModule } from 'tureen-engine';
 import type { Assets } from './assets.js';
@@ -7,7 +7,7 @@ import { ViewerError } from './types.js';
 
 type Failure = { readonly kind: ViewerError['kind']; readonly message: string };
 
-/** A scene's bytes on their way to the device: web/engine/prepared_archive.hpp. */
+/** A prepared scene's bytes: web/engine/prepared_archive.hpp. */
 export interface Parcel {
   readonly head: ArrayBuffer;
   readonly blobs: readonly ArrayBuffer[];
@@ -22,18 +22,18 @@ export function compile(assets: Assets): Promise<WebAssembly.Module> {
   if (!program) {
     program = assets.wasm().then((bytes) => WebAssembly.compile(bytes));
     compiled.set(assets, program);
-    program.catch(() => { compiled.delete(assets); });  // the next viewer may have better luck
+    program.catch(() => { compiled.delete(assets); });  // the next viewer tries again
   }
   return program;
 }
 
 export class Engine {
-  /** Called with 0..1 while a long command is under way. */
+  /** Called with 0..1 during long commands. */
   onProgress: ((fraction: number) => void) | null = null;
 
   private constructor(private readonly module: TureenModule) {}
 
-  /** Rejects with ViewerError where there is no memory for another instance. */
+  /** Rejects with ViewerError if there is no memory for another instance. */
   static async create(program: WebAssembly.Module): Promise<Engine> {
     let engine: Engine | null = null;
     const module = await new Promise<TureenModule>((resolve, reject) => {
@@ -61,35 +61,35 @@ export class Engine {
     const json = utf8.encode(JSON.stringify(given));
     try {
       const at = this.module.ccall('tureen_arguments', 'number', ['number'], [json.length]);
-      if (at === 0) throw new RangeError('no room for what it is asked');
+      if (at === 0) throw new RangeError('no memory for the command');
       this.module.HEAPU8.set(json, at);
       return this.module.ccall('tureen_call', 'string', ['string'], [name]);
     } catch (trap) {
-      // What WebAssembly does where memory cannot grow, or the stack ends.
+      // WebAssembly traps if its memory cannot grow or its stack overflows.
       throw new ViewerError(`The engine has stopped (${trap instanceof Error ? trap.message : String(trap)}): ` +
-                            'most likely there is not enough memory for this scene.', 'memory');
+                            'the probable cause is too little memory for this scene.', 'memory');
     }
   }
 
-  /** The bytes that go with the next command. */
+  /** Sets the bytes for the next command. */
   setBuffer(bytes: Uint8Array): void {
     const at = this.module.ccall('tureen_buffer', 'number', ['number'], [bytes.length]);
     if (at === 0 && bytes.length > 0)
-      throw new ViewerError('There is not enough memory for this scene in a page.', 'memory');
+      throw new ViewerError('The page has not enough memory for this scene.', 'memory');
     this.module.HEAPU8.set(bytes, at);
   }
 
-  /** The bytes that came with the last command; a view of memory that the next call may move. */
+  /** The bytes from the last command; a view of memory that is valid until the next call. */
   buffer(): Uint8Array {
     const at = this.module.ccall('tureen_buffer', 'number', ['number'], [-1]);
     const size = this.module.ccall('tureen_buffer_size', 'number', [], []);
     return this.module.HEAPU8.subarray(at, at + size);
   }
 
-  /** What the engine reads of the parcels that are being unpacked. */
+  /** Sets the blobs of the scene that is being unpacked. */
   setBlobs(blobs: readonly ArrayBuffer[]): void { this.module.blobs = blobs; }
 
-  /** Files for the engine to read, each at its path below `folder`; without a copy of their bytes. */
+  /** Adds files for the engine below `folder`, without a copy of their bytes. */
   putFiles(folder: string, files: ReadonlyMap<string, Uint8Array>): void {
     for (const [path, bytes] of files) {
       const whole = `${folder}/${path}`;
@@ -98,7 +98,7 @@ export class Engine {
     }
   }
 
-  /** The folder itself stays: it is where the engine is. */
+  /** Removes the contents of a folder. The folder itself stays: it is the engine's current folder. */
   emptyFolder(folder: string): void {
     const { FS } = this.module;
     for (const name of FS.readdir(folder)) {
@@ -113,7 +113,7 @@ export class Engine {
     }
   }
 
-  /** Makes the canvas's context this engine's. Throws ViewerError where there is no WebGL2. */
+  /** Creates this engine's context on the canvas. Throws ViewerError without WebGL2. */
   takeCanvas(canvas: HTMLCanvasElement): void {
     const context = this.module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: false, depth: false, stencil: false, antialias: false,
@@ -128,5 +128,5 @@ export class Engine {
 }
 
 const noWebGl2 =
-  'This browser gives no WebGL2, which drawing needs. A newer browser has it, or the same one with ' +
-  'hardware acceleration switched on in its settings.';
+  'This browser does not provide WebGL2, which is needed to draw. Use a newer browser, or turn on hardware ' +
+  'acceleration in its settings.';

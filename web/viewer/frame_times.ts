@@ -1,7 +1,7 @@
-// How long frames take, of the last second.
+// Frame times over the last second.
 
 const window = 1000;  // milliseconds
-/** A longer pause is rest, not a slow frame. */
+/** Milliseconds; a longer pause is idle time, not a slow frame. */
 const rest = 500;
 
 export class FrameTimes {
@@ -9,7 +9,7 @@ export class FrameTimes {
   private last: number | null = null;
   submitMs: number | null = null;
 
-  /** A frame was drawn at this time. */
+  /** Adds a frame drawn at this time. */
   add(now: number, submitMs: number): void {
     if (this.last !== null && now - this.last < rest) this.intervals.push({ at: now, ms: now - this.last });
     this.last = now;
@@ -17,13 +17,13 @@ export class FrameTimes {
     while (this.intervals.length > 0 && this.intervals[0]!.at < now - window) this.intervals.shift();
   }
 
-  /** Nothing more is drawn for now. */
+  /** Clears the times when drawing stops. */
   stop(): void {
     this.intervals.length = 0;
     this.last = this.submitMs = null;
   }
 
-  /** Nearest rank; null at rest. */
+  /** The percentile by nearest rank; null without frames. */
   percentile(percent: number): number | null {
     if (this.intervals.length === 0) return null;
     const sorted = this.intervals.map(({ ms }) => ms).sort((a, b) => a - b);

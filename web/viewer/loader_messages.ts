@@ -1,7 +1,7 @@
-// What the page and the worker that loads a scene say to each other.
+// Messages between the page and the worker that loads a scene.
 
 import type { Parcel } from './engine.js';
-import type { LoadProgress, LookChoice, SceneFile, Vec3, ViewerError } from './types.js';
+import type { LoadProgress, DebugViewChoice, SceneFile, Vec3, ViewerError } from './types.js';
 
 export interface FilesToLoad {
   readonly files: readonly SceneFile[];
@@ -10,7 +10,7 @@ export interface FilesToLoad {
 
 export type SourceToLoad = { readonly url: string; readonly name: string } | FilesToLoad;
 
-/** A scene as the loader describes it: web/engine/loader.cpp. */
+/** The loader's description of a scene: web/engine/loader.cpp. */
 export interface SceneDescription {
   readonly name: string;
   readonly source: string;
@@ -21,25 +21,25 @@ export interface SceneDescription {
   readonly background: Vec3;
   readonly subject: { readonly low: Vec3; readonly high: Vec3; readonly up: Vec3 };
   readonly up_reason: string;
-  readonly looks: readonly LookChoice[];
+  readonly debug_views: readonly DebugViewChoice[];
   readonly feature_count: number;
 }
 
 export interface PreparedScene {
   readonly description: SceneDescription;
   readonly parcel: Parcel;
-  /** Set where it is a lower one than the scene's, for want of memory. */
+  /** The reduced lattice level if memory is too small; otherwise null. */
   readonly level: number | null;
-  /** What the loader's processor took: from the file's bytes to the soup, and to what the device gets. */
+  /** Time in the loader: from the file's bytes to the soup (readMs), and from there to the device's data. */
   readonly readMs: number;
   readonly prepareMs: number;
 }
 
 export type ToLoader =
   | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad }
-  /** Of the device, once it is there: what is prepared depends on them. */
+  /** Sent when the device is available; preparing depends on its limits. */
   | { readonly kind: 'limits'; readonly limits: unknown }
-  /** The device had no memory for it: prepare it with a lower lattice level. */
+  /** The device's memory is too small: prepare the scene with a lower lattice level. */
   | { readonly kind: 'lower'; readonly why: string };
 
 export type FromLoader =

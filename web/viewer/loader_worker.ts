@@ -1,5 +1,5 @@
-// Loads one scene, in a worker: fetches it, reads it, prepares what the device will hold, and hands
-// that over. All memory that this takes goes with the worker; so cancelling a load is ending it.
+// Loads one scene in a worker: fetches it, reads it, prepares the device's data and transfers them. The
+// end of the worker frees all its memory, so a load is cancelled by ending it.
 
 import { download } from './download.js';
 import { Engine, type Parcel } from './engine.js';
@@ -8,9 +8,9 @@ import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
 import { ViewerError, type LoadStage } from './types.js';
 
-/** At most so much of a blob is in the engine's memory at once. */
+/** Maximum size of a blob's part in the engine's memory. */
 const blockBytes = 1 << 20;
-/** How far the bar is when each stage begins: of files at hand, and of what must be fetched. */
+/** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
 const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
   url: { download: 0, read: 0.6, prepare: 0.9, upload: 0.97 },
@@ -36,11 +36,11 @@ class Loader {
     await this.send();
   }
 
-  /** A lattice level less than last time; `why` is what the device says. */
+  /** Sends the scene again with the next lower lattice level. `why`: the device's message. */
   async lower(why: string): Promise<void> {
     const level = this.level ?? this.engine.call<number | null>('lattice_level');
     if (!level)
-      throw new ViewerError(`This device has not enough memory for the scene${level === 0 ? ', at no lattice level' : ''}: ${why}`,
+      throw new ViewerError(`This device has not enough memory for the scene${level === 0 ? ', even at lattice level 0' : ''}: ${why}`,
                             'memory');
     this.level = level - 1;
     await this.send();
@@ -52,7 +52,7 @@ class Loader {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
-      if (prefix.length === total) return;  // an image of the whole comes as soon
+      if (prefix.length === total) return;  // the whole scene follows immediately
       const description = preview.read(prefix);
       if (description) post({ kind: 'preview', scene: await this.prepared(description) });
     });
@@ -77,7 +77,7 @@ class Loader {
     return { description, parcel, level: this.level, readMs: this.readMs, prepareMs };
   }
 
-  /** The engine's memory grows while it prepares, so its buffer is looked at anew for each block. */
+  /** Prepares the scene. The engine's memory grows meanwhile, so its buffer is fetched again for each block. */
   private packed(limits: unknown): Parcel {
     const level = this.level === null ? {} : { level: this.level };
     const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, ...level });
@@ -94,7 +94,7 @@ class Loader {
     return bytes.buffer;
   }
 
-  /** Progress comes more often than anybody looks. */
+  /** Reports progress, but only after a change of 0.1 % or 100 kB. */
   private tell(stage: LoadStage, part: number | null): void {
     const begin = starts[this.from], next = order[order.indexOf(stage) + 1];
     const fraction = part === null ? null : begin[stage] + part * ((next ? begin[next] : 1) - begin[stage]);
@@ -132,6 +132,6 @@ self.onmessage = ({ data }: MessageEvent<ToLoader>) => {
   obey(data).catch((error: unknown) => {
     const known = error instanceof ViewerError;
     post({ kind: 'error', error: { kind: known ? error.kind : 'device',
-                                   message: known ? error.message : `The loader has failed: ${String(error)}` } });
+                                   message: known ? error.message : `The loader failed: ${String(error)}` } });
   });
 };

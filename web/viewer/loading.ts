@@ -1,4 +1,4 @@
-// One load under way: the worker that does it, and what it says.
+// One running load: its worker and the worker's messages.
 
 import { fileNameOf, urlOf } from './addresses.js';
 import type { Assets } from './assets.js';
@@ -8,8 +8,8 @@ import { ViewerError, type LoadProgress, type SceneSource } from './types.js';
 export interface LoadingEvents {
   progress(progress: LoadProgress): void;
   preview(scene: PreparedScene): void;
-  /** Puts the scene on the device. Where that has no memory for it, why: then it comes again, with a
-   *  lower lattice level. */
+  /** Uploads the scene to the device. Returns null, or the reason if the device's memory is too small; the
+   *  scene then arrives again with a lower lattice level. */
   scene(scene: PreparedScene): string | null;
 }
 
@@ -18,17 +18,17 @@ function sourceToLoad(source: SceneSource): SourceToLoad {
     const url = urlOf(source);
     return { url, name: source.name || fileNameOf(url) || 'scene' };
   }
-  if (source.files.length === 0) throw new ViewerError('There is no file to open.', 'usage');
+  if (source.files.length === 0) throw new ViewerError('The scene has no files.', 'usage');
   const files = source.files.map(({ path, data }) => ({ path: path.replace(/^\/+/, ''), data }));
   if (files.some(({ path }) => path === '' || path.split('/').includes('..')))
-    throw new ViewerError('A file of the scene has no name within its folder.', 'usage');
+    throw new ViewerError('A file of the scene has no valid path within its folder.', 'usage');
   return { files, name: source.name || files[0]!.path };
 }
 
-/** Then a lower lattice level may do. */
+/** Whether the memory was too small; a lower lattice level may then fit. */
 export const isShortage = (error: unknown): error is ViewerError => error instanceof ViewerError && error.kind === 'memory';
 
-/** It begins when it is made, with what needs no graphics device; what comes of it waits for who runs it. */
+/** Begins in the constructor with the work that needs no graphics device. Its messages wait for run(). */
 export class Loading {
   private readonly shown: Promise<void>;
   private settle!: { resolve(): void; reject(why: unknown): void };
@@ -37,14 +37,14 @@ export class Loading {
   private readonly unheard: FromLoader[] = [];
   private over = false;
 
-  /** `limits`: of the device, which preparing waits for. */
+  /** `limits`: limits of the device; preparing waits for them. */
   constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource) {
     this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
-    this.shown.catch(() => {});  // who runs it is told
+    this.shown.catch(() => {});  // run() returns the error
     this.begin(assets, program, limits, source).catch((error: unknown) => this.end(error));
   }
 
-  /** Resolves when the scene is shown. Rejects with ViewerError. Once. */
+  /** Resolves when the scene is shown. Rejects with ViewerError. Call it only once. */
   run(events: LoadingEvents): Promise<void> {
     this.events = events;
     for (const message of this.unheard) this.hear(message);
@@ -57,11 +57,11 @@ export class Loading {
                       source: SceneSource): Promise<void> {
     const toLoad = sourceToLoad(source);
     const worker = this.worker = await assets.loaderWorker();
-    if (this.over) return worker.terminate();  // cancelled meanwhile
+    if (this.over) return worker.terminate();  // cancelled in the meantime
     const tell = (message: ToLoader) => worker.postMessage(message);
     worker.onerror = (event) => {
       event.preventDefault();
-      this.end(new ViewerError(`The loader cannot run: ${event.message || 'its script is not whole'}.`, 'device'));
+      this.end(new ViewerError(`The loader cannot run: ${event.message || 'its script is incomplete'}.`, 'device'));
     };
     worker.onmessage = ({ data }: MessageEvent<FromLoader>) => {
       if (this.events) this.hear(data);

@@ -1,20 +1,20 @@
-// Whether what has arrived of a GLB is enough for an image of mean colours, which lie before the
-// texels (docs/format.md).
+// Reads a preview from the first bytes of a GLB: an image of mean colours, which precede the texels in
+// the file (docs/format.md).
 
 import type { Engine } from './engine.js';
 import type { SceneDescription } from './loader_messages.js';
 
 export class Preview {
-  /** Bytes that a preview takes; null until that can be told. */
+  /** Number of bytes for a preview; null while unknown. */
   private needed: number | null = null;
-  /** So many had come when the engine was asked last: it is asked again when twice as many have. */
+  /** Number of bytes at the last query of `needed`; the next query follows at twice this number. */
   private asked = 0;
   private over = false;
 
   constructor(private readonly engine: Engine, private readonly name: string) {}
 
-  /** A description once there is enough, and never twice. A file that is broken is left to its reader,
-   *  which says what is wrong with it. */
+  /** A description when there are enough bytes, only once. Ignores a broken file: its reader reports the
+   *  error later. */
   read(prefix: Uint8Array): SceneDescription | null {
     if (this.over) return null;
     try {

@@ -1,12 +1,12 @@
-// How many pixels are drawn for each of the screen's: as asked, or as many as hold a frame rate.
+// The ratio of drawn pixels to screen pixels: fixed, or adapted to a frame rate.
 
 import { ViewerError, type Resolution } from './types.js';
 
 const lowestScale = 0.25, highestScale = 2;
-/** Frames that a new scale is looked at before it is judged: the first one makes new targets. */
+/** Number of frames in a measurement of a scale. The first one is slow because it creates new targets. */
 const settling = 8;
-/** Between so much less and more of the time that a frame may take nothing changes: displays have
- *  their own rhythm, and a scale that swings is worse than one that is a little low. */
+/** The scale changes only if the frame time is outside these factors of the target time. Displays have
+ *  their own frame rate, and an oscillating scale is worse than a slightly low one. */
 const slack = { over: 1.15, under: 0.6 };
 
 export class ResolutionKeeper {
@@ -19,7 +19,7 @@ export class ResolutionKeeper {
   set resolution(value: Resolution) {
     const asked = typeof value === 'number' ? value : value.targetFps;
     if (!(asked > 0 && asked < Infinity))
-      throw new ViewerError(`A resolution is a factor or a rate of frames above 0, not ${asked}.`, 'usage');
+      throw new ViewerError(`The resolution ${asked} is invalid: it must be a factor or a frame rate above 0.`, 'usage');
     if (typeof value === 'number') this.current = Math.min(Math.max(value, lowestScale), highestScale);
     else this.current = Math.min(this.current, 1);
     this.asked = typeof value === 'number' ? this.current : value;
@@ -28,7 +28,7 @@ export class ResolutionKeeper {
 
   get scale(): number { return this.current; }
 
-  /** An interval between two frames that followed each other. */
+  /** Adds an interval between two consecutive frames. */
   add(ms: number): void {
     if (typeof this.asked === 'number') return;
     this.recent.push(ms);
@@ -37,7 +37,7 @@ export class ResolutionKeeper {
     this.recent.length = 0;
     const wanted = 1000 / this.asked.targetFps, before = this.current;
     if (median > slack.over * wanted || median < slack.under * wanted)
-      // Time goes with the pixels, so the side with its root; in steps that can be told apart.
+      // Time is proportional to the pixels, so the side is proportional to its root. The scale has steps of 1/20.
       this.current = Math.round(20 * Math.min(Math.max(before * Math.sqrt(wanted / median), lowestScale), 1)) / 20;
   }
 }

@@ -1,14 +1,14 @@
-// Files of a scene for an engine to read: one, or several as a folder.
+// The files of a scene in the form that the engine reads: one file, or a folder.
 
 import type { Engine } from './engine.js';
 import type { SceneFile } from './types.js';
 
-/** Where the engine looks for files; errors name them relative to it. */
+/** The engine's folder for files; paths in errors are relative to it. */
 const folder = '/scene';
 
 export interface OpenedFiles {
   readonly bytes: ReadonlyMap<string, Uint8Array>;
-  /** What may be the scene: a folder of several files, or else the one of them that names the others. */
+  /** Candidates for the scene: the folder of several files, then the file that refers to the others. */
   readonly paths: readonly [string, ...string[]];
 }
 
@@ -29,8 +29,8 @@ export async function openFiles(files: readonly SceneFile[], name: string): Prom
   return { bytes, paths: [whole, ...alone.slice(0, 1)] };
 }
 
-/** Lets a command of the engine read them; they are gone from it afterwards. `more` goes with the
- *  command. Throws ViewerError. */
+/** Runs a command of the engine that reads the files, and then removes them. `more`: further arguments of
+ *  the command. Throws ViewerError. */
 export function readWith<T>(engine: Engine, command: string, files: OpenedFiles, more: object = {}): T {
   try {
     engine.putFiles(folder, files.bytes);

@@ -1,23 +1,23 @@
-// What the page is told of a scene, from what the loader and the device said.
+// The summary of a scene for the page, from the loader's description and the device's facts.
 
 import type { PreparedScene } from './loader_messages.js';
 import type { SceneSummary } from './types.js';
 
-/** What showing a scene has told: web/engine/viewer.cpp. */
+/** The result of the command "show": web/engine/viewer.cpp. */
 export interface ShownFacts {
   readonly plan: readonly string[];
-  /** So many triangles. */
+  /** Number of drawn triangles. */
   readonly drawn: number;
   readonly device_bytes: number;
 }
 
 export const lowerLevelSentence = (level: number) =>
-  `This device has not enough memory for the whole scene: it is drawn with lattice level ${level}.`;
+  `This device has not enough memory for the whole scene. The scene is drawn with lattice level ${level}.`;
 
-export const nothingDrawn = 'Nothing of this scene can be drawn: it has no triangles that are finite and have an area.';
+export const nothingDrawn = 'The scene cannot be drawn: it has no triangles with finite corners and an area.';
 
 export function sceneSummary({ description }: PreparedScene, facts: ShownFacts): SceneSummary {
-  const { name, source, notes, triangles, appearance, cameras, background, subject, looks } = description;
+  const { name, source, notes, triangles, appearance, cameras, background, subject, debug_views } = description;
   return {
     name, source, triangles, appearance, background,
     notes: [...notes, ...(facts.drawn ? [] : [nothingDrawn])],
@@ -25,7 +25,7 @@ export function sceneSummary({ description }: PreparedScene, facts: ShownFacts):
     cameras: cameras.map(({ name, width, height }) => ({ name, width, height })),
     up: subject.up,
     upReason: description.up_reason,
-    lookChoices: looks,
+    debugViews: debug_views,
     featureCount: description.feature_count,
     deviceBytes: facts.device_bytes,
   };

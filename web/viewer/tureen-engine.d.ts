@@ -1,4 +1,4 @@
-// What Emscripten makes of web/engine: only what engine.ts uses of it.
+// The module that Emscripten builds from web/engine: only the parts that engine.ts uses.
 declare module 'tureen-engine' {
   export interface TureenModule {
     HEAPU8: Uint8Array;

@@ -1,8 +1,8 @@
-// What a viewer can be asked, and what it tells. `createViewer` (viewer.ts) makes one of a canvas;
-// the page, the embedding API and the package's type declarations are all of this file.
+// The interface of a viewer. `createViewer` (viewer.ts) creates one on a canvas. The page, the embedding
+// API and the package's type declarations use this file.
 //
-// Lengths on the screen are CSS pixels from the canvas's top left corner; angles are radians;
-// colours are display-referred, 0..1; world coordinates are the scene's own.
+// Lengths on the screen are CSS pixels from the canvas's top left corner; angles are radians; colours
+// are display-referred, 0..1; world coordinates are the scene's.
 
 import type { Assets } from './assets.js';
 
@@ -14,54 +14,54 @@ export interface SceneFile {
   readonly data: Blob;
 }
 
-/** A file by its address, or files at hand: one, or all of a folder. */
+/** A file by its address, or local files: one, or all of a folder. */
 export type SceneSource =
   | { readonly url: string; readonly name?: string }
   | { readonly files: readonly SceneFile[]; readonly name?: string };
 
-/** A camera that the scene's file brings. */
+/** A recorded camera from the scene's file. */
 export interface SceneCamera {
   readonly name: string;
   readonly width: number;
   readonly height: number;
 }
 
-/** What is known of the scene that is shown. */
+/** Facts about the current scene. */
 export interface SceneSummary {
   readonly name: string;
-  /** The method or format that it came from, for people; may be empty. */
+  /** The method or format of its origin, as text; may be empty. */
   readonly source: string;
-  /** What reading it assumed or lost: a sentence each. */
+  /** Assumptions and losses of the reader, one sentence each. */
   readonly notes: readonly string[];
   readonly triangles: number;
   /** "lattice texture", "face colours", .. */
   readonly appearance: string;
-  /** How it is drawn and what is left out, a sentence each. */
+  /** The drawing plan and its specialisations, one sentence each. */
   readonly plan: readonly string[];
   readonly cameras: readonly SceneCamera[];
   readonly background: Vec3;
   readonly up: Vec3;
-  /** Why this axis is up: a sentence. */
+  /** The reason for the choice of the up axis: a sentence. */
   readonly upReason: string;
-  readonly lookChoices: readonly LookChoice[];
-  /** What the look "features" can choose among; 0 where it has none. */
+  readonly debugViews: readonly DebugViewChoice[];
+  /** Number of features for the debug view "features"; 0 without features. */
   readonly featureCount: number;
-  /** Bytes of its buffers and textures on the device. */
+  /** Size of its buffers and textures on the device, in bytes. */
   readonly deviceBytes: number;
 }
 
-/** Something that a frame can show instead of the final colours. */
-export interface LookChoice {
+/** A debug view, or the final colours. */
+export interface DebugViewChoice {
   /** "color", "depth", "normals", "triangle-id", .. */
-  readonly look: string;
+  readonly name: string;
   readonly title: string;
-  /** In a few words. */
+  /** A short description. */
   readonly meaning: string;
-  /** Why this scene has it not, in a sentence; null where it has. */
+  /** The reason why this scene does not support it, as a sentence; null if it does. */
   readonly missing: string | null;
 }
 
-/** What the colours of a look mean. */
+/** The meaning of a colour in a debug view. */
 export interface LegendEntry {
   readonly color: Vec3;
   readonly text: string;
@@ -71,10 +71,10 @@ export type LoadStage = 'download' | 'read' | 'prepare' | 'upload';
 
 export interface LoadProgress {
   readonly stage: LoadStage;
-  /** 0..1 over all stages together; null while it cannot be known. */
+  /** 0..1 over all stages together; null while unknown. */
   readonly fraction: number | null;
   readonly loadedBytes: number;
-  /** null where the server does not say. */
+  /** null if the server does not report it. */
   readonly totalBytes: number | null;
 }
 
@@ -86,61 +86,62 @@ export const namedViews = [
 ] as const;
 export type NamedView = (typeof namedViews)[number];
 
-/** A camera by its numbers, at any size: what links carry and what is saved. A recorded camera's
- *  principal point is not among them. */
+/** A camera for any image size, for links and saved views. It does not contain the principal point of a
+ *  recorded camera. */
 export interface ViewPose {
   readonly eye: Vec3;
   readonly target: Vec3;
   readonly up: Vec3;
   /** The full vertical angle. */
   readonly fov: number;
-  /** Of the camera's head to its left; 0 but for recorded cameras. */
+  /** Tilt of the camera to its left; 0 except for recorded cameras. */
   readonly roll: number;
 }
 
-/** Resolution of the image: a factor of the screen's own pixels, 0.25..1 and 2 for four samples a
- *  pixel (what lies beyond is brought within), or the factor that holds a frame rate above 0. */
+/** Resolution of the image: a factor on the screen's pixels, clamped to 0.25..2 (2 gives four samples per
+ *  pixel), or a frame rate above 0 that an automatic factor maintains. */
 export type Resolution = number | { readonly targetFps: number };
 
 export interface FrameStats {
-  /** Between frames, median of the last second; null at rest, when nothing is drawn. */
+  /** Interval between frames, median over the last second; null while no frames are drawn. */
   readonly frameMs: number | null;
   readonly p95Ms: number | null;
-  /** Of the processor, to submit a frame. */
+  /** Processor time to submit a frame. */
   readonly submitMs: number | null;
   readonly width: number;
   readonly height: number;
-  /** The factor that Resolution has led to. */
+  /** The current factor of Resolution. */
   readonly scale: number;
-  /** Of WebAssembly, now. */
+  /** Current memory of WebAssembly. */
   readonly wasmBytes: number;
-  /** GL_RENDERER as far as the browser tells. */
+  /** GL_RENDERER, as far as the browser reports it. */
   readonly renderer: string;
 }
 
 export interface ViewerEvents {
-  /** A load goes on. */
+  /** Progress of a load. */
   progress: LoadProgress;
-  /** A first image, of mean colours, while the rest is on its way. */
+  /** A first image with mean colours is shown, while the load continues. */
   preview: { readonly triangles: number };
-  /** A scene is shown, or none is. */
+  /** The current scene changed; null for none. */
   scene: SceneSummary | null;
-  /** Something that a person should read: what was left out, a lower level for want of memory. */
+  /** A message for the user, for example about a lower lattice level because of too little memory. */
   notice: string;
   /** A frame was drawn. Use it sparingly. */
   frame: FrameStats;
-  /** The view has come to rest after it was asked to move. */
+  /** The view stopped moving. */
   view: ViewPose;
-  /** The GL context was lost, or is back and the scene with it. */
+  /** The GL context was lost, or it and the scene were restored. */
   context: 'lost' | 'restored';
 }
 
-/** input: a file is broken or of no kind that is read; the sentence says where. network: an address cannot
- *  be had. memory: the device or the page has not enough. device: it fails otherwise. no-webgl2: there is
- *  none. cancelled: by the caller or a later load. usage: something was asked for that there is not. */
+/** input: a file is broken or has an unsupported format; the message has the position. network: an address
+ *  cannot be loaded. memory: the device or the page has too little memory. device: another failure of the
+ *  device. no-webgl2: the browser has no WebGL2. cancelled: by the caller or a later load. usage: an invalid
+ *  argument or call. */
 export type ErrorKind = 'input' | 'network' | 'memory' | 'device' | 'no-webgl2' | 'cancelled' | 'usage';
 
-/** What went wrong, in a sentence that may be shown. */
+/** An error with a message for the user. */
 export class ViewerError extends Error {
   constructor(message: string, readonly kind: ErrorKind) {
     super(message);
@@ -153,43 +154,43 @@ export interface Viewer {
   readonly scene: SceneSummary | null;
   readonly stats: FrameStats;
 
-  /** Replaces the scene once the new one is whole (its preview comes before). A load that is under
-   *  way is cancelled by the next one and by the signal: its promise is rejected with 'cancelled'
-   *  and the scene before stays. It makes way once the new one has arrived: where the device then cannot
-   *  take that, there is none. Rejects with ViewerError. */
+  /** Replaces the scene when the new one is complete; a preview may come earlier. The next load and the
+   *  signal cancel a running load: its promise rejects with 'cancelled', and the old scene stays. A
+   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left.
+   *  Rejects with ViewerError. */
   load(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<SceneSummary>;
-  /** Shows nothing. */
+  /** Removes the scene. */
   clear(): void;
 
   on<E extends keyof ViewerEvents>(event: E, listener: (what: ViewerEvents[E]) => void): () => void;
 
-  // Looking around. Deltas as a pointer has them.
+  // Navigation. Deltas are pointer motions in CSS pixels.
   mode: NavigationMode;
   orbit(dx: number, dy: number): void;
   pan(dx: number, dy: number): void;
   look(dx: number, dy: number): void;
-  /** Each step takes a tenth of the distance; towards the pointer where one is given. */
+  /** Zooms: each step removes a tenth of the distance, towards `pointer` if given. */
   dolly(steps: number, pointer?: readonly [number, number]): void;
-  /** The speed of flying, each step 1.2 times. */
+  /** Multiplies the flying speed by 1.2 for each step. */
   scaleSpeed(steps: number): void;
-  /** World units a second, of fly with factor 1. */
+  /** Flying speed at factor 1, in world units per second. */
   readonly speed: number;
-  /** Whether views glide to where they are asked to be; false for who asks for reduced motion. */
+  /** Whether the view moves smoothly to its target; set it to false for reduced motion. */
   gliding: boolean;
-  /** Flies on until it is told otherwise: in the camera's axes (x right, y up, -z forward). */
+  /** Flies until the next call. `direction` is in the camera's axes (x right, y up, -z forward). */
   fly(direction: Vec3, factor: number): void;
-  /** Brings the point under the pointer to the centre. False where there is only background. */
+  /** Moves the point under the pointer to the centre. Returns false for the background. */
   focus(x: number, y: number): boolean;
-  /** The whole scene from where the eye is. */
+  /** Frames the whole scene from the current direction. */
   frame(): void;
-  /** The first view. */
+  /** Returns to the first view. */
   home(): void;
   showNamedView(view: NamedView): void;
-  /** Index into SceneSummary.cameras. Throws ViewerError where there is none of this number. */
+  /** `index` into SceneSummary.cameras. Throws ViewerError if it is out of range. */
   showCamera(index: number): void;
   setUp(axis: Vec3): void;
   getView(): ViewPose;
-  /** `glide`: not at once. Throws ViewerError where eye and target are the same point. */
+  /** `glide`: move smoothly. Throws ViewerError if eye and target are the same point. */
   setView(pose: ViewPose, options?: { readonly glide?: boolean }): void;
   /** The full vertical angle: above 0 and below pi. */
   fov: number;
@@ -197,28 +198,29 @@ export interface Viewer {
   // Drawing.
   background: Vec3;
   resolution: Resolution;
-  /** "color" is the scene as it is drawn. Other looks read the scene again, so it may take a
-   *  moment; a later call wins. `features`: what "features" shows as red, green and blue, `count` 1 to 3
-   *  from `first` below SceneSummary.featureCount. Rejects with ViewerError where the scene has it not. */
-  show(look: string, features?: { readonly first: number; readonly count: number }): Promise<void>;
-  readonly shownLook: string;
+  /** Selects a debug view; "color" is the final image. Other debug views read the scene again, which may
+   *  take time; a later call overrides an earlier one. `features`: the features that "features" draws as
+   *  red, green and blue, `count` 1 to 3 from `first` below SceneSummary.featureCount. Rejects with
+   *  ViewerError if the scene does not support the debug view. */
+  show(name: string, features?: { readonly first: number; readonly count: number }): Promise<void>;
+  readonly debugView: string;
   readonly legend: readonly LegendEntry[];
-  /** A PNG of what is shown, of the given size or the canvas's: at most as large as the device's
-   *  largest image. Rejects with ViewerError. */
+  /** A PNG of the current view, with the given size or the canvas's size, up to the device's largest image.
+   *  Rejects with ViewerError. */
   screenshot(size?: { readonly width: number; readonly height: number }): Promise<Blob>;
-  /** Draws again, at once. */
+  /** Draws a frame immediately. */
   draw(): void;
 
   dispose(): void;
 }
 
 export interface ViewerOptions {
-  /** Where tureen.wasm and the loader's worker lie; beside the script where it is not given. Or how
-   *  to get them. */
+  /** The address of tureen.wasm and the loader's worker, by default next to the script; or functions that
+   *  return them. */
   readonly assets?: string | Assets;
-  /** What `load` will be asked for first: it arrives while the viewer starts, and so is shown sooner. */
+  /** The first scene of `load`. It loads while the viewer starts, and so appears sooner. */
   readonly expected?: SceneSource;
-  /** Whether pointers, wheel and keys on the canvas move the view; true. */
+  /** Whether pointers, wheel and keys on the canvas move the view; default true. */
   readonly controls?: boolean;
   readonly background?: Vec3;
   readonly resolution?: Resolution;

@@ -1,5 +1,5 @@
-// A viewer of a canvas: scenes that come from loaders, a view that controls move, and a frame
-// whenever something has changed.
+// A viewer on a canvas: it shows scenes from loaders, moves the view, and draws a frame after each
+// change.
 
 import { urlOf } from './addresses.js';
 import { assetsAt, type Assets } from './assets.js';
@@ -35,19 +35,19 @@ interface Device {
   readonly max_image_side: number;
 }
 
-/** Whether both are the same file of a server, or the same files of this computer. */
+/** Whether both are the same file on a server, or the same object with local files. */
 const isSame = (a: SceneSource, b: SceneSource) =>
   a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name);
 
-/** What has no other end than the viewer's. */
+/** Listeners of each event. */
 type Listeners = { [E in keyof ViewerEvents]?: Set<(what: ViewerEvents[E]) => void> };
 
 class CanvasViewer implements Viewer {
   detach: (() => void) | null = null;
 
-  /** Once there is an engine and a device. */
+  /** Resolves when the engine and the device are ready. */
   private started!: Promise<void>;
-  /** What arrives before it is asked for. */
+  /** The load of the expected scene, before load() is called. */
   private expected: { readonly source: SceneSource; readonly loading: Loading } | null = null;
   private engine!: Engine;
   private device!: Device;
@@ -60,15 +60,15 @@ class CanvasViewer implements Viewer {
   private source: SceneSource | null = null;
   private shown: SceneSummary | null = null;
   private previewed = false;
-  private look_ = { look: 'color', features: { first: 0, count: 3 } };
-  private looksAsked = 0;
+  private debugView_ = { name: 'color', features: { first: 0, count: 3 } };
+  private debugViewsAsked = 0;
   private opening: { readonly source: SceneSource | null; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
   private backgroundBefore: Vec3 = [0, 0, 0];
   private gliding_ = true;
   private lost = false;
-  /** Whether the view has been asked to move since it last came to rest. */
+  /** Whether the view was moved since the last 'view' event. */
   private moved = false;
   private frameAsked = 0;
   private lastFrame: number | null = null;
@@ -85,16 +85,16 @@ class CanvasViewer implements Viewer {
     this.observer.observe(this.canvas);
     const signal = this.ending.signal;
     this.canvas.addEventListener('webglcontextlost', (event) => {
-      event.preventDefault();  // or it never comes back
+      event.preventDefault();  // otherwise the browser does not restore the context
       this.lost = true;
       this.previewed = false;
       this.loading?.cancel(new ViewerError(
-        'The browser took the graphics device away while the scene was loading: open it again.', 'device'));
+        'The browser reset the graphics device while the scene was loading: open the scene again.', 'device'));
       this.emit('context', 'lost');
     }, { signal });
     this.canvas.addEventListener('webglcontextrestored', () => void this.restore(), { signal });
     document.addEventListener('visibilitychange', () => {
-      this.lastFrame = null;  // what was hidden has not flown on
+      this.lastFrame = null;  // the time while hidden does not count
       this.ask();
     }, { signal });
   }
@@ -111,19 +111,19 @@ class CanvasViewer implements Viewer {
     this.lay();
   }
 
-  /** What the old context held is gone, and the old engine's memory with it. */
+  /** Starts a new engine and loads the scene again: the old context and the old engine's memory are lost. */
   private async restore(): Promise<void> {
-    const view = this.shown ? this.getView() : null, source = this.source, look = this.look_;
+    const view = this.shown ? this.getView() : null, source = this.source, shown = this.debugView_;
     try {
       await (this.started = this.startEngine());
       if (this.ending.signal.aborted) return;
       if (source) {
         await this.load(source);
         if (view) this.setView(view);
-        if (look.look !== 'color') await this.show(look.look, look.features);
+        if (shown.name !== 'color') await this.show(shown.name, shown.features);
       }
     } catch (error) {
-      // Another scene may have been asked for meanwhile; this one is gone then.
+      // A load of another scene may have cancelled this one.
       if (!(error instanceof ViewerError && error.kind === 'cancelled')) {
         this.forgetScene();
         this.emit('notice', error instanceof Error ? error.message : String(error));
@@ -138,7 +138,7 @@ class CanvasViewer implements Viewer {
   get scene(): SceneSummary | null { return this.shown; }
 
   async load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
-    if (this.isGone) throw new ViewerError('The browser has taken the graphics device away: there is nothing to draw with.', 'device');
+    if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
     this.loading?.cancel();
     this.dropPreview();
     const loading = this.loading = this.begin(source);
@@ -175,7 +175,7 @@ class CanvasViewer implements Viewer {
     try {
       this.unpack(scene, 'preview');
     } catch (error) {
-      // There is no memory for two, or no device any more; the whole scene takes the place of the one before.
+      // The memory is too small for two scenes, or the device is lost. The complete scene will replace the old one.
       if (isShortage(error) || this.isGone) return;
       throw error;
     }
@@ -184,17 +184,17 @@ class CanvasViewer implements Viewer {
     this.emit('preview', { triangles: scene.description.triangles });
   }
 
-  /** The event comes later than what it tells. */
+  /** Whether the context is lost, even before the event arrives. */
   private get isGone(): boolean { return this.lost || (this.canvas.getContext('webgl2')?.isContextLost() ?? false); }
 
-  /** What stood before it is there again. */
+  /** Removes the preview and shows the scene before it. */
   private dropPreview(): void {
     if (!this.previewed) return;
     this.previewed = false;
     this.engine.call('drop_preview');
     this.background = this.backgroundBefore;
     this.emit('scene', this.shown);
-    this.moved = true;  // the view is another one, too
+    this.moved = true;  // the view has changed too
     this.ask();
   }
 
@@ -204,20 +204,20 @@ class CanvasViewer implements Viewer {
     this.emit('scene', null);
   }
 
-  /** Why the device has no memory for it, or null. */
+  /** Shows a scene. Returns null, or the reason if the device's memory is too small. */
   private showScene(scene: PreparedScene, source: SceneSource): string | null {
     let facts;
     try {
       facts = this.unpack(scene, 'scene');
     } catch (error) {
-      if (this.isGone) throw new ViewerError('The browser took the graphics device away: open the scene again.', 'device');
-      this.forgetScene();  // it made way
+      if (this.isGone) throw new ViewerError('The browser reset the graphics device: open the scene again.', 'device');
+      this.forgetScene();  // the engine has removed it
       if (isShortage(error)) return error.message;
       throw error;
     }
     this.previewed = false;
     this.source = source;
-    this.look_ = { ...this.look_, look: 'color' };
+    this.debugView_ = { ...this.debugView_, name: 'color' };
     this.shown = sceneSummary(scene, facts);
     this.emit('scene', this.shown);
     if (facts.drawn === 0) this.emit('notice', nothingDrawn);
@@ -248,7 +248,7 @@ class CanvasViewer implements Viewer {
     if (!this.lost) this.engine.call('clear');
     this.previewed = false;
     this.source = this.shown = null;
-    this.look_ = { ...this.look_, look: 'color' };
+    this.debugView_ = { ...this.debugView_, name: 'color' };
     this.emit('scene', null);
     this.ask();
   }
@@ -266,12 +266,12 @@ class CanvasViewer implements Viewer {
       try {
         listener(what);
       } catch (error) {
-        reportError(error);  // the caller's mistake, not the scene's
+        reportError(error);  // an error in the listener, not in the scene
       }
     }
   }
 
-  // -- looking around ---------------------------------------------------------------------------
+  // -- navigation -------------------------------------------------------------------------------
 
   private change(name: string, given: unknown): void {
     if (this.lost) return;
@@ -286,7 +286,7 @@ class CanvasViewer implements Viewer {
 
   get mode(): NavigationMode { return this.navigation; }
   set mode(mode: NavigationMode) {
-    if (mode !== 'orbit' && mode !== 'fly') throw new ViewerError(`“${String(mode)}” is no mode: orbit and fly are.`, 'usage');
+    if (mode !== 'orbit' && mode !== 'fly') throw new ViewerError(`“${String(mode)}” is not a mode: use orbit or fly.`, 'usage');
     this.navigation = mode;
     this.change('mode', mode);
   }
@@ -326,35 +326,35 @@ class CanvasViewer implements Viewer {
   get resolution(): Resolution { return this.resolutionKeeper.resolution; }
   set resolution(resolution: Resolution) { this.resolutionKeeper.resolution = resolution; this.ask(); }
 
-  get shownLook(): string { return this.look_.look; }
+  get debugView(): string { return this.debugView_.name; }
   get legend(): readonly LegendEntry[] { return this.engine.call<LegendEntry[]>('legend'); }
 
-  async show(look: string, features = { first: 0, count: 3 }): Promise<void> {
-    const mine = ++this.looksAsked;
-    if (look !== 'color' && !this.engine.call<boolean>('has_debug_view_renderer')) {
+  async show(name: string, features = { first: 0, count: 3 }): Promise<void> {
+    const mine = ++this.debugViewsAsked;
+    if (name !== 'color' && !this.engine.call<boolean>('has_debug_view_renderer')) {
       if (!this.opening || this.opening.source !== this.source)
         this.opening = { source: this.source, done: this.openDebugViewRenderer() };
       const { opening } = this;
       try {
         await opening.done;
       } finally {
-        if (this.opening === opening) this.opening = null;  // not one that has begun since, of another scene
+        if (this.opening === opening) this.opening = null;  // keep one for another scene that began later
       }
-      if (mine !== this.looksAsked) return;  // another was asked for since
+      if (mine !== this.debugViewsAsked) return;  // a later call overrides this one
     }
-    this.engine.call('look', { look, ...features });
-    this.look_ = { look, features };
+    this.engine.call('show', { name, ...features });
+    this.debugView_ = { name, features };
     this.drawFrame(performance.now());
   }
 
-  /** Reads the scene again: what a renderer holds is less than what there is to see. */
+  /** Reads the scene again: the renderer holds too little data for debug views. */
   private async openDebugViewRenderer(): Promise<void> {
     const source = this.source;
-    if (!source) throw new ViewerError('There is no scene to look into.', 'usage');
+    if (!source) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
     const name = this.shown!.name;
     const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
                                   : await openFiles(source.files, source.name ?? name);
-    if (this.source !== source) throw new ViewerError('Another scene is shown by now.', 'cancelled');
+    if (this.source !== source) throw new ViewerError('Another scene is open now.', 'cancelled');
     readWith(this.engine, 'open_debug_view_renderer', files);
   }
 
@@ -368,13 +368,13 @@ class CanvasViewer implements Viewer {
 
   draw(): void { this.drawFrame(performance.now()); }
 
-  /** The controls count in CSS pixels. */
+  /** Sets the viewport of the controls, in CSS pixels. */
   private lay(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth > 0 && clientHeight > 0) this.engine.call('viewport', [clientWidth, clientHeight]);
   }
 
-  /** A new size empties the canvas, so it comes with a frame. */
+  /** Fits the canvas to its CSS size. A new size clears the canvas, so a frame must follow. */
   private fit(): void {
     const scale = this.resolutionKeeper.scale * devicePixelRatio, most = this.device.max_image_side;
     const side = (css: number) => Math.min(Math.max(Math.round(css * scale), 1), most);
@@ -418,7 +418,7 @@ class CanvasViewer implements Viewer {
     this.fit();
     const { width, height } = size ?? this.canvas, most = this.device.max_image_side;
     if (![width, height].every((side) => Number.isInteger(side) && side >= 1 && side <= most))
-      throw new ViewerError(`An image has sides of 1 to ${most} pixels, not ${width} and ${height}.`, 'usage');
+      throw new ViewerError(`The sides of an image must be from 1 to ${most} pixels, not ${width} and ${height}.`, 'usage');
     this.engine.call('picture', { width, height });
     const pixels = new Uint8ClampedArray(this.engine.buffer());
     this.ask();

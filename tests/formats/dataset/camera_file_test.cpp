@@ -86,7 +86,7 @@ TEST(CameraFile, ReadsTransformsWithFullIntrinsics) {
   const glm::dmat3 axes = camera.world_from_view_rotation();
   EXPECT_LT(glm::length(-axes[2] - glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_LT(glm::length(axes[1] - glm::dvec3(0, 0, 1)), 1e-12);
-  // A frame's own numbers stand above the common ones.
+  // A frame's own intrinsics override the common ones.
   EXPECT_EQ(file.cameras[1].width, 320);
   EXPECT_EQ(file.cameras[1].cx, 160);
   EXPECT_THAT(file.remarks, IsEmpty());
@@ -98,14 +98,14 @@ TEST(CameraFile, AnAngleAloneMeansSquarePixelsAndTheUsualSize) {
   ASSERT_EQ(file.cameras.size(), 1u);
   EXPECT_EQ(file.cameras[0].width, 800);
   EXPECT_EQ(file.cameras[0].height, 800);
-  // The focal length that the NeRF synthetic scenes are known by.
+  // The known focal length of the NeRF synthetic scenes.
   EXPECT_NEAR(file.cameras[0].fx, 1111.1110, 1e-3);
   EXPECT_EQ(file.cameras[0].fx, file.cameras[0].fy);
   EXPECT_EQ(file.cameras[0].cx, 400);
   EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::image_size_missing, {800, 800}}));
 }
 
-TEST(CameraFile, SaysThatDistortionIsLeftOut) {
+TEST(CameraFile, RemarksThatDistortionIsIgnored) {
   const CameraFile file =
       read(std::string("{\"fl_x\": 9, \"w\": 8, \"h\": 8, \"k1\": 0.05, \"frames\": [{") +
            identity + "}]}");
@@ -143,7 +143,7 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   EXPECT_THAT(failure("{\"cameras\": [7]}"), ErrorAt("cameras.json", 0));
 }
 
-/// As 3D Gaussian Splatting writes it: at (1, 2, 3), looking along +y with z up.
+/// In the format of 3D Gaussian Splatting: at (1, 2, 3), along +y, z up.
 const std::string gaussian =
     "[{\"id\": 0, \"img_name\": \"0001\", \"width\": 640, \"height\": 360, \"position\": [1, 2, "
     "3], "
@@ -172,7 +172,7 @@ TEST(CameraFile, ReadsCamerasOfGaussianSplatting) {
   EXPECT_LT(glm::length(axes[1] - glm::dvec3(0, 0, 1)), 1e-12);
   EXPECT_LT(glm::length(-axes[2] - glm::dvec3(0, 1, 0)), 1e-12);
   EXPECT_THAT(file.remarks, IsEmpty());
-  // What some descendants add.
+  // Some descendants add these members.
   EXPECT_EQ(read(gaussian_with("\"id\": 0", "\"cx\": 301.5")).cameras[0].cx, 301.5);
   EXPECT_THAT(read("[]").cameras, IsEmpty());
 }
@@ -204,7 +204,7 @@ TEST(CameraFile, CamerasOfGaussianSplattingSurviveDamage) {
   EXPECT_EQ(test::survive_truncation(whole, read_bytes).read, 0u);
 }
 
-/// Three images in another order than that of their names, by two cameras, one with distortion.
+/// Three images, not in name order, with two cameras, one of them with distortion.
 test::ColmapFixture colmap_fixture() {
   test::ColmapFixture model = test::upright_colmap(3);
   std::swap(model.images[0], model.images[2]);
@@ -229,7 +229,7 @@ TEST(CameraFile, ReadsAModelByColmapInBothForms) {
       EXPECT_EQ(camera.width, i == 1 ? 641 : 8);
       EXPECT_EQ(camera.fx, i == 1 ? 502 : 10);
       EXPECT_EQ(camera.cy, i == 1 ? 240 : 2.5);
-      // An upright camera with the translation (x, 0.5, 3) stands at its negative; y is down there.
+      // An upright camera with the translation (x, 0.5, 3) is at the negative of it, with y down.
       EXPECT_LT(glm::length(camera.eye() - glm::dvec3(-0.25 * double(i), -0.5, -3)), 1e-12);
       EXPECT_EQ(camera.view_from_world * glm::dvec4(0, 0, 0, 1),
                 glm::dvec4(0.25 * double(i), -0.5, -3, 1));
@@ -240,7 +240,7 @@ TEST(CameraFile, ReadsAModelByColmapInBothForms) {
 
 TEST(CameraFile, OtherFilesAndFoldersAreNoCameraFiles) {
   const test::TemporaryFolder folder;
-  test::write_text(folder / "cameras.txt", "1 PINHOLE 8 6 10 9 4 3");  // without images
+  test::write_text(folder / "cameras.txt", "1 PINHOLE 8 6 10 9 4 3");  // images.txt is missing
   test::write_text(folder / "scene.off", "OFF\n0 0 0\n");
   test::write_text(folder / "cameras.json", " \n[");
   EXPECT_FALSE(is_camera_file(folder / ""));

@@ -42,7 +42,7 @@ CameraPathData random_path(test::Random& random) {
   return path;
 }
 
-/// One camera of a file, with what is to be tried put before its fields.
+/// One camera of a file; `fields` come before its other fields.
 std::string camera(const std::string& fields) {
   return "{" + fields + R"( "width": 8, "height": 6, "fx": 9, "fy": 9, "cx": 4, "cy": 3,
       "view_from_world": [[1,0,0,0],[0,1,0,0],[0,0,1,-2]]})";
@@ -90,7 +90,7 @@ TEST(CameraPathFile, AFileWrittenByHandNeedsLittle) {
   EXPECT_EQ(path.keyframes.size(), 2u);
   EXPECT_EQ(path.loop_seconds, 0);
   EXPECT_EQ(path.keyframes[1].target_distance, 0);
-  // A loop without its time closes in the mean time between keyframes.
+  // A loop without a time closes after the mean time between keyframes.
   const std::string three =
       camera("\"seconds\": 1,") + "," + camera("\"seconds\": 2,") + "," + camera("\"seconds\": 5,");
   EXPECT_EQ(read(file("\"loop\": true, ", three)).loop_seconds, 6);

@@ -18,7 +18,7 @@ Input input_of_bytes(std::span<const std::byte> bytes, const std::string& name) 
   return Input::memory(name, bytes);
 }
 
-/// Every model that is read, images with and without features, points with and without sightings.
+/// Every readable model, images with and without features, points with and without observations.
 ColmapFixture varied() {
   ColmapFixture model;
   model.cameras = {{1, 0, "SIMPLE_PINHOLE", 640, 480, {500, 320.5, 240.25}},
@@ -26,7 +26,7 @@ ColmapFixture varied() {
                    {9, 2, "SIMPLE_RADIAL", 641, 480, {502, 320, 240, 0.125}},
                    {4, 3, "RADIAL", 642, 480, {503, 320, 240, 0.125, -0.0625}},
                    {70000, 4, "OPENCV", 643, 480, {504, 505, 320, 240, 0.1, 0.2, 0.3, 0.4}}};
-  // A third of a turn around (1, 1, 1), no turn, and an odd one.
+  // Rotations: a third of a turn around (1, 1, 1), none, and an irregular one.
   const double odd = std::sqrt(1 - 0.09 - 0.16 - 0.01);
   model.images = {{1, {0.5, 0.5, 0.5, 0.5}, {1, 2, 3}, 9, "first.jpg", 2},
                   {5, {1, 0, 0, 0}, {0, 0, 5}, 1, "sub/second.jpg", 0},
@@ -97,12 +97,12 @@ TEST(Colmap, PosesBecomeOpenGl) {
   const auto images = read_colmap_images_binary(input);
   ASSERT_EQ(images.size(), 3u);
   EXPECT_EQ(images[1].name, "sub/second.jpg");
-  // COLMAP sees the origin 5 before the camera, (0, 1, 0) lower and (1, 0, 0) to the right.
+  // COLMAP sees the origin 5 in front of the camera, (0, 1, 0) below it and (1, 0, 0) to the right.
   const glm::dmat4& straight = images[1].view_from_world;
   EXPECT_EQ(straight * glm::dvec4(0, 0, 0, 1), glm::dvec4(0, 0, -5, 1));
   EXPECT_EQ(straight * glm::dvec4(0, 1, 0, 1), glm::dvec4(0, -1, -5, 1));
   EXPECT_EQ(straight * glm::dvec4(1, 0, 0, 1), glm::dvec4(1, 0, -5, 1));
-  // The third of a turn takes x to y, y to z, z to x; then comes the translation (1, 2, 3).
+  // The third of a turn maps x to y, y to z, z to x. Then the translation (1, 2, 3) follows.
   const glm::dvec4 turned = images[0].view_from_world * glm::dvec4(10, 20, 30, 1);
   EXPECT_LT(glm::length(turned - glm::dvec4(31, -12, -23, 1)), 1e-12);
 }
@@ -118,7 +118,7 @@ TEST(Colmap, ReadsTextAsPeopleEditIt) {
   EXPECT_EQ(images[1].name, "last#1.jpg");
 }
 
-// Every second image would be taken for the features of the one before.
+// Without these lines, every second image would be read as the features of the previous one.
 TEST(Colmap, MissesTheLineOfFeatures) {
   const std::string text = "1 1 0 0 0 0 0 1 1 a.jpg\n2 1 0 0 0 0 0 1 1 b.jpg\n";
   Input input = input_of(text, "images.txt");
@@ -136,9 +136,9 @@ TEST(Colmap, FindsItsFolder) {
   EXPECT_EQ(colmap_folder(folder / ""), (folder / "") / "sparse/0");
 }
 
-// ---- What is refused ------------------------------------------------------------------------
+// ---- Errors ---------------------------------------------------------------------------------
 
-/// The error of reading this camera in both forms, which differ only in the place.
+/// The errors from reading this camera in both forms; they differ only in the place.
 std::array<std::optional<Refusal>, 2> camera_errors(const ColmapFixture::CameraRecord& camera) {
   ColmapFixture model;
   model.cameras = {camera};
@@ -207,7 +207,7 @@ TEST(Colmap, RefusesPosesThatAreNoRotations) {
   }
   for (const auto& error : image_errors({1, {1, 0, 0, 0}, {0, INFINITY, 0}, 1, "a", 0}))
     EXPECT_NE(error, std::nullopt);
-  // Six digits are within it.
+  // Six digits are precise enough.
   for (const auto& error : image_errors({1, {0.707107, 0.707107, 0, 0}, {}, 1, "a", 0}))
     EXPECT_EQ(error, std::nullopt);
 }
@@ -291,7 +291,7 @@ TEST(Colmap, TextSurvivesTruncationAndDamage) {
   for (const auto& [text, read] : files) {
     const auto bytes = std::as_bytes(std::span(text));
     EXPECT_NO_THROW(read(bytes));
-    // Between two records a text may end.
+    // A text may end between two records.
     EXPECT_GT(survive_truncation(bytes, read).refused, 0u);
     EXPECT_GT(survive_damage(bytes, read).refused, 0u);
   }
@@ -309,7 +309,7 @@ TEST(Colmap, SurvivesRandomDamage) {
   for (int run = 0; run < 20000; ++run) {
     const auto& [bytes, read] = files[random() % 3];
     std::vector<std::byte> damaged = bytes;
-    // Bytes of zeros and ones are likelier, because counts and sizes break at them.
+    // Zero and all-ones bytes are more likely, because counts and sizes are sensitive to them.
     for (unsigned flips = 1 + random() % 6; flips > 0; --flips) {
       const unsigned kind = random() % 4;
       damaged[random() % damaged.size()] = std::byte(kind == 0   ? 0u

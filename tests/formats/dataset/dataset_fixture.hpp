@@ -1,4 +1,4 @@
-// Datasets that tests write themselves: images, and COLMAP models in both of their forms.
+// Datasets that tests write: images, and COLMAP models in both forms.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ inline void write_image(const std::filesystem::path& path, const Image8& image) 
   write_bytes(path, encode_png(image));
 }
 
-/// Different everywhere, and in every image with another `mark`.
+/// A gradient; images with another `mark` differ.
 inline Image8 an_image(int width, int height, int mark = 0, int alpha = 255) {
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)
@@ -37,7 +37,7 @@ inline Image8 an_image(int width, int height, int mark = 0, int alpha = 255) {
   return image;
 }
 
-/// A COLMAP model as it stands in the files.
+/// A COLMAP model, with the records of its files.
 struct ColmapFixture {
   struct CameraRecord {
     std::uint32_t number;
@@ -64,7 +64,7 @@ struct ColmapFixture {
   std::vector<PointRecord> points;
 };
 
-/// One camera of 8 x 6 pixels and `count` images a.png, b.png, .. that stand upright.
+/// One camera of 8 x 6 pixels, and `count` upright images a.png, b.png, ..
 inline ColmapFixture upright_colmap(int count) {
   ColmapFixture model;
   model.cameras.push_back({1, 1, "PINHOLE", 8, 6, {10, 9, 4.5, 2.5}});

@@ -23,7 +23,7 @@ std::vector<std::string> names(const std::vector<Photograph>& photographs) {
   return result;
 }
 
-/// A frame of transforms.json at (x, 2, 3) that looks along +y with z up, and what is `extra`.
+/// A frame of transforms.json at (x, 2, 3), along +y, z up. `extra` are further members.
 std::string frame(const std::string& file_path, int x = 1, const std::string& extra = "") {
   return "{\"file_path\": \"" + file_path + "\", " + extra + "\"transform_matrix\": [[1,0,0," +
          std::to_string(x) + "],[0,0,-1,2],[0,1,0,3],[0,0,0,1]]}";
@@ -37,14 +37,14 @@ std::string transforms(const std::string& head, const std::vector<std::string>& 
 
 const char* const intrinsics = "\"fl_x\": 10, \"fl_y\": 9, \"cx\": 4.5, \"cy\": 2.5, ";
 
-/// images/0.png .. of 8 x 6 pixels and their transforms.json.
+/// Writes images/0.png .. of 8 x 6 pixels, and their transforms.json.
 void write_transforms(const TemporaryFolder& folder, int count, const std::string& head = "") {
   std::vector<std::string> frames;
   for (int i = 0; i < count; ++i) {
     frames.push_back(frame("images/" + std::to_string(i) + ".png", i));
     write_image(folder / ("images/" + std::to_string(i) + ".png"), an_image(8, 6, i));
   }
-  // Not in name order.
+  // The frames are not in name order.
   std::reverse(frames.begin(), frames.end());
   write_text(folder / "transforms.json",
              transforms(intrinsics + std::string("\"w\": 8, \"h\": 6.0, ") + head, frames));
@@ -62,7 +62,7 @@ std::optional<Refusal> refusal(const std::filesystem::path& path,
   return error_of([&] { read_dataset(path, options); });
 }
 
-// ---- What is read ---------------------------------------------------------------------------
+// ---- Reading --------------------------------------------------------------------------------
 
 TEST(Dataset, ReadsTransformsInNameOrderWithEveryEighthForTesting) {
   const TemporaryFolder folder;
@@ -85,7 +85,7 @@ TEST(Dataset, ReadsTransformsInNameOrderWithEveryEighthForTesting) {
   EXPECT_EQ(dataset.up, glm::vec3(0, 0, 1));
   EXPECT_FALSE(dataset.has_alpha);
   EXPECT_TRUE(dataset.points.empty());
-  // The file itself is as good as its folder; and another split.
+  // The path of the file works like that of its folder. Another split.
   const Dataset thirds = read_dataset(folder / "transforms.json", {.test_every = 3});
   EXPECT_THAT(names(thirds.test),
               ElementsAre("images/0.png", "images/3.png", "images/6.png", "images/9.png"));
@@ -108,7 +108,7 @@ TEST(Dataset, ReadsAFileASplitWithoutExtensionsOrSizes) {
   EXPECT_THAT(names(dataset.train), ElementsAre("./train/r_0", "./train/r_10", "./train/r_2"));
   EXPECT_THAT(names(dataset.test), ElementsAre("./test/r_0"));
   EXPECT_TRUE(dataset.has_alpha);
-  EXPECT_EQ(dataset.test[0].image.pixels, transparent.pixels);  // straight alpha, as stored
+  EXPECT_EQ(dataset.test[0].image.pixels, transparent.pixels);  // straight alpha, unchanged
   const Camera &train = dataset.train[0].camera, &test = dataset.test[0].camera;
   EXPECT_NEAR(train.fx, 4, 1e-12);
   EXPECT_NEAR(test.fx, 5, 1e-12);
@@ -163,7 +163,7 @@ TEST(Dataset, ReadsColmap) {
   EXPECT_LT(glm::length(b.camera.eye() - glm::dvec3(-0.25, -0.5, -3)), 1e-12);
   ASSERT_EQ(dataset.points.size(), 1u);
   EXPECT_EQ(dataset.points[0].position, glm::dvec3(1, 2, 3));
-  // All cameras stand upright, with COLMAP's y down.
+  // All cameras are upright, with COLMAP's y down.
   EXPECT_EQ(dataset.up, glm::vec3(0, -1, 0));
   EXPECT_THAT(dataset.remarks, ElementsAre(Remark{Remark::Kind::up_of_cameras}));
 }
@@ -206,10 +206,10 @@ TEST(Dataset, IntrinsicsFollowTheScaleExactly) {
   EXPECT_EQ(half.camera.height, 3);
   EXPECT_EQ(half.camera.fx, 5);
   EXPECT_EQ(half.camera.fy, 4.5);
-  EXPECT_EQ(half.camera.cx, 2.25);  // measured from the corner, which stays where it is
+  EXPECT_EQ(half.camera.cx, 2.25);  // relative to the corner, which does not move
   EXPECT_EQ(half.camera.cy, 1.25);
   EXPECT_EQ(half.image.pixels, box_scaled(an_image(8, 6, 1), 4, 3).pixels);
-  // 8 x 0.3 = 2.4 and 6 x 0.3 = 1.8 are rounded; the camera follows the pixels that there are.
+  // 8 x 0.3 = 2.4 and 6 x 0.3 = 1.8 are rounded; the camera uses the rounded sizes.
   const Camera odd = read_dataset(folder / "", {.scale = 0.3}).train[0].camera;
   EXPECT_EQ(odd.width, 2);
   EXPECT_EQ(odd.height, 2);
@@ -220,7 +220,7 @@ TEST(Dataset, IntrinsicsFollowTheScaleExactly) {
 TEST(Dataset, ReadsSmallerImagesFromTheirFolder) {
   const TemporaryFolder folder;
   write_colmap(folder, 2);
-  // 8 x 6 by 4 is 2 x 1.5: rounded up here, down there; and with another extension.
+  // 8 x 6 divided by 4 is 2 x 1.5: one image rounds down, the other up, with another extension.
   write_image(folder / "images_4/a.png", an_image(2, 1));
   write_image(folder / "images_4/b.JPG", an_image(2, 2, 5));
   const Dataset dataset = read_dataset(folder / "", {.images_folder = 4});
@@ -254,8 +254,8 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
               ::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone)));
   for (const glm::u8vec4& pixel : photograph.image.pixels)
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
-  // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing; at the
-  // right with r^2 = 0.36 it is 1.5; at the corners somewhat more.
+  // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing. At the
+  // right edge, r^2 = 0.36 gives 1.5 pixels; at the corners it is slightly more.
   EXPECT_EQ(photograph.camera.fx, 70);
   EXPECT_EQ(photograph.camera.fy, 70);
   const double left = 38 - photograph.camera.cx;
@@ -273,7 +273,7 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
 }
 
-// ---- What is refused ------------------------------------------------------------------------
+// ---- Errors ---------------------------------------------------------------------------------
 
 TEST(Dataset, NamesTheImagesThatAreMissing) {
   const TemporaryFolder folder;
@@ -284,7 +284,7 @@ TEST(Dataset, NamesTheImagesThatAreMissing) {
               ErrorAt("transforms.json", 2, 26, "images/3.png", "images/8.png"));
   EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}), Names(1, 4));
   std::filesystem::remove_all(folder / "images");
-  // A dozen of them by name, the others by their number.
+  // The error lists twelve images by name, and the number of the others.
   EXPECT_THAT(refusal(folder / ""), AllOf(ErrorAt("transforms.json", 26, "images/20.png", 14),
                                           Not(Names("images/21.png"))));
 
@@ -363,7 +363,7 @@ TEST(Dataset, RefusesWhatIsNoDataset) {
   EXPECT_THAT(refusal(folder / ""), Names("frames"));
   write_text(folder / "transforms.json", "{\"frames\": [");
   EXPECT_NE(refusal(folder / ""), std::nullopt);
-  // Whatever its bytes look like.
+  // This holds for any content.
   write_text(folder / "transforms.json", "glTF" + std::string(100, '['));
   EXPECT_NE(refusal(folder / ""), std::nullopt);
   for (const std::string word : {"NaN", "Infinity", "-Infinity"}) {
@@ -393,7 +393,7 @@ TEST(Dataset, OpensNothingOutsideOfItsFolder) {
   EXPECT_THAT(with("images/../../secret.png"), Names("images/../../secret.png"));
   EXPECT_THAT(with((folder / "secret.png").string()), Names((folder / "secret.png").string()));
   EXPECT_THAT(with("images/link.png"), Names("images/link.png"));
-  // A name is no URI: what looks like an escape is a part of it.
+  // A name is not a URI: escapes in it are plain text.
   write_image(folder / "set/images/a%20b.png", an_image(8, 6));
   EXPECT_EQ(with("images/a%20b.png"), std::nullopt);
 
@@ -436,7 +436,7 @@ std::filesystem::path data(const char* name) {
 
 TEST(DatasetData, FoxIsUndistorted) {
   if (!std::filesystem::exists(data("photos/fox"))) GTEST_SKIP() << "no ../shared/data";
-  // Only the test views, for the time that it takes.
+  // Only the test views, because reading takes long.
   const Dataset dataset =
       read_dataset(data("photos/fox"), {.scale = 0.25, .part = DatasetPart::test});
   ASSERT_EQ(dataset.test.size(), 9u);
@@ -445,8 +445,8 @@ TEST(DatasetData, FoxIsUndistorted) {
   const Camera& camera = dataset.test[0].camera;
   EXPECT_NEAR(camera.fx, 1375.52 / 4, 1e-9);
   EXPECT_NEAR(camera.fy, 1374.49 / 4, 1e-9);
-  // 270 x 480 less a few pixels that the photographs do not fill; whole ones, so that the
-  // principal point keeps its fraction.
+  // 270 x 480, minus a few whole pixels that the photographs do not cover. The principal point
+  // keeps its fraction.
   EXPECT_GE(camera.width, 264);
   EXPECT_LT(camera.width, 270);
   EXPECT_GE(camera.height, 472);
@@ -463,8 +463,9 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
   ASSERT_EQ(dataset.points.size(), 6885u);
   EXPECT_THAT(dataset.remarks,
               Not(::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone))));
-  // Structure from motion took the colours of the points from these images. Some are hidden in
-  // some views, so what they project to is only nearer to their colour than to that of others.
+  // Structure from motion took the colours of the points from these images. Some points are hidden
+  // in some views. So the pixel at a point is only closer to its colour than to the colours of
+  // other points.
   double own = 0, others = 0;
   std::size_t inside = 0;
   for (const Photograph& photograph : dataset.test)
@@ -480,7 +481,7 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
       ++inside;
     }
   EXPECT_GT(double(inside), 0.5 * 13 * 6885);
-  // 0.55 here; 0.97 where x or y has the wrong sign.
+  // 0.55 here; 0.97 if x or y has the wrong sign.
   EXPECT_LT(own, 0.7 * others);
 }
 
@@ -494,7 +495,7 @@ TEST(DatasetData, LegoHasItsOwnSplitAndAlpha) {
   EXPECT_EQ(camera.width, 200);
   EXPECT_NEAR(camera.fx, 1111.111 / 4, 1e-3);
   EXPECT_EQ(camera.cx, 100);
-  // The cameras stand on a sphere around the origin and look at it.
+  // The cameras are on a sphere around the origin, and look at it.
   for (const Photograph& photograph : dataset.train) {
     EXPECT_NEAR(glm::length(photograph.camera.eye()), 4.0311, 1e-3);
     const glm::dvec3 backward = photograph.camera.world_from_view_rotation()[2];

@@ -11,7 +11,7 @@
 namespace tureen {
 namespace lens_test {
 
-/// Off centre, pixels that are not square, so that nothing can be swapped unnoticed.
+/// Off centre and with non-square pixels, so that a swap of axes cannot stay unnoticed.
 Camera a_camera() {
   Camera camera;
   camera.width = 200;
@@ -23,8 +23,8 @@ Camera a_camera() {
   return camera;
 }
 
-/// The point of the scene that appears at `place`, by Newton's method with differences: an inverse
-/// that shares nothing with the code but the model. Needs a lens that does not fold.
+/// The scene point that appears at `place`, by Newton's method with finite differences. This
+/// inverse shares only the lens model with the tested code. Requires a lens without a fold.
 glm::dvec2 undo(const Lens& lens, glm::dvec2 place) {
   glm::dvec2 point = place;
   for (int i = 0; i < 30; ++i) {
@@ -43,12 +43,12 @@ glm::dvec2 undo(const Lens& lens, glm::dvec2 place) {
   return point;
 }
 
-/// What the scene looks like at depth 1: soft checks of some 20 pixels on a slope.
+/// The colour of the scene at depth 1: soft checks of some 20 pixels on a slope.
 glm::dvec3 scene(glm::dvec2 p) {
   return {128 + 90 * std::sin(55 * p.x) * std::sin(52 * p.y), 128 + 150 * p.x, 128 + 150 * p.y};
 }
 
-/// The scene through the lens.
+/// The image of the scene through the lens.
 Image8 photograph_of(const Camera& camera, const Lens& lens) {
   Image8 image(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y)
@@ -74,10 +74,10 @@ TEST(Lens, DistortsByTheFormula) {
 }
 
 TEST(Lens, SeesNothingBeyondItsFold) {
-  const Lens lens{.k1 = -0.5};  // r (1 - r^2 / 2) turns back at r^2 = 2 / 3
+  const Lens lens{.k1 = -0.5};  // r (1 - r^2 / 2) decreases beyond r^2 = 2 / 3
   EXPECT_TRUE(lens.sees({0.81, 0}));
   EXPECT_FALSE(lens.sees({0, 0.83}));
-  // With k2 it turns forward again, but what comes before has hidden it.
+  // With k2 it increases again, but nearer points hide the part beyond the fold.
   const Lens twice{.k1 = -0.5, .k2 = 0.08};
   EXPECT_FALSE(twice.sees({1.2, 0}));
   EXPECT_FALSE(twice.sees({2.5, 0}));
@@ -104,9 +104,9 @@ void expect_the_scene(const Lens& lens) {
         ++count;
       }
     }
-  // Rounding twice to a byte, with a little of the cubic's own error, leaves 0.31 on average here;
-  // half a pixel off anywhere makes 2.1. At the very edge, where the photograph goes on as a
-  // constant, half a pixel of the checks' slope may be missing: they rise by 27 a pixel.
+  // The error is 0.31 on average: rounding to a byte twice, and a small error of the cubic. A shift
+  // of half a pixel would give 2.1. At the edge the photograph is extended by its last pixel, so
+  // the error may reach half a pixel times the slope of the checks, 27 a pixel.
   EXPECT_LT(sum / count, 0.4);
   EXPECT_LT(worst, 14);
 }
@@ -125,7 +125,7 @@ TEST(Lens, WithoutDistortionNothingChanges) {
   const Undistorted result = undistorted(image, camera, {});
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     if (image.pixels[i].a > 0) {
-      // Colours that were multiplied by alpha and divided again.
+      // These colours were multiplied by alpha and divided again.
       ASSERT_EQ(result.image.pixels[i], image.pixels[i]) << i;
     } else {
       ASSERT_EQ(result.image.pixels[i].a, 0) << i;
@@ -157,7 +157,7 @@ TEST(Lens, WhatHasNoSourceIsTransparentAndOutsideOfTheKnownRectangle) {
       }
     }
   EXPECT_GT(transparent, 100);
-  // It cannot grow to any side.
+  // The rectangle cannot grow at any side.
   const auto unknown_in = [&](int left, int top, int right, int bottom) {
     for (int y = top; y < bottom; ++y)
       for (int x = left; x < right; ++x)

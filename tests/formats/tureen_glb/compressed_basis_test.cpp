@@ -1,5 +1,5 @@
-// The basis of compressed features: it comes back from whole numbers, and its axes do what they
-// promise.
+// The basis of compressed features: it is restored exactly from integers, and its axes have their
+// properties.
 #include "formats/tureen_glb/compressed_basis.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace compressed_basis_test {
 constexpr int features = LatticeTexture::features;
 constexpr int channels = LatticeTexture::channels;
 
-/// Of a random map from features to three colours, plus a little of everything, so that no axis
-/// counts less than a tenth of the first.
+/// The sensitivity of a random map from features to three colours, plus 0.2 on the diagonal. So no
+/// axis counts less than a tenth of the first.
 FeatureMatrix random_sensitivity(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   FeatureMatrix result{};
@@ -54,8 +54,8 @@ TEST(CompressedBasis, ValuesSayTheFeatures) {
   const auto values = basis.values_of(texels);
   for (std::size_t t = 0; t < texels.size(); t += channels) {
     for (int f = 0; f < features; ++f)
-      // Half a value on each of seven axes, of which each moves a feature by less than a third
-      // (2 / 16 of a byte over the root of the least sensitivity, 0.2), and half a byte.
+      // Half a value on each of seven axes, plus half a byte. Each axis moves a feature by less
+      // than a third: 2 / 16 of a byte divided by the root of the smallest sensitivity, 0.2.
       ASSERT_NEAR(basis.feature(f, std::span(values).subspan(t, features)),
                   texels[t + std::size_t(f)], 0.5 + 7 * 0.5 * 0.3);
     ASSERT_EQ(values[t + features], texels[t + features]);
@@ -73,17 +73,17 @@ TEST(CompressedBasis, EveryAxisMovesTheColourAlike) {
   const CompressedBasis basis = compressed_basis(texture, sensitivity, step);
   for (std::size_t a = 0; a < features; ++a)
     for (std::size_t b = 0; b < features; ++b) {
-      double moved = 0;  // x_a^T S x_b: squared movement, and none of one along the other
+      double moved = 0;  // x_a^T S x_b: squared movement if a = b, else 0
       for (std::size_t i = 0; i < features; ++i)
         for (std::size_t j = 0; j < features; ++j)
           moved += basis.rows[i][a] / 65536.0 * sensitivity[i][j] * basis.rows[j][b] / 65536.0;
-      // The rounding of the fixed point is 2^-17 of values about one.
+      // The fixed point rounds by 2^-17, and values are about one.
       EXPECT_NEAR(moved * compress_fraction * compress_fraction, a == b ? step * step : 0.0, 1e-2)
           << a << ", " << b;
     }
 }
 
-// The first axis is that of the largest residuals, of the texels that count.
+// The first axis is the direction of the largest residuals, weighted by the texels' weights.
 TEST(CompressedBasis, AxesAreThoseOfTheTexelsThatCount) {
   LatticeTexture texture;
   std::vector<std::uint8_t> texels;
@@ -91,7 +91,7 @@ TEST(CompressedBasis, AxesAreThoseOfTheTexelsThatCount) {
   for (std::uint32_t t = 0; t < 2; ++t) {
     texture.patches.push_back({6 * t, 1});
     for (std::uint32_t i = 0; i < 6; ++i) {
-      // Odd texels lie between even ones: face 0 differs there in feature 2, face 1 in feature 5.
+      // Odd texels are between even ones: face 0 differs there in feature 2, face 1 in feature 5.
       const auto at = lattice::texel_coordinates(i);
       const bool between = at.x % 2 || at.y % 2;
       for (std::uint32_t c = 0; c < channels; ++c)
@@ -112,7 +112,7 @@ TEST(CompressedBasis, AxesAreThoseOfTheTexelsThatCount) {
   };
   EXPECT_EQ(strongest(first), 2u);
   EXPECT_EQ(strongest(second), 5u);
-  // Where nothing counts, it is that of a texture without residuals.
+  // If all weights are 0, the basis is that of a texture without residuals.
   LatticeTexture nothing;
   nothing.texels = std::vector<std::uint8_t>();
   EXPECT_EQ(compressed_basis(texture, plain, 4, std::vector<float>(12, 0.0f)).rows,

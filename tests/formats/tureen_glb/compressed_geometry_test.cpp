@@ -1,4 +1,4 @@
-// Geometry of compressed files: the same triangles, each corner within half a step of where it was.
+// Geometry of compressed files: the same triangles, with each corner off by at most half a step.
 #include "formats/tureen_glb/compressed_geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST_P(CompressedGeometryBits, CornersStayWithinHalfAStep) {
     const CompressedGeometry after =
         decode_compressed_geometry(bytes, used_vertices(before.triangles), 200, "compressed");
     ASSERT_EQ(after.triangles.size(), 200u);
-    // Random positions in a box of side 4 at most; and the rounding of floats below 2 in the box's
+    // Random positions in a box of side at most 4, plus the rounding of floats below 2 in the box's
     // corner, the step and the result.
     const double half = 0.5 * 4.0 / double((1 << bits) - 1) + 3 * std::ldexp(1.0, -23);
     std::vector<std::uint32_t> became(before.positions.size(), 0xffffffffu);
@@ -43,7 +43,7 @@ TEST_P(CompressedGeometryBits, CornersStayWithinHalfAStep) {
         const std::uint32_t b = before.triangles[t][k], a = after.triangles[t][k];
         for (int axis = 0; axis < 3; ++axis)
           ASSERT_NEAR(before.positions[b][axis], after.positions[a][axis], half) << t;
-        // Corners that were one vertex still are.
+        // Corners with a common vertex keep a common vertex.
         if (became[b] == 0xffffffffu) became[b] = a;
         ASSERT_EQ(became[b], a) << "face " << t;
       }
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Bits, CompressedGeometryBits,
                          ::testing::Values(1, 8, 14, 16, max_compressed_bits));
 
 TEST(CompressedGeometry, NeighboursTakeLittle) {
-  // A strip of small triangles along a line: far fewer than the 9 x 14 bits of three corners.
+  // A strip of small triangles along a line takes far fewer bits than 9 x 14 for three corners.
   const unsigned seed = 71;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   RandomScene random(seed);

@@ -1,5 +1,5 @@
-// Texels of compressed files: exact where they lose nothing, within their step where they do, and
-// no bytes do worse than an InputError.
+// Texels of compressed files: exact if lossless, else within their step. Any bytes give texels or
+// an InputError.
 #include "formats/tureen_glb/compressed_texels.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ void for_each_value(const LatticeTexture& before, const LatticeTexture& after, V
   }
 }
 
-/// Smooth all over: every value is affine over the face.
+/// Smooth texels: every value is affine over the face.
 LatticeTexture smooth(std::size_t faces, int level, std::mt19937& random) {
   LatticeTexture texture;
   std::vector<std::uint8_t> texels;
@@ -87,7 +87,7 @@ TEST_P(CompressedTexels, AreOffByHalfAStepAtMost) {
   const LatticeTexture texture =
       random.lattice_texture(level.value_or(0) > 5 ? 2 : 11, level, false);
   CompressedTexelOptions options{.feature_step = 12, .alpha_step = 40, .keep_hidden = true};
-  // Each face has a coarseness of its own; those that share texels have the smallest of theirs.
+  // Each face has its own coarseness; faces with shared texels use the smallest one.
   std::vector<int> step(texture.patches.size());
   for (std::size_t t = 0; t < texture.patches.size(); ++t)
     options.coarseness.push_back(std::uint8_t(random.whole(8)));
@@ -102,7 +102,7 @@ TEST_P(CompressedTexels, AreOffByHalfAStepAtMost) {
   for_each_value(texture, back, [&](std::size_t t, std::uint32_t i, int c, int before, int after) {
     ASSERT_LE(2 * std::abs(before - after), c == alpha ? 2 * 40 : step[t])
         << "face " << t << ", texel " << i << ", channel " << c;
-    // Alpha is never moved across 1/2.
+    // Alpha never crosses 1/2.
     if (c == alpha) {
       ASSERT_EQ(before >= 128, after >= 128) << "face " << t << ", " << i;
     }
@@ -119,7 +119,7 @@ TEST(CompressedTexelsOf, FloatsAreThoseOfTheirBytes) {
   for (std::size_t t = 0; t < floats.patches.size(); ++t)
     for (std::uint32_t i = 0; i < lattice::texel_count(2); ++i)
       for (int c = 0; c < channels; ++c)
-        // Half a byte; alpha near 1/2 may be a whole one off to stay on its side.
+        // Half a byte; alpha near 1/2 may be off by a whole one, to stay on its side.
         ASSERT_NEAR(back.value(back.patches[t].first_texel + i, c),
                     floats.value(floats.patches[t].first_texel + i, c),
                     (c == alpha ? 1.01 : 0.51) / 255.0);
@@ -131,7 +131,7 @@ TEST(CompressedTexelsOf, WhatNobodySeesIsNotKept) {
   RandomScene random(seed);
   LatticeTexture texture = random.lattice_texture(40, 3, false);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
-  // Half of the faces are transparent or opaque all over, the others cut at random.
+  // Half of the faces are entirely transparent or opaque, the others are cut at random.
   for (std::size_t t = 0; t < 20; ++t)
     for (std::size_t i = 0; i < 45; ++i) {
       std::uint8_t& a = texels[(t * 45 + i) * channels + alpha];
@@ -139,7 +139,7 @@ TEST(CompressedTexelsOf, WhatNobodySeesIsNotKept) {
     }
   const auto all = encode_compressed_texels(texture, {.keep_hidden = true});
   const auto seen = encode_compressed_texels(texture, {});
-  // Ten of forty faces have no features, and twenty no alpha worth the name.
+  // Ten of forty faces have no features, and twenty have almost no alpha.
   EXPECT_LT(double(seen.size()), 0.8 * double(all.size()));
   const LatticeTexture back = decode_compressed_texels(seen, 40, "compressed");
   for_each_value(texture, back, [&](std::size_t t, std::uint32_t i, int c, int before, int after) {
@@ -159,12 +159,13 @@ TEST(CompressedTexelsOf, SmoothOrEqualFacesTakeLittle) {
   LatticeTexture texture = smooth(300, 4, random);
   const CompressedTexelOptions options{.feature_step = 8, .alpha_step = 85};
   const std::size_t own = encode_compressed_texels(texture, options).size();
-  // Texels are 1224 bytes a face. Its corners alone, 21 random features of 4 bits after the step,
-  // are 10.5; what lies between them is missed now and then, as corners are off by half a step.
+  // Texels are 1224 bytes a face. The corners alone, 21 random features of 4 bits after the step,
+  // take 10.5 bytes. The texels between them are sometimes predicted wrongly, because corners are
+  // off by half a step.
   EXPECT_LT(own, 300u * 1224u / 30u);
   for (std::size_t t = 10; t < 300; ++t) texture.patches[t] = texture.patches[t % 10];
   const auto shared = encode_compressed_texels(texture, options);
-  // Ten faces, and 290 names of one of them: less than a single face as it was.
+  // Ten faces and 290 references to them take less than one uncompressed face.
   EXPECT_LT(shared.size(), 1224u);
   const LatticeTexture back = decode_compressed_texels(shared, 300, "compressed");
   EXPECT_EQ(back.texel_count(), 10u * 153u);
@@ -172,7 +173,7 @@ TEST(CompressedTexelsOf, SmoothOrEqualFacesTakeLittle) {
     EXPECT_EQ(back.patches[t].first_texel, back.patches[t % 10].first_texel);
 }
 
-/// The mean squared error of features, face by face, in bytes.
+/// Mean squared error of the features of each face, in squared byte steps.
 std::vector<double> errors_of(const LatticeTexture& texture, const LatticeTexture& back) {
   std::vector<double> result(texture.patches.size(), 0.0);
   for_each_value(texture, back, [&](std::size_t t, std::uint32_t, int c, int before, int after) {
@@ -183,7 +184,7 @@ std::vector<double> errors_of(const LatticeTexture& texture, const LatticeTextur
   return result;
 }
 
-/// Smooth, with a little noise: most of what a finer level adds is less than a step.
+/// Smooth texels with a little noise: most details of a finer level are smaller than a step.
 LatticeTexture noisy(std::size_t faces, std::mt19937& random) {
   LatticeTexture texture = smooth(faces, 3, random);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
@@ -210,7 +211,7 @@ TEST(CompressedTexelsOf, WhatBitsArePricedSavesThemForTheLeastError) {
   const auto nearest = size_and_error(8, 0), priced = size_and_error(8, 0.3);
   EXPECT_LT(double(priced.first), 0.8 * double(nearest.first));
   EXPECT_GT(priced.second, nearest.second);
-  // Larger steps, the other way to save bytes, lose more for as many.
+  // Larger steps also save bytes, but at the same size their error is larger.
   const auto coarse = size_and_error(12, 0), fine = size_and_error(6, 0.3);
   EXPECT_LT(fine.first, coarse.first);
   EXPECT_LT(fine.second, coarse.second);
@@ -223,7 +224,7 @@ TEST(CompressedTexelsOf, HeavyTexelsLoseLess) {
   const LatticeTexture texture = noisy(100, random);
   CompressedTexelOptions options{.feature_step = 4, .alpha_step = 85, .bit_price = 0.3};
   const auto alike = encode_compressed_texels(texture, options);
-  // Every other face hardly counts.
+  // Every other face has a small weight.
   for (std::size_t t = 0; t < 100; ++t)
     options.weights.insert(options.weights.end(), 45, t % 2 ? 1.0f : 0.01f);
   const auto some = encode_compressed_texels(texture, options);
@@ -233,7 +234,7 @@ TEST(CompressedTexelsOf, HeavyTexelsLoseLess) {
   for (std::size_t t = 0; t < 100; ++t) (t % 2 ? heavy : light) += errors[t];
   EXPECT_GT(light, 2 * heavy);
 
-  // Equal patches are stored once, by the larger weight of each texel.
+  // Equal patches are stored once, with the larger weight of each texel.
   LatticeTexture twice = texture;
   auto& texels = std::get<std::vector<std::uint8_t>>(twice.texels);
   texels.insert(texels.end(), texels.begin(), texels.end());
@@ -265,7 +266,7 @@ TEST(CompressedTexelBytes, SurviveDamage) {
   const auto cut = test::survive_truncation(bytes, read);
   EXPECT_EQ(cut.read, 0u);
   EXPECT_EQ(cut.refused, bytes.size());
-  // Most damage makes other texels, which nobody can tell from wrong ones.
+  // Most damage gives other valid texels, which the decoder cannot detect.
   const auto damaged = test::survive_damage(bytes, read);
   EXPECT_GT(damaged.read, 0u);
 }

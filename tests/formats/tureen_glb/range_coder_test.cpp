@@ -1,4 +1,4 @@
-// The range coder: what goes in comes out, in about as many bytes as it holds information.
+// The range coder restores its input, and its size is close to the entropy.
 #include "formats/tureen_glb/range_coder.hpp"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ TEST(RangeCoder, BitsOfAnyProbabilityComeBack) {
       ASSERT_EQ(decoder.bit(again), bits[i]) << ones_of_1000 << " of 1000, bit " << i;
     EXPECT_FALSE(decoder.exhausted());
 
-    // Shannon's bound. Estimates that follow the last bits cost a few percent of a bit each (0.03
-    // is about 2.5 times what is measured for even odds), and the end takes five bytes.
+    // Shannon's bound. Adaptive estimates cost a few percent of a bit for each bit: 0.03 is about
+    // 2.5 times the measured cost for even odds. The end takes five bytes.
     const double p = ones_of_1000 / 1000.0;
     const double entropy = p <= 0 || p >= 1 ? 0 : -p * std::log2(p) - (1 - p) * std::log2(1 - p);
     EXPECT_LT(double(bytes.size()), (entropy + 0.03) * double(bits.size()) / 8 + 5) << ones_of_1000;
@@ -67,7 +67,7 @@ TEST(RangeCoder, APriceIsWhatTheBitsTake) {
     model.code(price, value);
     model.code(encoder, value);
   }
-  // The coder cuts its range to whole numbers, and ends with five bytes.
+  // The coder rounds its range to integers, and ends with five bytes.
   const double bits = double(encoder.finish().size()) * 8;
   EXPECT_NEAR(price.bits() / bits, 1, 0.002);
 }
@@ -77,13 +77,13 @@ TEST(RangeCoder, ModelsThatAreSeldomAskedLearnToo) {
   std::vector<BitModel> models(1000);
   for (int i = 0; i < 8; ++i)
     for (BitModel& model : models) encoder.bit(model, 1);
-  // The mean of the ones so far and half a bit makes 1.8 bits of eight, where a sixteenth of the
-  // way at a time would make 6.
+  // An estimate from the mean of the ones so far takes 1.8 bits for the eight. An estimate that
+  // moves by a sixteenth each time would take 6.
   EXPECT_LT(double(encoder.finish().size()), 2.5 * 1000 / 8);
 }
 
 TEST(RangeCoder, CarriesPropagate) {
-  // Unlikely bits one after the other push the low end up to where carries run through many bytes.
+  // A series of unlikely bits moves the low end up until carries run through many bytes.
   const unsigned seed = 23;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);

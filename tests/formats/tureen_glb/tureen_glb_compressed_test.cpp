@@ -1,4 +1,4 @@
-// Compressed files: what a reader makes of them is what the encoder said it would.
+// Compressed files: the reader restores exactly the soup that the encoder returned.
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"
 
 #include <gmock/gmock.h>
@@ -111,11 +111,11 @@ TEST(CompressedGlb, AnEmptySoupComesBackEmpty) {
 TEST(CompressedGlb, SurvivesDamage) {
   Scene scene = random_scene(100, 3, 0, false);
   scene.cameras.clear();
-  // The network is as in other files, and thousands of bytes.
+  // The network is stored as in other files, and takes thousands of bytes.
   std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
   const CompressedSoup compressed = encode_compressed(
       std::get<TriangleSoup>(scene.primitives), {.texels = {.feature_step = 16, .alpha_step = 85}});
-  // Nothing stands between the damage and the decoders.
+  // Without checksums, the damage reaches the decoders.
   const auto bytes = without_checksums(written(scene, compressed, "damage"));
   const auto read = [](std::span<const std::byte> b) {
     const Scene back = read_back(b);
@@ -133,7 +133,7 @@ TEST(CompressedGlb, DamageIsToldByChecksums) {
                                    std::pair("slim_texels", compressed.texels)}) {
     const auto found = std::search(bytes.begin(), bytes.end(), array.begin(), array.end());
     ASSERT_NE(found, bytes.end());
-    // What a decoder has no way to notice: bytes at the end say little, or nothing.
+    // A decoder cannot detect this damage: the last bytes carry little or no information.
     for (std::size_t back = 1; back <= 20; ++back) {
       SCOPED_TRACE(back);
       std::byte& byte = *(found + std::ptrdiff_t(array.size() - back));
@@ -143,7 +143,7 @@ TEST(CompressedGlb, DamageIsToldByChecksums) {
     }
   }
   EXPECT_NO_THROW(read_back(bytes));
-  EXPECT_NO_THROW(read_back(without_checksums(bytes))) << "files of before have none";
+  EXPECT_NO_THROW(read_back(without_checksums(bytes))) << "earlier files have no checksums";
 }
 
 TEST(CompressedGlb, CountsThatDoNotFitAreRefused) {

@@ -1,4 +1,5 @@
-// Scenes of every kind that our GLB holds, the bytes of their files, and their JSON to tamper with.
+// Scenes of every kind that our GLB supports, the bytes of their files, and functions that change
+// their JSON.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -29,7 +30,7 @@ inline void fill_soup(Scene& scene, TriangleSoup soup, Appearance appearance) {
   scene.primitives = std::move(soup);
 }
 
-/// A colour appearance of each kind, on shared and unshared vertices.
+/// Each kind of colour appearance, with shared and unshared vertices.
 inline std::vector<GlbKind> glb_kinds() {
   std::vector<GlbKind> all;
   for (const bool shared : {false, true}) {
@@ -95,7 +96,7 @@ inline Scene random_scene(const GlbKind& kind, unsigned seed, std::size_t faces)
   return scene;
 }
 
-/// For this process alone.
+/// A path that only this process uses.
 inline std::filesystem::path temporary_glb(const std::string& name) {
   return std::filesystem::path(::testing::TempDir()) /
          ("tureen_glb_" + name + std::to_string(getpid()) + ".glb");
@@ -117,7 +118,7 @@ inline nlohmann::json glb_json(std::span<const std::byte> bytes) {
   return nlohmann::json::parse(text, text + size);
 }
 
-/// The same file with its JSON exchanged.
+/// The same file with another JSON.
 inline std::vector<std::byte> with_glb_json(std::span<const std::byte> bytes,
                                             const nlohmann::json& json) {
   std::uint32_t old_size = 0;

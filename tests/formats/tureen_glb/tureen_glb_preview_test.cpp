@@ -1,4 +1,4 @@
-// A scene from the first bytes of its file: what it shows is what the whole file says.
+// A scene from the first bytes of its file equals the scene of the whole file.
 #include "formats/tureen_glb/tureen_glb_preview.hpp"
 
 #include <gmock/gmock.h>
@@ -23,8 +23,8 @@ using test::fill_soup;
 using test::RandomScene;
 using Bytes = std::span<const std::byte>;
 
-/// Half a step of 16 bits in linear light, and a hundredth for the arithmetic, where the transfer
-/// function is steepest: 12.92 near black.
+/// Half a step of 16 bits in linear light plus a hundredth for the arithmetic, times the steepest
+/// slope of the transfer function: 12.92 near black.
 constexpr float color_tolerance = 12.92f * 0.51f / 65535.0f;
 
 std::optional<std::uint64_t> size_of(Bytes prefix) {
@@ -35,7 +35,8 @@ std::optional<Scene> preview_of(Bytes prefix) {
   return read_tureen_glb_preview(prefix, "arriving.glb");
 }
 
-/// Of the JSON chunk and the header behind it: from here on it is known what a preview takes.
+/// Length in bytes of the JSON chunk and the next header. With these bytes, the size of a preview
+/// is known.
 std::size_t beginning_of(Bytes bytes) {
   std::uint32_t json_size = 0;
   std::memcpy(&json_size, &bytes[12], 4);
@@ -43,7 +44,7 @@ std::size_t beginning_of(Bytes bytes) {
 }
 
 TriangleSoup soup_of(const Scene& scene) {
-  // Soft triangles show as hard ones, however transparent they are.
+  // A preview shows soft triangles as hard ones, at any opacity.
   const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
   return soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
 }
@@ -67,7 +68,7 @@ TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
     EXPECT_TRUE(test::same_bits(shown.positions, soup.positions));
     EXPECT_TRUE(test::same_bits(shown.triangles, soup.triangles));
     preview->primitives = whole.primitives;
-    EXPECT_EQ(test::difference(*preview, whole), "") << "beside the primitives";
+    EXPECT_EQ(test::difference(*preview, whole), "") << "except the primitives";
 
     const auto expect_color = [](const glm::vec4& color, const glm::vec3& wanted) {
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(color[k], wanted[k], color_tolerance);
@@ -90,8 +91,8 @@ TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
 INSTANTIATE_TEST_SUITE_P(Appearance, GlbPreview, ::testing::ValuesIn(test::glb_kinds()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// The ways in which a mesh lies in a file: with triangles of its own or none, as a copy beside the
-/// soup's vertices, of vertices that have a colour each.
+/// The kinds of mesh in a file: with or without its own triangles, as a copy beside the soup's
+/// vertices, and with a colour for each vertex.
 std::vector<test::GlbKind> mesh_kinds() {
   std::vector<test::GlbKind> kinds = test::glb_kinds();
   const auto is_other = [](const test::GlbKind& kind) {
@@ -100,7 +101,7 @@ std::vector<test::GlbKind> mesh_kinds() {
            name != "vertex_bytes_shared";
   };
   kinds.erase(std::remove_if(kinds.begin(), kinds.end(), is_other), kinds.end());
-  if (kinds.size() != 3) throw std::logic_error("a kind of scene has another name");
+  if (kinds.size() != 3) throw std::logic_error("glb_kinds() lacks one of the three kinds");
   return kinds;
 }
 
@@ -112,7 +113,7 @@ TEST_P(GlbPreviewMesh, AsksForMoreAtEveryLengthThatIsTooShort) {
   const std::uint64_t size = size_of(bytes).value();
   const std::size_t beginning = beginning_of(bytes);
   for (std::size_t length = 0; length < bytes.size(); ++length) {
-    // A copy of exactly this size, so that a sanitizer sees a read past the end.
+    // A copy of exactly this size, so that a sanitizer detects a read past the end.
     const std::vector<std::byte> prefix(bytes.begin(), bytes.begin() + std::ptrdiff_t(length));
     const auto known = size_of(prefix);
     ASSERT_EQ(known.has_value(), length >= beginning) << length;
@@ -159,7 +160,7 @@ TEST(GlbPreviewFile, OtherFilesHaveNone) {
 
   const std::string off = "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   const Bytes text = std::as_bytes(std::span(off));
-  EXPECT_EQ(size_of(text.first(3)), std::nullopt) << "it may be a GLB still";
+  EXPECT_EQ(size_of(text.first(3)), std::nullopt) << "it may still be a GLB";
   EXPECT_EQ(size_of(text.first(4)), 0u);
   EXPECT_FALSE(preview_of(text));
 }
@@ -193,7 +194,7 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
   scene.primitives = std::move(lattice);
   const std::vector<std::byte> bytes = test::glb_bytes(scene, "wrong_preview");
   const auto refusal = [](Bytes damaged) {
-    // All but the last byte: the file is still arriving.
+    // The last byte is missing: the file is still arriving.
     return error_of([&] { preview_of(damaged.first(damaged.size() - 1)); });
   };
   const auto expect_refused_json = [&](const std::function<void(nlohmann::json&)>& change,
@@ -226,7 +227,7 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
                       "3221225472");
   expect_refused_json(
       [&](auto& j) {
-        // Bytes of colours taken for indices: they name vertices that there are not.
+        // The bytes of colours as indices name missing vertices.
         triangles(j)["bufferView"] = color(j)["bufferView"];
       },
       "extensions.TUREEN_triangle_soup");
@@ -235,7 +236,7 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
   expect_refused_word(12, 0xfffffff0u, "4294967280");
   expect_refused_word(16, 0);
 
-  // A file that cannot hold a chunk is refused though nothing of one is there.
+  // A file too short for a chunk is an error even before the chunk arrives.
   std::vector<std::byte> header(bytes.begin(), bytes.begin() + 16);
   const std::uint32_t length = 16;
   std::memcpy(&header[8], &length, 4);

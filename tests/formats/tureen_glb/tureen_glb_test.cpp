@@ -1,4 +1,4 @@
-// TUREEN_triangle_soup: what is written comes back to the bit, and no damage does worse than an
+// TUREEN_triangle_soup: files restore the scene bit by bit, and damage gives a scene or an
 // InputError.
 #include "formats/tureen_glb/tureen_glb.hpp"
 
@@ -61,7 +61,7 @@ TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
     }
   };
   EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
-  // The frame, the JSON and the first bytes of the binary chunk: what follows are mere values.
+  // Only the frame, the JSON and the first bytes of the binary chunk: all later bytes are values.
   std::uint32_t json_size = 0;
   std::memcpy(&json_size, bytes.data() + 12, 4);
   std::vector<std::byte> head(bytes);
@@ -79,7 +79,7 @@ TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
 
 TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
   const Scene scene = test::random_scene(GetParam(), 6, 9);
-  // Soft triangles show the mean of their harmonics, however transparent they are.
+  // A preview shows soft triangles with the mean of their harmonics, at any opacity.
   const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
   const TriangleSoup soup =
       soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
@@ -135,7 +135,7 @@ TEST(TureenGlbFile, KeepsNanPositionsAndHugeValues) {
 TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
   RandomScene random(8);
   Scene scene = random.scene();
-  // 130 faces of level 7 are 1,090,050 texels: a full strip of 2^20 and a partial one.
+  // 130 faces of level 7 have 1,090,050 texels: a full strip of 2^20 and a partial one.
   fill_soup(scene, random.geometry(130, false), random.lattice_texture(130, 7, false));
   const auto bytes = test::glb_bytes(scene, "strips");
   EXPECT_EQ(test::glb_json(bytes)["extensions"][tureen_extension]["appearance"]["strips"].size(),
@@ -185,7 +185,7 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
                  "cameras[0].height");
   expect_refusal([&](auto& j) { j["extensions"][x]["up"] = {0, 0, 0}; }, "up");
 
-  // What is not read is not written.
+  // The writer rejects scenes that the reader would reject.
   const Scene good = scene;
   scene.cameras[0].width = 65537;
   EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
@@ -198,12 +198,12 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   EXPECT_FALSE(std::filesystem::exists(test::temporary_glb("never")));
 }
 
-// -- quality, and what files of earlier versions say of their data --------------------------------
+// -- quality, and presets in files of earlier versions -------------------------------------------
 
 constexpr Quality qualities[] = {{}, {.resolution_scale = 0.3}, {.supersampling = 3}};
 
-/// Three faces of levels 0, 2 and 3. Their levels, which the file has as an accessor of a byte a
-/// face, may stand for a choice of faces: all but the first.
+/// Three faces of levels 0, 2 and 3. The file stores levels in an accessor with a byte for each
+/// face. As a choice of faces, it selects all but the first.
 Scene scene_of_levels() {
   RandomScene random(13);
   Scene scene = random.scene();
@@ -215,7 +215,7 @@ Scene scene_of_levels() {
   return scene;
 }
 
-/// The bytes of this scene with a preset in its JSON.
+/// The bytes of this scene, with a preset in its JSON.
 std::vector<std::byte> with_preset(const Scene& scene, const nlohmann::json& preset) {
   const auto bytes = test::glb_bytes(scene, "preset");
   auto json = test::glb_json(bytes);
@@ -242,7 +242,7 @@ TEST(TureenGlbQuality, ComesBack) {
   }
 }
 
-/// Every name that stands in a "properties" of the schema.
+/// Collects every name in a "properties" of the schema.
 void collect_names(const nlohmann::json& schema, std::set<std::string>& names) {
   if (const auto properties = schema.find("properties"); properties != schema.end())
     for (const auto& [name, value] : properties->items()) names.insert(name);
@@ -333,7 +333,7 @@ TEST(TureenGlbEarlierPreset, BadValuesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal({{"resolution_scale", 2}}), ErrorIn("memory.glb", "preset", "0.25", 1));
   EXPECT_THAT(refusal({{"supersampling", 0}}), ErrorIn("memory.glb", "preset", 1, 8));
   EXPECT_THAT(refusal(7), ErrorIn("memory.glb", "preset"));
-  // An accessor of another kind, and one that is not there.
+  // An accessor of another kind, and a missing one.
   const auto bytes = test::glb_bytes(scene, "preset");
   for (const int accessor : {0, 999999}) {
     auto json = test::glb_json(bytes);
@@ -342,8 +342,7 @@ TEST(TureenGlbEarlierPreset, BadValuesAreRefusedWithTheirPlace) {
   }
 }
 
-// A few bytes that ask for gigabytes: faces that share texels in part have none in common at a
-// lower level.
+// A few bytes that ask for gigabytes: partly shared texels are not shared at a lower level.
 TEST(TureenGlbEarlierPreset, WhatItMakesOfTheTexelsIsCountedBefore) {
   RandomScene random(14);
   Scene scene = random.scene();
@@ -357,7 +356,7 @@ TEST(TureenGlbEarlierPreset, WhatItMakesOfTheTexelsIsCountedBefore) {
   fill_soup(scene, random.geometry(faces, false), std::move(texture));
   const auto file = with_preset(scene, {{"lattice_level", 6}});
   const std::uint64_t before = max_memory();
-  set_max_memory(16 << 20);  // of 4,000 * 2,145 * 8 bytes
+  set_max_memory(16 << 20);  // of 4,000 x 2,145 x 8 needed bytes
   EXPECT_THROW(read_back(file), InputError);
   set_max_memory(before);
 }
@@ -370,7 +369,7 @@ TEST(TureenGlbEarlierPreset, SurvivesTruncationAndDamage) {
     EXPECT_FALSE(defect(back.quality));
   };
   EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
-  // Every byte of the preset's own JSON.
+  // Damages every byte of the preset's JSON.
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::size_t first = text.find("\"preset\""), last = text.find('}', first);
   ASSERT_NE(last, std::string::npos);

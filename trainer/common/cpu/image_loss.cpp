@@ -1,8 +1,10 @@
-// A task is a band of rows of one view, all three channels. It streams down the rows of a channel:
-// a row is read and weighed along x, eleven such rows are weighed along y and become a row of
-// windows; eleven rows of windows, weighed along y and x, become a row of the gradient. Rows wait
-// in rings of eleven, which stay in the second-level cache. Bands overlap: each works out for
-// itself the ten rows above and below that it needs, so that no task waits for another.
+// A task is a band of rows of one view, with all three channels. It processes each channel row by
+// row:
+//   1. It reads a pixel row and filters it along x.
+//   2. It filters eleven such rows along y, which gives a row of windows.
+//   3. It filters eleven rows of windows along y and x, which gives a row of the gradient.
+// Rings of eleven rows hold the intermediate rows and stay in the second-level cache. Bands
+// overlap: each computes the ten rows above and below that it needs, so no task waits for another.
 #include "trainer/common/cpu/image_loss.hpp"
 
 #include <algorithm>
@@ -20,8 +22,8 @@ namespace {
 
 constexpr int taps = ssim_window, reach = ssim_window - 1;
 
-// Rows of a band at most. Lower bands repeat more of their neighbours (20 rows each), higher ones
-// are fewer tasks.
+// Maximum number of rows in a band. Each band repeats 20 rows of its neighbours. Lower bands repeat
+// a larger part; higher bands give fewer tasks.
 constexpr int band_rows = 128;
 
 struct Band {
@@ -57,8 +59,8 @@ class Rows {
   std::size_t stride_;
 };
 
-// What a task works in. Rows are as long as the image is wide and `reach` more, which is what
-// `spread` needs; windows fill less of them.
+// Buffers of a task. Each row holds the image's width plus 2 `reach` values; `spread` uses the
+// width plus `reach`, windows use fewer.
 template <class Real>
 struct Workspace {
   Rows<Real> pixels;   // ring of sum and difference: slot * 2 + plane
@@ -101,7 +103,7 @@ struct Workspace {
   }
 };
 
-// The two filters, which take most of the time. They are not inlined into the rest: there the
+// The two filters, which take most of the time. They are not inlined into BandLoss, where the
 // compiler has too few registers for eleven rows.
 template <class Real>
 TUREEN_ALWAYS_INLINE void weigh_columns(const Real* in, Real* out, int n) {
@@ -140,7 +142,7 @@ void weigh_along_y(const std::array<const double*, taps>& rows, double* out, int
   weigh_rows(rows, out, n);
 }
 
-// In lanes, so that the order of the additions is fixed and still vectorises.
+// Sixteen lanes fix the order of the additions and still let the loop vectorise.
 template <class Real>
 TUREEN_ALWAYS_INLINE double total(const Real* values, int n) {
   constexpr int lane_count = 16;
@@ -191,7 +193,7 @@ class BandLoss {
   std::size_t plane() const { return std::size_t(view_.width) * view_.height; }
   const std::uint8_t* ignored(int y) const { return &ignored_[at(y - first_row_)]; }
 
-  /// Marks the pixels that do not count, and counts those among this band's that are not finite.
+  /// Marks the ignored pixels, and counts the pixels of this band that are not finite.
   TUREEN_ALWAYS_INLINE void mark_ignored() {
     ignored_.resize(at(last_row_ - first_row_));
     for (int y = first_row_; y < last_row_; ++y) {
@@ -201,7 +203,7 @@ class BandLoss {
       std::uint8_t* __restrict out = &ignored_[at(y - first_row_)];
       int count = 0;
       for (int x = 0; x < width_; ++x) {
-        // NaN and infinity times zero are NaN, which equals nothing.
+        // NaN and infinity times zero are NaN, and NaN == 0 is false.
         const bool finite = red[x] * 0 + green[x] * 0 + blue[x] * 0 == 0;
         out[x] = finite ? 0 : 1;
         count += finite ? 0 : 1;
@@ -223,7 +225,7 @@ class BandLoss {
       compare(window);
       if (window >= band_.first) write(window);
     }
-    // The last rows of the image, below which there are no windows.
+    // The last rows of the image have no windows below them.
     for (int y = std::max(band_.first, window_rows_); y < band_.last; ++y) write(y);
   }
 
@@ -282,7 +284,7 @@ class BandLoss {
     if (window >= band_.first && window < band_.last) band_.dissimilarity += total(value, columns_);
   }
 
-  /// A row of windows is a row of moments no longer: their planes hold the sums over the windows.
+  /// Reuses the planes of `moments`: they now hold the weighted sums over the windows.
   TUREEN_ALWAYS_INLINE void gather(int y) {
     std::array<const Real*, taps> rows;
     for (int p = 0; p < window_planes; ++p) {
@@ -419,7 +421,7 @@ void image_losses(std::span<const ImageLossView<Real>> views, std::span<ImageLos
   for (const ImageLossView<Real>& view : views) assert_shapes(view);
   std::vector<Band> bands = bands_of(views);
   pool.run(bands.size(), [&](std::size_t task) {
-    Band band = bands[task];  // its own copy: neighbours in the vector share cache lines
+    Band band = bands[task];  // a copy: neighbours in the vector share cache lines
     const ImageLossView<Real>& view = views[band.view];
     auto buffer = scratch.take();
     buffer.rows.resize(std::max(buffer.rows.size(), Workspace<Real>::size(view.width)));

@@ -1,11 +1,11 @@
 // The image loss of training and its gradient on the processor: separable windows over planes of
-// floats, a band of rows a task.
+// floats, one task for each band of rows.
 //
 //   loss = l1_weight * mean |C - G| + ssim_weight * (1 - SSIM) / 2
 //
-// over one view; C is what was rendered, G the photograph, see
-// trainer/common/kernels/image_loss.hpp. The SSIM is that of image/ssim.hpp with SsimBorder::valid.
-// The paper's weights are 0.8 and 0.2; the half is in the authors' program only.
+// for one view; C is the rendered image, G the photograph (trainer/common/kernels/image_loss.hpp).
+// The SSIM is the same as in image/ssim.hpp with SsimBorder::valid. The paper's weights are 0.8 and
+// 0.2; only the authors' program has the factor 1/2.
 #pragma once
 
 #include <cstddef>
@@ -18,35 +18,35 @@
 
 namespace tureen::trainer {
 
-/// One view and where its results go. All planes are [channel][y][x], row 0 the top row, without
-/// gaps. Real is float to train with, double to test with.
+/// One view and the buffers for its results. All planes are [channel][y][x], row 0 at the top,
+/// without gaps. Real is float in training and double in tests.
 template <class Real>
 struct ImageLossView {
   int width = 0;
   int height = 0;
   std::span<const Real> rendered;        // 3 planes, nominally in [0, 1], not clamped
   std::span<const std::uint8_t> target;  // 3 planes, value = byte / 255
-  /// 1 for pixels that do not count, one plane; may be empty: all count.
+  /// One plane, 1 for ignored pixels; empty if no pixel is ignored.
   std::span<const std::uint8_t> ignored = {};
   Real l1_weight = Real(0.8);
   Real ssim_weight = Real(0.2);
-  /// Written, 3 planes: the derivative of this view's loss by `rendered`.
+  /// Output, 3 planes: the derivative of this view's loss by `rendered`.
   std::span<Real> gradient;
-  /// Written, one plane: sum over the channels of |C - G|, 0 where ignored; may be empty.
+  /// Output, one plane: sum over the channels of |C - G|, 0 for ignored pixels; may be empty.
   std::span<Real> pixel_loss = {};
 };
 
 struct ImageLoss {
   double l1 = 0;    // mean |C - G|
   double ssim = 1;  // mean over the windows and channels
-  double loss = 0;  // as above
-  /// Pixels with a channel that is NaN or infinite. They are ignored like those that the caller
-  /// names: C is taken to be G there, in all channels, so that neighbours are not touched, and the
-  /// gradient is 0. Means are still over all pixels.
+  double loss = 0;  // the formula above
+  /// Number of pixels with a channel that is NaN or infinite. They are ignored like the pixels in
+  /// ImageLossView::ignored: C = G in all channels, so neighbours are unaffected, and the gradient
+  /// is 0. Means still divide by the number of all pixels.
   std::size_t non_finite = 0;
 };
 
-/// Memory that image_losses() works in, kept between calls: about 100 rows of floats a thread.
+/// Buffers for image_losses(), kept between calls: about 100 rows of floats per thread.
 template <class Real>
 class ImageLossScratch {
  public:
@@ -55,7 +55,7 @@ class ImageLossScratch {
     std::vector<std::uint8_t> ignored;
   };
 
-  /// One that nobody uses, with unspecified contents; one thread's until it is given back.
+  /// Returns an unused buffer with unspecified contents. The caller must give() it back.
   Buffer take();
   void give(Buffer&& buffer);
 
@@ -64,14 +64,14 @@ class ImageLossScratch {
   std::vector<Buffer> free_;
 };
 
-/// The losses of several views; results[i] is that of views[i]. A view that is narrower or lower
-/// than the window of SSIM has no such term: its ssim is 1 and its loss and gradient are those of
-/// L1 alone. The same bits with any number of threads.
+/// The losses of several views; results[i] belongs to views[i]. A view that is narrower or lower
+/// than the SSIM window has no SSIM term: its ssim is 1, and its loss and gradient come from L1
+/// alone. The result has the same bits with any number of threads.
 template <class Real>
 void image_losses(std::span<const ImageLossView<Real>> views, std::span<ImageLoss> results,
                   ImageLossScratch<Real>& scratch, ThreadPool& pool);
 
-/// That of one.
+/// The loss of one view.
 template <class Real>
 ImageLoss image_loss(const ImageLossView<Real>& view, ImageLossScratch<Real>& scratch,
                      ThreadPool& pool) {

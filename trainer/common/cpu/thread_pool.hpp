@@ -1,5 +1,5 @@
-// Threads that work through numbered tasks. What a task computes must not depend on which thread
-// runs it or when: that is how training gives the same bits with any number of threads.
+// Threads that run numbered tasks. A task's result must not depend on the thread that runs it or on
+// the time: then training gives the same bits with any number of threads.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@ namespace tureen::trainer {
 
 class ThreadPool {
  public:
-  /// `threads` work at a time, the caller of run() among them; 0 means all cores.
+  /// `threads`: number of threads, including the caller of run(); 0 means all cores.
   explicit ThreadPool(int threads = 0);
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
@@ -22,9 +22,9 @@ class ThreadPool {
 
   int threads() const { return int(workers_.size()) + 1; }
 
-  /// Calls body(0) .. body(tasks - 1), each once, in any order, and returns when all are done. The
-  /// first exception that a task threw is thrown here; tasks not begun by then are skipped.
-  /// Not to be called from within a task.
+  /// Calls body(0) .. body(tasks - 1), each once, in any order, and returns when all are done. It
+  /// rethrows the first exception of a task and skips the tasks that have not begun by then.
+  /// A task must not call it.
   void run(std::size_t tasks, const std::function<void(std::size_t)>& body);
 
  private:

@@ -1,24 +1,24 @@
-// One function compiled for several generations of x86-64: the loader picks the best that the
-// processor has, so that a loop is vectorised as wide as it can be and the program still runs
-// everywhere.
+// One function compiled for several generations of x86-64. The loader picks the best one that the
+// processor supports: loops use the widest vectors, and the program still runs on older processors.
 #pragma once
 
-#include <cstddef>  // defines __GLIBC__, where it is that
+#include <cstddef>  // defines __GLIBC__ on glibc
 
-/// Before the definition of a function that holds hot loops (not a template: it becomes an indirect
-/// function of the linker's):
+/// Place it before the definition of a function with hot loops. The function must not be a
+/// template: it becomes an indirect function of the linker.
 ///
 ///   TUREEN_VECTOR_CLONES void scale(std::span<float> values, float factor) { .. }
 ///
-/// What it calls is only compiled for each generation if it is inlined: keep callees `static` or
-/// `inline` and mark those that -O3 might leave out of line TUREEN_ALWAYS_INLINE.
+/// A callee is compiled for each generation only if it is inlined: make callees `static` or
+/// `inline`, and mark those that -O3 may not inline TUREEN_ALWAYS_INLINE.
 ///
-/// The generations differ in fused multiply-adds, so results agree between machines of one
-/// generation to the bit and between others to rounding.
+/// The generations differ in fused multiply-adds. Results are the same to the bit on machines of
+/// one generation, and the same within rounding on others.
 ///
-/// Nothing for other compilers and processors (Clang knows no x86-64-v names here), without glibc's
-/// indirect functions, and under sanitizers, whose run time is not ready when they are resolved.
-/// -DTUREEN_VECTOR_CLONES= does without, to measure one generation by -march.
+/// The macro is empty for other compilers and processors (Clang rejects the x86-64-v names here)
+/// and without glibc's indirect functions. It is also empty with sanitizers, whose run time is not
+/// ready when the loader resolves indirect functions. -DTUREEN_VECTOR_CLONES= disables the clones,
+/// to measure one generation with -march.
 #ifndef TUREEN_VECTOR_CLONES
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) &&   \
     !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
@@ -30,8 +30,7 @@
 #endif
 #endif
 
-/// Beside TUREEN_VECTOR_CLONES: everything that the function calls is inlined into each clone,
-/// where the callees are not ours to mark.
+/// With TUREEN_VECTOR_CLONES: inlines all callees into each clone, for callees that we cannot mark.
 #if defined(__GNUC__) && defined(__OPTIMIZE__)
 #define TUREEN_FLATTEN __attribute__((flatten))
 #else
@@ -45,8 +44,8 @@
 #define TUREEN_ALWAYS_INLINE inline
 #endif
 
-/// Before a loop: what it writes in one turn it does not read in another, so that it is vectorised
-/// without looking for pointers that overlap.
+/// Before a loop whose iterations do not read what other iterations write. The compiler then
+/// vectorises it without checks for overlapping pointers.
 #if defined(__clang__)
 #define TUREEN_INDEPENDENT_TURNS _Pragma("clang loop vectorize(assume_safety)")
 #elif defined(__GNUC__)

@@ -1,5 +1,5 @@
-// A GPU as trainer/diffsoup/cuda/kernel_backend.hpp wants it: everything in the default stream of
-// the current device, memory from the driver.
+// The Machine of trainer/diffsoup/cuda/kernel_backend.hpp on a GPU. It uses the default stream of
+// the current device, and memory from the driver.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -12,11 +12,12 @@
 
 namespace tureen::trainer::cuda {
 
-/// Throws what went wrong: DeviceLimitError where memory has run out, else ContextError.
+/// Throws DeviceLimitError if the GPU's memory is full, and ContextError for other failures.
+/// `doing`: the failed action, for the message "the GPU could not ..".
 void check(cudaError_t result, const char* doing);
 
 struct CudaAtomics {
-  /// What another thread may be changing.
+  /// Reads a value that another thread may be changing.
   template <class Number>
   __device__ static Number load(const Number& value) {
     return *static_cast<const volatile Number*>(&value);
@@ -44,7 +45,7 @@ __global__ void __launch_bounds__(Kernel::threads) run_kernel(const Kernel kerne
 
 class CudaMachine {
  public:
-  /// Throws ContextError where no GPU answers.
+  /// Throws ContextError if no GPU is available.
   CudaMachine();
   CudaMachine(const CudaMachine&) = delete;
   CudaMachine& operator=(const CudaMachine&) = delete;
@@ -62,7 +63,7 @@ class CudaMachine {
 
   template <class Kernel>
   void launch(const Kernel& kernel, std::size_t blocks) {
-    if (blocks == 0) return;  // no face is left: CUDA refuses empty launches
+    if (blocks == 0) return;  // no faces are left; CUDA rejects empty launches
     run_kernel<<<unsigned(blocks), Kernel::threads>>>(kernel);
     check(cudaGetLastError(), "start a kernel");
   }

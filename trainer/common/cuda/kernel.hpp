@@ -1,24 +1,24 @@
-// What a kernel of the CUDA backend is: a struct that runs on a GPU and, thread after thread, on a
-// processor. That is how everything but the launches is tested where there is no GPU
-// (tests/trainer/host_machine.hpp); trainer/common/cuda/cuda_machine.cuh is the GPU's side.
+// A kernel of the CUDA backend is a struct that runs on a GPU and, thread after thread, on a
+// processor. Tests therefore run everything except the launches without a GPU
+// (tests/trainer/host_machine.hpp). trainer/common/cuda/cuda_machine.cuh runs kernels on a GPU.
 //
 //   struct Kernel {
-//     static constexpr unsigned threads = 128;  // of a block
-//     struct Shared { .. };                     // a block's memory, uninitialised
-//     struct Local { .. };                      // a thread's memory, zeros at the start
-//     float* argument; ..                       // its members, pointers to the device's memory
+//     static constexpr unsigned threads = 128;  // per block
+//     struct Shared { .. };                     // memory of a block, uninitialised
+//     struct Local { .. };                      // memory of a thread, zeros at the start
+//     float* argument; ..                       // members: pointers to the device's memory
 //
 //     unsigned phases() const;                  // the same for all threads of a block
 //     template <class Atomics>
 //     void run(unsigned phase, const Thread& at, Shared& shared, Local& local) const;
 //   };
 //
-// All threads of a block finish a phase before the next begins; within a phase they only meet in
-// Atomics. Blocks do not meet at all but there. Kernels whose threads do not work together have one
-// phase and Nothing to share.
+// All threads of a block finish a phase before the next begins. Within a phase, threads share data
+// only through Atomics; so do blocks in all phases. Kernels with independent threads have one phase
+// and share Nothing.
 //
-// Whatever is added from many threads is an integer: a gradient is added in fixed point, so that
-// the order of additions, which nobody knows on a GPU, does not change a bit of the result.
+// Many threads add only integers: gradients are added in fixed point. The order of additions is
+// undefined on a GPU, and so does not change a bit of the result.
 #pragma once
 
 #include <cstddef>
@@ -34,24 +34,24 @@ struct Thread {
 
 struct Nothing {};
 
-/// A sum in fixed point: two's complement, so that it may be added as an unsigned number.
+/// A sum in fixed point: two's complement, so unsigned additions are correct.
 using Fixed = unsigned long long;
 
-/// What is added at once stays below this, what is larger counts as not finite: a gradient of a
-/// mean over pixels that is near it has lost its way, and a sum needs 8 times as much of one sign
-/// before it leaves the range of texture_scale.
+/// The largest absolute value of one addend; larger ones count as not finite. Gradients of a mean
+/// over pixels are far below it unless training diverges. A sum leaves the range of texture_scale
+/// only at 8 times this value.
 inline constexpr float largest_addend = 1024;
 
-// Units per 1. Gradients by a texel are of means over millions of pixels, 1e-9 and more where they
-// matter (Adam's epsilon is 1e-8): steps of 2^-50 leave them six digits. Those by a corner are
-// larger by pixels per unit of length. Sums of losses have up to 1e8 terms of about 1.
+// Units per 1. Texel gradients come from means over millions of pixels; the relevant ones are 1e-9
+// or more (Adam's epsilon is 1e-8), and steps of 2^-50 give them six digits. Corner gradients are
+// larger by the pixels per unit of length. Sums of losses have up to 1e8 terms of about 1.
 inline constexpr float texture_scale = 0x1p50f, corner_scale = 0x1p42f, loss_scale = 0x1p32f;
 
 TUREEN_HOST_DEVICE Fixed to_fixed(double value, float scale) {
   return Fixed(static_cast<long long>(value * double(scale)));
 }
 
-/// For floats the product with a power of two is exact in single precision as well.
+/// In single precision: the product of a float with a power of two is exact.
 TUREEN_HOST_DEVICE Fixed to_fixed(float value, float scale) {
   return Fixed(static_cast<long long>(value * scale));
 }
@@ -60,12 +60,12 @@ TUREEN_HOST_DEVICE float from_fixed(Fixed sum, float scale) {
   return float(static_cast<long long>(sum)) / scale;
 }
 
-/// False for NaN, too.
+/// False for NaN as well.
 TUREEN_HOST_DEVICE bool can_be_added(float value) {
   return value < largest_addend && value > -largest_addend;
 }
 
-/// The last i in [0, count) with begin[i] <= value, where begin ascends from 0.
+/// The last i in [0, count) with begin[i] <= value; `begin` ascends from 0.
 template <class Number>
 TUREEN_HOST_DEVICE std::size_t interval_of(const Number* begin, std::size_t count, Number value) {
   std::size_t low = 0, high = count;

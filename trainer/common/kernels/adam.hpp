@@ -1,6 +1,6 @@
 // Adam (Kingma and Ba, arXiv 1412.6980, algorithm 1) and VectorAdam (Ling et al., arXiv
-// 2205.13599), which divides a vector by the norm of its own history, so that the step does not
-// depend on the axes.
+// 2205.13599). VectorAdam divides a vector by the root mean square of its past norms, so the step
+// does not depend on the axes.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace tureen::trainer::kernels {
 
-/// What one step has for all numbers: the rate, and the corrections of moments that started at 0.
+/// Constants of one step: the rate, and the corrections for moments that start at 0.
 struct AdamStep {
   float beta1, beta2, epsilon;
   float rate_over_correction1;     // rate / (1 - beta1^t)
@@ -22,8 +22,8 @@ TUREEN_HOST_DEVICE AdamStep adam_step(float rate, float beta1, float beta2, floa
           float(1 / std::sqrt(1 - std::pow(double(beta2), t)))};
 }
 
-/// Whether a gradient is a number whose square is one, too, and the sum of three such squares: what
-/// second moments take. One that is infinite would hold its number still for ever.
+/// Whether the gradient, its square, and the sum of three such squares are finite. An infinite
+/// second moment would stop its parameter for the rest of the run.
 TUREEN_HOST_DEVICE bool can_be_squared(float gradient) {
   return std::isfinite(4 * gradient * gradient);
 }

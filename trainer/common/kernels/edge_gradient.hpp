@@ -1,10 +1,10 @@
-// How geometry learns: what the image loses or gains when a visibility edge moves.
+// The gradient of geometry: the change of the loss when a visibility edge moves.
 //
-// Between the neighbouring pixels p and q, a boundary that moves by one pixel towards q turns the
-// colour C_q into C_p; with g = dL/dC its derivative is 1/2 sum (g_p + g_q) (C_p - C_q), as the
-// pixel that the boundary crosses is p or q with equal probability (DiffSoup, arXiv 2603.27151,
-// supplement). Which boundary it is, and so which point of p's triangle moves it, the cases below
-// tell; p's side only moves p's triangle.
+// Take neighbouring pixels p and q. A boundary that moves by one pixel towards q changes the colour
+// C_q into C_p. With g = dL/dC its derivative is 1/2 sum (g_p + g_q) (C_p - C_q), because the
+// boundary crosses p or q with equal probability (DiffSoup, arXiv 2603.27151, supplement). The
+// cases below determine the boundary and the point of p's triangle that moves it. p's side moves
+// only p's triangle.
 #pragma once
 
 #include <cmath>
@@ -15,9 +15,9 @@
 
 namespace tureen::trainer::kernels {
 
-/// One pixel of a finished image as the edge gradient sees it.
+/// One pixel of a finished image, as input of the edge gradient.
 struct EdgePixel {
-  std::uint32_t face;  // no_face where the background shows
+  std::uint32_t face;  // no_face for the background
   float inverse_depth;
   float color[3];
   float gradient[3];  // dL/dcolour
@@ -29,13 +29,13 @@ enum class EdgeCase { none, texture_slide, intersection, opacity, geometric };
 struct PointGradient {
   EdgeCase kind = EdgeCase::none;
   float e[3];       // edge values there: barycentrics times the inverse depth
-  float x, y;       // the place on the image, in pixels
-  float gx, gy;     // by its motion on the image, per pixel
-  float g_inverse;  // by the inverse depth of p's triangle there
+  float x, y;       // position on the image, in pixels
+  float gx, gy;     // derivative by its motion on the image, per pixel
+  float g_inverse;  // derivative by the inverse depth of p's triangle there
 };
 
 /// (qx, qy) is one of the four neighbours of (px, py). `face` is p's triangle, `other` q's
-/// (ignored where q shows the background). `slide` scales the texture slide.
+/// (ignored if q_is_background). `slide` scales the texture slide.
 TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
                                                const ProjectedFace* other, int px, int py, int qx,
                                                int qy, const EdgePixel& p, const EdgePixel& q,
@@ -44,7 +44,7 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
   float adjoint = 0;
   for (int c = 0; c < 3; ++c)
     adjoint += 0.5f * (p.gradient[c] + q.gradient[c]) * (p.color[c] - q.color[c]);
-  // Nothing to gain, or a colour that is no number and must not move its neighbours' faces.
+  // 0, or NaN: a colour that is not a number must not move the faces of its neighbours.
   if (!(adjoint < 0 || adjoint > 0)) return result;
   float at_p[3], at_q[3];
   edge_values(face, float(px), float(py), at_p);
@@ -57,16 +57,16 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
     result.kind = EdgeCase::texture_slide;
     adjoint *= slide;
   } else if (covers_q && !q_is_background && q.inverse_depth > inverse_q) {
-    // q's triangle is in front at q. It is an intersection if it also lies behind at p.
+    // q's triangle is in front at q. The case is an intersection if it lies behind at p.
     float other_p[3];
     edge_values(*other, float(px), float(py), other_p);
     const float other_inverse_p = other_p[0] + other_p[1] + other_p[2];
     const bool covers_p = other_p[0] >= 0 && other_p[1] >= 0 && other_p[2] >= 0;
     if (!covers_p || !(other_inverse_p < p.inverse_depth)) return result;
-    // Along pq the inverse depths are affine: they cross at t, and t moves by 1 / slope for each
-    // unit by which p's triangle comes nearer. Pairs side by side and pairs one above the other
-    // both see that motion of a slanted line in full, so they share it by the squares of its
-    // normal's components, slope^2 / |gradient|^2.
+    // Along pq the inverse depths are affine. They cross at t, and t moves by 1 / slope for each
+    // unit of inverse depth that p's triangle gains. Horizontal and vertical pairs each see the
+    // full motion of a slanted line. They share it by the squares of its normal's components,
+    // slope^2 / |gradient|^2.
     const float ahead = p.inverse_depth - other_inverse_p, behind = q.inverse_depth - inverse_q;
     const float slope = ahead + behind;
     float across = 0, down = 0;
@@ -75,19 +75,19 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
       down += face.dy[k] - other->dy[k];
     }
     const float squared = across * across + down * down;
-    // `slope` is one component of that gradient, and where faces meet its square exceeds that of
-    // the whole by roundings at most, for which twice as much is more than enough room. Where it is
-    // larger still it is nothing but roundings: two faces of one plane cover each other, which of
-    // them is in front is a matter of chance, and no line moves.
+    // `slope` is one component of that gradient. Where faces meet, its square exceeds the squared
+    // gradient only by rounding errors, far less than a factor of 2. A larger ratio comes from
+    // rounding errors alone: the two faces lie in one plane, rounding decides which is in front,
+    // and no line moves.
     if (!(slope * slope < 2 * squared)) return result;
     result.kind = EdgeCase::intersection;
     t = ahead / slope;
     result.g_inverse = adjoint * slope / squared;
   } else if (covers_q) {
-    result.kind = EdgeCase::opacity;  // nearer than what shows at q, and yet not accepted there
+    result.kind = EdgeCase::opacity;  // nearer than the visible face at q, but not accepted there
   } else if (q_is_background || p.inverse_depth > q.inverse_depth) {
     result.kind = EdgeCase::geometric;
-    // The first of the triangle's edges that the segment from p to q crosses.
+    // The first edge of the triangle on the segment from p to q.
     t = 1;
     for (int k = 0; k < 3; ++k)
       if (at_q[k] < 0) {
@@ -113,8 +113,8 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
   return result;
 }
 
-/// Adds the motion of one point to the derivatives by the triangle's corners, in the axes right,
-/// down, forward of the view. The corners share it by their barycentrics there.
+/// Adds the gradient of one point to the derivatives by the triangle's corners, in the view's axes
+/// right, down, forward. The corners share it by their barycentrics there.
 TUREEN_HOST_DEVICE void distribute(const View& view, const ProjectedFace& face,
                                    const PointGradient& point, float (&corners)[3][3]) {
   const float inverse_depth = point.e[0] + point.e[1] + point.e[2];
@@ -122,9 +122,9 @@ TUREEN_HOST_DEVICE void distribute(const View& view, const ProjectedFace& face,
   const float x = point.x - float(view.cx), y = point.y - float(view.cy);
   float g[3];
   if (point.kind == EdgeCase::intersection) {
-    // The inverse depth on a fixed pixel is e = sum dx x + .., a plane: its gradient by a shift d
-    // of the point along the plane's normal. In the view the plane is N . v = 1 with
-    // N = (fx sum dx, fy sum dy, value on the axis), and a shift d changes 1/w by -N.d / w.
+    // The inverse depth is affine in the pixel. In view coordinates the face's plane is N . v = 1
+    // with N = (fx sum dx, fy sum dy, inverse depth on the axis). A shift d of the point changes
+    // 1/w on a fixed pixel by -N.d / w.
     const float sx = face.dx[0] + face.dx[1] + face.dx[2];
     const float sy = face.dy[0] + face.dy[1] + face.dy[2];
     const float axis = inverse_depth - sx * x - sy * y;

@@ -1,5 +1,5 @@
-// All pixels that a triangle covers within a rectangle, with a visitor: whoever looks for the
-// nearest one, takes gradients or blends sees the same fragments.
+// All pixels that a triangle covers within a rectangle, for a visitor. Visibility, gradients and
+// blending thus use the same fragments.
 #pragma once
 
 #include "trainer/common/kernels/host_device.hpp"
@@ -18,8 +18,9 @@ struct Fragment {
   float inverse_depth;
 };
 
-/// The fragment of one pixel, for who has a thread for each: the same arithmetic as below. False
-/// where the triangle does not cover the pixel's centre, or not between the planes.
+/// The fragment of one pixel, for kernels with one thread per pixel. The arithmetic is the same as
+/// below. Returns false if the triangle does not cover the pixel's centre between the near and the
+/// far plane.
 TUREEN_HOST_DEVICE bool fragment_at(const View& view, const ProjectedFace& face, int x, int y,
                                     Fragment& fragment) {
   float e[3];
@@ -36,7 +37,7 @@ TUREEN_HOST_DEVICE bool fragment_at(const View& view, const ProjectedFace& face,
 }
 
 /// Calls visit(Fragment) row by row. Pixels whose centre lies on an edge belong to the triangle.
-/// `view` gives the near and the far plane.
+/// `view` supplies the near and the far plane.
 template <class Visitor>
 TUREEN_HOST_DEVICE void for_each_fragment(const View& view, const ProjectedFace& face,
                                           const Rectangle& within, Visitor&& visit) {

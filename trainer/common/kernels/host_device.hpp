@@ -1,10 +1,10 @@
-// What lets one function be compiled for the processor and for the graphics processor.
+// A macro for functions that are compiled for both the processor and the GPU.
 #pragma once
 
-/// Instead of `inline`, before a kernel's mathematics: callable from both sides under nvcc, an
-/// inline function anywhere else. What is marked so calls nothing but its like and the functions of
-/// <cmath>, throws nothing and owns nothing. GCC is made to inline it even into long functions: a
-/// kernel that stays out of line is compiled for one generation of processors only
+/// Replaces `inline` before a kernel's mathematics. With nvcc the function is callable on host and
+/// device; with other compilers it is inline. A marked function calls only marked functions and
+/// <cmath>, throws nothing and owns no memory. GCC inlines it even into long functions: a function
+/// that is not inlined is compiled for one generation of processors only
 /// (trainer/common/cpu/vector_clones.hpp).
 #if defined(__CUDACC__)
 #define TUREEN_HOST_DEVICE __host__ __device__ inline

@@ -1,6 +1,6 @@
-// Sixteen floats that behave like one: kernels that are templates on their number type run on a
-// pack as they run on a float or a double, and a processor does in one instruction what a GPU's
-// threads do side by side.
+// Sixteen floats that behave like one number. Kernels are templates on their number type: they run
+// on a pack as on a float or a double. A processor then executes one instruction for sixteen
+// pixels, as a GPU does with its threads.
 #pragma once
 
 #include <cstdint>

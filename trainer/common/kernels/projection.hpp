@@ -1,11 +1,11 @@
-// From a triangle in space to edge functions on the image.
+// The edge functions of a triangle on the image.
 //
-// With view coordinates (x right, y down, w forward) and P_i = (fx x + cx w, fy y + cy w, w) the
-// determinant D = P0 . (P1 x P2) and e_k(p) = (P_{k+1} x P_{k+2}) . (p, 1) / D are affine in the
-// pixel p, and at a point of the triangle e_k = b_k / w: their sum is 1 / w and their shares are
-// the perspective-correct barycentrics (Olano and Greer, "Triangle scan conversion using 2D
-// homogeneous coordinates", 1997). Vertices behind the eye need no clipping: a hit is where all
-// e_k >= 0 and 1 / w lies between those of the far and the near plane.
+// View coordinates are x right, y down, w forward. With P_i = (fx x + cx w, fy y + cy w, w) and the
+// determinant D = P0 . (P1 x P2), e_k(p) = (P_{k+1} x P_{k+2}) . (p, 1) / D is affine in the pixel
+// p. At a point of the triangle e_k = b_k / w: the sum is 1 / w, and e_k divided by the sum is the
+// perspective-correct barycentric (Olano and Greer, "Triangle scan conversion using 2D homogeneous
+// coordinates", 1997). Vertices behind the eye need no clipping: a pixel is hit if all e_k >= 0 and
+// 1 / w lies between the values at the far and the near plane.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace tureen::trainer::kernels {
 
-/// Images are at most so wide and high: a ProjectedFace keeps its rectangle in 16 bits.
+/// Maximum width and height of images: a ProjectedFace stores its rectangle in 16 bits.
 inline constexpr int max_image_side = 32767;
 
 /// A pinhole camera relative to the model's origin.
@@ -27,16 +27,16 @@ struct View {
   double near, far;
 };
 
-/// A triangle on the image. Edge functions are affine about the centre of the pixel (x0, y0):
-/// large coordinates never meet in float.
+/// A triangle on the image. Edge functions are relative to the centre of the pixel (x0, y0), so
+/// floats never hold large coordinates.
 struct ProjectedFace {
   float dx[3], dy[3], c[3];
-  std::int16_t x0, y0, x1, y1;  // pixels that may be hit: x0 <= x < x1, y0 <= y < y1
+  std::int16_t x0, y0, x1, y1;  // bounds of the pixels: x0 <= x < x1, y0 <= y < y1
 
   TUREEN_HOST_DEVICE bool empty() const { return x0 >= x1; }
 };
 
-/// e_0, e_1, e_2 at the centre of a pixel, or between pixels.
+/// e_0, e_1, e_2 at (x, y); integers are pixel centres.
 template <class Real>
 TUREEN_HOST_DEVICE void edge_values(const ProjectedFace& face, Real x, Real y, Real (&e)[3]) {
   for (int k = 0; k < 3; ++k)
@@ -52,17 +52,19 @@ TUREEN_HOST_DEVICE void view_coordinates(const View& view, const float* position
   v[2] = view.forward[0] * d[0] + view.forward[1] * d[1] + view.forward[2] * d[2];
 }
 
-/// Grows an interval of pixel indices by a coordinate that is a number; the cast is then safe.
+/// Extends an interval of pixel indices by a coordinate, which must not be NaN: the clamp then
+/// makes the cast safe.
 TUREEN_HOST_DEVICE void include(double coordinate, int size, int& low, int& high) {
   const double clamped = coordinate < -1 ? -1 : coordinate > size + 1 ? size + 1 : coordinate;
-  // Pixel i has its centre at i + 1/2: the first one not left of `coordinate`, the last not right.
+  // Pixel i has its centre at i + 1/2. `first` is the first centre not left of the coordinate;
+  // `last` is one after the last centre not right of it.
   const int first = int(std::ceil(clamped - 0.5)), last = int(std::floor(clamped - 0.5)) + 1;
   low = first < low ? first : low;
   high = last > high ? last : high;
 }
 
-/// The part of the image in which the triangle lies: its corners, and where its edges cross the
-/// near plane.
+/// Sets the rectangle of the image around the triangle's corners and the points where its edges
+/// cross the near plane.
 TUREEN_HOST_DEVICE void bounding_rectangle(const View& view, const double (&v)[3][3],
                                            ProjectedFace& face) {
   int x0 = view.width, x1 = 0, y0 = view.height, y1 = 0;
@@ -85,8 +87,8 @@ TUREEN_HOST_DEVICE void bounding_rectangle(const View& view, const double (&v)[3
   face.y1 = std::int16_t(y1 < view.height ? y1 : view.height);
 }
 
-/// `corners` are three positions of three floats. A triangle that is seen edge-on, has no area,
-/// lies outside the image or has a coordinate that is not finite is empty.
+/// `corners`: three positions of three floats. The result is empty for triangles that are edge-on,
+/// have no area, lie outside the image or have a coordinate that is not finite.
 TUREEN_HOST_DEVICE ProjectedFace project(const View& view, const float* corners) {
   ProjectedFace face{};
   double v[3][3];

@@ -1,4 +1,5 @@
-// Random numbers by counting: a hash of what is drawn, never of the order in which it is drawn.
+// Counter-based random numbers: each is a hash of its arguments and does not depend on the order of
+// draws.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,14 @@ TUREEN_HOST_DEVICE std::uint32_t mixed(std::uint32_t x) {
   return x ^ x >> 16;
 }
 
-/// What the draws of one image of one step have in common.
+/// The common key for all draws in one image of one step.
 TUREEN_HOST_DEVICE std::uint32_t draw_key(std::uint64_t seed, std::uint32_t step,
                                           std::uint32_t view) {
   return mixed(std::uint32_t(seed) ^ mixed(std::uint32_t(seed >> 32) ^ mixed(step ^ mixed(view))));
 }
 
-/// Uniform on (0, 1], in steps of 2^-24: an alpha of 0 is never accepted by alpha >= u, an alpha
-/// of 1 always.
+/// Uniform on (0, 1], in steps of 2^-24. The test alpha >= u never accepts alpha 0 and always
+/// accepts alpha 1.
 TUREEN_HOST_DEVICE float uniform_draw(std::uint32_t key, std::uint32_t pixel, std::uint32_t face) {
   const std::uint32_t bits = mixed(mixed(pixel ^ key) + face * 0x9e3779b9u);
   return float((bits >> 8) + 1) * 0x1p-24f;

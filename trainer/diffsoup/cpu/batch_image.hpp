@@ -1,4 +1,4 @@
-// One image of a batch while a step works on it.
+// The data of one image of a batch during a step.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,14 @@ namespace tureen::trainer {
 /// Square tiles of this side: a tile's depths and winners stay in the first-level cache.
 inline constexpr int tile_side = 32;
 
-/// What a pixel shows.
+/// The visible face of a pixel.
 struct VisiblePixel {
-  std::uint32_t face = no_face;  // the background where there is none
+  std::uint32_t face = no_face;  // no_face for the background
   float inverse_depth = 0;
   float b0 = 0, b1 = 0;  // barycentrics
 };
 
-/// What a pixel has for the face that it shows: all that is needed together lies together, in one
-/// line of the cache.
+/// The gradients of a pixel for its visible face. One cache line holds all of them.
 struct alignas(64) PixelGradient {
   float features[channels];  // dL/dfeature 0..6, and 0
   float color[3];
@@ -35,15 +34,15 @@ struct BatchImage {
   std::uint32_t draw_key = 0;
   int tiles_x = 0, tiles_y = 0;
 
-  std::vector<kernels::ProjectedFace> projected;  // one a face
-  std::vector<std::uint32_t> bin_begin;           // one a tile, and the end
+  std::vector<kernels::ProjectedFace> projected;  // one per face
+  std::vector<std::uint32_t> bin_begin;           // one per tile, and the end
   std::vector<std::uint32_t> bins;                // faces of each tile, in their order
 
-  // One a pixel, row by row from the top.
+  // One per pixel, row by row from the top.
   std::vector<VisiblePixel> visible;
   std::vector<float> color;     // three planes
   std::vector<float> by_color;  // three planes: dL/dcolour
-  std::vector<float> loss;      // sum over channels of |C - G|; then what the score takes
+  std::vector<float> loss;      // sum over channels of |C - G|; later the score's factor
   std::vector<PixelGradient> gradient;
 
   std::size_t pixels() const { return std::size_t(view.width) * view.height; }

@@ -20,7 +20,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Adds the seconds of its life to a sum.
+/// Adds the seconds of its lifetime to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}
@@ -35,7 +35,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of handing a task out
+constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of starting a task
 
 class CpuBackend final : public Backend {
  public:
@@ -88,8 +88,8 @@ class CpuBackend final : public Backend {
   StageTimes times_;
 };
 
-/// The rows of all images in bands of one tile's height: tasks of equal size, whatever the
-/// number of threads.
+/// A band of rows with the height of a tile. Bands are tasks of equal size for any number of
+/// threads.
 struct Band {
   std::size_t image;
   int y0, y1;
@@ -183,7 +183,7 @@ void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport
   const Stopwatch stopwatch(times_.shading_backward);
   const std::vector<Band> tasks = bands(images_);
   ShadingInput input = shading_input();
-  // Gradients are means over the batch: scaled to a pixel's own they suit the range of a half.
+  // Gradients are means over the batch. Scaled to one pixel, they fit the range of a half.
   if (config_.gradient_precision == GradientPrecision::float16)
     input.half_scale = 3.0f * float(images_[0].pixels()) * float(images_.size());
   mlp_gradients_.resize(tasks.size());
@@ -256,8 +256,8 @@ void CpuBackend::take_loss(std::span<const std::uint32_t> views, StepReport& rep
   }
 }
 
-/// What a band of rows adds to the statistics, and its pixels' loss turned into what the score
-/// takes: its share of the batch's mean, less the running mean, which runs on.
+/// Returns the statistics of a band of rows. Replaces each pixel's loss by the score's factor: its
+/// share of the batch's mean, minus the running mean. Updates the running mean.
 CpuBackend::BandReport CpuBackend::take_advantage(BatchImage& image, std::uint32_t view_index,
                                                   int y0, int y1) {
   BandReport report;
@@ -275,7 +275,7 @@ CpuBackend::BandReport CpuBackend::take_advantage(BatchImage& image, std::uint32
       counts = counts && std::isfinite(image.color[c * pixels + p]);
     float loss = image.loss[p];
     image.gradient[p].error = loss;
-    // A pixel that does not count has a loss of 0, which says nothing of what it mostly shows.
+    // An ignored pixel has a loss of 0, which must not change the running mean.
     if (config_.baseline && counts) {
       std::uint16_t& stored = state_.baseline[first_pixel_[view_index] + p];
       const float root = float(stored) / 65535;
@@ -308,7 +308,7 @@ void CpuBackend::step_network(float rate, StepReport& report) {
 
 std::vector<std::uint64_t> CpuBackend::visible_pixels(std::span<const Camera> cameras) {
   std::vector<std::uint64_t> counts(state_.model.faces());
-  // A few images at a time: they are counted and forgotten.
+  // A few images at a time, to save memory.
   const std::size_t at_once = 2 * std::size_t(pool_.threads());
   for (std::size_t begin = 0; begin < cameras.size(); begin += at_once) {
     std::vector<BatchImage> images(std::min(at_once, cameras.size() - begin));

@@ -14,7 +14,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// A face's gradient from one image, added up.
+/// The gradient of a face, summed over the images.
 struct Gathered {
   float corners[3][3] = {};  // by the positions, world axes
   float error = 0;
@@ -34,7 +34,7 @@ struct Gathered {
   return result;
 }
 
-/// The four edges of a pixel that the face won.
+/// Adds the gradients from the four edges of a pixel that shows the face.
 [[gnu::always_inline]] inline void gather_edges(const BatchImage& image,
                                                 const kernels::ProjectedFace& face, int x, int y,
                                                 std::size_t pixel, float slide,
@@ -68,8 +68,8 @@ struct Gathered {
         const std::size_t pixel = std::size_t(fragment.y) * width + std::size_t(fragment.x);
         const VisiblePixel& visible = image.visible[pixel];
         const bool won = visible.face == index;
-        // Behind the winner nothing depends on this face; of equal depths the lower face is in
-        // front, as find_visible has it.
+        // Behind the winner nothing depends on this face. At equal depths the lower face is in
+        // front, as in find_visible.
         const bool in_front =
             fragment.inverse_depth > visible.inverse_depth ||
             (fragment.inverse_depth == visible.inverse_depth && index < visible.face);
@@ -98,7 +98,8 @@ struct Gathered {
                            corners[i][2] * float(view.forward[j]);
 }
 
-/// Features go through the sigmoid; the score is by the logit already and takes its channel.
+/// Multiplies the feature gradients by the sigmoid's derivative, and writes the score to the alpha
+/// channel. The score is already a derivative by the logit.
 [[gnu::always_inline]] inline void through_sigmoid(const float* values, std::size_t texels,
                                                    FaceScratch& scratch) {
   for (std::size_t i = 0; i < texels; ++i) {
@@ -110,9 +111,9 @@ struct Gathered {
   }
 }
 
-/// Whether all are finite, and the sum of three squares that a second moment takes: x * 0 is NaN
-/// for those that are not, and NaN stays in a sum. A second moment that is infinite would hold its
-/// number still forever.
+/// Whether all values and the sum of three squares (a second moment) are finite. x * 0 is NaN if x
+/// is not finite, and the sum keeps the NaN. An infinite second moment would stop its parameter for
+/// the rest of the run.
 [[gnu::always_inline]] inline bool all_finite(const float* values, std::size_t count) {
   float sums[16] = {};
   std::size_t i = 0;

@@ -1,6 +1,6 @@
-// The last stage of a step: each face gathers what all images of the batch have for it, and is
-// stepped by the optimiser at once. A face is one task's alone, so nothing is added atomically, no
-// gradient is ever stored, and the result does not depend on the number of threads.
+// The last stage of a step: each face gathers its gradient from all images of the batch, and the
+// optimiser steps it immediately. Only one task handles a face. Therefore additions are not atomic,
+// gradients are not stored, and the result does not depend on the number of threads.
 #pragma once
 
 #include <span>
@@ -13,18 +13,18 @@
 
 namespace tureen::trainer {
 
-/// What all faces of a step share.
+/// The common data of all faces in a step.
 struct FaceStep {
   std::span<const BatchImage> images;
   const Pyramid* pyramid;
   Model* model;
   Moments* moments;
   TextureStore* store;
-  std::vector<float>* errors;  // one a face, added to
+  std::vector<float>* errors;  // one per face, added to
   float texture_rate, vertex_rate;
   float beta1, beta2, epsilon;
   float slide;         // scale of the texture slide, kernels/edge_gradient.hpp
-  bool dense_updates;  // step faces that no image touched, too
+  bool dense_updates;  // also step faces that no image touched
 };
 
 /// Reused from face to face.
@@ -36,8 +36,8 @@ struct FaceScratch {
   explicit FaceScratch(const Pyramid& pyramid);
 };
 
-/// Gathers, steps and makes the texture anew. Returns how many numbers were not finite and so
-/// left out: 0, or 1 for the texture and 1 for the corners.
+/// Gathers the gradient, steps the face and refreshes its texture. Returns the number of skipped
+/// updates because of gradients that are not finite: 1 for the texture plus 1 for the corners.
 unsigned step_face(const FaceStep& step, std::size_t face, FaceScratch& scratch);
 
 /// Sums the levels of one face into the store.

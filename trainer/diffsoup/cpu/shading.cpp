@@ -18,7 +18,7 @@ constexpr int lanes = kernels::pack_lanes;
 using kernels::Pack;
 using State = kernels::NetworkState<Pack>;
 
-/// Pixels of visible faces, gathered until all lanes have one.
+/// Pixels with a visible face, one per lane.
 struct Batch {
   std::size_t pixel[lanes];
   int x[lanes], y[lanes];
@@ -65,15 +65,16 @@ struct Batch {
                             state.input + kernels::features);
 }
 
-/// Lanes whose features are all finite; the features of others become 0. What is no number would
-/// reach the network's gradient even times zero.
+/// Finds the lanes with finite features and sets the features of all others to 0. NaN and infinity
+/// would reach the network's gradient even times zero.
 [[gnu::always_inline]] inline void quarantine(State& state, kernels::IntPack& finite) {
   finite = Pack{} == Pack{};
   for (int f = 0; f < kernels::features; ++f) finite &= state.input[f] * 0.0f == 0.0f;
   for (int f = 0; f < kernels::features; ++f) state.input[f] = finite ? state.input[f] : Pack{};
 }
 
-/// Calls visit(batch) for all visible pixels of the rows, the last batch may not be full.
+/// Calls visit(batch) for all pixels of the rows with a visible face. The last batch may not be
+/// full.
 template <class Visitor>
 [[gnu::always_inline]] inline void for_each_batch(const BatchImage& image, int y0, int y1,
                                                   Visitor&& visit) {

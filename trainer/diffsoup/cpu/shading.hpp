@@ -1,4 +1,5 @@
-// Colours of visible pixels, and the way back from the colour's gradient to features and network.
+// Colours of visible pixels, and the backward pass from the colour's gradient to features and
+// network.
 #pragma once
 
 #include "trainer/diffsoup/cpu/batch_image.hpp"
@@ -6,21 +7,21 @@
 
 namespace tureen::trainer {
 
-/// Where shading reads from.
+/// The inputs of shading.
 struct ShadingInput {
   const float* texture;  // TextureStore::values
   int level;
   const MlpParameters* mlp;
   const float* background;  // 3
-  /// Not 0: gradients of features are rounded to half precision, times this.
+  /// If not 0, feature gradients are rounded to half precision after multiplication by this.
   float half_scale = 0;
 };
 
-/// Rows [y0, y1) of image.color.
+/// Fills rows [y0, y1) of image.color.
 void shade_rows(BatchImage& image, const ShadingInput& input, int y0, int y1);
 
-/// Fills image.gradient of rows [y0, y1) from image.by_color, and returns what these
-/// rows add to the gradient of the network.
+/// Fills image.gradient in rows [y0, y1) from image.by_color. `mlp_gradient`: output, the part of
+/// these rows in the network's gradient.
 void shade_rows_backward(BatchImage& image, const ShadingInput& input, int y0, int y1,
                          MlpParameters& mlp_gradient);
 

@@ -46,7 +46,7 @@ Pyramid::Pyramid(int min_level, int max_level)
 }
 
 void Pyramid::sum(const float* logits, float* fine, float* scratch) const {
-  // The two buffers take turns; the last level must end in `fine`.
+  // The two buffers alternate; the last level must end in `fine`.
   float* from = parents_.size() % 2 ? scratch : fine;
   float* to = parents_.size() % 2 ? fine : scratch;
   std::size_t count = lattice::texel_count(min_level_);

@@ -1,5 +1,5 @@
-// The textures of all faces as fragments see them: summed over levels and through the sigmoid.
-// They are kept from step to step and made anew only for faces that changed.
+// The textures of all faces for fragments: the sigmoid of the sum over all levels. They persist
+// between steps; only changed faces are refreshed.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace tureen::trainer {
 
-/// How the levels of a texture lie and hang together.
+/// The layout of the levels of a texture, and the parents of each texel.
 class Pyramid {
  public:
   Pyramid(int min_level, int max_level);
@@ -20,12 +20,11 @@ class Pyramid {
   std::uint32_t texels() const { return texels_; }            // of all levels
   std::uint32_t fine_texels() const { return fine_texels_; }  // of max_level
 
-  /// Sums what all levels interpolate at the texels of max_level. `logits` [texels][channels],
-  /// `fine` [fine_texels][channels]; `scratch` is as large as `fine`.
+  /// Interpolates all levels at the texels of max_level and sums them. `logits`:
+  /// [texels][channels]. `fine`: output, [fine_texels][channels]. `scratch` has the size of `fine`.
   void sum(const float* logits, float* fine, float* scratch) const;
 
-  /// The transpose: from the gradient at the texels of max_level to that of all levels' texels.
-  /// `fine` is used up.
+  /// The transpose: from the gradient at the texels of max_level to the gradient of all levels.
   void scatter(float* fine, float* logits) const;
 
  private:
@@ -36,7 +35,7 @@ class Pyramid {
 
 struct TextureStore {
   std::vector<float> values;  // [face][fine texel][channels]
-  std::vector<float> alpha;   // [face][fine texel]: channel 7 again, for who needs nothing else
+  std::vector<float> alpha;   // [face][fine texel]: a copy of channel 7, for the visibility test
 };
 
 }  // namespace tureen::trainer

@@ -1,4 +1,4 @@
-// Which face each pixel shows.
+// The visible face of each pixel.
 #pragma once
 
 #include "trainer/diffsoup/backend.hpp"
@@ -10,8 +10,8 @@ namespace tureen::trainer {
 /// Projects all faces and sorts them into tiles.
 void bin_faces(BatchImage& image, const Model& model);
 
-/// Fills image.visible of one tile. Of equal depths the lower face wins. Returns how many
-/// fragments there were.
+/// Fills image.visible in one tile. At equal depths the lower face wins. Returns the number of
+/// fragments.
 std::uint64_t find_visible(BatchImage& image, std::size_t tile, const float* alpha, int level,
                            Masking masking);
 

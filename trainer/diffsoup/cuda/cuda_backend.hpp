@@ -11,10 +11,10 @@ namespace tureen::trainer {
 /// Throws the ContextError of make_cuda_backend.
 void require_cuda();
 
-/// On the current device; CUDA_VISIBLE_DEVICES tells which that is. The views must outlive the
-/// backend. Throws ContextError where no GPU answers or this build has no code for it, and
-/// DeviceLimitError where its memory is too small for the views; upload() and step() throw the
-/// latter, too.
+/// Uses the current device, which CUDA_VISIBLE_DEVICES selects. The views must outlive the backend.
+/// Throws ContextError if no GPU is available or this build has no code for it, and
+/// DeviceLimitError if its memory is too small for the views. upload() and step() also throw
+/// DeviceLimitError.
 std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView> views,
                                            const Config& config);
 

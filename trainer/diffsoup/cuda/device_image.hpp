@@ -1,4 +1,4 @@
-// What the kernels know of a batch and of the model: plain pointers into the device's memory.
+// The batch and the model for kernels: plain pointers into the device's memory.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,20 @@
 
 namespace tureen::trainer::cuda {
 
-/// Loss kernels work in tiles of this size. A tile and its margin of ten pixels, weighed in one
-/// direction, are 22 KB of a block's memory.
+/// Tile size of the loss kernels. A tile with its margin of ten pixels, filtered in one direction,
+/// needs 22 KB of a block's memory.
 inline constexpr int tile_width = 32, tile_height = 16;
 
-/// One image of a batch. Its pixels follow those of the images before it.
+/// One image of a batch. Its pixels follow the pixels of the previous images.
 struct DeviceImage {
   kernels::View view;
   std::uint32_t draw_key;
-  std::size_t first_pixel;  // in arrays with one entry a pixel
-  unsigned first_tile;      // of the loss kernels' tiles
+  std::size_t first_pixel;  // in arrays with one entry per pixel
+  unsigned first_tile;      // index of its first tile in the loss kernels
   unsigned tiles_x;
-  // Of the photograph; null where the image has none.
+  // Data of the photograph; null without one.
   const std::uint8_t* target;   // three planes
-  const std::uint8_t* ignored;  // null where all pixels count
+  const std::uint8_t* ignored;  // null if no pixel is ignored
   std::uint16_t* baseline;      // null without a baseline
 
   TUREEN_HOST_DEVICE std::size_t pixels() const {
@@ -34,7 +34,7 @@ struct DeviceImage {
   }
 };
 
-/// The sums that a step reports, an image each, in fixed point of loss_scale or counted.
+/// The sums of one image for the step's report: fixed point of loss_scale, and counts.
 struct ImageSums {
   Fixed l1, dissimilarity, squared;
   unsigned long long shaded, non_finite;
@@ -44,7 +44,7 @@ struct ImageSums {
 struct DeviceBatch {
   const DeviceImage* images;
   unsigned count;
-  std::size_t pixels;  // of all
+  std::size_t pixels;  // of all images
 
   /// The image that holds a pixel of the batch.
   TUREEN_HOST_DEVICE const DeviceImage& image_of(std::size_t pixel) const {
@@ -54,7 +54,7 @@ struct DeviceBatch {
   }
 };
 
-/// The model and what is made of it, constant while an image is drawn.
+/// The model and its textures, constant while an image is drawn.
 struct DeviceModel {
   std::size_t faces;
   int min_level, max_level;
@@ -67,9 +67,9 @@ struct DeviceModel {
   TUREEN_HOST_DEVICE std::size_t fine_texels() const { return lattice::texel_count(max_level); }
 };
 
-/// What a pixel shows, one number: the inverse depth's bits, which are ordered like the positive
-/// floats that they are, above the complement of the face. The larger one is nearer, or as near and
-/// of a lower face. 0 where nothing shows.
+/// The visible face of a pixel in one number. The upper half holds the bits of the inverse depth,
+/// which have the order of positive floats; the lower half holds the complement of the face. A
+/// larger key is nearer, or equally near with a lower face. 0 means no face.
 using VisibleKey = unsigned long long;
 
 TUREEN_HOST_DEVICE VisibleKey visible_key(float inverse_depth, std::uint32_t face) {
@@ -78,7 +78,7 @@ TUREEN_HOST_DEVICE VisibleKey visible_key(float inverse_depth, std::uint32_t fac
   return VisibleKey(bits) << 32 | VisibleKey(~face);
 }
 
-/// Of a key that is not 0.
+/// The face of a key that is not 0.
 TUREEN_HOST_DEVICE std::uint32_t face_of(VisibleKey key) { return ~std::uint32_t(key); }
 
 TUREEN_HOST_DEVICE float inverse_depth_of(VisibleKey key) {

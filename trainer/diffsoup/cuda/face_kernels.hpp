@@ -1,7 +1,7 @@
-// What images have for each face, and its step: the opposite of
-// trainer/diffsoup/cpu/face_stage.hpp, where a face gathers all of it at once. Here pieces of faces
-// add to sums in fixed point, and a block a face steps it, makes its texture anew and leaves the
-// sums zero for the next step.
+// The gradients of faces from images, and their steps. On the CPU, a face gathers its whole
+// gradient at once (trainer/diffsoup/cpu/face_stage.hpp). Here, pieces of faces add to sums in
+// fixed point. Then one block per face steps it, refreshes its texture and clears the sums for the
+// next step.
 #pragma once
 
 #include "trainer/common/kernels/adam.hpp"
@@ -15,15 +15,15 @@ namespace tureen::trainer::cuda {
 // Bits of FaceSums::flags.
 inline constexpr unsigned touched_flag = 1, bad_texture_flag = 2, bad_corners_flag = 4;
 
-/// All zeros between steps.
+/// Sums of the gradients; all are zero between steps.
 struct FaceSums {
   Fixed* texture;   // [face][fine texel][channels]: by the features, and by the logit of alpha
   Fixed* corners;   // [face][3][3]: by the positions, world axes
   unsigned* flags;  // [face]
-  Fixed* errors;    // [face]: of the pixels that it showed, sum over channels of |C - G|
+  Fixed* errors;    // [face]: sum of |C - G| over its visible pixels and their channels
 };
 
-/// Adds up score, features and edges. Any number of blocks.
+/// Sums the gradients from score, features and edges. Any number of blocks.
 struct GatherFaces {
   static constexpr unsigned threads = 128;
   using Shared = Nothing;
@@ -79,7 +79,7 @@ struct GatherFaces {
       Atomics::set_bits(sums.flags[piece.face], flags);
   }
 
-  /// False where something is not finite and so was left out, here and below.
+  /// Returns false if it skipped a value that is not finite; so do the functions below.
   template <class Atomics>
   TUREEN_HOST_DEVICE bool add_score(std::uint32_t face, std::size_t pixel,
                                     const lattice::Footprint<float>& at, bool won) const {
@@ -130,7 +130,7 @@ struct GatherFaces {
     return result;
   }
 
-  /// The four edges of a pixel that the face won.
+  /// Adds the gradients from the four edges of a pixel that shows the face.
   TUREEN_HOST_DEVICE void gather_edges(const DeviceImage& image, const Piece& piece,
                                        const kernels::ProjectedFace& face,
                                        const kernels::Fragment& fragment,
@@ -173,12 +173,12 @@ struct GatherFaces {
   }
 };
 
-/// The textures of all faces: logits of all levels, and what fragments see of them.
+/// The textures of all faces: logits of all levels, and the values for fragments.
 struct Textures {
   int min_level, max_level;
-  const lattice::Coordinates* coordinates;  // of texels in their order, which all levels share
+  const lattice::Coordinates* coordinates;  // of texels in their order, the same for all levels
   float* logits;                            // [face][texel of all levels][channels]
-  float* work;                              // of the same size
+  float* work;                              // the same size as logits
   float* values;                            // [face][fine texel][channels]
   float* alpha;                             // [face][fine texel]
 
@@ -193,8 +193,8 @@ struct Textures {
     return array + (face * texels() + kernels::level_begin(min_level, level)) * channels;
   }
 
-  /// A block sums a level of `logits` and those below it, which lie in `work` by now; the finest
-  /// goes through the sigmoid.
+  /// Adds a level of `logits` to the sum of the lower levels, which `work` already holds. The sum
+  /// goes to `work`; at the finest level, its sigmoid goes to `values`. One block per face.
   TUREEN_HOST_DEVICE void sum_level(std::size_t face, int level, unsigned thread,
                                     unsigned threads) const {
     const float* own = at(logits, face, level);
@@ -228,7 +228,7 @@ struct Textures {
       const std::size_t channel = i % channels;
       const int x = 2 * coordinates[i / channels].x, y = 2 * coordinates[i / channels].y;
       float sum = fine[lattice::texel_index(x, y) * channels + channel];
-      // The six that lie half way to a neighbour.
+      // The six fine texels in the middle to a neighbour.
       const int steps[6][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}};
       for (const auto& step : steps) {
         const int nx = x + step[0], ny = y + step[1];
@@ -240,7 +240,7 @@ struct Textures {
   }
 };
 
-/// Makes all textures. A block a face.
+/// Computes all textures. One block per face.
 struct RefreshTextures {
   static constexpr unsigned threads = 128;
   using Shared = Nothing;
@@ -254,7 +254,7 @@ struct RefreshTextures {
   }
 };
 
-/// Steps all faces that were touched, or all. A block a face.
+/// Steps the touched faces, or all faces with dense_updates. One block per face.
 struct StepFaces {
   static constexpr unsigned threads = 128;
   struct Shared {
@@ -266,7 +266,7 @@ struct StepFaces {
   Textures textures;
   FaceSums sums;
   float* positions;                     // [face][3][3]
-  float *first, *second;                // as Textures::logits
+  float *first, *second;                // layout of Textures::logits
   float *vertex_first, *vertex_second;  // [face][3][3], [face][3]
   std::uint32_t* steps;                 // [face]
   float* errors;                        // [face]: TrainingState::errors
@@ -274,7 +274,7 @@ struct StepFaces {
   bool dense_updates;
   unsigned long long* non_finite;
 
-  // begin, take the sums, coarsen level by level, step, sum level by level, end
+  // Phases: begin, take the sums, coarsen level by level, step, sum level by level, end.
   TUREEN_HOST_DEVICE unsigned phases() const { return 2 + (levels() - 1) + 1 + levels() + 1; }
   TUREEN_HOST_DEVICE unsigned levels() const { return textures.levels(); }
 
@@ -309,7 +309,8 @@ struct StepFaces {
     shared.vertex = kernels::adam_step(vertex_rate, beta1, beta2, epsilon, t);
   }
 
-  /// Features go through the sigmoid; the score is by the logit already.
+  /// Multiplies the feature gradients by the sigmoid's derivative. The score is already a
+  /// derivative by the logit.
   template <class Atomics>
   TUREEN_HOST_DEVICE void take_sums(std::size_t face, unsigned thread, Shared& shared) const {
     const std::size_t count = textures.fine_texels() * channels;
@@ -320,7 +321,7 @@ struct StepFaces {
       const float gradient = from_fixed(in[i], texture_scale), v = values[i];
       in[i] = 0;
       out[i] = i % channels == alpha_channel ? gradient : gradient * v * (1.0f - v);
-      // Sums are finite, textures should be.
+      // Sums are always finite; textures may not be.
       if (!std::isfinite(out[i])) Atomics::set_bits(shared.flags, bad_texture_flag);
     }
   }
@@ -354,9 +355,9 @@ struct StepFaces {
   }
 };
 
-/// Steps the network by the sum of what the blocks of ShadeBackward have. One block.
+/// Steps the network with the sum over the blocks of ShadeBackward. One block.
 struct StepNetwork {
-  static constexpr unsigned threads = 608;  // whole warps for mlp_parameters
+  static constexpr unsigned threads = 608;  // mlp_parameters (595) rounded up to whole warps
   struct Shared {
     float gradient[mlp_parameters];
     bool good;

@@ -1,22 +1,22 @@
-// A training step as a sequence of kernels, on any machine that runs them: a GPU
-// (trainer/common/cuda/cuda_machine.cuh), or a processor in the tests
-// (tests/trainer/host_machine.hpp). Everything stays in the machine's memory between upload() and
-// download(); of a step only its report comes back.
+// A training step as a sequence of kernels on a Machine: a GPU
+// (trainer/common/cuda/cuda_machine.cuh), or a processor in tests (tests/trainer/host_machine.hpp).
+// All data stays in the machine's memory between upload() and download(); a step returns only its
+// report.
 //
-// A Machine has memory and kernels run in the order in which they are launched:
+// A Machine has memory, and runs kernels in the order of their launches:
 //
 //   std::string description() const;
-//   void* allocate(std::size_t bytes);      // throws DeviceLimitError where there is no room
+//   void* allocate(std::size_t bytes);      // throws DeviceLimitError if the memory is full
 //   void release(void* memory);
 //   void clear(void* memory, std::size_t bytes);
 //   void upload(void* to, const void* from, std::size_t bytes);
-//   void download(void* to, const void* from, std::size_t bytes);  // when all before is done
+//   void download(void* to, const void* from, std::size_t bytes);  // waits for earlier launches
 //   template <class Kernel> void launch(const Kernel&, std::size_t blocks);
-//   unsigned resident_blocks() const;       // that keep it busy, where a kernel takes any number
-//   void mark(int number);                  // the time when all before is done
-//   double seconds(int from, int to);       // between marks, after a download
+//   unsigned resident_blocks() const;       // blocks that use it fully, for kernels with any
+//   number void mark(int number);                  // records the time after earlier launches
+//   double seconds(int from, int to);       // time between marks, after a download
 //
-// Two runs give the same bits, on the same kind of machine.
+// Two runs give the same bits on the same kind of machine.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@
 
 namespace tureen::trainer::cuda {
 
-/// An array in a machine's memory. It keeps its memory when it shrinks.
+/// An array in a machine's memory. It does not free memory when it shrinks.
 template <class Machine, class T>
 class Buffer {
  public:
@@ -43,7 +43,7 @@ class Buffer {
   T* data() const { return data_; }
   std::size_t size() const { return size_; }
 
-  /// What was in it is lost where it grows beyond its memory.
+  /// Loses the contents if the array grows beyond its allocated memory.
   void resize(std::size_t size) {
     size_ = size;
     if (size <= capacity_) return;
@@ -55,18 +55,18 @@ class Buffer {
   void clear() {
     if (size_) machine_.clear(data_, size_ * sizeof(T));
   }
-  /// As many as `values` has, of the same size.
+  /// Resizes to `values` and copies them. U is T or a struct of T.
   template <class U>
   void upload(const std::vector<U>& values) {
     static_assert(sizeof(U) % sizeof(T) == 0);
-    // NOLINTNEXTLINE(bugprone-sizeof-expression): addresses are values like others here
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are ordinary values here
     resize(values.size() * (sizeof(U) / sizeof(T)));
     if (size_) machine_.upload(data_, values.data(), size_ * sizeof(T));
   }
   void upload(const T* values, std::size_t first, std::size_t count) {
     if (count) machine_.upload(data_ + first, values, count * sizeof(T));
   }
-  /// `values` has the right size already.
+  /// `values` must have the array's size.
   template <class U>
   void download(std::vector<U>& values) const {
     if (size_) machine_.download(values.data(), data_, size_ * sizeof(T));
@@ -110,19 +110,19 @@ class KernelBackend final : public Backend {
   static std::size_t blocks(std::size_t count, unsigned threads) {
     return (count + threads - 1) / threads;
   }
-  /// Of ShadeBackward: each writes mlp_parameters sums, and one block adds those of all.
+  /// Blocks of ShadeBackward. Each writes mlp_parameters sums; one block of StepNetwork adds them.
   static constexpr unsigned network_blocks = 512;
 
   std::span<const TrainingView> views_;
   Config config_;
   mutable Machine machine_;
 
-  // Of the views, one after another.
+  // Data of the views, one view after another.
   std::vector<std::size_t> first_pixel_;
   Array<std::uint8_t> targets_{machine_}, ignored_{machine_};
   Array<std::uint16_t> baseline_{machine_};
 
-  // The state. What is no array is kept here.
+  // The state. state_ holds the members that are not arrays.
   TrainingState state_;
   Array<float> positions_{machine_}, logits_{machine_}, mlp_{machine_};
   Array<float> first_{machine_}, second_{machine_};
@@ -130,13 +130,13 @@ class KernelBackend final : public Backend {
   Array<float> mlp_first_{machine_}, mlp_second_{machine_}, errors_{machine_};
   Array<std::uint32_t> steps_{machine_}, mlp_steps_{machine_};
 
-  // What is made of it.
+  // Data computed from the state.
   Array<lattice::Coordinates> coordinates_{machine_};
   Array<float> work_{machine_}, values_{machine_}, alpha_{machine_};
   Array<Fixed> texture_sums_{machine_}, corner_sums_{machine_}, error_sums_{machine_};
   Array<unsigned> flags_{machine_};
 
-  // Of a batch.
+  // Data of a batch.
   std::vector<DeviceImage> batch_images_;
   DeviceBatch batch_{};
   unsigned tiles_ = 0;
@@ -147,7 +147,7 @@ class KernelBackend final : public Backend {
   Array<float> color_{machine_}, by_color_{machine_}, windows_{machine_}, advantage_{machine_};
   Array<float> error_{machine_};
   Array<float> by_features_{machine_}, by_mlp_{machine_};
-  Array<ImageSums> sums_{machine_};  // one more than images: the last counts the parameters'
+  Array<ImageSums> sums_{machine_};  // one per image, and a last one for the parameters
   Array<unsigned long long> counts_{machine_}, fragments_{machine_};
   StageTimes times_;
 };
@@ -281,7 +281,7 @@ DeviceImage KernelBackend<Machine>::image_of(const Camera& camera) const {
   return image;
 }
 
-/// Lays out a batch; images have their view and what is a photograph's.
+/// Lays out a batch. `images` must have their view and the data of their photograph.
 template <class Machine>
 void KernelBackend<Machine>::set_images(std::vector<DeviceImage> images) {
   batch_ = {.images = nullptr, .count = unsigned(images.size()), .pixels = 0};
@@ -387,7 +387,7 @@ void KernelBackend<Machine>::take_loss() {
 
 template <class Machine>
 void KernelBackend<Machine>::shade_backward() {
-  // Gradients are means over the batch: scaled to a pixel's own they suit the range of a half.
+  // Gradients are means over the batch. Scaled to one pixel, they fit the range of a half.
   const float half_scale = config_.gradient_precision == GradientPrecision::float16
                                ? 3.0f * float(batch_images_.front().pixels()) * float(batch_.count)
                                : 0.0f;
@@ -500,7 +500,7 @@ template <class Machine>
 std::vector<std::uint64_t> KernelBackend<Machine>::visible_pixels(std::span<const Camera> cameras) {
   counts_.resize(flags_.size());
   counts_.clear();
-  constexpr std::size_t at_once = 8;  // as many as bear the cost of a launch
+  constexpr std::size_t at_once = 8;  // enough images to hide the cost of a launch
   for (std::size_t begin = 0; begin < cameras.size(); begin += at_once) {
     std::vector<DeviceImage> images;
     for (const Camera& camera : cameras.subspan(begin, std::min(at_once, cameras.size() - begin)))

@@ -1,8 +1,8 @@
 // The image loss, L1 and SSIM, and its gradient (trainer/common/kernels/image_loss.hpp), in tiles.
 //
-// A window of SSIM is named by its upper left pixel. The first kernel compares the windows of a
-// tile; the second adds up, for each pixel of a tile, the windows that hold it, and knows all of
-// its loss then: it also turns that into what the opacity's score takes.
+// The upper left pixel identifies an SSIM window. The first kernel compares the windows of a tile.
+// The second kernel sums, for each pixel of a tile, the windows that contain it. It then has the
+// pixel's whole loss, and computes the factor of the opacity's score from it.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace tureen::trainer::cuda {
 
 inline constexpr int ssim_reach = ssim_window - 1;
 
-/// Where a tile lies.
+/// The position of a tile.
 struct Tile {
   const DeviceImage* image;
   unsigned index;  // of the image
@@ -30,8 +30,7 @@ TUREEN_HOST_DEVICE Tile tile_of(const DeviceBatch& batch, unsigned block) {
           int(within / image.tiles_x) * tile_height};
 }
 
-/// Whether a pixel's loss counts. Where a channel is not finite it does not, as if the caller had
-/// said so.
+/// Whether a pixel's loss counts. A pixel with a channel that is not finite is ignored too.
 enum class Counted { yes, ignored, not_finite };
 
 TUREEN_HOST_DEVICE Counted counted(const DeviceImage& image, const float* color,
@@ -43,7 +42,7 @@ TUREEN_HOST_DEVICE Counted counted(const DeviceImage& image, const float* color,
   return image.ignored && image.ignored[pixel] ? Counted::ignored : Counted::yes;
 }
 
-/// The arguments of the moments; where the pixel does not count, the photograph's own colour.
+/// The arguments of the moments. An ignored pixel has the photograph's colour.
 TUREEN_HOST_DEVICE SsimPixel<float> pixel_of(const DeviceImage& image, const float* color,
                                              std::size_t pixel, std::size_t channel) {
   const std::size_t at = channel * image.pixels() + pixel;
@@ -60,8 +59,8 @@ TUREEN_HOST_DEVICE float weighed(const float* in, int stride) {
   return sum;
 }
 
-/// A tile of `planes` images, as far as its windows reach, weighed in two passes: every row along x
-/// by all threads of a block, then the columns where they are asked for.
+/// A tile of `planes` images with the margin of its windows, filtered in two passes: all threads of
+/// a block filter the rows along x; at() filters a column.
 template <int planes>
 struct WeighedTile {
   static constexpr int wide = tile_width + ssim_reach, high = tile_height + ssim_reach;
@@ -80,8 +79,8 @@ struct WeighedTile {
   }
 };
 
-/// Compares all windows: three planes of derivatives a channel, planes of an image's size, of
-/// which the last ten rows and columns are not written. A block a tile.
+/// Compares all windows. Writes three planes of derivatives per channel with the image's size; the
+/// last ten rows and columns are not written. One block per tile.
 struct CompareWindows {
   static constexpr unsigned threads = 256;
   using Tiles = WeighedTile<4>;  // sum, difference and their squares
@@ -93,7 +92,7 @@ struct CompareWindows {
     double dissimilarity;
   };
   DeviceBatch batch;
-  const float* color;  // as Shade::color
+  const float* color;  // layout of Shade::color
   float* windows;      // [image][channel][3][y][x]
   ImageSums* sums;
 
@@ -158,18 +157,19 @@ struct CompareWindows {
   }
 };
 
-/// What the loss of a step is made of.
+/// The weights in the loss of a step.
 struct LossWeights {
-  float l1, ssim;  // of an image's loss in the step's: the configuration's over the batch
-  float opacity;   // scale of the score's loss, before it is divided by 3 pixels
+  float l1, ssim;  // weights for one image: the configuration's, divided by the batch size
+  float opacity;   // scale of the score's loss, before the division by 3 x pixels
   float baseline_rate;
 };
 
-/// The gradient by all colours, what the score takes, and the sums of a report. A block a tile.
+/// Computes the gradient by all colours, the factor of the score, and the sums for the report. One
+/// block per tile.
 struct TakeLoss {
   static constexpr unsigned threads = 256;
   using Tiles = WeighedTile<3>;                                        // derivatives of the windows
-  static constexpr int own = tile_width * tile_height / int(threads);  // pixels a thread
+  static constexpr int own = tile_width * tile_height / int(threads);  // pixels per thread
   struct Shared {
     Tiles tile;
     double l1[threads], squared[threads];
@@ -184,9 +184,9 @@ struct TakeLoss {
   const float* color;
   const float* windows;
   const VisibleKey* keys;
-  float* by_color;   // as Shade::color
-  float* advantage;  // one a pixel: what the score takes
-  float* error;      // one a pixel: sum over channels of |C - G|
+  float* by_color;   // layout of Shade::color
+  float* advantage;  // one per pixel: factor of the score
+  float* error;      // one per pixel: sum over channels of |C - G|
   ImageSums* sums;
 
   TUREEN_HOST_DEVICE unsigned phases() const { return 3 * 3 + 2; }
@@ -206,7 +206,8 @@ struct TakeLoss {
     }
   }
 
-  /// The windows whose upper left pixel lies in the tile or up to ten above or to the left.
+  /// Reads the windows with an upper left pixel in the tile, or up to ten pixels above or left of
+  /// it.
   TUREEN_HOST_DEVICE void read(const Tile& tile, unsigned channel, const Thread& at,
                                Shared& shared) const {
     const DeviceImage& image = *tile.image;
@@ -230,7 +231,7 @@ struct TakeLoss {
     const std::size_t pixels = image.pixels(), width = std::size_t(image.view.width);
     const float columns = float(image.view.width - ssim_reach);
     const float rows = float(image.view.height - ssim_reach);
-    // Smaller images have no window; their planes hold nothing.
+    // Images smaller than a window have no windows, and their planes are empty.
     const float ssim_scale =
         columns > 0 && rows > 0 ? weights.ssim / (6.0f * (columns * rows)) : 0.0f;
     const float l1_scale = weights.l1 / float(3 * pixels);
@@ -265,7 +266,7 @@ struct TakeLoss {
       non_finite += counts == Counted::not_finite;
       float loss = local.loss[k];
       error[image.first_pixel + pixel] = loss;
-      // A pixel that does not count has a loss of 0, which says nothing of what it mostly shows.
+      // An ignored pixel has a loss of 0, which must not change the running mean.
       if (image.baseline && counts == Counted::yes) loss -= run_on(image.baseline[pixel], loss);
       advantage[image.first_pixel + pixel] =
           loss * (weights.opacity / (3.0f * float(image.pixels())));
@@ -276,7 +277,8 @@ struct TakeLoss {
     shared.non_finite[at.thread] = non_finite;
   }
 
-  /// The running mean of a pixel's loss so far; it runs on. TrainingState::baseline tells the form.
+  /// Returns the running mean of a pixel's loss and then updates it. `stored` is encoded as in
+  /// TrainingState::baseline.
   TUREEN_HOST_DEVICE float run_on(std::uint16_t& stored, float loss) const {
     const float root = float(stored) / 65535;
     const float mean = 3 * root * root;

@@ -1,8 +1,8 @@
-// Colours of what pixels show, and the way back to features and network.
+// Colours of pixels, and the backward pass to features and network.
 //
-// The gradient of the network is a sum over all pixels of outer products. A block keeps the
-// activations of its pixels and the derivatives by its layers' sums in shared memory; then its
-// threads turn round, and each adds up a few of the weights over these pixels.
+// The gradient of the network is a sum over all pixels of outer products. A block first stores the
+// activations of its pixels and the derivatives by its layers' sums in shared memory. Then each
+// thread sums a few weights over these pixels.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace tureen::trainer::cuda {
 
-/// What a network needs of a pixel: the features where the winner's texture is hit, harmonics of
+/// The network's input for a pixel: features from the texture of the visible face, and harmonics of
 /// the direction to the eye.
 TUREEN_HOST_DEVICE void network_input(const DeviceImage& image, const DeviceModel& model,
                                       const kernels::ProjectedFace& projected, std::uint32_t face,
@@ -41,7 +41,7 @@ TUREEN_HOST_DEVICE void network_input(const DeviceImage& image, const DeviceMode
                       input + kernels::features);
 }
 
-/// Fills `color`: three planes an image, those of image after image. One thread a pixel.
+/// Fills `color`: three planes per image, image after image. One thread per pixel.
 struct Shade {
   static constexpr unsigned threads = 128;
   struct Shared {
@@ -79,14 +79,14 @@ struct Shade {
   }
 };
 
-/// A pixel's share in the network's gradient: what every layer saw, and the derivative by its sums.
+/// A pixel's share in the network's gradient: each layer's inputs, and the derivatives by its sums.
 struct NetworkShare {
   float input[mlp_inputs], hidden1[mlp_width], hidden2[mlp_width];
   float dz1[mlp_width], dz2[mlp_width], dz3[mlp_outputs];
 };
 
-/// Keeps the derivatives by a layer's sums and leaves the products to others
-/// (kernels::network_backward).
+/// Stores the derivatives by a layer's sums (for kernels::network_backward). ShadeBackward::add_up
+/// computes the products later.
 struct KeptDerivatives {
   NetworkShare* share;
 
@@ -97,21 +97,21 @@ struct KeptDerivatives {
   TUREEN_HOST_DEVICE void bias(int biases, int o, const float& dy) const {
     of(biases)[o] = dy;
 #if defined(__CUDA_ARCH__)
-    // Without it nvcc fetches the weights of many outputs ahead, and runs out of registers.
+    // Without this barrier nvcc loads the weights of many outputs ahead, and has too few registers.
     asm volatile("" ::: "memory");
 #endif
   }
   TUREEN_HOST_DEVICE void weight(int, int, const float&, const float&) const {}
 };
 
-/// dL/dfeatures of every pixel, and of every block its sum of the network's gradient. Any number of
-/// blocks; a block takes every so-many-th run of `threads` pixels.
+/// Computes dL/dfeatures for each pixel, and the sum of the network's gradient for each block. Any
+/// number of blocks; block b takes the runs b, b + blocks, .. of `threads` pixels.
 struct ShadeBackward {
   static constexpr unsigned threads = 128;
   struct Shared {
     alignas(16) float mlp[mlp_parameters];
-    bool shows[threads];           // whether the pixel shows a face; if not, its share is garbage
-    NetworkShare shares[threads];  // 83 floats each: threads write to banks of their own
+    bool shows[threads];           // whether the pixel shows a face; if not, its share is undefined
+    NetworkShare shares[threads];  // 83 floats each: an odd number, so threads use different banks
   };
   struct Local {
     float weights1[2], weights2[2], weights3, biases;
@@ -120,10 +120,10 @@ struct ShadeBackward {
   DeviceModel model;
   const kernels::ProjectedFace* projected;
   const VisibleKey* keys;
-  const float* by_color;  // laid out as Shade::color
-  unsigned blocks;        // that are launched
-  float* by_features;     // [pixel][channels]; the last one is 0
-  float half_scale;       // not 0: gradients of features are rounded to half precision, times this
+  const float* by_color;  // layout of Shade::color
+  unsigned blocks;        // number of launched blocks
+  float* by_features;     // [pixel][channels]; the last channel is 0
+  float half_scale;       // if not 0: scale of feature gradients for rounding to half precision
   float* by_mlp;          // [block][mlp_parameters]
 
   TUREEN_HOST_DEVICE std::size_t rounds() const {
@@ -131,8 +131,8 @@ struct ShadeBackward {
     return (batch.pixels + a_round - 1) / a_round;
   }
 
-  /// Phase 0 fetches the network; then rounds of two: every thread its pixel,
-  /// every thread its weights; at last the sums are written.
+  /// Phase 0 loads the network. Each round then has two phases: every thread computes its pixel,
+  /// and every thread sums its weights. The last phase writes the sums.
   TUREEN_HOST_DEVICE unsigned phases() const { return unsigned(2 * rounds()) + 2; }
 
   template <class Atomics>
@@ -163,7 +163,7 @@ struct ShadeBackward {
     kernels::NetworkState<float> state;
     network_input(image, model, projected[std::size_t(&image - batch.images) * model.faces + face],
                   face, pixel, state.input);
-    // What is no number would reach the network's gradient even times zero.
+    // NaN and infinity would reach the network's gradient even times zero.
     bool finite = true;
     for (int f = 0; f < kernels::features; ++f) finite = finite && std::isfinite(state.input[f]);
     for (int f = 0; f < kernels::features; ++f) state.input[f] = finite ? state.input[f] : 0.0f;
@@ -185,8 +185,8 @@ struct ShadeBackward {
     out[alpha_channel] = 0;
   }
 
-  /// Thread t has the weights of input t % 16 for the outputs t / 16 and t / 16 + 8 of both hidden
-  /// layers, the first 48 threads those of the last layer, and 35 threads a bias.
+  /// Thread t sums the weights from input t % 16 to outputs t / 16 and t / 16 + 8 of both hidden
+  /// layers. The first 48 threads also sum the last layer's weights; 35 other threads sum a bias.
   TUREEN_HOST_DEVICE void add_up(const Thread& at, const Shared& shared, Local& local) const {
     static_assert(threads == mlp_width * mlp_width / 2 && mlp_inputs == mlp_width);
     const unsigned t = at.thread, i = t % mlp_width, o = t / mlp_width;
@@ -198,14 +198,15 @@ struct ShadeBackward {
         local.weights2[half] += share.hidden1[i] * share.dz2[o + half * 8];
       }
       if (t < mlp_outputs * mlp_width) local.weights3 += share.hidden2[i] * share.dz3[o];
-      // The derivatives lie one after another as the biases do in dz1, dz2, dz3.
+      // The biases have the order of dz1, dz2, dz3.
       if (bias_of(t) >= 0) local.biases += derivative(share, bias_of(t));
     }
   }
 
   static constexpr int all_biases = 2 * mlp_width + mlp_outputs;
 
-  /// Which of all biases a thread adds up, -1: none. Threads that have no weight of the last layer.
+  /// The bias that thread t sums; negative if it has none. Threads from 64 on have no weight of the
+  /// last layer.
   TUREEN_HOST_DEVICE static int bias_of(unsigned t) {
     const int bias = int(t) - 64;
     return bias < all_biases ? bias : -1;

@@ -1,9 +1,9 @@
-// From triangles to the face that each pixel shows.
+// The visible face of each pixel.
 //
-// A triangle's rectangle on an image is cut into pieces of a warp's work, so that a large triangle
-// is not one thread's burden: faces are projected and their pieces counted, the counts summed, and
-// warps take piece after piece by looking it up in the sums. Which fragment is nearest is decided
-// by one atomic maximum, so that the order in which they come does not matter.
+// A triangle's rectangle on an image is divided into pieces, each the work of one warp, so that
+// many threads share a large triangle. The kernels project the faces, count their pieces and sum
+// the counts. Each warp then finds its next piece in these sums. One atomic maximum per pixel
+// selects the nearest fragment, so the order of fragments does not matter.
 #pragma once
 
 #include "scene/triangle_soup.hpp"
@@ -19,14 +19,14 @@ inline constexpr int piece_width = 32, piece_height = 8;
 /// Faces on images: entry image * faces + face.
 struct Projections {
   kernels::ProjectedFace* faces;
-  std::uint64_t* first_piece;  // counts, then their sums; one more entry than projections
+  std::uint64_t* first_piece;  // counts, then their sums; projections + 1 entries
 };
 
 TUREEN_HOST_DEVICE unsigned piece_columns(const kernels::ProjectedFace& face) {
   return unsigned(face.x1 - face.x0 + piece_width - 1) / piece_width;
 }
 
-/// One thread a projection.
+/// Projects faces and counts their pieces. One thread per projection.
 struct ProjectFaces {
   static constexpr unsigned threads = 128;
   using Shared = Nothing;
@@ -50,7 +50,7 @@ struct ProjectFaces {
   }
 };
 
-/// Counts become the sums of those before them. One block.
+/// Replaces each count by the sum of all counts before it. One block.
 struct SumPieces {
   static constexpr unsigned threads = 1024;
   struct Shared {
@@ -114,7 +114,7 @@ TUREEN_HOST_DEVICE Piece piece_of(const Projections& projections, std::size_t co
   return piece;
 }
 
-/// Calls visit(piece, projected) for the pieces of this thread's warp: every so-many-th.
+/// Calls visit(piece, projected) for the pieces of this thread's warp: every n-th for n warps.
 template <class Visitor>
 TUREEN_HOST_DEVICE void for_each_own_piece(const DeviceBatch& batch, const Projections& projections,
                                            std::size_t faces, const Thread& at, unsigned threads,
@@ -142,7 +142,7 @@ TUREEN_HOST_DEVICE void for_each_own_fragment(const kernels::View& view, const P
   }
 }
 
-/// Leaves in `keys`, zeros before, what each pixel shows.
+/// Writes the visible face of each pixel to `keys`, which must be zero.
 struct FindVisible {
   static constexpr unsigned threads = 256;
   struct Shared {
@@ -153,7 +153,7 @@ struct FindVisible {
   DeviceModel model;
   Projections projections;
   Masking masking;
-  VisibleKey* keys;               // one a pixel
+  VisibleKey* keys;               // one per pixel
   unsigned long long* fragments;  // added to: pixel centres that triangles cover
 
   TUREEN_HOST_DEVICE unsigned phases() const { return 2; }
@@ -186,7 +186,7 @@ struct FindVisible {
           std::size_t(fragment.y) * std::size_t(image.view.width) + std::size_t(fragment.x);
       VisibleKey& visible = keys[image.first_pixel + pixel];
       const VisibleKey key = visible_key(fragment.inverse_depth, piece.face);
-      // Keys only grow: one that is behind an old value is behind the present one, too.
+      // Keys only grow: a key below an old value is below the current one too.
       if (key <= Atomics::load(visible)) return;
       const float a = lattice::interpolated(
           lattice::footprint(model.max_level, fragment.b0, fragment.b1), alpha);
@@ -200,14 +200,14 @@ struct FindVisible {
   }
 };
 
-/// Adds the pixels that each face shows. One thread a pixel of the batch.
+/// Counts the visible pixels of each face. One thread per pixel of the batch.
 struct CountVisible {
   static constexpr unsigned threads = 256;
   using Shared = Nothing;
   using Local = Nothing;
   const VisibleKey* keys;
   std::size_t pixels;
-  unsigned long long* counts;  // one a face
+  unsigned long long* counts;  // one per face
 
   TUREEN_HOST_DEVICE unsigned phases() const { return 1; }
   template <class Atomics>

@@ -1,5 +1,5 @@
 // The color MLP (16-16-16-3, ReLU, ReLU, sigmoid) with its residual blend, forward and backward.
-// `Real` is a float, a double, or a pack of floats: one pixel, or several side by side.
+// `Real` is a float or a double for one pixel, or a pack of floats for several pixels.
 //
 // Inputs 0..6 are the features, 7..15 harmonics of the direction from the surface to the eye.
 // colour = (1 - f3) (f0, f1, f2) + f3 mlp(x). DiffSoup (arXiv 2603.27151), section 3.
@@ -13,7 +13,7 @@ namespace tureen::trainer::kernels {
 
 inline constexpr int features = channels - 1;
 
-// Where the layers begin in MlpParameters.
+// Offsets of the layers in MlpParameters.
 inline constexpr int weights1 = 0, biases1 = weights1 + 256;
 inline constexpr int weights2 = biases1 + 16, biases2 = weights2 + 256;
 inline constexpr int weights3 = biases2 + 16, biases3 = weights3 + 48;
@@ -40,7 +40,7 @@ TUREEN_HOST_DEVICE void harmonics9(const Real& x, const Real& y, const Real& z, 
   basis[8] = 0.5462742152960396f * (x * x - y * y);
 }
 
-/// y = W x + b. Weights are numbers of their own type: float for packs, else like Real.
+/// y = W x + b. `Weight` is float for packs, otherwise Real.
 template <int Inputs, int Outputs, class Weight, class Real>
 TUREEN_HOST_DEVICE void dense(const Weight* weights, const Weight* biases, const Real (&x)[Inputs],
                               Real (&y)[Outputs]) {
@@ -51,7 +51,7 @@ TUREEN_HOST_DEVICE void dense(const Weight* weights, const Weight* biases, const
   }
 }
 
-/// Fills all of `state` but its input, and the colour.
+/// Computes the colour, and all of `state` except its input.
 template <class Weight, class Real>
 TUREEN_HOST_DEVICE void shade(const Weight* mlp, NetworkState<Real>& state, Real (&color)[3]) {
   dense(mlp + weights1, mlp + biases1, state.input, state.hidden1);
@@ -66,7 +66,7 @@ TUREEN_HOST_DEVICE void shade(const Weight* mlp, NetworkState<Real>& state, Real
   }
 }
 
-/// Adds what a pixel does to the gradient of the network, where there is memory for all of it.
+/// Adds a pixel's derivatives to the gradient of the whole network.
 template <class Real>
 struct AddedDerivatives {
   Real* dmlp;  // mlp_parameters numbers
@@ -77,8 +77,8 @@ struct AddedDerivatives {
   }
 };
 
-/// dL/dx of one dense layer, which begins at `first_weight` and `first_bias` of `mlp`. Its
-/// derivatives go to `sums`, which is like AddedDerivatives.
+/// dL/dx of one dense layer, which begins at `first_weight` and `first_bias` of `mlp`. `sums`
+/// receives the derivatives by its parameters; it has the interface of AddedDerivatives.
 template <int Inputs, int Outputs, class Weight, class Real, class Sums>
 TUREEN_HOST_DEVICE void dense_backward(const Weight* mlp, int first_weight, int first_bias,
                                        const Real (&x)[Inputs], const Real (&dy)[Outputs],
@@ -94,8 +94,8 @@ TUREEN_HOST_DEVICE void dense_backward(const Weight* mlp, int first_weight, int 
   }
 }
 
-/// From dL/dcolour to dL/dfeatures; what the pixel adds to the gradient of the network goes to
-/// `sums`. `state` is what shade() left. The direction is not differentiated.
+/// From dL/dcolour to dL/dfeatures. `sums` receives the pixel's derivatives by the network's
+/// parameters. `state`: the result of shade(). The direction is not differentiated.
 template <class Weight, class Real, class Sums>
 TUREEN_HOST_DEVICE void network_backward(const Weight* mlp, const NetworkState<Real>& state,
                                          const Real (&dcolor)[3], const Sums& sums,
@@ -118,7 +118,7 @@ TUREEN_HOST_DEVICE void network_backward(const Weight* mlp, const NetworkState<R
   dfeatures[blend_channel] += dblend;
 }
 
-/// The same, added to `dmlp`, mlp_parameters numbers.
+/// The same, with the network's derivatives added to `dmlp`, mlp_parameters numbers.
 template <class Weight, class Real>
 TUREEN_HOST_DEVICE void shade_backward(const Weight* mlp, const NetworkState<Real>& state,
                                        const Real (&dcolor)[3], Real* dmlp,

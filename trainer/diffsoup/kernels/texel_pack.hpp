@@ -1,4 +1,4 @@
-// The channels of one texel as one register.
+// The channels of one texel in one register.
 #pragma once
 
 #include <cstring>

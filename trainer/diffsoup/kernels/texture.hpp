@@ -1,7 +1,8 @@
-// The texture of one face: levels summed, a sigmoid, and interpolation; and the way back.
+// The levels of a face's texture: parents of texels, and offsets.
 //
-// A lattice of level L+1 contains that of level L: each of its texels either is one of the coarser
-// ones or lies half way between two. So the sum over levels is a pyramid: refine, add, refine, add.
+// The lattice of level L+1 contains the lattice of level L. Each of its texels is a coarser texel
+// or lies in the middle between two. The sum over levels is therefore a pyramid: refine, add,
+// refine, add.
 #pragma once
 
 #include "scene/lattice.hpp"
@@ -11,14 +12,14 @@
 
 namespace tureen::trainer::kernels {
 
-/// The two texels of `level` that texel (x, y) of level + 1 is the mean of; twice the same one
-/// where it is one of them.
+/// Texel (x, y) of level + 1 is the mean of these two texels of `level`. Both are the same if it
+/// coincides with one.
 struct Parents {
   std::uint32_t a, b;
 };
 
 TUREEN_HOST_DEVICE Parents parents(int x, int y) {
-  // An odd coordinate lies between two columns or rows; where both are odd, the mean is along the
+  // An odd coordinate lies between two columns or rows. If both are odd, the texel lies on the
   // diagonal that divides the coarser cell.
   const int x_odd = x & 1, y_odd = y & 1, half_x = x >> 1, half_y = y >> 1;
   if (x_odd && y_odd)
@@ -27,7 +28,7 @@ TUREEN_HOST_DEVICE Parents parents(int x, int y) {
           lattice::texel_index(half_x + x_odd, half_y + y_odd)};
 }
 
-/// Texels of the levels low .. high - 1 together: where level `high` begins.
+/// Number of texels in levels low .. high - 1: the offset of level `high`.
 TUREEN_HOST_DEVICE std::uint32_t level_begin(int low, int high) {
   std::uint32_t sum = 0;
   for (int level = low; level < high; ++level) sum += lattice::texel_count(level);

@@ -1,4 +1,4 @@
-// The cameras that the scene's file brings, one by one.
+// The list of recorded cameras from the scene's file.
 
 import type { Viewer } from '../../viewer/types.js';
 import { block, button, make, select } from '../dom.js';
@@ -22,7 +22,7 @@ export class CamerasSection {
     });
   }
 
-  /** Round and round. */
+  /** Selects the next or previous camera, cyclically. */
   step(by: 1 | -1): void {
     const count = this.viewer.scene?.cameras.length ?? 0;
     if (count === 0) return this.tell('The scene has no recorded cameras.');

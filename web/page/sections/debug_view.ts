@@ -1,11 +1,11 @@
-// What is shown instead of the final colours, and what its colours mean.
+// The debug view instead of the final colours, and its legend.
 
 import type { Viewer } from '../../viewer/types.js';
 import { block, fillSentences, input, make, select } from '../dom.js';
 import { hexColor } from '../numbers.js';
 
-export class LookSection {
-  private readonly list = select('look');
+export class DebugViewSection {
+  private readonly list = select('debug-view');
   private readonly first = input('feature-first');
   private readonly count = input('feature-count');
 
@@ -19,10 +19,10 @@ export class LookSection {
     this.fill();
   }
 
-  async show(look: string): Promise<void> {
+  async show(name: string): Promise<void> {
     const features = { first: this.first.valueAsNumber || 0, count: this.count.valueAsNumber || 1 };
     try {
-      await (look === 'features' ? this.viewer.show(look, features) : this.viewer.show(look));
+      await (name === 'features' ? this.viewer.show(name, features) : this.viewer.show(name));
     } catch (error) {
       this.failed(error);
     }
@@ -30,32 +30,32 @@ export class LookSection {
     this.shown();
   }
 
-  /** The next one that the scene has. */
+  /** Selects the next debug view that the scene supports. */
   next(): void {
-    const there = (this.viewer.scene?.lookChoices ?? []).filter((choice) => choice.missing === null);
+    const there = (this.viewer.scene?.debugViews ?? []).filter((choice) => choice.missing === null);
     if (there.length === 0) return;
-    const now = there.findIndex((choice) => choice.look === this.viewer.shownLook);
-    void this.show(there[(now + 1) % there.length]!.look);
+    const now = there.findIndex((choice) => choice.name === this.viewer.debugView);
+    void this.show(there[(now + 1) % there.length]!.name);
   }
 
   update(): void {
-    const look = this.viewer.shownLook;
-    this.list.value = look;
-    const choice = this.viewer.scene?.lookChoices.find((one) => one.look === look);
-    block('look-meaning').textContent = choice?.meaning ?? '';
+    const name = this.viewer.debugView;
+    this.list.value = name;
+    const choice = this.viewer.scene?.debugViews.find((one) => one.name === name);
+    block('debug-view-meaning').textContent = choice?.meaning ?? '';
     const features = this.viewer.scene?.featureCount ?? 0;
-    block('features').hidden = look !== 'features' || features < 2;
+    block('features').hidden = name !== 'features' || features < 2;
     this.first.max = String(Math.max(features - 1, 0));
     this.count.max = String(Math.min(features, 3));
     this.fillLegend(choice?.title ?? '');
   }
 
   private fill(): void {
-    const choices = this.viewer.scene?.lookChoices ?? [];
+    const choices = this.viewer.scene?.debugViews ?? [];
     this.list.disabled = choices.length === 0;
-    this.list.replaceChildren(...choices.map(({ look, title, missing }) =>
-      make('option', { value: look, disabled: missing !== null }, title)));
-    fillSentences(block('missing-looks'), choices.flatMap(({ missing }) => missing ?? []));
+    this.list.replaceChildren(...choices.map(({ name, title, missing }) =>
+      make('option', { value: name, disabled: missing !== null }, title)));
+    fillSentences(block('missing-debug-views'), choices.flatMap(({ missing }) => missing ?? []));
     this.update();
   }
 

@@ -1,4 +1,4 @@
-// How the scene is drawn: background, resolution, and the plan's sentences.
+// Drawing settings: background and resolution; and the plan's sentences.
 
 import type { Resolution, Viewer } from '../../viewer/types.js';
 import { block, button, fillSentences, input, make, select } from '../dom.js';
@@ -6,13 +6,13 @@ import { recall, remember } from '../memory.js';
 import { colorFromHex, hexColor } from '../numbers.js';
 
 const resolutions: readonly { readonly key: string; readonly text: string; readonly value: Resolution }[] = [
-  { key: '0.25', text: 'a quarter of the screen\'s', value: 0.25 },
-  { key: '0.5', text: 'half of the screen\'s', value: 0.5 },
-  { key: '0.75', text: 'three quarters of the screen\'s', value: 0.75 },
-  { key: '1', text: 'the screen\'s own', value: 1 },
-  { key: '2', text: 'four samples a pixel', value: 2 },
-  { key: '30fps', text: 'what holds 30 frames a second', value: { targetFps: 30 } },
-  { key: '60fps', text: 'what holds 60 frames a second', value: { targetFps: 60 } },
+  { key: '0.25', text: '0.25 × screen', value: 0.25 },
+  { key: '0.5', text: '0.5 × screen', value: 0.5 },
+  { key: '0.75', text: '0.75 × screen', value: 0.75 },
+  { key: '1', text: 'screen', value: 1 },
+  { key: '2', text: '2 × screen (4 samples per pixel)', value: 2 },
+  { key: '30fps', text: 'automatic, for 30 frames per second', value: { targetFps: 30 } },
+  { key: '60fps', text: 'automatic, for 60 frames per second', value: { targetFps: 60 } },
 ];
 
 const keyOf = (resolution: Resolution) =>

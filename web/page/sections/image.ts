@@ -1,18 +1,18 @@
-// Saving the image as a file.
+// Saves the image as a file.
 
 import type { Viewer } from '../../viewer/types.js';
 import { button, make, select } from '../dom.js';
 
-/** "0x0" is as large as it is shown. */
+/** Title, width and height of each choice; 0 x 0 for the size on the page. */
 const sizes: readonly (readonly [string, number, number])[] = [
   ['as shown', 0, 0], ['1280 × 720', 1280, 720], ['1920 × 1080', 1920, 1080],
   ['3840 × 2160', 3840, 2160], ['1024 × 1024', 1024, 1024], ['2048 × 2048', 2048, 2048],
 ];
 
-/** What every file system takes: the scene's name without its ending, and what is seen of it. */
-export function imageName(scene: string, look: string): string {
+/** A valid name for all file systems: the scene's name without its extension, and the debug view. */
+export function imageName(scene: string, debugView: string): string {
   const stem = scene.replace(/\.[a-z0-9]{1,5}$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '');
-  return `${stem || 'tureen'}${look === 'color' ? '' : `-${look}`}.png`;
+  return `${stem || 'tureen'}${debugView === 'color' ? '' : `-${debugView}`}.png`;
 }
 
 export class ImageSection {
@@ -27,14 +27,14 @@ export class ImageSection {
 
   async save(): Promise<void> {
     const { viewer } = this;
-    if (!viewer.scene) return this.tell('There is no image to save yet.');
+    if (!viewer.scene) return this.tell('There is no image to save: open a scene first.');
     const [width = 0, height = 0] = this.size.value.split('x').map(Number);
     try {
       const png = await (width > 0 ? viewer.screenshot({ width, height }) : viewer.screenshot());
-      const name = imageName(viewer.scene.name, viewer.shownLook);
+      const name = imageName(viewer.scene.name, viewer.debugView);
       const url = URL.createObjectURL(png);
       make('a', { href: url, download: name }).click();
-      setTimeout(() => URL.revokeObjectURL(url), 60_000);  // some browsers take their time to ask for it
+      setTimeout(() => URL.revokeObjectURL(url), 60_000);  // some browsers start the download late
       this.tell(`Saved as ${name}.`);
     } catch (error) {
       this.failed(error);

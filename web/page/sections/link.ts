@@ -1,4 +1,4 @@
-// A link to what is seen: scene and camera, as far as a link can carry them.
+// A link to the current scene and view, as far as a link can contain them.
 
 import type { Viewer } from '../../viewer/types.js';
 import type { AddressBar } from '../address_bar.js';
@@ -24,32 +24,32 @@ export class LinkSection {
     const { viewer, bar, openings } = this;
     const origin = openings.origin;
     const scene = origin?.kind === 'address' ? origin.address : null;
-    this.field.value = bar.link(scene, viewer.scene ? viewer.getView() : null, viewer.shownLook);
+    this.field.value = bar.link(scene, viewer.scene ? viewer.getView() : null, viewer.debugView);
     block('link-hint').textContent = this.hint();
   }
 
   async copy(): Promise<void> {
     this.update();
-    if (!this.viewer.scene) return this.tell('There is nothing to link to yet.');
+    if (!this.viewer.scene) return this.tell('There is no view to link to: open a scene first.');
     try {
       await navigator.clipboard.writeText(this.field.value);
     } catch {  // no permission, or a page that is neither https nor localhost
       this.field.closest('details')!.open = true;
       this.field.select();
       return this.tell(
-        'The browser does not let the page copy; the link is selected in the panel, under “Image and link”.');
+        'The browser does not allow the page to copy. Copy the selected link in the panel under “Image and link”.');
     }
-    this.tell(`The link is copied. ${this.hint()}`);
+    this.tell(`Link copied. ${this.hint()}`);
   }
 
-  /** What it carries and what not. */
+  /** The contents and limits of the link. */
   private hint(): string {
     const origin = this.openings.origin;
     if (origin?.kind === 'files')
-      return 'The scene came from a file of yours, which a link cannot carry: it has the camera alone, for ' +
-        'who opens the same file.';
+      return 'The link contains only the camera, because the scene is a local file. Open the same file to use ' +
+        'the link.';
     if (origin?.kind === 'page' && location.protocol === 'file:')
-      return 'It leads to this file on this computer; send the file along.';
-    return origin ? 'It opens this scene from here.' : '';
+      return 'The link points to this file on this computer: send the file together with the link.';
+    return origin ? 'The link opens this scene with this view.' : '';
   }
 }

@@ -1,4 +1,4 @@
-// Views that a person keeps, a list for each scene.
+// The list of saved views for each scene.
 
 import type { Viewer } from '../../viewer/types.js';
 import { block, byId, icon, input, make } from '../dom.js';
@@ -17,14 +17,14 @@ export class SavedSection {
     this.show();
   }
 
-  /** Another scene is shown; `key` tells it from others. */
+  /** Shows the views of another scene, identified by `key`. */
   follow(key: string): void {
     this.views = new SavedViews(key);
     this.show();
   }
 
   save(name = ''): void {
-    if (!this.viewer.scene) return this.tell('There is no view to save yet.');
+    if (!this.viewer.scene) return this.tell('There is no view to save: open a scene first.');
     this.tell(`Saved as “${this.views.save(name, this.viewer.getView())}”.`);
     this.show();
   }
@@ -44,6 +44,6 @@ export class SavedSection {
     }));
     const hint = block('saved-hint');
     hint.hidden = this.views.lasting;
-    hint.textContent = 'This browser keeps nothing for this page: they go when it is closed.';
+    hint.textContent = 'This browser stores nothing for this page: saved views are lost when it is closed.';
   }
 }

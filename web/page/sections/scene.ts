@@ -1,4 +1,4 @@
-// What the scene is: facts and notes.
+// Facts and notes about the scene.
 
 import type { SceneSummary, Viewer } from '../../viewer/types.js';
 import { block, fillFacts, fillSentences } from '../dom.js';
@@ -10,14 +10,14 @@ export class SceneSection {
 
   constructor(private readonly viewer: Viewer, loading: Loading) {
     viewer.on('scene', (scene) => {
-      this.notices = [];  // they were of the scene before
+      this.notices = [];  // notices of the previous scene
       this.show(scene);
     });
     viewer.on('notice', (sentence) => {
       this.notices.push(sentence);
       this.showNotes();
     });
-    loading.onBegin(() => { this.notices = []; });  // they were the scene's before
+    loading.onBegin(() => { this.notices = []; });  // notices of the previous scene
     this.show(viewer.scene);
   }
 
@@ -26,11 +26,11 @@ export class SceneSection {
     document.title = scene ? `${scene.name} · Tureen` : 'Tureen';
     fillFacts(block('facts'), scene ? [
       ['Name', scene.name],
-      ['From', scene.source || null],
+      ['Source', scene.source || null],
       ['Size', trianglesText(scene.triangles)],
       ['Appearance', scene.appearance],
-      ['On the device', bytesText(scene.deviceBytes)],
-    ] : [['Name', 'none is open']]);
+      ['GPU memory', bytesText(scene.deviceBytes)],
+    ] : [['Name', 'no scene is open']]);
     this.showNotes();
   }
 

@@ -1,11 +1,11 @@
-// What a frame takes, in the panel and over the image. At rest nothing is drawn, and it says so.
+// Frame times, in the panel and over the image. The page draws no frames while the view is idle.
 
 import type { FrameStats, Viewer } from '../../viewer/types.js';
 import { block, fillFacts, input } from '../dom.js';
 import { recall, remember } from '../memory.js';
 import { bytesText, millisecondsText } from '../numbers.js';
 
-/** Quick enough to follow, slow enough to read. */
+/** Time between updates: short enough to follow, long enough to read. */
 const everyMs = 250;
 
 export class TimesSection {
@@ -30,7 +30,7 @@ export class TimesSection {
     setTimeout(() => {
       this.waiting = false;
       this.update();
-      if (this.viewer.stats.frameMs !== null) this.updateSoon();  // until it has come to rest
+      if (this.viewer.stats.frameMs !== null) this.updateSoon();  // until the view is idle
     }, everyMs);
   }
 
@@ -39,20 +39,20 @@ export class TimesSection {
     const { frameMs, p95Ms, submitMs, width, height, scale } = stats;
     const size = `${width} × ${height}`;
     fillFacts(block('times-facts'), [
-      ['Between frames',
-       frameMs === null ? 'at rest' : `${millisecondsText(frameMs)}, ${(1000 / frameMs).toFixed(0)} a second`],
+      ['Frame interval',
+       frameMs === null ? 'idle' : `${millisecondsText(frameMs)}, ${(1000 / frameMs).toFixed(0)} per second`],
       ['Slowest 5 %', p95Ms === null ? null : `over ${millisecondsText(p95Ms)}`],
-      ['To ask for one', submitMs === null ? null : millisecondsText(submitMs)],
-      ['Drawn at', `${size}, ${scale.toFixed(2)} of the screen's`],
+      ['Submission', submitMs === null ? null : millisecondsText(submitMs)],
+      ['Resolution', `${size}, ${scale.toFixed(2)} × screen`],
       ['WebAssembly', bytesText(stats.wasmBytes)],
-      ['Drawn by', stats.renderer],
+      ['Renderer', stats.renderer],
     ]);
-    block('resolution-now').textContent = `Drawn at ${size}.`;
+    block('resolution-now').textContent = `Current resolution: ${size}.`;
     this.readout.hidden = !this.shown.checked || !this.viewer.scene;
     this.readout.textContent = this.short(stats, size);
   }
 
   private short({ frameMs }: FrameStats, size: string): string {
-    return `${frameMs === null ? 'at rest' : millisecondsText(frameMs)} · ${size}`;
+    return `${frameMs === null ? 'idle' : millisecondsText(frameMs)} · ${size}`;
   }
 }

@@ -1,4 +1,4 @@
-// Where the scene is looked at from: what a drag does, the named views, which way is up, the angle.
+// The view of the scene: drag mode, named views, up axis and angle.
 
 import { namedViews, type NamedView, type NavigationMode, type Vec3, type Viewer } from '../../viewer/types.js';
 import { block, button, input, make, select } from '../dom.js';
@@ -9,13 +9,13 @@ const viewTitles: Readonly<Record<NamedView, string>> = {
   'three-quarter': 'Corner', 'three-quarter-left': 'Corner left', 'three-quarter-back': 'Corner back',
 };
 
-/** In the order in which the key goes through them: the likelier first. */
+/** In the order of the key U: most probable first. */
 const axes: readonly { readonly name: string; readonly axis: Vec3 }[] = [
   { name: 'y', axis: [0, 1, 0] }, { name: 'z', axis: [0, 0, 1] }, { name: 'x', axis: [1, 0, 0] },
   { name: '-y', axis: [0, -1, 0] }, { name: '-z', axis: [0, 0, -1] }, { name: '-x', axis: [-1, 0, 0] },
 ];
 
-/** Whether a direction is that axis to 2.6 degrees: an up that was taken from cameras is off by a little. */
+/** Whether a direction is within 2.6 degrees of an axis: an up axis from cameras is slightly inexact. */
 const isAxis = (direction: Vec3, axis: Vec3) =>
   direction[0] * axis[0] + direction[1] * axis[1] + direction[2] * axis[2] > 0.999 * Math.hypot(...direction);
 
@@ -35,7 +35,7 @@ export class ViewsSection {
     button('frame').addEventListener('click', () => this.frame());
     button('home').addEventListener('click', () => this.first());
     this.up.append(...axes.map(({ name }, index) => make('option', { value: index }, name)),
-                   make('option', { value: 'own', hidden: true }, 'as the cameras were held'));
+                   make('option', { value: 'own', hidden: true }, 'from the cameras'));
     this.up.addEventListener('change', () => {
       const chosen = axes[Number(this.up.value)];
       if (chosen) viewer.setUp(chosen.axis);
@@ -49,7 +49,7 @@ export class ViewsSection {
       this.update();
     });
     viewer.on('view', () => this.update());
-    viewer.on('frame', () => this.showMode());  // keys change it, too
+    viewer.on('frame', () => this.showMode());  // keys change it too
     this.update();
   }
 
@@ -79,7 +79,7 @@ export class ViewsSection {
     const next = axes[(this.upIndex() + 1) % axes.length]!;
     this.viewer.setUp(next.axis);
     this.update();
-    this.tell(`Up is now ${next.name}.`);
+    this.tell(`The up axis is now ${next.name}.`);
   }
 
   private upIndex(): number {
@@ -100,7 +100,7 @@ export class ViewsSection {
     const now = this.viewer.mode;
     for (const mode of this.modes) mode.checked = mode.value === now;
     const speed = now === 'orbit' ? '' :
-      `Flies ${this.viewer.speed.toPrecision(3)} units a second; the wheel changes that.`;
+      `Speed: ${this.viewer.speed.toPrecision(3)} units per second; change it with the wheel.`;
     const hint = block('speed');
     if (hint.textContent !== speed) hint.textContent = speed;
   }

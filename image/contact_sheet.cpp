@@ -1,4 +1,4 @@
-#include "cli/files/contact_sheet.hpp"
+#include "image/contact_sheet.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "image/box_scale.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
 
@@ -43,4 +43,4 @@ Image8 contact_sheet(std::span<const Image8> images, int cell) {
   return sheet;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen
