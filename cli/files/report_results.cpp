@@ -64,7 +64,7 @@ std::vector<ReportResult> web_bench(const std::string& file) {
   Input input = Input::open(file);
   std::vector<ReportResult> results;
   for (const BenchResult& each : results::read_web_bench(input))
-    results.push_back({file, "bench", json_text(results::to_json(each))});
+    results.push_back({file, "bench", results::json_text(results::to_json(each))});
   return results;
 }
 

@@ -183,7 +183,7 @@ TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
   EXPECT_THAT(comparison.unmatched, IsEmpty());
   EXPECT_EQ(comparison.incomparable, Incomparable::software);
   EXPECT_THAT(comparison.changes, IsEmpty());
-  EXPECT_EQ(to_json(comparison, "old.json")["incomparable"], "software");
+  EXPECT_EQ(results::to_json(comparison, "old.json")["incomparable"], "software");
   // Results that cannot be compared do not pass.
   BenchReportOptions options;
   options.against = "old.json";

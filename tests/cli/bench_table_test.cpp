@@ -1,5 +1,5 @@
 // Tables of a benchmark in the terminal.
-#include "cli/bench_table.hpp"
+#include "cli/bench/bench_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

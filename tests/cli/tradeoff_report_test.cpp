@@ -1,6 +1,4 @@
 // The JSON of an invented study.
-#include "cli/tradeoff_report.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

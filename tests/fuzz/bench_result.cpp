@@ -1,6 +1,5 @@
 // A result of `tureen bench`, as --against reads it.
-#include "cli/bench_result.hpp"
-
+#include "jobs/results/bench_json.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

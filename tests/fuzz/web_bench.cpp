@@ -1,5 +1,5 @@
 // Measurements by bench.html in a browser.
-#include "cli/web_bench.hpp"
+#include "jobs/results/web_bench.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

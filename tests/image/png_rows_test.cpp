@@ -14,7 +14,7 @@ namespace png_rows_test {
 namespace fs = std::filesystem;
 
 /// Noise, which no filter improves, and ramps, each of which suits one filter.
-Image8 image(int width, int height, unsigned seed) {
+Image8 made_image(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)

@@ -120,7 +120,7 @@ TEST(Png, OnlyChunksOfTheImageCount) {
 
 TEST(Png, SmoothImagesShrink) {
   // A slope in both directions: with any filter, the residual is almost 0.
-  const Image8 image = image(256, 256, [](int x, int y, int c) { return x + 2 * y + c; });
+  const Image8 image = made_image(256, 256, [](int x, int y, int c) { return x + 2 * y + c; });
   EXPECT_LT(encode_png(image).size(), image.pixels.size() * 4 / 100);
 }
 

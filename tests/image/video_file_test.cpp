@@ -103,7 +103,7 @@ TEST_F(Video, ShowsTheFramesThatWereWritten) {
     const bool webm = std::string(name) == "video.WebM";
     EXPECT_EQ(decoded.description,
               (webm ? "vp9" : "h264") + std::string(",66,48,yuv420p,bt709,25/1\n"));
-    ASSERT_EQ(video.rgb.size(), std::size_t(3) * 66 * 48 * count);
+    ASSERT_EQ(decoded.rgb.size(), std::size_t(3) * 66 * 48 * count);
     // The middle of each quarter in each frame, because colours mix near the edges. The tolerance
     // is 4 steps of 8 bits: the range of 219 levels, the matrix and the coding each cost about one.
     for (int i = 0; i < count; ++i) {

@@ -1,4 +1,6 @@
 // The file of `tureen bench`: written, read back, and rejected if invalid.
+#include "jobs/results/bench_json.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,7 +8,6 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "cli/bench_result.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::results {

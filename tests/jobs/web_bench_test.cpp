@@ -1,5 +1,5 @@
 // Downloads of bench.html: the results that they become, and the errors.
-#include "cli/web_bench.hpp"
+#include "jobs/results/web_bench.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -25,13 +25,13 @@ struct SessionStatus {
 };
 
 struct SessionOptions {
-  std::filesystem::path checkpoint;        // replaced by each checkpoint
-  std::filesystem::path log;               // JSON lines
-  std::filesystem::path previews;          // an existing folder, if preview_every > 0
-  std::optional<int> checkpoint_every;     // steps; by default every two minutes
-  int preview_every = 0;                   // steps; 0 for no previews
-  std::span<const Photograph> test_views;  // at least one
-  double seconds_before = 0;               // training time of earlier sessions of this run
+  std::filesystem::path checkpoint;             // replaced by each checkpoint
+  std::filesystem::path log;                    // JSON lines
+  std::filesystem::path previews;               // an existing folder, if preview_every > 0
+  std::optional<int> checkpoint_every;          // steps; by default every two minutes
+  int preview_every = 0;                        // steps; 0 for no previews
+  std::span<const Photograph> test_views = {};  // at least one
+  double seconds_before = 0;                    // training time of earlier sessions of this run
   /// Called before each step; an exception ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
