@@ -8,13 +8,13 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
-#include "cli/files/contact_sheet.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/options/values.hpp"
 #include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/version.hpp"
+#include "image/contact_sheet.hpp"
 
 namespace tureen::cli {
 namespace parts_test {
