@@ -31,8 +31,8 @@ class Input {
   std::uint64_t remaining() const { return size_ - position_; }
 
   const MemoryBudget& budget() const { return budget_; }
-  /// Counts `elements` of `each` bytes before their allocation. Throws InputError if they exceed
-  /// the rest of the budget.
+  /// Takes `elements` * `each` bytes from the budget; call it before the allocation. Throws
+  /// InputError if they exceed the rest of the budget.
   void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
     if (!budget_.take(elements, each)) fail(budget_.refusal(what), max_memory_hint);
   }
@@ -48,7 +48,7 @@ class Input {
   /// Reads up to buffer.size() bytes and returns their number; 0 at the end.
   std::size_t read_some(std::span<std::byte> buffer);
 
-  /// Fills all of `buffer`, or throws an InputError that `what` is truncated.
+  /// Fills all of `buffer`, or throws an InputError: `what` is truncated.
   void read(std::span<std::byte> buffer, const char* what);
 
   template <class T>

@@ -15,8 +15,8 @@
 
 namespace tureen {
 
-/// 4 GiB: more than twice the need of the largest published MobileNeRF scenes (16 shapes, two
-/// images of 4096 x 4096 each), and the maximum for a 32-bit browser.
+/// 4 GiB: enough for the largest published MobileNeRF scenes (16 shapes, two images of 4096 x 4096
+/// each), and the maximum memory of 32-bit WebAssembly.
 inline constexpr std::uint64_t default_max_memory = std::uint64_t(4) << 30;
 
 /// The limit for each read from now on, in bytes. It is global, since memory belongs to the
@@ -34,8 +34,8 @@ std::uint64_t parse_memory_size(const std::string& text);
 /// The inverse: "4 GB", "1.5 MB", "17 bytes".
 std::string memory_size_text(std::uint64_t bytes);
 
-/// The remaining memory of one read over all files that it opens. Copies share one count. Not
-/// thread-safe.
+/// Counts the memory that one read operation may still allocate, over all files that it opens.
+/// Copies share one count. Not thread-safe.
 class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t limit = max_memory());
@@ -46,7 +46,7 @@ class MemoryBudget {
 
   /// Counts `elements` of `each` bytes. Returns false and counts nothing if they exceed the limit.
   [[nodiscard]] bool take(std::uint64_t elements, std::size_t each = 1);
-  /// Subtracts `bytes` from the count; at most the taken bytes.
+  /// Subtracts `bytes`, at most taken(), from the count.
   void give_back(std::uint64_t bytes);
 
   /// The reason for the error about `what`; its hint is max_memory_hint.

@@ -1,6 +1,6 @@
 // A view as the controls store it: a target, a distance, three angles about an up axis and a lens.
-// Cameras and states correspond in both directions. One representation thus serves orbiting,
-// flying, gliding and recorded cameras with a roll.
+// A state gives a camera; a camera, a target distance and an up axis give a state. One
+// representation thus serves orbiting, flying, gliding and recorded cameras with a roll.
 //
 // With u the up axis, f the direction of azimuth 0 and s = u x f (camera/navigation.hpp):
 //   backward = cos(elevation) (cos(azimuth) f + sin(azimuth) s) + sin(elevation) u
@@ -22,7 +22,7 @@ namespace tureen {
 /// (scene/camera.hpp) does.
 struct ViewLens {
   double focal = 1.3737387097273113;  // fy / height; 40 degrees
-  double aspect = 1;                  // fx / fy: of pixels, not of the image
+  double aspect = 1;                  // fx / fy: height over width of a pixel
   glm::dvec2 offset{0.0};             // of the principal point from the centre, right and down
 
   double fov_y() const;  // the full vertical angle about the centre, radians
@@ -41,7 +41,8 @@ struct ViewState {
   glm::dvec3 target{0.0};
   double distance = 1;   // > 0
   Bearing bearing = {};  // of the eye seen from the target; the azimuth may exceed a turn
-  double roll = 0;       // radians; positive turns the camera's head to its left, the image right
+  double roll =
+      0;  // radians; if positive, the camera tilts to its left and the image turns clockwise
   ViewLens lens = {};
 };
 

@@ -155,16 +155,17 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
               "--photographs", arguments.photographs.path,
               "with --compress: dataset for measuring the loss on test photographs; by default the "
               "loss is estimated from images of the scene. If the scene has few cameras, the "
-              "training cameras determine the visible parts. Views larger than the photographs at "
-              "--scale lose more than --max-error")
+              "dataset's training cameras also decide which parts are visible. Images larger than "
+              "the "
+              "scaled photographs can lose more than --max-error")
           .value_name("DATASET")
           .needs(compressed);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
-      .add_flag(
-          "--keep-unseen", arguments.keep_unseen,
-          "with --compress: keep faces that are invisible from 200 recorded cameras and from above "
-          "and around")
+      .add_flag("--keep-unseen", arguments.keep_unseen,
+                "with --compress: keep faces that are invisible in up to 200 recorded cameras and "
+                "in views from above "
+                "and around")
       .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,

@@ -135,12 +135,13 @@ on the device, or the output cannot be written.)");
       .value_name("N");
   command
       .add_option("--photographs", options->photographs,
-                  "limit for the test photographs from DATASET, which are evenly spaced")
+                  "largest number of test photographs from DATASET, evenly spaced")
       .check(between(1, 1000000))
       .value_name("N");
   command
-      .add_option("--least-psnr", options->limits.min_psnr_db,
-                  "limit for the choice: smallest E_render in dB, 50 by default")
+      .add_option(
+          "--least-psnr", options->limits.min_psnr_db,
+          "limit for the choice: smallest PSNR against the oracle (E_render) in dB, 50 by default")
       .check(between(0.0, 100.0))
       .value_name("DB");
   command

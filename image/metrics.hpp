@@ -1,5 +1,5 @@
-// Differences between two images, in the measures that the project reports. Always state both
-// images: two renderings of one model, or a rendering and a photograph (ARCHITECTURE.md).
+// Differences between two images, in the measures that the project reports. Reports must name both
+// images: two renderings of one model, or a rendering and a photograph.
 #pragma once
 
 #include <cstddef>

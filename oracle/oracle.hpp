@@ -1,6 +1,6 @@
 // The oracle: the slow, simple reference renderer for all other paths, in double precision, without
-// GL. It draws the nearest visible hit along each pixel's ray. At equal depth the lower face wins,
-// as with GL_LESS and faces drawn in order.
+// GL. It draws the nearest visible hit along each pixel's ray. At equal depth, the face with the
+// lower index wins, as with GL_LESS and faces drawn in order of their index.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace tureen {
 
 struct OracleOptions {
-  /// Coverage::snapped for comparisons with GL; Coverage::exact for error reports.
+  /// Coverage::snapped reproduces GL's coverage; Coverage::exact uses unrounded triangles.
   oracle::RayOptions rays = {};
   /// Rays per pixel along each axis, default 1: the pixel is the mean of supersampling^2 rays on a
   /// regular grid.

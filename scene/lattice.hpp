@@ -40,7 +40,7 @@ struct Coordinates {
   int x, y;
 };
 
-/// The inverse of texel_index. Exact for every level up to 12 (i <= 10,619,134).
+/// The inverse of texel_index. Exact for every level up to max_level.
 inline Coordinates texel_coordinates(std::uint32_t index) {
   const double root = std::sqrt(8.0 * index + 1.0);
   const int diagonal = static_cast<int>((root - 1.0) / 2.0);
@@ -55,10 +55,10 @@ struct Footprint {
   std::array<Real, 3> weights;
 };
 
-/// Piecewise-linear interpolation at barycentrics (b0, b1), continuous across lattice cells. Cells
-/// are clamped, so a point slightly outside extrapolates from the border cell and every index lies
-/// in [0, texel_count(level)). NaN gives a valid footprint with NaN weights. The function is
-/// constexpr so that nvcc also compiles it for GPUs.
+/// Piecewise-linear interpolation at barycentrics (b0, b1), continuous across lattice cells. The
+/// cell is clamped to the lattice. A point slightly outside extrapolates the border cell's plane,
+/// so every index lies in [0, texel_count(level)). NaN gives a valid footprint with NaN weights.
+/// The function is constexpr so that nvcc also compiles it for GPUs.
 template <class Real>
 constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
   const int n = resolution(level);
@@ -86,8 +86,9 @@ constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
 }
 
 /// Interpolates three texels' values by differences, so that equal values are returned exactly. The
-/// weights' sum may be one rounding below 1. An alpha of 1/2 everywhere would then fall below its
-/// threshold at one point in twenty. shaders/appearance_lattice.glsl does the same.
+/// weights' sum may be one rounding below 1. In a weighted sum the weights can sum to slightly less
+/// than 1: a constant alpha of 1/2 would fail the threshold at one point in twenty.
+/// shaders/appearance_lattice.glsl does the same.
 template <class Real, class Value>
 constexpr Value interpolated(const std::array<Real, 3>& weights, const Value& a, const Value& b,
                              const Value& third) {

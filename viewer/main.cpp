@@ -40,7 +40,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_option("SCENE", arguments.scene, "scene: .glb, .off, .ply, .obj, .pt, or a folder");
   program.add_option("DATASET", arguments.dataset,
                      "photographs for comparison: a COLMAP or NeRF folder");
-  program.add_option("--size", arguments.size, "window size in points")->option_text("WxH");
+  program.add_option("--size", arguments.size, "window size in screen coordinates")
+      ->option_text("WxH");
   program
       .add_option("--api", arguments.api,
                   "graphics API: gl (default, OpenGL 3.3) or es (OpenGL ES 3.0)")

@@ -104,7 +104,7 @@ struct State {
   bool show_files = false;  // the window that opens files
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;
-  /// Size of the image, without the panels on its right.
+  /// Size of the image without the panels at its right, in window points and in framebuffer pixels.
   glm::ivec2 points{1, 1}, pixels{1, 1};
   double now = 0;  // seconds of the window's clock
 

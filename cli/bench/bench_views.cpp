@@ -127,8 +127,9 @@ double pixels_of(const BenchViews& views) {
 }  // namespace
 
 void add_bench_view_options(Command& command, BenchViewOptions& options) {
-  command.add_option("DATASET", options.dataset,
-                     "posed photographs, as for tureen eval; their test cameras are drawn");
+  command.add_option(
+      "DATASET", options.dataset,
+      "posed photographs, as for tureen eval; the scene is drawn from their test cameras");
   command
       .add_option(
           "--cameras", options.cameras,

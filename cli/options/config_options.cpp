@@ -69,7 +69,8 @@ void add_config_options(Command& command, ConfigOptions& options) {
              "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels");
   command
       .add_option("--init", options.begin,
-                  "first triangles: random, points (from structure from motion), or a scene to "
+                  "first triangles: random, points (structure-from-motion points of the dataset), "
+                  "or a scene to "
                   "continue from; by default points if the dataset has them, else random")
       .value_name("WHERE");
 }

@@ -49,7 +49,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
               options.plan.specialisations =
                   options.plan.specialisations.without(specialisation_of(name));
           },
-          "do not apply these specialisations: names from docs/specialisations.md, separated by "
+          "switch these specialisations off, so that the work they skip is done: names from "
+          "docs/specialisations.md, separated by "
           "commas, such as alpha-test,background")
       .value_name("NAMES")
       .split_at_commas()
@@ -58,7 +59,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   add_choice<ShadingStage>(
       command, "--shading", options.plan.shading_stage,
       {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
-      "shader for scenes with one shading per pixel: fragment (default) or compute",
+      "shader of the shading pass, for scenes that have one: fragment (default) or compute",
       {{"measured", "use fragment, the default, or compute"}})
       .value_name("NAME");
   command

@@ -102,13 +102,13 @@ void add_animation_options(Command& command, ViewOptions& options) {
           .value_name("FILE.json");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
     path.excludes(command.option(other));
-  Option turntable =
-      command
-          .add_option("--turntable", options.turntable,
-                      "draw the frames of one turn around the up axis, with this duration, like "
-                      "--orbit, or from --eye around --target")
-          .value_name("SECONDS")
-          .check(between(0.001, 36000.0));
+  Option turntable = command
+                         .add_option("--turntable", options.turntable,
+                                     "draw the frames of one turn of this duration around the up "
+                                     "axis; the camera moves as "
+                                     "for --orbit, or starts at --eye and circles --target")
+                         .value_name("SECONDS")
+                         .check(between(0.001, 36000.0));
   for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
     turntable.excludes(other);
   command

@@ -1,8 +1,8 @@
 // Reads posed photographs:
 //   transforms.json           instant-ngp: one file, intrinsics for all frames or frame by frame
-//   transforms_{train,test}.json   NeRF-synthetic: a file a split (transforms_val.json is not read)
-//   sparse/0, sparse or colmap/sparse/0 with cameras, images and points3D as .bin or .txt, and
-//   images/                   COLMAP, https://colmap.github.io/format.html
+//   transforms_{train,test}.json   NeRF-synthetic: one file per split (transforms_val.json is not
+//   read) sparse/0, sparse or colmap/sparse/0 with cameras, images and points3D as .bin or .txt,
+//   and images/                   COLMAP, https://colmap.github.io/format.html
 #pragma once
 
 #include <filesystem>
@@ -34,9 +34,9 @@ struct DatasetOptions {
 /// applied, since cameras refer to the stored pixels.
 ///
 /// Throws InputError with the file and the reason: missing images (all are named, up to a dozen),
-/// an image size that differs from the camera's, a camera model that cannot be undone, a pose that
-/// is not a rotation to three digits, a split without training or test views, or photographs that
-/// exceed the memory budget (base/memory_budget.hpp).
+/// an image size that differs from the camera's, a camera model whose distortion cannot be removed,
+/// a pose whose matrix differs from a rotation by more than about 0.001, a split without training
+/// or test views, or photographs that exceed the memory budget (base/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 }  // namespace tureen

@@ -26,12 +26,12 @@
 
 namespace tureen {
 
-/// Factors of a face's feature steps, in quarters.
+/// Factors on a face's feature step, times 4: the value 4 is the factor 1.
 inline constexpr std::array<std::uint8_t, 8> compress_multipliers{2, 3, 4, 6, 8, 12, 16, 32};
 /// The index of the factor 1.
 inline constexpr std::uint8_t one_step = 2;
 
-/// Error limits of texels. The defaults are lossless for visible data.
+/// Error limits of texels. With the defaults, visible byte texels are lossless.
 struct CompressedTexelOptions {
   CompressedBasis basis = CompressedBasis::identity();
   /// Step sizes: basis values, 1..255, default 1; alphas, 1..127, default 1.
@@ -42,8 +42,8 @@ struct CompressedTexelOptions {
   std::vector<std::uint8_t> coarseness = {};
   /// Whether invisible values are kept as precisely as visible ones.
   bool keep_hidden = false;
-  /// Weight of a feature's squared error, one a texel, at least 0. Empty: 1 for all. Texels of
-  /// equal patches get the larger one.
+  /// Weight of a feature's squared error, one a texel, at least 0. Empty: 1 for all. Faces with
+  /// equal texels store them once, with the largest weight.
   std::vector<float> weights = {};
   /// Price of a bit, at least 0, default 0: the additional squared error, in weighted squared
   /// feature steps, accepted on the finest level of a patch to save a bit. Errors on coarser levels

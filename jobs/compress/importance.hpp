@@ -1,6 +1,6 @@
-// The visible effect of errors of a soup's texels, and the steps that follow from it. This part of
-// the search for a compressed file (jobs/compress/compress.hpp) is independent of the step of
-// colour.
+// How visible errors in a soup's texels are, and the quantisation steps that follow from it. This
+// part of the search for a compressed file (jobs/compress/compress.hpp) is independent of the step
+// of colour.
 #pragma once
 
 #include <cstdint>

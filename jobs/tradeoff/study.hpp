@@ -2,9 +2,9 @@
 // one device, with one set of cameras. It prints and writes nothing.
 //
 // Time and error come from the same renderer: after timing it draws the compared frames once more.
-// Configurations alternate frame by frame (jobs/timing/benchmark.hpp) in groups. Each group
-// includes the defaults, and its times are scaled so that those of its defaults equal the first
-// group's.
+// Configurations alternate frame by frame (jobs/timing/benchmark.hpp) in groups. Each group also
+// measures the defaults. The times of a group are scaled until its default time equals that of the
+// first group.
 #pragma once
 
 #include <functional>
@@ -36,14 +36,14 @@ const char* name_of(StudyStage stage);
 
 struct StudyOptions {
   glm::vec3 background{0.0f};
-  /// Samples of the reference of drawing settings: device or exact.
+  /// Sample points of the reference for edits: the device's, or exact.
   Samples samples = Samples::device;
   int subpixel_bits = 8;  // of the device
   int rounds = 5;
   /// Largest number of simultaneous renderers; each holds the scene on the device.
   std::size_t group = 12;
   FactorialLimits factorial = {};
-  int max_samples = 4;  // an axis, of supersampling
+  int max_samples = 4;  // largest number of supersampling samples per axis
   bool with_flip = true;
   /// As BenchmarkOptions::clock.
   std::function<double()> clock = nullptr;
@@ -67,8 +67,8 @@ struct StudyScene {
   std::span<const Camera> counting;  // cameras for the triangle budget
 };
 
-/// Throws the Renderer's errors for the defaults. Another configuration that cannot be drawn is
-/// skipped with its reason.
+/// If the defaults cannot be drawn, throws the Renderer's error. Another configuration that cannot
+/// be drawn is skipped with its reason.
 Study run_study(const StudyScene& scene, const StudyOptions& options);
 
 }  // namespace tureen::tradeoff

@@ -76,17 +76,18 @@ struct DepthScale {
 DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye);
 
 /// The box of the middle 98 % of the faces' corners along each axis, so that a few distant faces do
-/// not dominate the scale. For very small soups bounds().
+/// not dominate the scale. For soups with very few faces it returns bounds().
 Bounds middle_bounds(const TriangleSoup& soup);
 
 /// Largest fragment count with its own colour.
 inline constexpr int max_counted_fragments = 255;
 
-/// The colour of a fragment count: heat_ramp(log2(count) / 8). 0 is the background.
+/// The colour of a fragment count: heat_ramp(log2(count) / 8). A count of 0 has the background's
+/// colour.
 glm::vec3 overdraw_color(int count);
 
-/// The colour of a fragment that the alpha test rejects, from 0 (alpha is 0) to 1 (just below the
-/// threshold): violets, distinct from the greys of kept fragments.
+/// The colour of a fragment that the alpha test rejects: violets, distinct from the greys of kept
+/// fragments. `part_of_threshold` is alpha / threshold, 0..1.
 glm::vec3 cut_out_color(float part_of_threshold);
 
 /// Legend of the colours, shown beside the image; empty for self-explanatory colours.

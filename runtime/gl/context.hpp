@@ -85,9 +85,9 @@ class Context {
 };
 
 /// Throws ContextError if the device has been reset since the current context was created (the
-/// driver crashed or was replaced, or a draw took too long). Nothing is drawn afterwards. Our
-/// contexts request reset notification; for an external one (Backend::external) its creator
-/// decides. Does not wait.
+/// driver crashed or was replaced, or a draw took too long). After a reset, draw calls on this
+/// context have no effect. Our contexts request reset notification; for an external one
+/// (Backend::external) its creator decides. Does not wait.
 void throw_if_lost();
 
 }  // namespace tureen::gl

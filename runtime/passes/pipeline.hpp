@@ -18,7 +18,7 @@
 
 namespace tureen {
 
-/// One frame's camera, relative to the soup's origin.
+/// One frame's camera, relative to the scene's origin.
 struct FrameCamera {
   Camera camera;
   glm::dvec3 eye;  // relative to the origin
@@ -42,18 +42,19 @@ class Pipeline {
   virtual GLuint visibility_framebuffer() const { return 0; }
   /// The depth of the last frame, a GL_TEXTURE_2D of sample_size(), or 0 if it cannot be sampled.
   virtual GLuint depth_texture() const { return 0; }
-  /// Width and height of the geometry in samples: the image's own size except for resampling
+  /// Width and height at which triangles are rasterised: the image's size, except for resampling
   /// pipelines.
   virtual glm::ivec2 sample_size() const = 0;
   /// Bytes of the scene's buffers and textures, without the targets.
   virtual std::size_t device_bytes() const = 0;
-  /// Bytes of the targets from resize(), by the sizes of their formats.
+  /// Bytes of the targets that resize() created, from pixel count and format.
   virtual std::size_t target_bytes() const = 0;
 
   /// See Renderer::leave_context(). The caller calls resize() before the next draw().
   virtual void leave_context() = 0;
 
-  /// Later frames report their passes to this timer; null disables it. It must outlive them.
+  /// Later frames report their passes to this timer; null disables the times. The timer must
+  /// outlive these frames.
   virtual void time_passes(gl::PassTimer* timer) { timer_ = timer; }
 
  protected:

@@ -15,7 +15,8 @@ namespace tureen {
 
 /// The default changes nothing. Level, colour and bytes apply only to lattice textures.
 struct Edits {
-  /// The kept faces: one entry a face, 0 for removed ones; empty: all. At least one face is kept.
+  /// One entry per face: 0 removes the face. An empty vector keeps all faces. At least one face is
+  /// kept.
   std::vector<std::uint8_t> keeps_face = {};
   /// Largest lattice level of any face, 0..lattice::max_level. Finer lattices are projected
   /// (scene/edit/lattice_levels.hpp).
@@ -44,8 +45,8 @@ std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup);
 Edits effective(const Edits& edits, const TriangleSoup& soup);
 
 /// The edited soup; edits run in the order of their declaration. Requires that neither has a
-/// defect(). `progress` is called with the fraction of one edit done, 0..1; it may throw to cancel.
-/// Memory in addition to the result: one more soup.
+/// defect(). `progress` is called with the completed fraction of the current edit, 0..1; it may
+/// throw to cancel. Memory in addition to the result: one more soup.
 TriangleSoup edited(TriangleSoup soup, const Edits& edits,
                     const std::function<void(double)>& progress = {});
 

@@ -43,8 +43,8 @@ struct Config {
   // --- Initialisation
   Initialisation initialisation = Initialisation::automatic;
   int initial_triangles = 15'000;  // published, random: 100,000
-  float initial_radius = 1.0f;     // circumradius in mean distances to the nearest neighbour;
-                                   // published: 0.25
+  float initial_radius = 1.0f;     // circumradius as a multiple of the mean distance to the nearest
+                                   // neighbour; published: 0.25
   bool local_radius = false;  // at points: from the distance to its own neighbour, not the mean
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // fraction of the random points outside the box
@@ -91,7 +91,8 @@ struct Config {
   // Fraction of the steps. Later, rates are below a tenth, and new faces hardly converge: held-out
   // views of lego lost 0.3 dB with turnover between one half and three quarters of a run.
   float turnover_until = 0.5f;
-  bool split_by_error = true;   // published: false. Splits the largest error, not the longest edge
+  bool split_by_error = true;   // published: false. Splits the faces with the largest error instead
+                                // of the longest edges
   float split_fraction = 0.2f;  // of the image's height: longer projected edges are split
   int split_views = 20;         // maximum number of views that choose edges
   /// Published for scenes: true. Splits all edges longer than split_fraction, and the next pruning
@@ -104,7 +105,7 @@ struct Config {
   // --- The image
   float near = 0.01f;
   float far = 100.0f;
-  /// Published: false. Removes faces with a part that lies in a training image and before its near
+  /// Published: false. Removes faces that lie partly inside a training view in front of its near
   /// plane. The runtime's near plane is closer, and would show these untrained parts.
   bool clear_near = false;
   float background[3] = {1, 1, 1};

@@ -13,7 +13,7 @@
 
 namespace tureen::web {
 
-/// `arguments`: a JSON value. Returns null without a result.
+/// `arguments`: a JSON value. A command without a result returns null.
 using Command = std::function<Json(const Json& arguments)>;
 using Commands = std::map<std::string, Command>;
 

@@ -225,7 +225,7 @@ Json open_debug_view_renderer(const Json& arguments) {
 }
 
 /// {"name", "first"?, "count"?}
-Json show(const Json& arguments) {
+Json show_debug_view(const Json& arguments) {
   const auto name = arguments.at("name").get<std::string>();
   const auto what = debug_view_named(name);
   if (!what) throw UsageError("there is no debug view \"" + name + "\"");
@@ -255,7 +255,7 @@ Commands viewer_commands() {
                    {"has_debug_view_renderer",
                     [](const Json&) { return Json(view().has_debug_view_renderer()); }},
                    {"open_debug_view_renderer", open_debug_view_renderer},
-                   {"show", show},
+                   {"debug_view", show_debug_view},
                    {"legend", legend}});
   return commands;
 }

@@ -342,7 +342,7 @@ class CanvasViewer implements Viewer {
       }
       if (mine !== this.debugViewsAsked) return;  // a later call overrides this one
     }
-    this.engine.call('show', { name, ...features });
+    this.engine.call('debug_view', { name, ...features });
     this.debugView_ = { name, features };
     this.drawFrame(performance.now());
   }

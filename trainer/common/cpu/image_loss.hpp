@@ -4,8 +4,8 @@
 //   loss = l1_weight * mean |C - G| + ssim_weight * (1 - SSIM) / 2
 //
 // for one view; C is the rendered image, G the photograph (trainer/common/kernels/image_loss.hpp).
-// The SSIM is the same as in image/ssim.hpp with SsimBorder::valid. The paper's weights are 0.8 and
-// 0.2; only the authors' program has the factor 1/2.
+// The SSIM is the same as in image/ssim.hpp with SsimBorder::valid. The weights 0.8 and 0.2 are
+// from the DiffSoup paper; the factor 1/2 is only in the authors' program.
 #pragma once
 
 #include <cstddef>

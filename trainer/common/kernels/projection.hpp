@@ -52,8 +52,8 @@ TUREEN_HOST_DEVICE void view_coordinates(const View& view, const float* position
   v[2] = view.forward[0] * d[0] + view.forward[1] * d[1] + view.forward[2] * d[2];
 }
 
-/// Extends an interval of pixel indices by a coordinate, which must not be NaN: the clamp then
-/// makes the cast safe.
+/// Extends an interval of pixel indices to contain a coordinate, which must not be NaN. The clamp
+/// makes the cast safe for all other values.
 TUREEN_HOST_DEVICE void include(double coordinate, int size, int& low, int& high) {
   const double clamped = coordinate < -1 ? -1 : coordinate > size + 1 ? size + 1 : coordinate;
   // Pixel i has its centre at i + 1/2. `first` is the first centre not left of the coordinate;
@@ -63,8 +63,8 @@ TUREEN_HOST_DEVICE void include(double coordinate, int size, int& low, int& high
   high = last > high ? last : high;
 }
 
-/// Sets the rectangle of the image around the triangle's corners and the points where its edges
-/// cross the near plane.
+/// Sets the rectangle around the corners beyond the near plane and the points where edges cross
+/// that plane.
 TUREEN_HOST_DEVICE void bounding_rectangle(const View& view, const double (&v)[3][3],
                                            ProjectedFace& face) {
   int x0 = view.width, x1 = 0, y0 = view.height, y1 = 0;
