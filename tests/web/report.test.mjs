@@ -10,11 +10,11 @@ import { programs, scratch, source, stage } from './support.mjs';
 const folder = scratch();
 const { visit } = await stage({ folder });
 
-const fixture = (name) => readFileSync(join(source, 'tests/cli', name), 'utf8');
+const fixture = (name) => readFileSync(join(source, 'tests', name), 'utf8');
 const hostile = '</script><img src=x onerror=alert(1)>';
 const record = (step) => JSON.stringify({ step, seconds: step / 10, loss: 1 / step, l1: 0.1, ssim: 0.8, train_psnr_db: 20, ...(step % 100 ? {} : { test_psnr_db: 21.5 }), triangles: 100, it_per_second: 10, non_finite: 0 });
 const log = [50, 100, 150, 200].map((step) => `${record(step)}\n`).join('');
-const tradeoff = JSON.parse(fixture('tradeoff.json'));
+const tradeoff = JSON.parse(fixture('cli/tradeoff.json'));
 const evaluation = { views: ['a', hostile].map((name) => ({ name, psnr_db: 30, ssim: 0.9 })), mean: { psnr_db: 30.125, ssim: 0.9 }, split: 'test', ssim_border: 'valid', output: ['views/a b.png', 'views/b.png'] };
 const measurements = {
   format: 'tureen measurements', version: 1, name: hostile, machine: { cpu: 'a processor', cores: 2 },
@@ -24,8 +24,8 @@ const measurements = {
 
 // For each kind: the files, the words in the page, and the least number of tables and plots.
 const kinds = {
-  bench: { files: { 'phone.json': fixture('web_bench.json') }, words: ['Adreno (TM) 740'], tables: 1, plots: 1 },
-  'several benches': { files: { 'phone.json': fixture('web_bench.json'), 'laptop.json': fixture('web_bench.json').replace('Adreno (TM) 740', 'llvmpipe') }, words: ['phone (ms)', 'laptop (ms)', 'llvmpipe'], tables: 3, plots: 2 },
+  bench: { files: { 'phone.json': fixture('jobs/web_bench.json') }, words: ['Adreno (TM) 740'], tables: 1, plots: 1 },
+  'several benches': { files: { 'phone.json': fixture('jobs/web_bench.json'), 'laptop.json': fixture('jobs/web_bench.json').replace('Adreno (TM) 740', 'llvmpipe') }, words: ['phone (ms)', 'laptop (ms)', 'llvmpipe'], tables: 3, plots: 2 },
   tradeoff: { files: { 'tradeoff.json': JSON.stringify({ ...tradeoff, scene: { ...tradeoff.scene, name: hostile } }) }, words: [hostile, '5.00×'], tables: 4, plots: 2 },
   'several tradeoffs': { files: { 'lego.json': JSON.stringify(tradeoff), 'chair.json': JSON.stringify({ ...tradeoff, scene: { ...tradeoff.scene, name: 'chair' } }) }, words: ['chair (dB)', 'lego (dB)'], tables: 6, plots: 6 },
   training: { files: { 'lego.jsonl': log }, words: ['21.50 dB'], tables: 1, plots: 3 },
