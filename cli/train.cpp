@@ -84,7 +84,7 @@ Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint
       throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
   if (config.initialisation == trainer::Initialisation::mesh && !checkpoint &&
       options.config.mesh().empty())
-    throw UsageError("initialisation \"mesh\" needs a scene", "give its file with --init");
+    throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
   return config;
 }
 
