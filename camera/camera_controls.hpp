@@ -101,7 +101,8 @@ class CameraControls {
   /// is 1.7e-3 long, which keeps 13 digits of the direction. A view already closer to a pole (top,
   /// bottom, a recorded one) is kept.
   /// The roll of a recorded camera decays with the pointer's path, by e per roll_fade of the
-  /// image's height, here and in look(). No other operation changes it.
+  /// image's height, here and in look(). pan(), dolly() and flight keep it; frame(), look_from(),
+  /// home() and set_up() reset it.
   void orbit(double dx, double dy);
   static constexpr double roll_fade = 0.15;
 

@@ -32,9 +32,9 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options =
 /// Throws UsageError if write_scene would reject the name.
 void require_written_format(const std::filesystem::path& path);
 
-/// Writes by the extension of `path`: .glb, .off, .ply, or a DiffSoup export folder if there is
-/// none. The output is complete or absent. Returns one sentence for each loss of the format. Throws
-/// UsageError if the format cannot store this scene or the extension is unknown; throws
+/// Writes by the extension of `path`: .glb, .off, .coff, .ply, or a DiffSoup export folder if there
+/// is none. The output is complete or absent. Returns one sentence for each loss of the format.
+/// Throws UsageError if the format cannot store this scene or the extension is unknown; throws
 /// OutputError.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
 

@@ -1,7 +1,7 @@
 // A soup on a device, drawn frame by frame.
 //
 // Not included: windows, input, loading files, choosing cameras. The context of construction must
-// be current for every call, and on destruction.
+// be current for every call and on destruction, unless leave_context() was called.
 //
 // GL state, for other users of the context: every call sets the state on which it depends, with
 // four exceptions. Wireframe (glPolygonMode), logic operations and conditional rendering must be

@@ -1,7 +1,7 @@
 // The renderable model: triangles, each with its own appearance.
 //
 // Face t of `triangles` is also face t of the appearance: never reorder one without the other. All
-// colours are display-referred sRGB in [0, 1]; no step linearises or encodes them.
+// colours are display-referred sRGB in [0, 1]; after reading, no step linearises or encodes them.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ struct FaceColors {
   std::vector<glm::vec4> rgba;  // one a face
 };
 
-/// One colour a vertex, interpolated perspective-correctly. The interpolated alpha cuts out.
+/// One colour a vertex, interpolated perspective-correctly. Points with an interpolated alpha below
+/// alpha_threshold are not drawn.
 struct VertexColors {
   std::vector<glm::vec4> rgba;  // one a vertex
 };

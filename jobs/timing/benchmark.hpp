@@ -4,7 +4,7 @@
 // warmed up until it is stable. First the first case runs against itself: the A/A spread is the
 // difference without significance. A sample begins with an idle device and ends when the device has
 // finished. On fast devices it is several frames of one view, so that the wait does not dominate.
-// The clock is the processor's steady clock.
+// By default the clock is the computer's steady clock; BenchmarkOptions::clock replaces it.
 //
 // This file is independent of GL. Cases are functions, so that tests can use an artificial clock,
 // and other renderers can be compared.
