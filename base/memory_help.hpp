@@ -4,7 +4,7 @@
 namespace tureen {
 
 inline constexpr const char* max_memory_help =
-    "memory limit for reading a scene or a dataset, 4GB by default; a file that needs more is "
+    "memory limit for reading files, 4GB by default; a file that needs more is "
     "rejected";
 
 }  // namespace tureen

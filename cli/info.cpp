@@ -246,8 +246,8 @@ void add_info(Command& program) {
       program.add_command("info", "Print a scene's contents, memory use and lint findings");
   command.footer(
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
-faces, unused vertices, and coordinates so large that floats round them visibly. Scenes with findings can
-still be drawn. render --camera can read the JSON of --json: it uses the key "cameras".
+faces, unused vertices, and coordinates so large that floats round them visibly. Scenes with
+findings can still be drawn. render --camera can read the cameras from the JSON of --json.
 
 Examples:
   tureen info soup.glb

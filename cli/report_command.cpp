@@ -89,8 +89,8 @@ void add_report(Command& program) {
   command.footer(
       R"(Reads results from bench, tradeoff and eval (--json or -o), logs from train, downloads
 from the page bench.html, and measurements from ./dev. Several results of one kind appear
-side by side; tradeoff results of several scenes share one table with means. The page needs no network. It links to images
-and does not copy them.
+side by side; tradeoff results of several scenes share one table with means. The page needs no
+network. It links to images and does not copy them.
 
 Examples:
   tureen report timed/bench.json                opens in a browser, or prints the page's path

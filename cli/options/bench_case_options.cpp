@@ -40,6 +40,10 @@ void check(const BenchCaseArguments& options) {
         options.only.begin() + std::ptrdiff_t(i))
       throw UsageError("--only names " + name + " twice");
   }
+  // Two names for one case.
+  if (std::count(options.only.begin(), options.only.end(), "baseline") > 0 &&
+      std::count(options.only.begin(), options.only.end(), "published") > 0)
+    throw UsageError("--only names the baseline twice: as baseline and as published");
 }
 
 }  // namespace tureen::cli

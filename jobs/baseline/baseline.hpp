@@ -22,10 +22,10 @@ enum class PipelineKind {
   baseline,
 };
 
-/// Plans without GL. describe() of the plan describes the baseline. Of the preferences only the
-/// quality has an effect; if specialisations are kept, the description says that this has none. The
-/// soup must have no defect(). Throws UsageError for a soup that the baseline cannot draw, for
-/// ShadingStage::compute, and for a quality with a defect().
+/// Plans without GL. Of the preferences, only the quality has an effect. The plan's description
+/// (describe() in runtime/plan/plan_description.hpp) is of the baseline; it reports kept
+/// specialisations as without effect. The soup must have no defect(). Throws UsageError for a soup
+/// that the baseline cannot draw, for ShadingStage::compute, and for a quality with a defect().
 RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences = {});
 
 /// Uploads the soup; it is not needed afterwards. The plan is from make_baseline_plan for this

@@ -138,13 +138,15 @@ class BaselinePipeline final : public Pipeline {
     const std::uint32_t per_face = lattice::texel_count(plan.lattice.uniform_level);
     const std::size_t texels = plan.faces.size() * per_face;
     if (lut_width > limits.max_texture_size)
-      throw DeviceLimitError("the baseline wants lookup textures " + std::to_string(lut_width) +
-                             " wide; this device has " + std::to_string(limits.max_texture_size));
+      throw DeviceLimitError("the baseline needs lookup textures " + std::to_string(lut_width) +
+                             " texels wide; the limit of this device is " +
+                             std::to_string(limits.max_texture_size));
     const std::size_t rows = std::max<std::size_t>((texels + lut_width - 1) / lut_width, 1);
     if (rows > std::size_t(limits.max_texture_size))
       throw DeviceLimitError(
-          "the baseline wants a lookup texture of " + std::to_string(rows) +
-          " rows; this device has " + std::to_string(limits.max_texture_size) + ", enough for " +
+          "the baseline needs a lookup texture of " + std::to_string(rows) +
+          " rows; the limit of this device is " + std::to_string(limits.max_texture_size) +
+          ", enough for " +
           std::to_string(std::size_t(limits.max_texture_size) * lut_width / per_face) +
           " triangles at this level");
     std::vector<std::uint8_t> lut[2];

@@ -25,15 +25,15 @@ RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& p
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   const auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
   if (!texture || !texture->mlp)
-    throw UsageError(std::string("the baseline draws lattice textures with a color MLP; "
+    throw UsageError(std::string("the baseline supports lattice textures with a color MLP; "
                                  "this soup has ") +
                      appearance_name(soup.appearance));
   if (preferences.shading_stage == ShadingStage::compute)
-    throw UsageError("the baseline shades in the fragment stage, never as compute");
+    throw UsageError("the baseline does not support --shading compute");
   const std::uint32_t level = texture->patches.empty() ? 0 : texture->patches.front().level;
   for (const LatticePatch& patch : texture->patches)
     if (patch.level != level)
-      throw UsageError("the baseline knows one lattice level for all faces");
+      throw UsageError("the baseline supports only one lattice level for all faces");
   RenderPlan plan;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
     if (drawable(soup, t)) plan.faces.push_back(t);

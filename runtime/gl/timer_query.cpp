@@ -16,9 +16,9 @@ std::optional<std::string> timers_mislead(const Capabilities& capabilities) {
   if (capabilities.software)
     return "software OpenGL (" + capabilities.renderer +
            ") draws when its tiles are flushed, possibly during another pass: only the "
-           "processor's clock counts";
+           "processor's clock is used";
   if (!capabilities.timer_queries)
-    return "this context has no timer queries: only the processor's clock counts";
+    return "this context has no timer queries: only the processor's clock is used";
   return {};
 }
 

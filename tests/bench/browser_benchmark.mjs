@@ -6,12 +6,13 @@
 // Writes OUT/SCENE-RASTERISER.json for `tureen report`, and everything else as lines of JSON on standard
 // output.
 
+import { execFileSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, extname, join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { serve } from '../../web/serve.mjs';
-import { built, launch } from '../web/browser.mjs';
+import { built, launch, programs } from '../web/browser.mjs';
 
 const { positionals: [out, ...scenes], values: { quick } } =
   parseArgs({ allowPositionals: true, options: { quick: { type: 'boolean', default: false } } });
@@ -78,14 +79,10 @@ function siteWith() {
 }
 
 /** Frame times, also of the baseline, with the scene's cameras if it has any. */
-async function frames(browser, site, scene) {
-  const ask = (set) => measured(browser, site, `${scene}&published=1&set=${set}:8&size=${size}&rounds=${rounds}`);
-  try {
-    return await ask('recorded');
-  } catch (error) {
-    if (!error.message.includes('no cameras of its own')) throw error;
-    return ask('hemisphere');
-  }
+function frames(browser, site, path, scene) {
+  const info = execFileSync(join(programs, 'tureen'), ['info', path, '--json'], { stdio: ['ignore', 'pipe', 'ignore'] });
+  const set = JSON.parse(info).cameras.length > 0 ? 'recorded' : 'hemisphere';
+  return measured(browser, site, `${scene}&published=1&set=${set}:8&size=${size}&rounds=${rounds}`);
 }
 
 /** The memory of the scene alone. */
@@ -104,7 +101,7 @@ async function openingTimes(browser, site, scene) {
 async function measureScene(browser, site, rasteriser, path) {
   const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
   console.error(`${name} on ${rasteriser}`);
-  const result = await frames(browser, site, `scenes=${file}`);
+  const result = await frames(browser, site, path, `scenes=${file}`);
   writeFileSync(join(out, `${name}-${rasteriser}.json`), JSON.stringify(result, null, 1) + '\n');
   const { device, wasm } = await memory(browser, site, `scenes=${file}`);
   const { first, whole } = await openingTimes(browser, site, `scene=${file}`);

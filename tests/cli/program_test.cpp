@@ -403,7 +403,7 @@ TEST_F(Program, RenderTakesCamerasOfOtherPrograms) {
   }
 }
 
-TEST_F(Program, NothingIsLeftWhereAImageCannotBeWritten) {
+TEST_F(Program, NothingIsLeftWhereAnImageCannotBeWritten) {
   write_scene();
   const ChildResult result =
       run({"render", "scene.off", "--size", "8x8", "-o", "nowhere/out.png", "--context", "osmesa"});

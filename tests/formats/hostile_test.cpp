@@ -136,7 +136,7 @@ TEST(HostileCrashes, FoundByFuzzersEndInAnErrorOrAScene) {
 
 // ---- Decompression bombs
 
-TEST(HostileBombs, AImageThatUnfoldsBeyondItsPixels) {
+TEST(HostileBombs, AnImageThatUnfoldsBeyondItsPixels) {
   // One pixel, followed by 64 MB of zeros, which take a few kilobytes in the file.
   const Bytes bomb = fuzz::PngFixture{.rows = std::string(64 << 20, '\0')}.bytes();
   EXPECT_LT(bomb.size(), 100u << 10);
@@ -150,7 +150,7 @@ TEST(HostileBombs, AImageThatUnfoldsBeyondItsPixels) {
       "bomb");
 }
 
-TEST(HostileBombs, AImageOfMorePixelsThanMemory) {
+TEST(HostileBombs, AnImageOfMorePixelsThanMemory) {
   // 6,000 x 6,000 black pixels: 144 MB, which take some kB in the file.
   const Bytes large =
       fuzz::PngFixture{

@@ -122,7 +122,7 @@ TEST(DecoderMemory, MovesWhatIsThere) {
   EXPECT_EQ(budget.taken(), 0u);
 }
 
-TEST(DecoderMemory, OfAImageKeepsTheImageAlone) {
+TEST(DecoderMemory, OfAnImageKeepsTheImageAlone) {
   MemoryBudget budget;
   const Image8 image(30, 20, glm::u8vec4(1, 2, 3, 255));
   decode_image(encode_png(image), "a.png", budget);

@@ -78,7 +78,7 @@ TEST(JpegTables, AreRefusedBeforeAnythingIsDecoded) {
     EXPECT_FALSE(oversized_huffman_table(fixture.bytes)) << fixture.name;
 }
 
-TEST(JpegTables, BehindAImageAreNoneOfIt) {
+TEST(JpegTables, BehindAnImageAreNoneOfIt) {
   int images = 0;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.target != "image" || fixture.bytes.at(0) != std::byte(0xff)) continue;

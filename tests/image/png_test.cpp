@@ -79,7 +79,7 @@ TEST(Png, ChunksCarryTheirSums) {
   EXPECT_EQ(types, "IHDR IDAT IEND ");
 }
 
-TEST(Png, NoBitOfAImageIsReadAsAnotherOne) {
+TEST(Png, NoBitOfAnImageIsReadAsAnotherOne) {
   const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   ASSERT_EQ(refusal(png), std::nullopt);
   // The last chunk ends the file, with any stated length.

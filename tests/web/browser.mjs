@@ -7,6 +7,8 @@ import { chromium } from '../../web/node_modules/playwright-core/index.mjs';
 export const source = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
 /** The output of `./dev web`. */
 export const built = process.env.TUREEN_WEB ?? join(source, 'build/web/out');
+/** The folder of the native programs from the same sources. */
+export const programs = process.env.TUREEN_PROGRAMS ?? join(source, 'build/release/bin');
 
 const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
                '--disable-component-update', '--disable-sync'];

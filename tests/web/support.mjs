@@ -10,11 +10,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after } from 'node:test';
 import { serve } from '../../web/serve.mjs';
-import { built, launch, source } from './browser.mjs';
+import { built, launch, programs, source } from './browser.mjs';
 
-export { built, source };
-/** The native programs from the same sources. */
-export const programs = process.env.TUREEN_PROGRAMS ?? join(source, 'build/release/bin');
+export { built, programs, source };
 /** The folder for images of failing tests. */
 export const evidence = process.env.TUREEN_EVIDENCE ?? join(source, 'build/release/golden-variants');
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,7 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
                  .views = fingerprint(dataset.train),
                  .seconds = request.checkpoint ? request.checkpoint->seconds : 0.0,
                  .state = {}};
+  assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
   const Config scaled = with_empty_near_zone(scaled_to(config, region.half_side), dataset, region);
   run.state = request.checkpoint ? std::move(request.checkpoint->state)

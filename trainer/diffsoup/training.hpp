@@ -17,7 +17,7 @@ struct TrainingRequest {
   Config config;
   std::string name;                      // of the scene
   const Scene* mesh = nullptr;           // initial triangles, for Initialisation::mesh
-  std::optional<Checkpoint> checkpoint;  // to continue from; same configuration and views
+  std::optional<Checkpoint> checkpoint;  // to continue from
   Device device = Device::automatic;
   int threads = 0;         // 0: one per core
   SessionOptions session;  // `test_views` and `seconds_before` are set by train()
@@ -30,7 +30,7 @@ struct TrainingRequest {
   std::function<void(const Scene&)> finished = {};
   /// Fraction done of drawing the test views with the trainer's own renderer.
   std::function<void(double fraction)> measuring = {};
-  /// Judges the finished scene, for example with the runtime (jobs/eval).
+  /// Measures the finished scene, for example with the runtime (jobs/eval).
   std::function<void(const Scene&)> evaluate = {};
 };
 
@@ -44,7 +44,8 @@ struct TrainingResult {
 
 /// Trains on dataset.train, whose images are released, and tests on dataset.test. Throws
 /// OutputError if a file of `session` cannot be written, DeviceLimitError if the device lacks
-/// memory, and any error from a callback.
+/// memory, and any error from a callback. Asserts that a checkpoint has the views of the dataset
+/// (difference() in checkpoint.hpp); its configuration must be request.config.
 TrainingResult train(Dataset& dataset, TrainingRequest request);
 
 }  // namespace tureen::trainer

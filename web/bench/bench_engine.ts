@@ -186,9 +186,9 @@ export class BenchEngine {
   }
 
   /** Draws frames, with pauses only between steps. Rejects with ViewerError or the signal's reason. */
-  async run(entrants: readonly BenchCase[], how: { readonly rounds: number; readonly minSampleMs: number },
+  async run(cases: readonly BenchCase[], how: { readonly rounds: number; readonly minSampleMs: number },
             signal: AbortSignal, tell: (fraction: number) => void): Promise<RunResult> {
-    this.engine.call('bench_run', { entrants, rounds: how.rounds, least_sample_ms: how.minSampleMs });
+    this.engine.call('bench_run', { entrants: cases, rounds: how.rounds, least_sample_ms: how.minSampleMs });
     for (let done = false; !done;) {
       await nextFrame();
       signal.throwIfAborted();

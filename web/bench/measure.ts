@@ -171,11 +171,11 @@ export class Measuring {
     const cells = gridCells(added.length, size);
     for (const cell of cells) bench.setCameras(cell.scene, request.cameras, cell);
     bench.show(cells, size, 0);
-    const entrants: BenchCase[] = configurations.map(({ name }) => request.grid
+    const cases: BenchCase[] = configurations.map(({ name }) => request.grid
       ? { name, grid: cells.map(({ scene }) => scene) }
       : { name, scene: 0, published: name === 'published' });
     const what = `${added.length > 1 ? `${added.length} scenes` : added[0]!.description.name}, ${sizeText(size)}`;
-    const result = await bench.run(entrants, { rounds: request.rounds, minSampleMs: minSampleMs() }, this.signal,
+    const result = await bench.run(cases, { rounds: request.rounds, minSampleMs: minSampleMs() }, this.signal,
                                    (fraction) => tell(`${what}: ${fraction > 0 ? 'measuring' : 'warming up'}`, fraction));
     bench.show(cells, size, 0);
     return { ...size, cameraSet: setName(request.cameras), result };
