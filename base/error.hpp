@@ -9,8 +9,8 @@
 
 namespace tureen {
 
-/// Where an input failed. `byte` counts from 0, `line` from 1; either may be absent. A place
-/// without a file means the machine or the request itself.
+/// Where an input failed. `byte` counts from 0, `line` from 1; either may be absent. Without a
+/// file, the machine or the request caused the error.
 struct Place {
   std::string file;
   std::optional<std::uint64_t> byte;
@@ -20,9 +20,9 @@ struct Place {
 /// "file:line: " or "file: byte N: " or "".
 std::string to_string(const Place& place);
 
-/// what() joins the place, the reason and the hint. The reason holds for every program. The hint
-/// names a remedy on the command line: an option, another name, a command. It may be empty, and a
-/// page omits it.
+/// what() joins the place, the reason and the hint. The reason is valid in every program. The hint
+/// names a remedy on the command line: an option, another name, a command. It may be empty. The web
+/// page does not show it.
 class Error : public std::runtime_error {
  public:
   Error(Place place, std::string reason, std::string hint = {})

@@ -32,8 +32,9 @@
 
 namespace tureen {
 
-/// The action of a drag and of the wheel, and the point that moves evenly during gliding. Both
-/// modes share one state; switching the mode does not change the image.
+/// Determines the action of a drag and of the wheel. While the view glides, the target (orbit) or
+/// the eye (fly) moves evenly. Both modes share one state; switching the mode does not change the
+/// image.
 enum class NavigationMode {
   orbit,  // about a fixed target
   fly,    // from a fixed eye
@@ -94,29 +95,28 @@ class CameraControls {
   void drag(double dx, double dy);
   void wheel(double steps, glm::dvec2 pointer);
 
-  /// Orbits about the target. The scene follows the pointer: half a turn for the image's height, dx
-  /// to the right, dy down. The up axis stays upright in the image. The elevation stops 0.1 degrees
-  /// before the poles, because beyond them the scene is upside down with left and right swapped. At
-  /// the poles the line of sight does not determine the azimuth. At 0.1 degrees its horizontal part
-  /// is 1.7e-3 long, which keeps 13 digits of the direction. A view already closer to a pole (top,
-  /// bottom, a recorded one) is kept.
-  /// The roll of a recorded camera decays with the pointer's path, by e per roll_fade of the
-  /// image's height, here and in look(). pan(), dolly() and flight keep it; frame(), look_from(),
-  /// home() and set_up() reset it.
+  /// Orbits about the target. The scene follows the pointer: half a turn for the image's height.
+  /// Positive dx is to the right, positive dy down. The up axis stays upright in the image. The
+  /// elevation stops 0.1 degrees before the poles, because beyond them the scene is upside down
+  /// with left and right swapped. At a pole the azimuth is undefined. At 0.1 degrees from it, the
+  /// horizontal part of the line of sight is 1.7e-3, enough for 13 digits. A view already closer to
+  /// a pole (top, bottom, a recorded one) is kept. The roll of a recorded camera falls by a factor
+  /// e each time the pointer has moved roll_fade times the image's height, here and in look().
+  /// pan(), dolly() and flight keep it; frame(), look_from(), home() and set_up() reset it.
   void orbit(double dx, double dy);
   static constexpr double roll_fade = 0.15;
 
   /// Moves in the image plane: points at the target's depth follow the pointer exactly.
   void pan(double dx, double dy);
 
-  /// Each step moves by a tenth of the distance to the target; negative steps undo it. Limits: 1e-5
-  /// and 1e4 radii of the subject. With a pointer, measured from the viewport's top left corner,
-  /// the point under it at the target's depth stays under it.
+  /// Each positive step moves the eye a tenth of the distance nearer to the target; negative steps
+  /// undo it. Limits: 1e-5 and 1e4 radii of the subject. With a pointer, measured from the
+  /// viewport's top left corner, the point under it at the target's depth stays under it.
   void dolly(double steps);
   void dolly(double steps, glm::dvec2 pointer);
 
   /// Turns the view direction: a drag to the right looks to the right. The eye stays. The angles
-  /// equal those of orbit(), and are smaller for fields of view below 40 degrees.
+  /// equal those of orbit() for fields of view from 40 degrees; below, they shrink in proportion.
   void look(double dx, double dy);
 
   /// Speed in world units a second for a Flight of factor 1. Default: a quarter of the box's
@@ -126,7 +126,7 @@ class CameraControls {
   void scale_speed(double steps);
 
   /// Advances time: flies, in either mode, and glides. Two calls with half the seconds equal one
-  /// call. There is no limit, so after a pause the caller passes only the seconds to be flown.
+  /// call. `seconds` is not limited: after a pause, the caller must exclude the pause.
   void advance(double seconds, const Flight& flight = {});
 
   /// Time constant of gliding in seconds, default 0.06; 0 disables gliding and arrives.
@@ -145,7 +145,8 @@ class CameraControls {
   void frame();
   void frame(const glm::dvec3& low, const glm::dvec3& high);
 
-  /// Shows the whole box from the named direction, likewise.
+  /// Shows the whole box from the named direction. Keeps the field of view; resets roll and
+  /// principal point.
   void look_from(NamedView view);
   /// The three-quarter view with a field of view of 40 degrees, as after construction.
   void home();
@@ -170,8 +171,9 @@ class CameraControls {
   /// including the name; at other sizes resized(). Pose, roll, focal lengths and principal point
   /// stay until an input moves the view. Input continues without a jump: it changes only the
   /// requested pose or lens, and the roll decays as in orbit(). The target is the point on the line
-  /// of sight nearest to the box's centre, at least a tenth of the radius away. A camera with a
-  /// size or focal length that is not positive, or with non-finite numbers, is ignored.
+  /// of sight nearest to the box's centre, at least a tenth of the radius in front of the eye. A
+  /// camera with a size or focal length that is not positive, or with non-finite numbers, is
+  /// ignored.
   void adopt(const Camera& camera);
   /// Whether the shown view is an adopted camera, unmoved.
   bool shows_adopted() const { return adopted_ && !moving_; }
@@ -201,7 +203,7 @@ class CameraControls {
  private:
   bool usable(const ViewState& next) const;
   void move_to(const ViewState& next);    // by a delta
-  void travel_to(const ViewState& next);  // by a jump, the short way
+  void travel_to(const ViewState& next);  // to a distant view; angles take the shorter way
   ViewState turned(double dx, double dy, double radians_per_pixel) const;
   void dolly_about(double steps, const glm::dvec3& fixed_ray);
   void show_box(ViewState next, const glm::dvec3& low, const glm::dvec3& high);

@@ -87,8 +87,7 @@ void add_report(Command& program) {
   Command command =
       program.add_command("report", "Show results as a page of tables, plots and images");
   command.footer(
-      R"(Reads results from bench, tradeoff and eval (--json or -o), logs from train, downloads
-from the page bench.html, and measurements from ./dev. Several results of one kind appear
+      R"(Reads results from bench, tradeoff and eval (--json or -o), logs from train, files that the page bench.html saved, and measurements from ./dev. Several results of one kind appear
 side by side; tradeoff results of several scenes share one table with means. The page needs no
 network. It links to images and does not copy them.
 

@@ -104,8 +104,9 @@ on the device, or the output cannot be written.)");
   add_choice<tradeoff::Samples>(
       command, "--reference", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
-      "reference for edits: device (default, the oracle at the device's sample points) or exact "
-      "(exact triangles; the error then includes the device's rounding)")
+      "reference for edits, drawn by the CPU in double precision: device (default, vertices "
+      "rounded "
+      "as on the device) or exact (not rounded; the error then includes the device's rounding)")
       .value_name("NAME");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
@@ -135,7 +136,7 @@ on the device, or the output cannot be written.)");
       .value_name("N");
   command
       .add_option("--photographs", options->photographs,
-                  "largest number of test photographs from DATASET, evenly spaced")
+                  "largest number of test photographs, chosen at even intervals from DATASET")
       .check(between(1, 1000000))
       .value_name("N");
   command
@@ -146,8 +147,9 @@ on the device, or the output cannot be written.)");
       .value_name("DB");
   command
       .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
-                  "limit for the choice: largest fraction of pixels that only one of the two "
-                  "images covers, 1e-4 by default")
+                  "limit for the choice: largest fraction of pixels that are covered in only one "
+                  "image, the "
+                  "device's or the reference, 1e-4 by default")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");
   const Option write =

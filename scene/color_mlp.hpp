@@ -1,6 +1,7 @@
 // The color MLP: dense layers that map the features and the view direction of a pixel to a colour,
 // with ReLU between layers and a sigmoid at the end. DiffSoup uses 16-16-16-3 with harmonics of
-// degree 2 and a residual blend. MobileNeRF uses 11-16-16-3 with the bare direction.
+// degree 2 and a linear blend with the first three features. MobileNeRF uses 11-16-16-3 with the
+// bare direction.
 #pragma once
 
 #include <glm/vec3.hpp>

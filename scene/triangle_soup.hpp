@@ -39,7 +39,7 @@ struct Harmonics {
   Domain domain = Domain::face;
   int degree = 0;  // 0..4
   ViewConvention view = ViewConvention::eye_to_surface;
-  /// harmonics::count(degree) RGB coefficients an element, element by element.
+  /// For each face or vertex, in order: harmonics::count(degree) RGB coefficients.
   std::vector<glm::vec3> coefficients;
 };
 
@@ -49,9 +49,9 @@ struct LatticePatch {
   std::uint32_t level = 0;  // 0..lattice::max_level
 };
 
-/// A lattice of features and alpha a face (scene/lattice.hpp; DiffSoup, arXiv 2603.27151). With a
-/// color MLP the features are its inputs; without one, features 0..2 are the colour. Points with
-/// interpolated alpha below alpha_threshold are cut out.
+/// One lattice per face; each texel has features and an alpha (scene/lattice.hpp; DiffSoup, arXiv
+/// 2603.27151). With a color MLP the features are its inputs; without one, features 0..2 are the
+/// colour. Points with interpolated alpha below alpha_threshold are cut out.
 struct LatticeTexture {
   static constexpr int features = 7;
   static constexpr int channels = features + 1;  // f0 .. f6, alpha
@@ -72,21 +72,23 @@ struct UvMaterial {
   enum class Wrap { repeat, mirror, clamp };
   enum class Filter { nearest, linear };
 
-  /// Indices into UvTextures::images. Empty: factor alone. One: colour times factor. Two of equal
-  /// size with a color MLP: eight features, and factor is unused.
+  /// Indices into UvTextures::images. Without an image the colour is factor; with one, the image
+  /// times factor. With a color MLP, two images of equal size hold eight features, and factor is
+  /// unused.
   std::vector<std::uint32_t> images;
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
   Filter filter = Filter::linear;
   glm::vec4 factor{1.0f};
   /// A fragment exists where this channel of the first image is at least the threshold. Without an
-  /// MLP the channel is multiplied by factor and vertex colour. A threshold of 0 draws everything.
+  /// MLP it is multiplied by the same channel of factor and of the vertex colour. A threshold of 0
+  /// draws everything.
   int mask_channel = 3;
   float mask_threshold = 0.0f;
 };
 
 /// Conventional textures. (u, v) = (0, 0) is the top left corner of the first row. There are no mip
-/// levels, so one sample matches the oracle. glTF 2.0 and MobileNeRF (arXiv 2208.00277).
+/// levels, so one sample per pixel equals the oracle's. glTF 2.0 and MobileNeRF (arXiv 2208.00277).
 struct UvTextures {
   std::vector<glm::vec2> uv;                    // one a vertex
   std::vector<std::uint32_t> material_of_face;  // one a face

@@ -141,9 +141,11 @@ void add_bench_view_options(Command& command, BenchViewOptions& options) {
       .single_argument()
       .value_name("SET,..");
   command
-      .add_option("--size,--sizes", options.sizes,
-                  "image sizes, separated by commas: WxH in pixels, 1280x720 by default; for "
-                  "recorded cameras also full (their own size, the default), half and quarter")
+      .add_option(
+          "--size,--sizes", options.sizes,
+          "image sizes, separated by commas: WxH in pixels; recorded cameras also support full, "
+          "half "
+          "and quarter of their own size; default: full for recorded cameras, else 1280x720")
       .split_at_commas()
       .single_argument()
       .value_name("WxH,..");

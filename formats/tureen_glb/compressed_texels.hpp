@@ -9,8 +9,8 @@
 // every level. Otherwise the encoder weighs each error against the bits that it saves
 // (rate-distortion optimised quantisation). Faces that are smooth on a level cost almost nothing.
 //
-// Invisible data are dropped: features without a surrounding alpha of at least 1/2, and alpha
-// (except its side) if all its surroundings are on one side of 1/2.
+// Invisible data are dropped. Features of a texel are dropped if no neighbouring alpha reaches 1/2.
+// If all neighbouring alphas are on one side of 1/2, only that side is stored.
 #pragma once
 
 #include <array>
@@ -45,9 +45,9 @@ struct CompressedTexelOptions {
   /// Weight of a feature's squared error, one a texel, at least 0. Empty: 1 for all. Faces with
   /// equal texels store them once, with the largest weight.
   std::vector<float> weights = {};
-  /// Price of a bit, at least 0, default 0: the additional squared error, in weighted squared
-  /// feature steps, accepted on the finest level of a patch to save a bit. Errors on coarser levels
-  /// count more. At 0 each value is rounded to the nearest multiple of its step.
+  /// Price of a bit, at least 0, default 0: the additional error that the encoder accepts to save
+  /// one bit, in weighted squared feature steps, on the finest level of a patch. Errors on coarser
+  /// levels count more. At 0 each value is rounded to the nearest multiple of its step.
   double bit_price = 0;
 };
 

@@ -1,6 +1,6 @@
-// How visible errors in a soup's texels are, and the quantisation steps that follow from it. This
-// part of the search for a compressed file (jobs/compress/compress.hpp) is independent of the step
-// of colour.
+// How visible errors in a soup's texels are, and the quantisation steps that follow from it. The
+// constructor measures once; options() then gives the steps for any step of colour
+// (jobs/compress/compress.hpp).
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ class CompressImportance {
                      std::span<const Camera> views, bool by_texel,
                      const std::function<void()>& cancel);
 
-  /// Options for steps of `step` / 255 of colour in the mean (compressed_basis). Without a bit
-  /// price each value is rounded to its nearest step.
+  /// Options for which one quantisation step changes the colour by `step` / 255 on average
+  /// (compressed_basis.hpp). Without a bit price each value is rounded to its nearest step.
   CompressedTexelOptions options(double step, std::uint8_t alpha_step,
                                  bool bits_have_a_price) const;
 

@@ -1,10 +1,11 @@
 // The timing protocol for all frame times.
 //
 // Cases alternate frame by frame (A B C A B C ..), so that disturbances affect all alike. Each is
-// warmed up until it is stable. First the first case runs against itself: the A/A spread is the
-// difference without significance. A sample begins with an idle device and ends when the device has
-// finished. On fast devices it is several frames of one view, so that the wait does not dominate.
-// By default the clock is the computer's steady clock; BenchmarkOptions::clock replaces it.
+// warmed up until it is stable. At the beginning the first case runs against itself; the
+// difference, the A/A spread, is noise. A sample begins with an idle device and ends when the
+// device has finished. On fast devices it is several frames of one view, so that the wait does not
+// dominate. By default the clock is the computer's steady clock; BenchmarkOptions::clock replaces
+// it.
 //
 // This file is independent of GL. Cases are functions, so that tests can use an artificial clock,
 // and other renderers can be compared.
@@ -42,7 +43,7 @@ struct BenchmarkOptions {
 
   /// Warm-up: frames of the first camera, until the last three times are within `stable_within` of
   /// their smallest. The number of frames is limited by the next two settings. After
-  /// `max_warm_up_seconds` only the minimum is completed.
+  /// `max_warm_up_seconds` it ends once the minimums of frames and seconds are reached.
   int min_warm_up_frames = 3;
   int max_warm_up_frames = 100;
   double max_warm_up_seconds = 2;
@@ -53,7 +54,7 @@ struct BenchmarkOptions {
   double stable_within = 0.05;
 
   /// Whether the first case is first measured against itself. Without it aa_spread is 0.
-  enum class SelfTest { run, leave_out };
+  enum class SelfTest { run, skip };
   SelfTest self_test = SelfTest::run;
 
   /// Called after every sample with the fraction done; may throw to cancel.

@@ -34,7 +34,7 @@ enum class ShadingSite {
 
 /// The kind of shader in the shading pass of a deferred plan.
 enum class ShadingStage {
-  fragment,  // a triangle over the window; the depth test rejects the background
+  fragment,  // one triangle over the whole target; the depth test rejects the background
   compute,   // a compute shader with one invocation per pixel
 };
 
@@ -46,11 +46,11 @@ struct PlanPreferences {
   SpecialisationSet specialisations = SpecialisationSet::all();
   bool reversed_depth = true;            // if the device supports it
   std::optional<ShadingSite> site = {};  // default: chosen by the plan
-  /// Measured only on software OpenGL (docs/benchmarks.md, "Shading as compute"): compute is as
+  /// Measured only on software OpenGL (docs/benchmarks.md, "Shading stage"): compute is as
   /// fast if faces cover the whole image, and slower otherwise.
   ShadingStage shading_stage = ShadingStage::fragment;
-  /// Largest size of alpha by cell, in bytes on the device. Above it alpha is stored by texel, with
-  /// identical images but slower.
+  /// Limit in bytes for alpha stored by cell (LatticePlan::alpha_by_cell). Above it, alpha is
+  /// stored by texel: identical images, but slower.
   std::uint64_t max_alpha_cell_bytes = ~std::uint64_t(0);
   Quality quality = {};
 };
@@ -58,7 +58,7 @@ struct PlanPreferences {
 /// The layout of lattice texels on the device.
 struct LatticePlan {
   /// Common level of all faces: texels follow each other in slot order and a formula locates them.
-  /// -1: a table locates the texels of each slot, at 16 bytes a face and one read a fragment.
+  /// -1: a table locates them; it costs 16 bytes per face and one read per fragment.
   int uniform_level = -1;
   /// Level of each slot on the device; below the soup's for affine faces. Empty if the texels are
   /// uploaded unchanged.
@@ -74,7 +74,8 @@ struct RenderPlan {
   ShadingSite site = ShadingSite::deferred;
   bool reversed_depth = false;
 
-  /// The drawn faces by their slot on the device: opaque ones first, spatially sorted.
+  /// faces[slot] is the face of the soup that this slot of the device draws. Opaque faces come
+  /// first; each part is sorted spatially.
   std::vector<std::uint32_t> faces;
   /// Number of opaque slots, which come first and need no alpha test.
   std::size_t opaque_count = 0;

@@ -1,5 +1,6 @@
-// All constants of training. The defaults are ours, for the preset object. `preset` and `published`
-// return the other sets; a --config file or an option overrides single constants.
+// All constants of training. The defaults are ours for Preset::object, but for near and far, which
+// preset() sets. `preset` and `published` return the other sets; a --config file or an option
+// overrides single constants.
 //
 // Source: DiffSoup (arXiv 2603.27151), its supplement and its code. Comments explain where our
 // values differ; docs/benchmarks.md has the gains.
@@ -42,33 +43,35 @@ struct Config {
 
   // --- Initialisation
   Initialisation initialisation = Initialisation::automatic;
-  int initial_triangles = 15'000;  // published, random: 100,000
+  int initial_triangles = 15'000;  // published for objects: 100,000
   float initial_radius = 1.0f;     // circumradius as a multiple of the mean distance to the nearest
-                                   // neighbour; published: 0.25
-  bool local_radius = false;  // at points: from the distance to its own neighbour, not the mean
+                                   // neighbour; published: 0.25, for objects 0.28
+  bool local_radius =
+      false;  // with points: each radius uses the distance to the triangle's own nearest neighbour
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // fraction of the random points outside the box
   float far_extent = 8.0f;  // largest distance of these points, in half sides of the box
-  /// With points: fraction of all triangles around the box, where structure from motion found no
-  /// points; published: 0.
+  /// With points: this fraction of all triangles starts around the box, where structure from motion
+  /// found no points; published: 0.
   float around_points = 0.0f;
 
   // --- The texture
-  int coarse_level = 0;            // the only level before the lift
-  int min_level = 2;               // levels min_level .. max_level afterwards
+  int coarse_level = 0;            // of all faces until lift_at
+  int min_level = 2;               // then levels min_level .. max_level
   int max_level = 3;               // published: 5, for images of 800 pixels and more
-  float lift_at = 0.05f;           // published: 0.5; fraction of the steps before the lift
+  float lift_at = 0.05f;           // published: 0.5; fraction of the steps before finer levels
   bool lift_keeps_opacity = true;  // published: false, opacity restarts at one half
 
   // --- The loss: l1_weight * mean |C - G| + ssim_weight * (1 - SSIM) / 2
   float l1_weight = 0.8f;
   float ssim_weight = 0.2f;
-  float opacity_l1_weight = 1.0f;  // scale of the score's loss, sum over channels of |C - G|
+  float opacity_l1_weight = 1.0f;  // scale of the loss that drives the opacity (score function):
+                                   // sum over channels of |C - G|
   bool baseline = true;         // published: false. Subtracts a running mean from the score's loss
   float baseline_rate = 0.25f;  // update rate of that mean, an exponential average per pixel
 
-  /// Two neighbouring pixels of one face both add the derivative by the slide of its texture, so
-  /// each counts one half; published: 1.
+  /// If corners move, the texture slides inside the face. Both pixels of a neighbouring pair add
+  /// this derivative, so each is multiplied by one half; published: 1.
   float texture_slide = 0.5f;
 
   // --- Optimisation
@@ -88,8 +91,9 @@ struct Config {
   bool resample_textures = true;  // published: false, children copy the parent's texels
   float turnover = 0.05f;         // published: 0. Fraction of the faces, those with the fewest
                                   // pixels, that is replaced at each resampling
-  // Fraction of the steps. Later, rates are below a tenth, and new faces hardly converge: held-out
-  // views of lego lost 0.3 dB with turnover between one half and three quarters of a run.
+  // Turnover ends after this fraction of the steps. Later, learning rates are below a tenth of
+  // their start and new faces hardly converge: held-out views of lego lost 0.3 dB with turnover
+  // between one half and three quarters of a run.
   float turnover_until = 0.5f;
   bool split_by_error = true;   // published: false. Splits the faces with the largest error instead
                                 // of the longest edges
@@ -98,8 +102,8 @@ struct Config {
   /// Published for scenes: true. Splits all edges longer than split_fraction, and the next pruning
   /// restores the budget. If false, splits stop at the budget.
   bool split_beyond_budget = false;
-  /// Published: 1. Faces visible in fewer training images are removed. The effective minimum is at
-  /// most 1 + training images / 20.
+  /// Faces visible in fewer training images are removed. Ours for scenes: 3; published: 1. The
+  /// effective minimum is at most 1 + training images / 20.
   int min_views = 1;
 
   // --- The image
