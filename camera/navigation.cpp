@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -34,19 +36,21 @@ Camera camera_at(const Subject& subject, const Bearing& bearing, const Lens& len
 }  // namespace
 
 Subject subject_of(const Scene& scene) {
-  Bounds box;
-  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
-    box = bounds(*soup);
-  } else {
-    // The window of a soft triangle is 0 outside the triangle, so its corners determine the box.
-    TriangleSoup corners;
-    corners.positions = std::get<SoftTriangles>(scene.primitives).positions;
-    for (std::uint32_t i = 0; i + 2 < corners.positions.size(); i += 3)
-      corners.triangles.push_back({i, i + 1, i + 2});
-    box = bounds(corners);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 low(infinity), high(-infinity);
+  for (const Layer& layer : scene.layers) {
+    const Bounds box = bounds(layer);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 position(corner & 1 ? box.high.x : box.low.x,
+                                corner & 2 ? box.high.y : box.low.y,
+                                corner & 4 ? box.high.z : box.low.z, 1.0);
+      const glm::dvec3 world(layer.world_from_layer * position);
+      low = glm::min(low, world);
+      high = glm::max(high, world);
+    }
   }
-  return {scene.origin + glm::dvec3(box.low), scene.origin + glm::dvec3(box.high),
-          glm::dvec3(scene.info.up)};
+  if (scene.layers.empty()) low = high = glm::dvec3(0.0);
+  return {low, high, glm::dvec3(scene.info.up)};
 }
 
 glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {

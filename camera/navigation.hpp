@@ -20,7 +20,8 @@ struct Subject {
   glm::dvec3 centre() const { return 0.5 * (low + high); }
 };
 
-/// The bounds of the scene's soup, moved by its origin, and its up axis. O(data).
+/// The box in world coordinates around the boxes of all layers, also of invisible ones, and the
+/// scene's up axis. A layer without triangles counts as its origin. O(data).
 Subject subject_of(const Scene& scene);
 
 /// The optics of a view.

@@ -75,7 +75,8 @@ BenchResult run(const BenchOptions& options) {
   Scene scene = read(options.scene);
   const std::chrono::duration<double, std::milli> read_ms =
       std::chrono::steady_clock::now() - start;
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   result.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
                   appearance_name(soup.appearance)};
   result.notes = all_notes(scene.info);

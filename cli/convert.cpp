@@ -78,7 +78,7 @@ void check_output(const ConvertOptions& options) {
 
 void apply(const Edits& edits, Scene& scene) {
   if (edits == Edits{}) return;
-  auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives);
   if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
     throw UsageError(std::string("--lattice-level, --color and --texel-bits change lattice "
                                  "textures; this scene has ") +

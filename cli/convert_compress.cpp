@@ -201,13 +201,13 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   for (std::string& sentence :
        losses_of(result, arguments.photographs, request.training_cameras.size()))
     lost.push_back(std::move(sentence));
-  const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
+  const auto all_faces = only_soup(scene).triangles.size();
   if (result.unseen > 0)
     lost.push_back(fmt::format(
         "Compression: {} OF {} FACES ARE REMOVED, because they are invisible in {} views (recorded "
         "cameras, and from above and around). Other or nearer viewpoints may show holes.",
         counted(result.unseen), counted(all_faces), result.seeing_views));
-  scene.primitives = std::move(result.kept);
+  only_layer(scene).primitives = std::move(result.kept);
   const std::size_t cameras = scene.cameras.size();
   if (!arguments.keep_cameras && cameras > 1) {
     scene.cameras.resize(1);
@@ -228,7 +228,7 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
 
   const std::uint64_t bytes = bytes_on_disk(glb);
   say_list("Lost by --compress:", lost);
-  const auto faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
+  const auto faces = only_soup(scene).triangles.size();
   say(fmt::format("the scene takes {}: positions {}, texels {}, {:.1f} bytes a triangle",
                   bytes_text(bytes), bytes_text(result.soup.geometry.size()),
                   bytes_text(result.soup.texels.size()),

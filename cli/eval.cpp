@@ -89,7 +89,8 @@ ExitCode evaluate_scene(EvalOptions options) {
     }
 
   Scene scene = read(options.scene);
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   if (options.background.empty()) evaluation.background = scene.info.background;
   evaluation.pipeline = options.drawing.pipeline;
   evaluation.plan = preferences_for(scene, options.drawing);
@@ -113,7 +114,7 @@ ExitCode evaluate_scene(EvalOptions options) {
   {
     Progress progress("evaluating");
     evaluation.progress = [&](double fraction) { progress.update(fraction); };
-    result = evaluate(soup, scene.origin, photographs, evaluation);
+    result = evaluate(soup, origin_of(only_layer(scene)), photographs, evaluation);
   }
   std::vector<std::string> output;
   if (images) output = images->finish();

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/decimal_text.hpp"
+#include "camera/navigation.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/scene_argument.hpp"
@@ -148,11 +149,11 @@ const std::vector<NamedDevice>& named_devices() {
 
 ExitCode inform(const InfoOptions& options) {
   Scene scene = read(options.scene);
-  const bool soft = std::holds_alternative<SoftTriangles>(scene.primitives);
-  const TriangleSoup& soup = opaque_soup(scene);
-  const Bounds box = bounds(soup);
-  const glm::dvec3 low = scene.origin + glm::dvec3(box.low);
-  const glm::dvec3 high = scene.origin + glm::dvec3(box.high);
+  const Layer& layer = only_layer(scene);
+  const bool soft = std::holds_alternative<SoftTriangles>(layer.primitives);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
+  const Subject subject = subject_of(scene);
   const std::uint64_t on_disk = bytes_on_disk(options.scene.path);
   const RenderPlan plan = make_plan(soup, named_devices().back().limits);
   const DeviceForecast forecast = device_forecast(soup, plan);
@@ -190,7 +191,7 @@ ExitCode inform(const InfoOptions& options) {
   for (const std::string& line : appearance.lines) table.row({"", line});
   table.row({"bytes", fmt::format("{} on disk, {} in memory, {} on the device", bytes_text(on_disk),
                                   bytes_text(byte_size(soup)), bytes_text(forecast.bytes))});
-  table.row({"bounds", vector_text(low) + " to " + vector_text(high)});
+  table.row({"bounds", vector_text(subject.low) + " to " + vector_text(subject.high)});
   table.row({"up", vector_text(scene.info.up)});
   table.row({"cameras", std::to_string(scene.cameras.size())});
   if (scene.quality != Quality{}) table.row({"quality", describe(scene.quality)});
@@ -217,8 +218,8 @@ ExitCode inform(const InfoOptions& options) {
     json.update({{"bytes_on_disk", on_disk},
                  {"bytes_in_memory", byte_size(soup)},
                  {"bytes_on_device", forecast.bytes},
-                 {"bounds", {{"low", to_json(low)}, {"high", to_json(high)}}},
-                 {"origin", to_json(scene.origin)},
+                 {"bounds", {{"low", to_json(subject.low)}, {"high", to_json(subject.high)}}},
+                 {"origin", to_json(origin_of(layer))},
                  {"up", to_json(glm::dvec3(scene.info.up))},
                  {"background", to_json(glm::dvec3(scene.info.background))},
                  {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},

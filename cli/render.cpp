@@ -63,7 +63,7 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
                   const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
   Renderer renderer =
-      make_renderer(context, soup, scene.origin, options.drawing.pipeline,
+      make_renderer(context, soup, origin_of(only_layer(scene)), options.drawing.pipeline,
                     {.plan = preferences_for(scene, options.drawing), .background = background});
   const Drawer drawer = drawer_of(renderer, device);
   // benchmark() rejects images in tiles. It runs first, because drawing may take hours.
@@ -78,7 +78,8 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
 Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
                       const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  DebugViewRenderer debug_renderer(context, soup, scene.origin, {.background = background});
+  DebugViewRenderer debug_renderer(context, soup, origin_of(only_layer(scene)),
+                                   {.background = background});
   debug_renderer.show(options.show.what, options.show.features);
   WrittenImages images =
       draw_views(drawer_of(debug_renderer, device), device, views, options.output);
@@ -148,7 +149,8 @@ ExitCode render(RenderOptions options) {
   check_output(options, background);
 
   Scene scene = read(options.scene);
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   const Views views = resolve_views(options.views, scene, options.scene.path);
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, soup);

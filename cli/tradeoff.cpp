@@ -48,7 +48,7 @@ ExitCode tradeoff(const TradeoffArguments& options) {
     require_writable_scene(options.written_scene, options.scene.path, options.force);
 
   Scene scene = read(options.scene);
-  opaque_soup(scene);
+  make_opaque(scene);
   TradeoffReport report = measure_tradeoff(options, scene);
   // If the scene cannot be written, the report is still written: measuring takes minutes.
   std::exception_ptr unwritten;

@@ -176,11 +176,14 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
       std::any_of(formats().begin(), formats().end(), promises))
     scene.info.remarks.push_back(
         {.kind = Remark::Kind::content_misnamed, .names = {extension, format.name}});
-  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
-    if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
-    if (soup->triangles.empty())
-      throw InputError({path.string(), {}, {}}, "the file holds no triangles");
+  bool is_empty = true;
+  for (const Layer& layer : scene.layers) {
+    const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
+    if (soup)
+      if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
+    if (!soup || !soup->triangles.empty()) is_empty = false;
   }
+  if (is_empty) throw InputError({path.string(), {}, {}}, "the file holds no triangles");
   return scene;
 }
 

@@ -1,6 +1,35 @@
 #include "scene/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
+
+#include "base/error.hpp"
+
 namespace tureen {
+
+namespace {
+
+std::string layer_names(const Scene& scene) {
+  std::string names;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const std::string& name = scene.layers[i].name;
+    if (i > 0) names += ", ";
+    names += name.empty() ? "layer " + std::to_string(i) : name;
+  }
+  return names;
+}
+
+bool all_finite(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(matrix[column][row])) return false;
+  return true;
+}
+
+}  // namespace
 
 std::vector<std::string> all_notes(const SceneInfo& info) {
   std::vector<std::string> notes = info.notes;
@@ -8,13 +37,92 @@ std::vector<std::string> all_notes(const SceneInfo& info) {
   return notes;
 }
 
-TriangleSoup& opaque_soup(Scene& scene) {
-  if (auto* soft = std::get_if<SoftTriangles>(&scene.primitives)) {
+glm::dmat4 at_origin(const glm::dvec3& origin) {
+  glm::dmat4 world_from_layer(1.0);
+  world_from_layer[3] = glm::dvec4(origin, 1.0);
+  return world_from_layer;
+}
+
+glm::dvec3 origin_of(const Layer& layer) { return glm::dvec3(layer.world_from_layer[3]); }
+
+Bounds bounds(const Layer& layer) {
+  if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives)) return bounds(*soup);
+  // The window of a soft triangle is 0 outside the triangle, so its corners determine the box.
+  TriangleSoup corners;
+  corners.positions = std::get<SoftTriangles>(layer.primitives).positions;
+  for (std::uint32_t i = 0; i + 2 < corners.positions.size(); i += 3)
+    corners.triangles.push_back({i, i + 1, i + 2});
+  return bounds(corners);
+}
+
+std::optional<std::string> defect(const Layer& layer) {
+  const glm::dmat4& matrix = layer.world_from_layer;
+  if (!all_finite(matrix)) return "world_from_layer has a number that is not finite";
+  for (int column = 0; column < 4; ++column)
+    if (matrix[column][3] != (column == 3 ? 1.0 : 0.0))
+      return "the last row of world_from_layer is not 0 0 0 1";
+
+  double largest = 0;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
+  if (largest == 0) return "the scale of world_from_layer is zero";
+  // Elements of at most 1: the squares below neither overflow nor vanish. Division by a subnormal
+  // number is exact enough, multiplication by its inverse overflows.
+  glm::dmat3 axes(matrix);
+  for (int column = 0; column < 3; ++column) axes[column] /= largest;
+
+  // Products of matrices in single precision are below this error. It moves a point by less than
+  // 1e-5 of its distance from the layer's origin: 0.01 pixels in an image of 1,000 pixels.
+  constexpr double tolerance = 1e-5;
+  const glm::dmat3 products = glm::transpose(axes) * axes;
+  const double squared_scale = (products[0][0] + products[1][1] + products[2][2]) / 3;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) {
+      const double expected = column == row ? squared_scale : 0.0;
+      if (std::abs(products[column][row] - expected) > tolerance * squared_scale)
+        return "world_from_layer stretches or shears; only a rotation, a translation, one scale "
+               "and "
+               "a mirror are supported";
+    }
+  return std::nullopt;
+}
+
+Scene scene_of(std::variant<TriangleSoup, SoftTriangles> primitives, const glm::dvec3& origin) {
+  Scene scene;
+  scene.layers.push_back(
+      {.world_from_layer = at_origin(origin), .primitives = std::move(primitives)});
+  return scene;
+}
+
+const Layer& only_layer(const Scene& scene) {
+  if (scene.layers.empty())
+    throw UsageError("this needs a scene with one layer; this scene has no layer");
+  if (scene.layers.size() > 1)
+    throw UsageError("this needs a scene with one layer; this scene has " +
+                     std::to_string(scene.layers.size()) + ": " + layer_names(scene));
+  return scene.layers.front();
+}
+
+Layer& only_layer(Scene& scene) {
+  return const_cast<Layer&>(only_layer(std::as_const(scene)));  // the scene is not const
+}
+
+const TriangleSoup& only_soup(const Scene& scene) {
+  return std::get<TriangleSoup>(only_layer(scene).primitives);
+}
+
+TriangleSoup& only_soup(Scene& scene) {
+  return std::get<TriangleSoup>(only_layer(scene).primitives);
+}
+
+void make_opaque(Scene& scene) {
+  for (Layer& layer : scene.layers) {
+    auto* soft = std::get_if<SoftTriangles>(&layer.primitives);
+    if (!soft) continue;
     OpaqueResult result = to_opaque(std::move(*soft));
     for (Remark& remark : result.remarks) scene.info.remarks.push_back(std::move(remark));
-    scene.primitives = std::move(result.soup);
+    layer.primitives = std::move(result.soup);
   }
-  return std::get<TriangleSoup>(scene.primitives);
 }
 
 }  // namespace tureen

@@ -1,7 +1,9 @@
-// A trained scene: one kind of primitive with metadata.
+// A scene: layers of primitives, cameras and metadata.
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,16 +30,55 @@ struct SceneInfo {
 /// The notes, followed by the descriptions of the remarks.
 std::vector<std::string> all_notes(const SceneInfo& info);
 
+/// One set of primitives of a scene.
+struct Layer {
+  std::string name = {};
+  /// World from layer coordinates: a similarity (rotation, translation, one scale, optionally a
+  /// mirror).
+  glm::dmat4 world_from_layer{1.0};
+  bool visible = true;
+  std::variant<TriangleSoup, SoftTriangles> primitives = {};
+};
+
+/// The translation by `origin`, in world coordinates: the world_from_layer of a layer whose
+/// vertices are relative to `origin`.
+glm::dmat4 at_origin(const glm::dvec3& origin);
+
+/// The translation of world_from_layer: the layer's origin in world coordinates. It places the
+/// vertices (world = origin + position) only if world_from_layer has no rotation, scale or mirror.
+glm::dvec3 origin_of(const Layer& layer);
+
+/// The box around the layer's triangles, in layer coordinates; zeros if there are none.
+Bounds bounds(const Layer& layer);
+
+/// The reason why world_from_layer is no similarity (a number that is not finite, a perspective
+/// row, a scale of zero, a stretch or shear beyond rounding), or nullopt. A mirror is no defect.
+/// The primitives are not checked.
+std::optional<std::string> defect(const Layer& layer);
+
 struct Scene {
-  std::variant<TriangleSoup, SoftTriangles> primitives;
+  std::vector<Layer> layers;  // at equal depth the earlier layer wins
   std::vector<Camera> cameras;
-  glm::dvec3 origin{0.0};  // world = origin + position
   SceneInfo info;
   Quality quality = {};  // without a defect()
 };
 
-/// The soup to render: the scene's own, or its soft triangles converted by to_opaque. The losses of
-/// the conversion are added to info.remarks. Afterwards the scene holds a TriangleSoup.
-TriangleSoup& opaque_soup(Scene& scene);
+/// A scene of one visible layer without a name, at `origin` in world coordinates.
+Scene scene_of(std::variant<TriangleSoup, SoftTriangles> primitives,
+               const glm::dvec3& origin = glm::dvec3(0.0));
+
+/// The layer of a scene with one layer. Throws UsageError, which names the layers, if the scene has
+/// any other number of layers.
+Layer& only_layer(Scene& scene);
+const Layer& only_layer(const Scene& scene);
+
+/// The soup of a scene with one layer. Throws UsageError like only_layer. Soft triangles in this
+/// layer are a programming error: call make_opaque before.
+TriangleSoup& only_soup(Scene& scene);
+const TriangleSoup& only_soup(const Scene& scene);
+
+/// Converts the soft triangles of every layer by to_opaque. The losses of the conversions are added
+/// to info.remarks. Afterwards every layer holds a TriangleSoup.
+void make_opaque(Scene& scene);
 
 }  // namespace tureen

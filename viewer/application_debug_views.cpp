@@ -18,7 +18,7 @@ void Application::prepare_debug_view_when_needed() {
                  .work =
                      [this, scene, options](const Worker::Progress&) {
                        auto debug_renderer = std::make_shared<DebugViewRenderer>(
-                           window_.context(), scene.soup(), scene.scene->origin, options);
+                           window_.context(), scene.soup(), scene.origin(), options);
                        debug_renderer->leave_context();
                        return Worker::Completion([this, debug_renderer, of = scene.scene] {
                          if (!state_.stage || state_.stage->scene != of) return;

@@ -38,7 +38,7 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
 
 Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
   const Scene& scene = *source.scene;
-  return make_renderer(request.context, source.soup(), scene.origin, request.choice.pipeline,
+  return make_renderer(request.context, source.soup(), source.origin(), request.choice.pipeline,
                        render_options(request.choice, scene));
 }
 
@@ -47,7 +47,7 @@ std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const Stage
   const FileWatch watch(path);
   auto scene = std::make_shared<Scene>(
       read_scene(path, {.progress = [&](double done) { request.progress(reading_share * done); }}));
-  opaque_soup(*scene);
+  make_opaque(*scene);
   StageSource source;
   source.path = path;
   source.watch = watch;

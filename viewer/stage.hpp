@@ -31,13 +31,14 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene);
 /// A scene that was read.
 struct StageSource {
   std::filesystem::path path;
-  std::shared_ptr<const Scene> scene;  // its primitives are a TriangleSoup
+  std::shared_ptr<const Scene> scene;  // its layers hold no soft triangles
   Subject subject;                     // with the guessed up axis
   UpGuess up;
   FileWatch watch;  // created before it was read
   double read_seconds = 0;
 
-  const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
+  const TriangleSoup& soup() const { return only_soup(*scene); }
+  glm::dvec3 origin() const { return origin_of(only_layer(*scene)); }
 };
 
 struct Stage : StageSource {

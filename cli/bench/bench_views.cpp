@@ -92,8 +92,7 @@ class SetAtSizes {
       notes.insert(notes.end(), views.notes.begin(), views.notes.end());
     } else if (set.kind == CameraSet::Kind::adversarial) {
       // Chosen once, so that all sizes have the same views.
-      fixed_ = adversarial_views(std::get<TriangleSoup>(scene.primitives), scene.origin, subject_,
-                                 Lens{});
+      fixed_ = adversarial_views(only_soup(scene), origin_of(only_layer(scene)), subject_, Lens{});
     }
   }
 

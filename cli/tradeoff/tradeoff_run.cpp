@@ -66,23 +66,23 @@ std::vector<Photograph> test_photographs(const TradeoffOptions& options, Tradeof
 void measure_models(const TradeoffOptions& options, const Scene& scene,
                     const std::vector<Photograph>& photographs, TradeoffReport& report) {
   if (photographs.empty()) return;
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   report.model = {options.dataset.path, "test", int(photographs.size()), name(SsimBorder::valid)};
   Progress progress("photographs");
   tradeoff::ModelOptions model{.backend = options.backend,
                                .background = scene.info.background,
                                .with_flip = options.with_flip};
   model.progress = [&](double fraction) { progress.update(0.8 * fraction); };
-  report.drawing_model =
-      tradeoff::model_errors(report.study.drawing, soup, scene.origin, photographs, model);
+  report.drawing_model = tradeoff::model_errors(report.study.drawing, soup,
+                                                origin_of(only_layer(scene)), photographs, model);
   model.progress = [&](double fraction) { progress.update(0.8 + 0.2 * fraction); };
-  report.antialiasing_model =
-      tradeoff::model_errors(report.study.antialiasing, soup, scene.origin, photographs, model);
+  report.antialiasing_model = tradeoff::model_errors(
+      report.study.antialiasing, soup, origin_of(only_layer(scene)), photographs, model);
 }
 
 /// The part of the report that is known before the measurements.
 TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   TradeoffReport report;
   report.notes = all_notes(scene.info);
   if (scene.quality != Quality{})
@@ -103,7 +103,7 @@ TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
 tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
                          TradeoffReport& report) {
   const Defaults defaults = defaults_of(options.effort);
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   report.rounds = options.rounds > 0 ? options.rounds : defaults.rounds;
   const TradeoffViews views =
       tradeoff_views(view_options(options), defaults.views, scene, options.scene.path);
@@ -142,8 +142,8 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
     }
     progress->update(fraction);
   };
-  tradeoff::Study found =
-      tradeoff::run_study({context, soup, scene.origin, views.judges, views.counting}, study);
+  tradeoff::Study found = tradeoff::run_study(
+      {context, soup, origin_of(only_layer(scene)), views.judges, views.counting}, study);
   progress.reset();
   const tradeoff::Candidates left = tradeoff::candidates(found.drawing);
   if (const auto cheapest = tradeoff::cheapest_within(left.points, report.limits))

@@ -31,7 +31,7 @@ void write_chosen(const fs::path& path, Scene scene, TradeoffReport& report) {
   if (edits == Edits{}) {
     sentences.emplace_back("without edits: no edit within the limits is measurably faster");
   } else {
-    auto& soup = std::get<TriangleSoup>(scene.primitives);
+    auto& soup = only_soup(scene);
     Progress progress("reducing the scene");
     soup = edited(std::move(soup), edits, [&](double done) { progress.update(done); });
     scene.info.notes.push_back("reduced by tureen tradeoff: " + describe(edits));

@@ -14,7 +14,7 @@ namespace tureen::cli {
 void require_writable_scene(const std::filesystem::path& path, const std::filesystem::path& scene,
                             bool replaces);
 
-/// Writes the scene, whose primitives must be a TriangleSoup, with the chosen edits as a Tureen
+/// Writes a scene with one layer, which must hold a TriangleSoup, with the chosen edits as a Tureen
 /// GLB, and adds its name to the report. Without a choice, does nothing.
 void write_chosen(const std::filesystem::path& path, Scene scene, TradeoffReport& report);
 

@@ -205,9 +205,9 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
     texture.patches[t] = {static_cast<std::uint32_t>(t * per_face),
                           static_cast<std::uint32_t>(meta.level)};
 
-  scene.primitives = TriangleSoup{.positions = std::move(mesh.positions),
-                                  .triangles = std::move(mesh.triangles),
-                                  .appearance = std::move(texture)};
+  scene.layers.push_back({.primitives = TriangleSoup{.positions = std::move(mesh.positions),
+                                                     .triangles = std::move(mesh.triangles),
+                                                     .appearance = std::move(texture)}});
   scene.info.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
   scene.info.source = "DiffSoup export";
   scene.info.up = meta.up;

@@ -258,7 +258,8 @@ void write_files(const NewFolder& target, const Luts& luts, const ColorMlp& mlp,
 }  // namespace
 
 std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::path& folder) {
-  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  const Layer& layer = only_layer(scene);
+  const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
   if (!soup)
     throw UsageError("a DiffSoup export cannot hold soft triangles: make them opaque first");
   assert(!defect(*soup));
@@ -276,8 +277,8 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
                     "browsers often stop at " +
                     std::to_string(viewer_rows));
   std::vector<glm::vec3> positions = soup->positions;
-  if (scene.origin != glm::dvec3(0.0)) {
-    for (glm::vec3& p : positions) p = glm::vec3(scene.origin + glm::dvec3(p));
+  if (const glm::dvec3 origin = origin_of(layer); origin != glm::dvec3(0.0)) {
+    for (glm::vec3& p : positions) p = glm::vec3(origin + glm::dvec3(p));
     notes.emplace_back("the scene's origin was added to its vertices, which rounds them");
   }
   if (!scene.cameras.empty()) notes.emplace_back("cameras are not kept");

@@ -42,13 +42,12 @@ class Importer {
 
   Scene scene() {
     walk();
-    Scene scene;
     TriangleSoup soup = builder_.finish();
     if (const auto reason = defect(soup)) document_.fail("", *reason);
     if (builder_.has_vertex_colors()) builder_.remarks.push_back({color_remark()});
     if (!document_.model().animations.empty())
       builder_.remarks.push_back({Remark::Kind::animations_dropped});
-    scene.primitives = std::move(soup);
+    Scene scene = scene_of(std::move(soup));
     scene.cameras = std::move(cameras_);
     scene.info.source = generator_.empty() ? "glTF" : "glTF by " + generator_;
     if (contains_ignoring_case(generator_, "trimesh")) {

@@ -246,7 +246,7 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
 
   textures.mlp = std::move(network.mlp);
   soup.appearance = std::move(textures);
-  scene.primitives = std::move(soup);
+  scene.layers.push_back({.primitives = std::move(soup)});
   scene.cameras.push_back(published_camera());
   scene.info.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
   scene.info.source = "MobileNeRF";

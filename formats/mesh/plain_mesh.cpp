@@ -109,19 +109,20 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
     color_faces(soup.triangles.size(), no_color);
     soup.appearance = FaceColors{std::move(face_rgba_)};
   }
-  scene.primitives = std::move(soup);
+  scene.layers.push_back({.primitives = std::move(soup)});
   scene.info.source = std::move(source);
   return scene;
 }
 
 PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
-  if (const auto* soft = std::get_if<SoftTriangles>(&scene.primitives)) {
+  const Layer& layer = only_layer(scene);
+  if (const auto* soft = std::get_if<SoftTriangles>(&layer.primitives)) {
     OpaqueResult opaque = to_opaque(*soft);
     lost = described(opaque.remarks);
     own_ = std::move(opaque.soup);
     soup_ = &*own_;
   } else {
-    soup_ = &std::get<TriangleSoup>(scene.primitives);
+    soup_ = &std::get<TriangleSoup>(layer.primitives);
   }
   if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
   if (scene.info.up != assumed_up)
@@ -129,7 +130,7 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
-  if (scene.origin != glm::dvec3(0.0))
+  if (origin_of(layer) != glm::dvec3(0.0))
     lost.push_back(format + " holds no origin: positions are written relative to it.");
 }
 

@@ -151,8 +151,7 @@ Scene read_diffsoup(TorchArchive& archive, const ReadOptions& options) {
   texture.texels = std::move(texels);
   soup.appearance = std::move(texture);
 
-  Scene scene;
-  scene.primitives = std::move(soup);
+  Scene scene = scene_of(std::move(soup));
   scene.info.source = "DiffSoup checkpoint";
   // Only the Mip-NeRF 360 script, which trains in COLMAP's axes on black, saves this key.
   const bool colmap = archive.find("flip_z") != nullptr;
@@ -238,8 +237,7 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
   soft.degree = sh.degree;
   soft.coefficients = std::move(sh.coefficients);
 
-  Scene scene;
-  scene.primitives = std::move(soft);
+  Scene scene = scene_of(std::move(soft));
   scene.info.source = "Triangle Splatting checkpoint";
   assume_up(scene);
   return scene;
@@ -260,8 +258,7 @@ Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options
                               .view = ViewConvention::eye_to_surface,
                               .coefficients = std::move(sh.coefficients)};
 
-  Scene scene;
-  scene.primitives = std::move(soup);
+  Scene scene = scene_of(std::move(soup));
   // MeshSplatting saves the same keys plus a pixel count.
   scene.info.source =
       archive.find("pixel_count") ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";

@@ -27,7 +27,7 @@ TriangleSoup decode_compressed(const CompressedSoup& compressed, const TriangleS
 
 std::vector<std::string> write_compressed_glb(const Scene& scene, const CompressedSoup& compressed,
                                               const std::filesystem::path& path) {
-  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  const auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives);
   const auto* texture = soup ? std::get_if<LatticeTexture>(&soup->appearance) : nullptr;
   if (!texture) throw UsageError("a compressed file holds lattice textures only");
   if (const auto reason = defect(*soup))

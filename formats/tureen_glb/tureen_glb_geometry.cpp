@@ -53,7 +53,8 @@ void read_info(const JsonView& extension, Scene& scene) {
   info.up = json_vector<3, float>(extension["up"]);
   if (info.up == glm::vec3(0.0f)) extension["up"].fail("has no direction");
   info.background = json_vector<3, float>(extension["background"]);
-  scene.origin = json_vector<3, double>(extension["origin"]);
+  scene.layers.push_back(
+      {.world_from_layer = at_origin(json_vector<3, double>(extension["origin"]))});
   const JsonView cameras = extension["cameras"];
   for (std::size_t i = 0; i < cameras.size(); ++i) scene.cameras.push_back(camera(cameras.at(i)));
 }

@@ -11,7 +11,8 @@ namespace tureen {
 /// version.
 JsonView tureen_extension_of(const GlbArrays& arrays);
 
-/// Name, source, notes, up, background, origin and cameras.
+/// Name, source, notes, up, background and cameras. Appends the file's layer, at its origin and
+/// without primitives.
 void read_info(const JsonView& extension, Scene& scene);
 
 /// Locations of the soup's vertices and triangles in an uncompressed file.

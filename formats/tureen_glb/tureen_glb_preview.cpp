@@ -77,7 +77,7 @@ Scene read_preview(GlbArrays& arrays, const JsonView& extension, const PreviewLa
   else
     soup.appearance = FaceColors{display_colors(colors, soup.triangles.size(), 3)};
   if (const auto reason = defect(soup)) extension.fail(*reason);
-  scene.primitives = std::move(soup);
+  only_layer(scene).primitives = std::move(soup);
   return scene;
 }
 

@@ -38,12 +38,12 @@ class Reader {
     read_geometry(soup);
     const Edits edits = read_preset(scene, soup);
     if (appearance["type"].text() == "soft_triangles") {
-      scene.primitives = soft_triangles(appearance, std::move(soup));
+      only_layer(scene).primitives = soft_triangles(appearance, std::move(soup));
       if (edits != Edits{}) scene.info.remarks.push_back({Remark::Kind::preset_dropped});
     } else {
       soup.appearance = read_appearance(appearance, soup);
       if (const auto reason = defect(soup)) extension_.fail(*reason);
-      scene.primitives = with_edits(std::move(soup), edits, scene.info.remarks);
+      only_layer(scene).primitives = with_edits(std::move(soup), edits, scene.info.remarks);
     }
     return scene;
   }

@@ -328,7 +328,7 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
                     {"notes", json::array()},
                     {"up", array_of(info.up, "the up axis")},
                     {"background", array_of(info.background, "the background")},
-                    {"origin", array_of(scene.origin, "the origin")},
+                    {"origin", array_of(origin_of(only_layer(scene)), "the origin")},
                     {"cameras", json::array()}};
   for (const std::string& note : all_notes(info)) extension["notes"].push_back(utf8(note, losses));
   for (const Camera& camera : scene.cameras) {
@@ -397,7 +397,8 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
   BinaryPlan plan;
   json extension = info_json(scene, losses);
 
-  const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
+  const Layer& layer = only_layer(scene);
+  const auto* soft = std::get_if<SoftTriangles>(&layer.primitives);
   TriangleSoup shapes;
   if (soft) {
     if (soft->opacity.size() != soft->sigma.size())
@@ -408,7 +409,7 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
     if (shapes.positions.size() != 3 * shapes.triangles.size())
       throw UsageError("the scene cannot be written: soft triangles share vertices");
   }
-  const TriangleSoup& soup = soft ? shapes : std::get<TriangleSoup>(scene.primitives);
+  const TriangleSoup& soup = soft ? shapes : std::get<TriangleSoup>(layer.primitives);
   if (const auto reason = defect(soup)) throw UsageError("the scene cannot be written: " + *reason);
   extension["vertex_count"] = soup.positions.size();
   extension["face_count"] = soup.triangles.size();

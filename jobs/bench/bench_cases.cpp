@@ -38,7 +38,7 @@ class RendererCase final : public BenchCase {
                PipelineKind pipeline, const PlanPreferences& preferences)
       : context_(context) {
     configuration.name = name;
-    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    const auto& soup = only_soup(scene);
     const bool is_baseline = pipeline == PipelineKind::baseline;
     auto start = std::chrono::steady_clock::now();
     RenderPlan plan = is_baseline
@@ -48,8 +48,10 @@ class RendererCase final : public BenchCase {
     start = std::chrono::steady_clock::now();
     const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     renderer_ = std::make_unique<Renderer>(
-        is_baseline ? make_baseline_renderer(context, soup, scene.origin, std::move(plan), options)
-                    : Renderer(context, soup, scene.origin, std::move(plan), options));
+        is_baseline
+            ? make_baseline_renderer(context, soup, origin_of(only_layer(scene)), std::move(plan),
+                                     options)
+            : Renderer(context, soup, origin_of(only_layer(scene)), std::move(plan), options));
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
     configuration.plan = describe(renderer_->plan());

@@ -44,9 +44,9 @@ constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
 /// The soup without the faces that no view shows.
 TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
                         std::span<const Camera> views, const Cancel& cancel) {
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
-  const auto pixels =
-      count_visible_pixels(context, soup, scene.origin, views, [&](double) { cancel(); });
+  const auto& soup = only_soup(scene);
+  const auto pixels = count_visible_pixels(context, soup, origin_of(only_layer(scene)), views,
+                                           [&](double) { cancel(); });
   std::vector<std::uint8_t> keeps;
   for (const std::uint64_t count : pixels) keeps.push_back(count > 0);
   return keep_faces(soup, keeps);
@@ -81,7 +81,7 @@ std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& sc
   // faces.
   const std::vector<Camera>& others = request.training_cameras;
   const auto pixels =
-      count_covered_pixels(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+      count_covered_pixels(context, only_soup(scene), origin_of(only_layer(scene)),
                            compress_views(scene, others, others.size()), [&](double) { cancel(); });
   std::vector<Camera> showing;
   for (std::size_t i = 0; i < others.size(); ++i)
@@ -96,13 +96,13 @@ class Search {
   Search(const Scene& scene, const CompressRequest& request)
       : request_(request),
         cancel_([this] { report_progress(); }),
-        origin_(scene.origin),
+        origin_(origin_of(only_layer(scene))),
         context_(gl::Context::create(request.context)),
         judge_(context_, scene, request.photographs, cancel_),
         recorded_(recorded_cameras(context_, scene, request, cancel_)),
         lent_(recorded_.size() - scene.cameras.size()),
         views_(compress_views(scene, recorded_, counted_views)),
-        soup_(std::get<TriangleSoup>(scene.primitives)) {
+        soup_(only_soup(scene)) {
     // With fewer cameras the typical viewpoints are unknown, so all faces are kept.
     if (request.keep_unseen || recorded_.size() < telling_cameras) return;
     const std::vector<Camera> all = all_views(scene, views_);
@@ -215,7 +215,7 @@ class Search {
 }  // namespace
 
 CompressResult compress(const Scene& scene, const CompressRequest& request) {
-  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  const auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives);
   if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
     throw UsageError("a compressed file supports only lattice textures; this scene has " +
                      std::string(soup ? appearance_name(soup->appearance) : "soft triangles"));

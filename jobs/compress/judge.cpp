@@ -46,7 +46,7 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
                              std::span<const Photograph> photographs, Cancel cancel)
     : context_(context),
       cancel_(std::move(cancel)),
-      origin_(scene.origin),
+      origin_(origin_of(only_layer(scene))),
       background_(scene.info.background) {
   for (const Photograph& photograph : photographs) {
     cameras_.push_back(photograph.camera);
@@ -61,7 +61,7 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
     views_.around = cameras_.size() - views_.cameras;
   }
   std::vector<double> errors;
-  draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& image) {
+  draw(only_soup(scene), [&](std::size_t i, const ImageF& image) {
     images_.push_back(image);
     if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], image));
   });

@@ -50,7 +50,8 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   Scene scene = read_scene(path);
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   const gl::Context context = gl::Context::create({});
   const glm::vec4 black(0, 0, 0, 1);
   const auto with_plan = [&](const PlanPreferences& plan) {

@@ -81,8 +81,7 @@ Scene layered_soup(const LayeredSoupOptions& options) {
       colors.rgba.emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1), 1);
     soup.appearance = std::move(colors);
   }
-  Scene scene;
-  scene.primitives = std::move(soup);
+  Scene scene = scene_of(std::move(soup));
   scene.info.name = "layers";
   scene.info.source = "generated";
   scene.cameras.push_back(look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, field_of_view, 1280, 720));

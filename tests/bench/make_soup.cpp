@@ -35,8 +35,9 @@ int run(int argc, char** argv) {
     scene = test::layered_soup(layers);
   } else {
     Scene small = read_scene(base);
+    make_opaque(small);
+    scene = scene_of(test::dense_soup(only_soup(small), layers.triangles));
     scene.info = small.info;
-    scene.primitives = test::dense_soup(opaque_soup(small), layers.triangles);
   }
   for (const std::string& note : write_scene(scene, out))
     std::fprintf(stderr, "%s\n", note.c_str());

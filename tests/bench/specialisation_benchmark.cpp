@@ -92,7 +92,7 @@ TriangleSoup large_soup(Specialisation what, const Scene& cloud) {
   const Kind kind = kind_of_trait(what);
   TriangleSoup soup;
   if (kind == Kind::lattice_mlp || kind == Kind::lattice) {
-    soup = std::get<TriangleSoup>(cloud.primitives);
+    soup = only_soup(cloud);
     if (kind == Kind::lattice) std::get<LatticeTexture>(soup.appearance).mlp.reset();
   } else {
     // Several pixels large; a tenth of that for small triangles, once they are split.
@@ -121,7 +121,8 @@ void measure_traits(const gl::Context& context, const Settings& settings) {
 void measure_scene(const gl::Context& context, const Settings& settings,
                    const std::filesystem::path& path) {
   Scene scene = read_scene(path);
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   const Bounds box = bounds(soup);
   std::vector<Camera> cameras;
   for (int i = 0; i < 8; ++i) {

@@ -91,21 +91,19 @@ TEST(Navigation, APointAndAMissingUpAxisStillGiveACamera) {
 }
 
 TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
-  Scene scene;
   TriangleSoup soup;
   soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}, {9, 9, 9}};  // no face uses the last one
   soup.triangles = {{0, 1, 2}};
   soup.appearance = FaceColors{{glm::vec4(1)}};
-  scene.origin = {100, 200, 300};
+  Scene scene = scene_of(soup, {100, 200, 300});
   scene.info.up = {0, 0, 1};
-  scene.primitives = soup;
   const Subject subject = subject_of(scene);
   EXPECT_EQ(subject.low, glm::dvec3(100, 200, 300));
   EXPECT_EQ(subject.high, glm::dvec3(101, 202, 303));
   EXPECT_EQ(subject.up, glm::dvec3(0, 0, 1));
   SoftTriangles soft;
   soft.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};
-  scene.primitives = soft;
+  only_layer(scene).primitives = soft;
   EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
 }
 

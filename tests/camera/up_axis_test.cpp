@@ -95,10 +95,10 @@ UpEvidence through_file(const Scene& scene, const std::string& name, Scene& back
 }
 
 TEST(UpAxis, ReadersReportWhatTheyAssumed) {
-  Scene scene, back;
-  scene.primitives = TriangleSoup{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}},
-                                  .triangles = {{0, 1, 2}},
-                                  .appearance = FaceColors{{glm::vec4(1)}}};
+  Scene scene = scene_of(TriangleSoup{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}},
+                                      .triangles = {{0, 1, 2}},
+                                      .appearance = FaceColors{{glm::vec4(1)}}});
+  Scene back;
   scene.info.up = {0, 1, 0};
   for (const char* name : {"a.off", "a.ply"}) {
     const UpEvidence evidence = through_file(scene, name, back);

@@ -22,7 +22,7 @@ using ConvertCompress = test::ProgramWithPhotographs;
 
 TEST_F(ConvertCompress, IsSmallAndSaysWhatItLost) {
   Scene scene = read_scene(example);
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& soup = only_soup(scene);
   soup.triangles.resize(400);
   std::get<LatticeTexture>(soup.appearance).patches.resize(400);
   scene.cameras.resize(2);
@@ -42,7 +42,7 @@ TEST_F(ConvertCompress, IsSmallAndSaysWhatItLost) {
   EXPECT_FALSE(exists("compressed.glb.export"));
 
   const Scene back = read_scene(folder / "compressed.glb");
-  EXPECT_EQ(std::get<TriangleSoup>(back.primitives).triangles.size(), 400u);
+  EXPECT_EQ(only_soup(back).triangles.size(), 400u);
   EXPECT_EQ(back.cameras.size(), 1u);
   // The file stores the losses, except those of writing the file itself.
   ASSERT_THAT(back.info.notes, Not(IsEmpty()));
@@ -81,7 +81,7 @@ TEST_F(ConvertCompress, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
 // The search only compares how close images are to the photographs.
 TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   Scene scene = read_scene(example);
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& soup = only_soup(scene);
   soup.triangles.resize(400);
   std::get<LatticeTexture>(soup.appearance).patches.resize(400);
   scene.cameras.clear();

@@ -134,13 +134,11 @@ TEST(ContactSheet, HoldsEveryImageInAGrid) {
 // --- Views ----------------------------------------------------------------------------------
 
 Scene box_scene() {
-  Scene scene;
   TriangleSoup soup;
   soup.positions = {{-1, -1, -1}, {1, 1, 1}, {1, -1, 0}};
   soup.triangles = {{0, 1, 2}};
   soup.appearance = FaceColors{{glm::vec4(1)}};
-  scene.primitives = soup;
-  scene.origin = {10, 0, 0};
+  Scene scene = scene_of(std::move(soup), {10, 0, 0});
   scene.info.up = {0, 0, 1};
   return scene;
 }

@@ -70,8 +70,7 @@ TEST_F(QualityProgram, ConvertAppliesEdits) {
                                   "--color", "baked", "--texel-bits", "8"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Scene scene = read_scene(folder / "less.glb");
-  const auto& texture =
-      std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  const auto& texture = std::get<LatticeTexture>(only_soup(scene).appearance);
   EXPECT_FALSE(texture.mlp);
   EXPECT_FALSE(texture.is_float());
   for (const LatticePatch& patch : texture.patches) EXPECT_LE(patch.level, 1u);

@@ -59,7 +59,7 @@ class ScenePage : public test::Program {
   /// Writes a part of the example that compresses quickly, under a name that needs escaping.
   void write_part() const {
     Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
-    auto& soup = std::get<TriangleSoup>(scene.primitives);
+    auto& soup = only_soup(scene);
     soup.triangles.resize(400);
     std::get<LatticeTexture>(soup.appearance).patches.resize(400);
     scene.cameras.resize(1);

@@ -28,9 +28,9 @@ using testing::Not;
 class Tradeoff : public test::ProgramWithPhotographs {
  protected:
   void write_soup() const {
-    Scene scene;
-    scene.primitives = test::random_soup(3, {.kind = test::Kind::lattice_mlp, .level = 2});
-    tureen::write_scene(scene, folder / "soup.glb");
+    tureen::write_scene(
+        scene_of(test::random_soup(3, {.kind = test::Kind::lattice_mlp, .level = 2})),
+        folder / "soup.glb");
   }
   /// The configuration in the antialiasing panel with these non-default settings; null if it was
   /// not measured.
@@ -98,7 +98,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   // The new file contains the reduced data, and the old file is unchanged.
   EXPECT_EQ(text_of("soup.glb"), stored);
   const Scene kept = read_scene(folder / "fast.glb");
-  const auto& soup = std::get<TriangleSoup>(kept.primitives);
+  const auto& soup = only_soup(kept);
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
   const auto& chosen = configurations[json["choice"]["configuration"].get<std::size_t>()]["knobs"];
   EXPECT_EQ(std::to_string(highest_level(texture)), chosen["lattice_level"]);

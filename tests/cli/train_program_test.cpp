@@ -50,7 +50,7 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   EXPECT_EQ(scene.info.name, "ball");
   EXPECT_EQ(scene.info.background, glm::vec3(1));
   EXPECT_EQ(scene.cameras.size(), 8u);
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   EXPECT_EQ(soup.triangles.size(), 100u);
   EXPECT_FALSE(std::get<LatticeTexture>(soup.appearance).is_float());
   EXPECT_EQ(read_png("ball.previews/step_40.png").width, 3 * size);

@@ -25,8 +25,8 @@ const Scene& scene() {
 }
 
 TEST(ShippedSoup, LoadsWithoutNotesOrLint) {
-  ASSERT_TRUE(std::holds_alternative<TriangleSoup>(scene().primitives));
-  const auto& soup = std::get<TriangleSoup>(scene().primitives);
+  ASSERT_TRUE(std::holds_alternative<TriangleSoup>(only_layer(scene()).primitives));
+  const auto& soup = only_soup(scene());
   EXPECT_FALSE(defect(soup));
   EXPECT_THAT(lint(soup).findings, testing::IsEmpty());
   EXPECT_THAT(all_notes(scene().info), testing::IsEmpty());
@@ -47,7 +47,7 @@ TEST(ShippedSoup, LooksLikePhotographsThatItWasNotTrainedOn) {
     for (glm::vec4& pixel : photograph.pixels)
       pixel = glm::vec4(glm::mix(background, glm::vec3(pixel), pixel.a), 1);
     const OracleImage drawn =
-        render_oracle(std::get<TriangleSoup>(scene().primitives), scene().origin,
+        render_oracle(only_soup(scene()), origin_of(only_layer(scene())),
                       example::with_z_up(camera), {.supersampling = 3, .background = background});
     mean_squared += mean_squared_error(photograph, drawn.color) / double(cameras.size());
   }

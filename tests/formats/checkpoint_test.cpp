@@ -74,7 +74,7 @@ TEST(Checkpoint, DiffSoupAtEveryLevel) {
   for (int level = 0; level <= lattice::max_level; ++level) {
     const DiffSoup diffsoup{level};
     Scene scene = read(diffsoup.file());
-    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    const auto& soup = only_soup(scene);
     ASSERT_EQ(defect(soup), std::nullopt);
     EXPECT_EQ(scene.info.source, "DiffSoup checkpoint");
     ASSERT_EQ(soup.triangles.size(), 2u);
@@ -96,8 +96,7 @@ TEST(Checkpoint, DiffSoupAtEveryLevel) {
 
 TEST(Checkpoint, DiffSoupMlpAndScene) {
   Scene scene = read(DiffSoup{1}.file());
-  const auto& mlp =
-      *std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp;
+  const auto& mlp = *std::get<LatticeTexture>(only_soup(scene).appearance).mlp;
   // [out][in], row by row.
   EXPECT_EQ(mlp.layers[0].weights[3 * 16 + 5], -0.1f + 0.001f * 53);
   EXPECT_EQ(mlp.layers[2].weights[2 * 16 + 1], 0.3f + 0.001f * 33);
@@ -123,7 +122,7 @@ TEST(Checkpoint, StridesOffsetsAndParametersAreHonoured) {
   diffsoup.vertices.offset = 2;
   diffsoup.vertices.parameter = true;
   Scene scene = read(diffsoup.file());
-  const auto& positions = std::get<TriangleSoup>(scene.primitives).positions;
+  const auto& positions = only_soup(scene).positions;
   for (int v = 0; v < 4; ++v)
     for (int k = 0; k < 3; ++k)
       EXPECT_EQ(positions[std::size_t(v)][k], 0.001f * float(2 + v + 4 * k));
@@ -133,7 +132,7 @@ TEST(Checkpoint, NumbersOfEveryType) {
   DiffSoup diffsoup{0};
   const auto x = [&](TensorFixture vertices) {
     diffsoup.vertices = std::move(vertices);
-    return std::get<TriangleSoup>(read(diffsoup.file()).primitives).positions;
+    return only_soup(read(diffsoup.file())).positions;
   };
   // 0, 1, -2, the smallest denormal, 65504 and a third in IEEE binary16.
   const std::vector<std::uint16_t> halves{0, 0x3c00, 0xc000, 1, 0x7bff, 0x3555, 0, 0, 0, 0, 0, 0};
@@ -152,8 +151,7 @@ TEST(Checkpoint, NumbersOfEveryType) {
             250.0f);
   diffsoup.faces =
       TensorFixture::of("LongStorage", {2, 3}, std::vector<std::int64_t>{0, 1, 2, 2, 1, 3});
-  EXPECT_EQ(std::get<TriangleSoup>(read(diffsoup.file()).primitives).triangles[1],
-            glm::uvec3(2, 1, 3));
+  EXPECT_EQ(only_soup(read(diffsoup.file())).triangles[1], glm::uvec3(2, 1, 3));
 }
 
 TEST(Checkpoint, DeflatedAndZip64ArchivesReadAlike) {
@@ -162,7 +160,7 @@ TEST(Checkpoint, DeflatedAndZip64ArchivesReadAlike) {
   torch.deflate = torch.zip64 = true;
   const Scene packed = read(torch);
   const auto texels = [](const Scene& scene) {
-    return std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).texels;
+    return std::get<LatticeTexture>(only_soup(scene).appearance).texels;
   };
   EXPECT_EQ(texels(plain), texels(packed));
 }
@@ -251,7 +249,7 @@ TorchFixture triangle_splatting(int degree, std::uint64_t rest) {
 
 TEST(Checkpoint, TriangleSplattingIsActivated) {
   const Scene scene = read(triangle_splatting(2, 15));
-  const auto& soft = std::get<SoftTriangles>(scene.primitives);
+  const auto& soft = std::get<SoftTriangles>(only_layer(scene).primitives);
   ASSERT_EQ(soft.positions.size(), 6u);
   EXPECT_EQ(soft.positions[5], glm::vec3(0.001f * 15, 0.001f * 16, 0.001f * 17));
   EXPECT_FLOAT_EQ(soft.sigma[0], float(0.01 + std::exp(0.25)));
@@ -268,7 +266,8 @@ TEST(Checkpoint, TriangleSplattingIsActivated) {
   EXPECT_THAT(scene.info.remarks,
               ::testing::Contains(Remark{Remark::Kind::up_unknown_to_checkpoint}));
 
-  EXPECT_EQ(std::get<SoftTriangles>(read(triangle_splatting(0, 15)).primitives).coefficients.size(),
+  EXPECT_EQ(std::get<SoftTriangles>(only_layer(read(triangle_splatting(0, 15))).primitives)
+                .coefficients.size(),
             2u);
   EXPECT_THAT(refusal(triangle_splatting(3, 8)), ErrorAt("scene.pt", 8));
   EXPECT_THAT(refusal(triangle_splatting(5, 15)), ErrorAt("scene.pt", "active_sh_degree", 5));
@@ -283,7 +282,7 @@ TEST(Checkpoint, ConnectedTrianglesShareVertices) {
   torch.add("features_dc", TensorFixture::floats({4, 1, 3}, ramp(12)));
   torch.add("features_rest", TensorFixture::floats({4, 15, 3}, ramp(180, 1)));
   const Scene scene = read(torch);
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   ASSERT_EQ(defect(soup), std::nullopt);
   EXPECT_EQ(soup.positions.size(), 4u);
   const auto& harmonics = std::get<Harmonics>(soup.appearance);
@@ -298,7 +297,7 @@ TEST(Checkpoint, ConnectedTrianglesShareVertices) {
 TEST(Checkpoint, SurvivesTruncationAndDamage) {
   const auto read_sound = [](std::span<const std::byte> bytes) {
     const Scene scene = read_checkpoint(Input::memory("scene.pt", bytes));
-    if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
+    if (const auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives)) {
       EXPECT_EQ(defect(*soup), std::nullopt);
     }
   };

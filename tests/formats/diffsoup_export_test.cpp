@@ -63,15 +63,14 @@ Scene random_scene(unsigned seed, std::size_t faces, int level) {
   texture.texels = std::move(texels);
   texture.mlp = random_mlp(random);
   soup.appearance = std::move(texture);
-  Scene scene;
-  scene.primitives = std::move(soup);
+  Scene scene = scene_of(std::move(soup));
   scene.info.up = {0.0f, 0.6f, -0.8f};
   scene.info.background = {0.25f, 0.5f, 1.0f};
   return scene;
 }
 
 const LatticeTexture& texture_of(const Scene& scene) {
-  return std::get<LatticeTexture>(test::soup_of(scene).appearance);
+  return std::get<LatticeTexture>(only_soup(scene).appearance);
 }
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -115,13 +114,13 @@ TEST_P(DiffSoupLevel, RoundTripKeepsValuesToHalfAByteAndTheSideOfEveryAlpha) {
   EXPECT_THAT(write_diffsoup_export(scene, folder / "scene"), IsEmpty());
   ASSERT_TRUE(is_diffsoup_export(folder / "scene"));
   const Scene copy = read_diffsoup_export(folder / "scene");
-  EXPECT_EQ(defect(test::soup_of(copy)), std::nullopt);
+  EXPECT_EQ(defect(only_soup(copy)), std::nullopt);
   EXPECT_EQ(copy.info.name, "scene");
   EXPECT_EQ(copy.info.background, scene.info.background);
   EXPECT_NEAR(glm::distance(copy.info.up, scene.info.up), 0, 1e-6);
   EXPECT_THAT(copy.info.remarks, IsEmpty());
-  EXPECT_EQ(test::soup_of(copy).positions, test::soup_of(scene).positions);
-  EXPECT_EQ(test::soup_of(copy).triangles, test::soup_of(scene).triangles);
+  EXPECT_EQ(only_soup(copy).positions, only_soup(scene).positions);
+  EXPECT_EQ(only_soup(copy).triangles, only_soup(scene).triangles);
   const LatticeTexture &before = texture_of(scene), &after = texture_of(copy);
   ASSERT_EQ(before.texel_count(), after.texel_count());
   for (std::size_t i = 0; i < before.texel_count(); ++i) {
@@ -198,7 +197,7 @@ TEST(DiffSoupExport, OtherLayoutsOfTheMeshAreRead) {
       "property uchar tag\r\nproperty double z\r\nproperty float y\r\nproperty float x\r\n"
       "element face 1\r\nproperty list int ushort vertex_index\r\nproperty float area\r\n"
       "end_header\r\n";
-  for (const glm::vec3& p : test::soup_of(scene).positions) {
+  for (const glm::vec3& p : only_soup(scene).positions) {
     const double z = double(p.z);
     mesh += 'T';
     mesh.append(reinterpret_cast<const char*>(&z), 8);
@@ -208,14 +207,14 @@ TEST(DiffSoupExport, OtherLayoutsOfTheMeshAreRead) {
   mesh += std::string("\3\0\0\0\2\0\0\0\1\0", 10) + "area";
   write_text(folder / "a/mesh.ply", mesh);
   const Scene copy = read_diffsoup_export(folder / "a");
-  EXPECT_EQ(test::soup_of(copy).positions, test::soup_of(scene).positions);
-  EXPECT_EQ(test::soup_of(copy).triangles[0], glm::uvec3(2, 0, 1));
+  EXPECT_EQ(only_soup(copy).positions, only_soup(scene).positions);
+  EXPECT_EQ(only_soup(copy).triangles[0], glm::uvec3(2, 0, 1));
 }
 
 TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
   const TemporaryFolder folder;
   Scene scene = random_scene(4, 6, 2);  // 90 texels
-  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texture = std::get<LatticeTexture>(only_soup(scene).appearance);
   std::vector<std::uint8_t> bytes(90 * 8, 200);
   for (std::size_t i = 0; i < 20; ++i) bytes[8 * i + 7] = 127;
   bytes[8 * 30 + 7] = 126;
@@ -243,7 +242,7 @@ TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
 TEST(DiffSoupExport, TransparentTexelsKeepTheirFeatures) {
   const TemporaryFolder folder;
   Scene scene = random_scene(5, 1, 0);
-  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texture = std::get<LatticeTexture>(only_soup(scene).appearance);
   // Both alpha channels of the images are 0: a premultiplying decoder would lose the other values.
   texture.texels = std::vector<std::uint8_t>{9, 8, 7, 0, 6, 5, 4, 0, 1, 2,   3, 0,
                                              4, 5, 6, 0, 0, 0, 1, 0, 2, 255, 3, 0};
@@ -254,7 +253,7 @@ TEST(DiffSoupExport, TransparentTexelsKeepTheirFeatures) {
 TEST(DiffSoupExport, MixedLevelsBecomeTheHighest) {
   const TemporaryFolder folder;
   Scene scene = random_scene(6, 2, 3);
-  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texture = std::get<LatticeTexture>(only_soup(scene).appearance);
   texture.patches[1].level = 1;
   EXPECT_THAT(write_diffsoup_export(scene, folder / "a"), Contains(Names(1, 2, 3)));
   const Scene copy = read_diffsoup_export(folder / "a");
@@ -276,17 +275,15 @@ TEST(DiffSoupExport, MixedLevelsBecomeTheHighest) {
 
 TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
   const TemporaryFolder folder;
-  Scene scene;
   TriangleSoup soup{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
                     .triangles = {{0, 1, 2}, {2, 1, 3}},
                     .appearance = VertexColors{
                         {{0, 0, 0, 1}, {0.2f, 0.4f, 0.6f, 1}, {1, 1, 1, 0}, {0.8f, 0, 0, 0.5f}}}};
-  scene.primitives = soup;
-  scene.origin = {10, 20, 30};
+  Scene scene = scene_of(soup, {10, 20, 30});
   EXPECT_THAT(write_diffsoup_export(scene, folder / "v"), ::testing::SizeIs(2))
       << "a network is added, the origin is moved";
   const Scene vertex = read_diffsoup_export(folder / "v");
-  EXPECT_EQ(test::soup_of(vertex).positions[3], glm::vec3(11, 21, 30));
+  EXPECT_EQ(only_soup(vertex).positions[3], glm::vec3(11, 21, 30));
   // Face 1 is (2, 1, 3); its texels come from its third, first and second vertex.
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(vertex).texels),
             (std::vector<std::uint8_t>{255, 255, 255, 0, 0, 0, 0, 0,    //
@@ -301,7 +298,7 @@ TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
   EXPECT_EQ(color, glm::dvec3(0.2, 0.4, 0.6));
 
   soup.appearance = FaceColors{{{1, 0, 0, 1}, {0, 0.2f, 0, 1}}};
-  scene.primitives = soup;
+  only_soup(scene) = soup;
   write_diffsoup_export(scene, folder / "f");
   const Scene face = read_diffsoup_export(folder / "f");
   for (std::size_t k = 0; k < 6; ++k) {
@@ -316,13 +313,13 @@ TEST(DiffSoupExport, WhatItCannotHoldIsRefusedAndLeavesNothing) {
     return error_of<UsageError>([&] { write_diffsoup_export(scene, folder / "a"); });
   };
   Scene scene = random_scene(7, 1, 0);
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& soup = only_soup(scene);
   std::get<LatticeTexture>(soup.appearance).mlp->view = ViewConvention::eye_to_surface;
   EXPECT_THAT(usage_error(scene), ErrorAt("", "16-16-16-3"));
   soup.appearance = Harmonics{.coefficients = {glm::vec3(1)}};
   EXPECT_THAT(usage_error(scene), ErrorAt(""));
   soup.appearance = UvTextures{};
-  EXPECT_THAT(usage_error(Scene{SoftTriangles{}, {}, {}, {}}), ErrorAt(""));
+  EXPECT_THAT(usage_error(scene_of(SoftTriangles{})), ErrorAt(""));
   soup = TriangleSoup{{}, {}, FaceColors{}};
   EXPECT_THAT(usage_error(scene), ErrorAt(""));
   EXPECT_FALSE(fs::exists(folder / "a"));
@@ -442,7 +439,7 @@ TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
   const TemporaryFolder folder;
   Scene scene = random_scene(10, 2, 0);
   // Without the network, whose numbers are zeros, the file is short.
-  std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
+  std::get<LatticeTexture>(only_soup(scene).appearance).mlp.reset();
   write_diffsoup_export(scene, folder / "a");
   const fs::path path = folder / (std::string("a/") + GetParam());
   const std::string good = read_text(path);
@@ -451,7 +448,7 @@ TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
   const auto read = [&](std::span<const std::byte> bytes) {
     write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const Scene copy = read_diffsoup_export(folder / "a");
-    EXPECT_EQ(defect(test::soup_of(copy)), std::nullopt);
+    EXPECT_EQ(defect(only_soup(copy)), std::nullopt);
     same = same && texture_of(copy).texels == expected;
   };
   // The test writes each version to disk: every length and byte of short files, 400 of the long

@@ -46,14 +46,11 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-inline const TriangleSoup& soup_of(const Scene& scene) {
-  return std::get<TriangleSoup>(scene.primitives);
-}
 inline const std::vector<glm::vec4>& face_rgba(const Scene& scene) {
-  return std::get<FaceColors>(soup_of(scene).appearance).rgba;
+  return std::get<FaceColors>(only_soup(scene).appearance).rgba;
 }
 inline const std::vector<glm::vec4>& vertex_rgba(const Scene& scene) {
-  return std::get<VertexColors>(soup_of(scene).appearance).rgba;
+  return std::get<VertexColors>(only_soup(scene).appearance).rgba;
 }
 
 }  // namespace tureen::test

@@ -144,20 +144,19 @@ class Gltf : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-const TriangleSoup& soup_of(const Scene& scene) { return std::get<TriangleSoup>(scene.primitives); }
 const std::vector<glm::vec4>& vertex_colors(const Scene& scene) {
-  return std::get<VertexColors>(soup_of(scene).appearance).rgba;
+  return std::get<VertexColors>(only_soup(scene).appearance).rgba;
 }
 const UvTextures& textures(const Scene& scene) {
-  return std::get<UvTextures>(soup_of(scene).appearance);
+  return std::get<UvTextures>(only_soup(scene).appearance);
 }
 
 TEST_F(Gltf, ReadsABareTriangleAsWhite) {
   GlbBuilder b;
   b.triangle();
   const Scene scene = read(b);
-  EXPECT_THAT(soup_of(scene).triangles, ::testing::ElementsAre(glm::uvec3(0, 1, 2)));
-  EXPECT_EQ(soup_of(scene).positions[1], glm::vec3(1, 0, 0));
+  EXPECT_THAT(only_soup(scene).triangles, ::testing::ElementsAre(glm::uvec3(0, 1, 2)));
+  EXPECT_EQ(only_soup(scene).positions[1], glm::vec3(1, 0, 0));
   EXPECT_THAT(vertex_colors(scene), ::testing::Each(glm::vec4(1.0f)));
   EXPECT_EQ(scene.info.up, glm::vec3(0, 1, 0));
   EXPECT_EQ(scene.info.name, "scene");
@@ -176,7 +175,7 @@ TEST_F(Gltf, AssemblesStripsFansAndEveryIndexType) {
   auto& longs = b.primitive({{"POSITION", position}});
   longs["indices"] = b.accessor(std::vector<std::uint32_t>{3, 2, 1}, "SCALAR", 5125, 3);
   const Scene scene = read(b);
-  const TriangleSoup& soup = soup_of(scene);
+  const TriangleSoup& soup = only_soup(scene);
   std::vector<std::vector<int>> corners;  // original vertex numbers, found by position
   for (const glm::uvec3& t : soup.triangles) {
     std::vector<int> names;
@@ -221,7 +220,7 @@ TEST_F(Gltf, ReadsQuantisedPositionsStridesAndSparseValues) {
          {"values", {{"bufferView", b.view(value.data(), 12)}}}}}});
   b.primitive({{"POSITION", sparse}});
   const Scene scene = read(b);
-  const auto& p = soup_of(scene).positions;
+  const auto& p = only_soup(scene).positions;
   ASSERT_EQ(p.size(), 6u);
   EXPECT_EQ(p[0], glm::vec3(-1, 0, 1));
   EXPECT_NEAR(p[2].x, 16384 / 32767.0, 1e-6);
@@ -240,7 +239,7 @@ TEST_F(Gltf, ReadsEveryComponentTypeNormalisedOrNot) {
                                       "VEC3", component, 3, normalized);
       b.document["bufferViews"][0]["byteStride"] = 4 * sizeof(T);
       b.primitive({{"POSITION", position}});
-      const glm::vec3 p = soup_of(read(b)).positions[0];
+      const glm::vec3 p = only_soup(read(b)).positions[0];
       const double scale = normalized ? one : 1.0;
       SCOPED_TRACE(std::to_string(component) + (normalized ? " normalised" : ""));
       EXPECT_EQ(p.x, float(normalized ? std::max(double(low) / one, -1.0) : double(low)));
@@ -267,7 +266,7 @@ TEST_F(Gltf, ReplacesSparseElementsWhetherUsedOrNot) {
       {"values", {{"bufferView", b.view(values.data(), 24)}}}};
   b.primitive({{"POSITION", position}})["indices"] =
       b.accessor(std::vector<std::uint8_t>{4, 3, 1}, "SCALAR", 5121, 3);
-  const TriangleSoup soup = soup_of(read(b));
+  const TriangleSoup soup = only_soup(read(b));
   EXPECT_THAT(soup.positions,
               ::testing::ElementsAre(glm::vec3(1, 0, 0), glm::vec3(30), glm::vec3(4, 0, 0)));
   EXPECT_EQ(soup.triangles[0], glm::uvec3(2, 1, 0));
@@ -282,7 +281,7 @@ TEST_F(Gltf, AppliesTheWholeHierarchyAndInstances) {
       {{"rotation", {0, 0, h, h}}, {"scale", {2, 2, 2}}, {"mesh", 0}},  // a quarter turn about z
       {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}}, {"mesh", 0}}};
   const Scene scene = read(b);
-  const auto& p = soup_of(scene).positions;
+  const auto& p = only_soup(scene).positions;
   ASSERT_EQ(p.size(), 6u);
   const auto near = [](glm::vec3 a, glm::vec3 c) { return glm::length(a - c) < 1e-6f; };
   EXPECT_TRUE(near(p[1], {10, 2, 0}));
@@ -379,7 +378,7 @@ TEST_F(Gltf, PrimitivesThatShareOneAccessorCostWhatTheyUse) {
   const Scene scene = read_gltf_or_glb(path);
   // It takes a tenth of a second on an idle machine, and many times that under load.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
-  const TriangleSoup& soup = soup_of(scene);
+  const TriangleSoup& soup = only_soup(scene);
   ASSERT_EQ(soup.triangles.size(), primitives);
   ASSERT_EQ(soup.positions.size(), 3 * primitives);
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -553,7 +552,7 @@ TEST_F(Gltf, OpensFilesInItsFolderOnly) {
     document["buffers"][0]["uri"] = uri;
     const std::string text = document.dump();
     const auto path = save("scene/a.gltf", std::as_bytes(std::span(text)));
-    return error_of([&] { EXPECT_EQ(soup_of(read_gltf_or_glb(path)).triangles.size(), 1u); });
+    return error_of([&] { EXPECT_EQ(only_soup(read_gltf_or_glb(path)).triangles.size(), 1u); });
   };
   EXPECT_EQ(with_uri("sub/a%20b.bin"), std::nullopt);
   EXPECT_THAT(with_uri("../outside.bin"), ErrorIn("a.gltf", "buffers[0].uri", "../outside.bin"));
@@ -575,7 +574,7 @@ TEST_F(Gltf, SurvivesTruncationAndDamage) {
       {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", b.texture(Image8(2, 2))}}}}}});
   const auto bytes = b.glb();
   const auto read_bytes = [&](std::span<const std::byte> damaged) {
-    EXPECT_FALSE(defect(soup_of(read_gltf_or_glb(save("damaged.glb", damaged)))));
+    EXPECT_FALSE(defect(only_soup(read_gltf_or_glb(save("damaged.glb", damaged)))));
   };
   EXPECT_EQ(test::survive_truncation(bytes, read_bytes).read, 0u);
   test::Survival survival;
@@ -590,17 +589,16 @@ TEST_F(Gltf, SurvivesTruncationAndDamage) {
 }
 
 TEST_F(Gltf, DispatchesOurOwnFiles) {
-  Scene scene;
-  scene.info.name = "ours";
   TriangleSoup soup;
   soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   soup.triangles = {{0, 1, 2}};
   soup.appearance = FaceColors{{{0.1f, 0.2f, 0.3f, 1.0f}}};
-  scene.primitives = soup;
+  Scene scene = scene_of(std::move(soup));
+  scene.info.name = "ours";
   write_tureen_glb(scene, folder_ / "ours.glb");
   const Scene back = read_gltf_or_glb(folder_ / "ours.glb");
   EXPECT_EQ(back.info.name, "ours");
-  EXPECT_TRUE(std::holds_alternative<FaceColors>(soup_of(back).appearance));
+  EXPECT_TRUE(std::holds_alternative<FaceColors>(only_soup(back).appearance));
 }
 
 const std::filesystem::path data = std::filesystem::path(TUREEN_SOURCE_DIR) / "../shared/data";
@@ -614,10 +612,10 @@ TEST_F(Gltf, HostileFilesEndInAResultOrASentence) {
     SCOPED_TRACE(entry.path().string());
     try {
       const Scene scene = read_scene(entry.path());
-      EXPECT_FALSE(defect(soup_of(scene)));
-      EXPECT_FALSE(soup_of(scene).triangles.empty());
+      EXPECT_FALSE(defect(only_soup(scene)));
+      EXPECT_FALSE(only_soup(scene).triangles.empty());
       std::printf("  read     %s (%zu triangles)\n", entry.path().filename().c_str(),
-                  soup_of(scene).triangles.size());
+                  only_soup(scene).triangles.size());
       ++read_count;
     } catch (const InputError& error) {
       EXPECT_FALSE(error.place().file.empty());
@@ -634,7 +632,7 @@ TEST_F(Gltf, ReadsTheFicus) {
   const auto path = data / "soups/ficus_2dts.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
   const Scene scene = read_gltf_or_glb(path);
-  const TriangleSoup& soup = soup_of(scene);
+  const TriangleSoup& soup = only_soup(scene);
   EXPECT_EQ(soup.triangles.size(), 33417u);
   EXPECT_EQ(soup.positions.size(), 100251u);
   const Bounds box = bounds(soup);

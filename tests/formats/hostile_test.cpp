@@ -375,7 +375,7 @@ TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
 TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
   const std::string odd = "\xff\xfe\xc3(.off";
   test::write_text(folder / odd, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  EXPECT_EQ(test::soup_of(read_scene(folder / odd)).triangles.size(), 1u);
+  EXPECT_EQ(only_soup(read_scene(folder / odd)).triangles.size(), 1u);
   test::write_text(folder / odd, "OFF\n3 1 0\n");
   EXPECT_THAT(error_of([&] { read_scene(folder / odd); }), ErrorIn(odd));
   // Such names are not valid in JSON.

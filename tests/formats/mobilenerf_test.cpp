@@ -19,7 +19,6 @@ namespace mobilenerf_test {
 using test::error_of;
 using test::ErrorAt;
 using test::input_of;
-using test::soup_of;
 using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::IsEmpty;
@@ -113,9 +112,9 @@ TEST(MobileNerf, AFolderBecomesOneSoup) {
     EXPECT_TRUE(is_mobilenerf(folder / name)) << name;
   EXPECT_FALSE(is_mobilenerf(folder / "shape0.pngfeat0.png"));
   for (const char* name : {"", "mlp.json", "shape1_0.obj"})
-    EXPECT_EQ(soup_of(read_scene(folder / name)).triangles.size(), 6u) << name;
+    EXPECT_EQ(only_soup(read_scene(folder / name)).triangles.size(), 6u) << name;
   const Scene scene = read_mobilenerf(folder / "");
-  const TriangleSoup& soup = soup_of(scene);
+  const TriangleSoup& soup = only_soup(scene);
   ASSERT_EQ(defect(soup), std::nullopt);
   EXPECT_THAT(scene.info.remarks, IsEmpty());
   EXPECT_EQ(soup.triangles.size(), 6u);
@@ -144,7 +143,8 @@ TEST(MobileNerf, TheNetworkGivesThePublishedColours) {
   const TemporaryFolder folder;
   write_scene_folder(folder);
   const nlohmann::json json = random_network(1, 2);
-  const ColorMlp mlp = *std::get<UvTextures>(soup_of(read_mobilenerf(folder / "")).appearance).mlp;
+  const ColorMlp mlp =
+      *std::get<UvTextures>(only_soup(read_mobilenerf(folder / "")).appearance).mlp;
   EXPECT_EQ(mlp.view, ViewConvention::eye_to_surface);
   EXPECT_EQ(mlp.blend_channel, std::nullopt);
   const unsigned seed = 77;
@@ -183,7 +183,7 @@ TEST(MobileNerf, MissingShapesAreNamedAndTheRestIsDrawn) {
   const Scene scene = read_mobilenerf(folder / "mlp.json");
   EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_missing, {2, 3, 4, 5}}));
   EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_untextured, {0, 5}}));
-  EXPECT_EQ(soup_of(scene).triangles.size(), 4u);
+  EXPECT_EQ(only_soup(scene).triangles.size(), 4u);
   fs::remove(folder / "shape1.pngfeat0.png");
   EXPECT_THAT(error_of([&] { read_mobilenerf(folder / ""); }), ErrorAt("", 5));
 }
@@ -242,7 +242,7 @@ TEST(MobileNerf, TruncatedFilesAreSurvived) {
     for (std::size_t length = 0; length < good.size(); length += 1 + good.size() / 400) {
       const auto read = [&](std::span<const std::byte> bytes) {
         write_text(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        EXPECT_EQ(defect(soup_of(read_mobilenerf(folder / ""))), std::nullopt);
+        EXPECT_EQ(defect(only_soup(read_mobilenerf(folder / ""))), std::nullopt);
       };
       test::expect_survival(std::as_bytes(std::span(good)).first(length), read,
                             std::string(name) + " cut to " + std::to_string(length), survival);
@@ -258,7 +258,7 @@ TEST(MobileNerf, TheDrums) {
   const fs::path drums = fs::path(TUREEN_SOURCE_DIR) / "../shared/data/soups/mobilenerf_drums";
   if (!fs::exists(drums)) GTEST_SKIP() << drums << " does not exist";
   const Scene scene = read_mobilenerf(drums);
-  const TriangleSoup& soup = soup_of(scene);
+  const TriangleSoup& soup = only_soup(scene);
   EXPECT_EQ(defect(soup), std::nullopt);
   EXPECT_EQ(soup.triangles.size(), 11026u);
   EXPECT_EQ(scene.info.name, "mobilenerf_drums");

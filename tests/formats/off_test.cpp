@@ -35,7 +35,7 @@ const std::string triangle = "0 0 0\n1 0 0\n0 1 0\n";
 TEST(Off, ReadsTriangleSplattingsCoff) {
   const Scene scene =
       read_text("COFF\n3 1 0\n-0.37933099269866943 0 1\n1 0 0\n0 1 0\n3 0 1 2 127 139 60 255\n");
-  const TriangleSoup& soup = soup_of(scene);
+  const TriangleSoup& soup = only_soup(scene);
   EXPECT_THAT(soup.positions, ElementsAre(glm::vec3(-0.37933099269866943f, 0, 1),
                                           glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
   EXPECT_THAT(soup.triangles, ElementsAre(glm::uvec3(0, 1, 2)));
@@ -51,14 +51,14 @@ TEST(Off, ReadsHeadersOfAllKinds) {
   for (const std::string header :
        {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1\n",
         "# note\n\n \tOFF # word\r\n\r\n3\n1 2 # counts\n", "OFF\r3 1 3\r"})
-    EXPECT_EQ(soup_of(read_text(header + triangle + "3 0 1 2\n")).triangles.size(), 1u) << header;
+    EXPECT_EQ(only_soup(read_text(header + triangle + "3 0 1 2\n")).triangles.size(), 1u) << header;
 }
 
 TEST(Off, FansPolygonsAndCopiesTheirColour) {
   const Scene scene = read_text(
       "OFF 5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 2 0\n"
       "4 0 1 2 3 0.25 0.5 0.75\n2 0 1\n5 4 3 2 1 0 1.0 0.0 0.0 0.5");
-  EXPECT_THAT(soup_of(scene).triangles,
+  EXPECT_THAT(only_soup(scene).triangles,
               ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3), glm::uvec3(4, 3, 2),
                           glm::uvec3(4, 2, 1), glm::uvec3(4, 1, 0)));
   const glm::vec4 a(0.25f, 0.5f, 0.75f, 1.0f), b(1, 0, 0, 0.5f);
@@ -109,8 +109,8 @@ TEST(Off, ClampsFloatColoursWithARemark) {
 
 TEST(Off, KeepsPositionsThatAreNotFinite) {
   const Scene scene = read_text("OFF 3 1 0\nnan 0 0\n-inf 1e99 0\n0 0 0\n3 0 1 2\n");
-  EXPECT_TRUE(std::isnan(soup_of(scene).positions[0].x));
-  EXPECT_EQ(soup_of(scene).positions[1], glm::vec3(-INFINITY, INFINITY, 0));
+  EXPECT_TRUE(std::isnan(only_soup(scene).positions[0].x));
+  EXPECT_EQ(only_soup(scene).positions[1], glm::vec3(-INFINITY, INFINITY, 0));
 }
 
 // Row X5 of the catalogue of numerical hazards.
@@ -121,9 +121,9 @@ TEST(Off, X5_CommentsMissingAlphaAndColoursFromZeroToOneAreRead) {
       "# by hand\nCOFF # kind\n# counts\n 3 1 0 # of them\n\n# corners\n0 0 0 # first\n# 1 1 1\n"
       "1 0 0\n0 1 0#last\n#\n3 0 1 2 # no colour\n# end\n";
   const Scene scene = read_text(commented);
-  EXPECT_THAT(soup_of(scene).positions,
+  EXPECT_THAT(only_soup(scene).positions,
               ElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
-  EXPECT_THAT(soup_of(scene).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
+  EXPECT_THAT(only_soup(scene).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
   EXPECT_THAT(face_rgba(scene), ElementsAre(grey));
   // Colours of faces and of vertices, without and with alpha, as bytes and from 0 to 1.
   const auto of_face = [](const std::string& color) {
@@ -184,7 +184,7 @@ TEST(Off, SurvivesTruncationAndDamage) {
   const auto read = [](std::span<const std::byte> bytes) {
     Input input = Input::memory("damaged.off", bytes);
     const Scene scene = read_off(input);
-    EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
+    EXPECT_EQ(defect(only_soup(scene)), std::nullopt);
   };
   const auto bytes = std::as_bytes(std::span(text));
   // If the last colour is cut anywhere, the rest may still be a colour or no colour.
@@ -214,28 +214,25 @@ TEST(Off, RoundTripsBitForBit_seed5) {
       soup.appearance = VertexColors{rgba};
     else
       soup.appearance = FaceColors{rgba};
-    Scene scene;
+    Scene scene = scene_of(soup);
     scene.info.up = {0, 0, 1};
-    scene.primitives = soup;
     TemporaryFolder folder;
     EXPECT_THAT(write_off(scene, folder / "a.off"), ElementsAre());
     const Scene again = read_off(folder / "a.off");
-    EXPECT_EQ(soup_of(again).positions, soup.positions);
-    EXPECT_EQ(soup_of(again).triangles, soup.triangles);
+    EXPECT_EQ(only_soup(again).positions, soup.positions);
+    EXPECT_EQ(only_soup(again).triangles, soup.triangles);
     EXPECT_EQ(by_vertex ? vertex_rgba(again) : face_rgba(again), rgba);
   }
 }
 
 TEST(Off, SaysWhatWritingLosesInEnglish) {
-  Scene scene;
-  scene.origin = {1, 0, 0};
-  scene.info.background = glm::vec3(1);
-  scene.cameras.resize(1);
   TriangleSoup soup;
   soup.positions.resize(3);
   soup.triangles.emplace_back(0, 1, 2);
   soup.appearance = FaceColors{{glm::vec4(0.5f, 0, 0, 0.5f)}};
-  scene.primitives = soup;
+  Scene scene = scene_of(soup, {1, 0, 0});
+  scene.info.background = glm::vec3(1);
+  scene.cameras.resize(1);
   TemporaryFolder folder;
   EXPECT_THAT(write_off(scene, folder / "a.off"),
               ElementsAre("OFF stores no up axis; readers assume (0, 0, 1).",
@@ -254,14 +251,13 @@ TEST(Off, WritesMeanColoursOfOtherAppearances) {
   soup.triangles.emplace_back(0, 1, 2);
   const auto c = float(0.1 / harmonics::y00);
   soup.appearance = Harmonics{.degree = 0, .coefficients = {glm::vec3(c, 0.0f, -c)}};
-  Scene scene;
+  Scene scene = scene_of(soup);
   scene.info.up = {0, 0, 1};
-  scene.primitives = soup;
   const TemporaryFolder folder;
   EXPECT_THAT(write_off(scene, folder / "a.off"),
               ElementsAre(Names("OFF", appearance_name(soup.appearance)), Names("OFF", 8)));
   const Scene again = read_off(folder / "a.off");
-  EXPECT_EQ(soup_of(again).positions, soup.positions);
+  EXPECT_EQ(only_soup(again).positions, soup.positions);
   EXPECT_THAT(face_rgba(again), ElementsAre(glm::vec4(153, 128, 102, 255) / 255.0f));
 
   SoftTriangles soft;
@@ -269,7 +265,7 @@ TEST(Off, WritesMeanColoursOfOtherAppearances) {
   soft.sigma = {1.0f};
   soft.opacity = {0.9f};
   soft.coefficients = {glm::vec3(c, 0.0f, -c)};
-  scene.primitives = soft;
+  only_layer(scene).primitives = soft;
   EXPECT_THAT(write_off(scene, folder / "b.off"),
               Contains(Names("OFF", appearance_name(soup.appearance))));
   EXPECT_EQ(face_rgba(read_off(folder / "b.off")), face_rgba(again));
@@ -291,8 +287,8 @@ TEST(Off, ReadsTheRealFicus) {
   const std::string path = data_folder + "soups/ficus_2dts.off";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " does not exist";
   const Scene scene = read_off(path);
-  EXPECT_EQ(soup_of(scene).triangles.size(), 33417u);
-  EXPECT_EQ(soup_of(scene).positions.size(), 100251u);
+  EXPECT_EQ(only_soup(scene).triangles.size(), 33417u);
+  EXPECT_EQ(only_soup(scene).positions.size(), 100251u);
   EXPECT_EQ(face_rgba(scene).front(), glm::vec4(162 / 255.0f, 155 / 255.0f, 127 / 255.0f, 1));
   EXPECT_THAT(scene.info.remarks,
               ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}));
@@ -305,7 +301,7 @@ TEST(Off, HostileFilesEndWell) {
   EXPECT_THAT(error_of([&] { read_off(folder + "invalid.off"); }),
               ErrorAt(folder + "invalid.off:7"));
   const Scene scene = read_off(folder + "whitespace.off");
-  EXPECT_EQ(soup_of(scene).triangles.size(), 12u);
+  EXPECT_EQ(only_soup(scene).triangles.size(), 12u);
   EXPECT_EQ(face_rgba(scene)[3], glm::vec4(0.3f, 0.4f, 0.0f, 0.75f));
 }
 

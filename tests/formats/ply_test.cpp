@@ -103,7 +103,7 @@ TEST(Ply, ReadsAnyOrderTypeAndEncoding) {
     for (const std::string line_break : {"\n", "\r\n"}) {
       SCOPED_TRACE(encoding + (line_break.size() == 2 ? " CR LF" : " LF"));
       const Scene scene = read_bytes(rich_file(encoding, line_break));
-      const TriangleSoup& soup = soup_of(scene);
+      const TriangleSoup& soup = only_soup(scene);
       EXPECT_THAT(soup.positions, ElementsAre(glm::vec3(0.25f, 0, 0), glm::vec3(1.25f, -1, 0.5f),
                                               glm::vec3(2.25f, -2, 1), glm::vec3(3.25f, -3, 1.5f)));
       EXPECT_THAT(soup.triangles,
@@ -148,7 +148,7 @@ TEST(Ply, ReadsTriangleStrips) {
       read_bytes(ascii + "element vertex 5\n" + xyz +
                  "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + body3 +
                  "1 1 0\n2 2 2\n9 0 1 2 3 -1 4 3 2 -1\n");
-  EXPECT_THAT(soup_of(scene).triangles,
+  EXPECT_THAT(only_soup(scene).triangles,
               ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(2, 1, 3), glm::uvec3(4, 3, 2)));
   EXPECT_EQ(face_rgba(scene).size(), 3u);
 }
@@ -156,8 +156,8 @@ TEST(Ply, ReadsTriangleStrips) {
 TEST(Ply, KeepsPositionsThatAreNotFinite) {
   const Scene scene =
       read_bytes(ascii + vertices3 + faces1 + "end_header\nnan 0 0\n-inf 0 0\n0 0 0\n3 0 1 2\n");
-  EXPECT_TRUE(std::isnan(soup_of(scene).positions[0].x));
-  EXPECT_EQ(soup_of(scene).positions[1].x, -INFINITY);
+  EXPECT_TRUE(std::isnan(only_soup(scene).positions[0].x));
+  EXPECT_EQ(only_soup(scene).positions[1].x, -INFINITY);
 }
 
 TEST(Ply, RemarksOnTrailingBytes) {
@@ -268,11 +268,11 @@ TEST(Ply, X1_BigEndianAsciiCarriageReturnsExtraPropertiesAndQuadsAreRead) {
     for (const std::string line_break : {"\n", "\r\n"}) {
       SCOPED_TRACE(encoding + (line_break.size() == 2 ? " CR LF" : " LF"));
       const Scene scene = read_bytes(square(encoding, line_break, {{0, 1, 2, 3}, {1, 2, 3}}));
-      EXPECT_THAT(soup_of(scene).positions,
+      EXPECT_THAT(only_soup(scene).positions,
                   ElementsAre(glm::vec3(0, 0, 0.5f), glm::vec3(1, 0, 0.5f), glm::vec3(1, 1, 0.5f),
                               glm::vec3(0, 1, 0.5f)));
       // A quad becomes a fan at its position among the faces.
-      EXPECT_THAT(soup_of(scene).triangles,
+      EXPECT_THAT(only_soup(scene).triangles,
                   ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3), glm::uvec3(1, 2, 3)));
     }
 }
@@ -281,10 +281,10 @@ TEST(Ply, X1_FloatsThatAreNotFiniteAreKept) {
   for (const std::string encoding : encodings)
     for (const float value : {NAN, INFINITY, -INFINITY}) {
       const Scene scene = read_bytes(square(encoding, "\n", {{0, 1, 2}}, value));
-      const float x = soup_of(scene).positions[1].x;
+      const float x = only_soup(scene).positions[1].x;
       EXPECT_TRUE(std::isnan(value) ? std::isnan(x) : x == value) << encoding << ' ' << value;
-      EXPECT_EQ(soup_of(scene).positions[2], glm::vec3(1, 1, 0.5f));
-      EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
+      EXPECT_EQ(only_soup(scene).positions[2], glm::vec3(1, 1, 0.5f));
+      EXPECT_EQ(defect(only_soup(scene)), std::nullopt);
     }
 }
 
@@ -315,12 +315,12 @@ TEST(Ply, X1_ZeroFacesAreNoSceneUnlessThereIsNothingAtAll) {
                                        .line("property list uchar int vertex_indices")
                                        .line("end_header")
                                        .text());
-    EXPECT_TRUE(soup_of(empty).positions.empty());
-    EXPECT_TRUE(soup_of(empty).triangles.empty());
-    EXPECT_EQ(defect(soup_of(empty)), std::nullopt);
+    EXPECT_TRUE(only_soup(empty).positions.empty());
+    EXPECT_TRUE(only_soup(empty).triangles.empty());
+    EXPECT_EQ(defect(only_soup(empty)), std::nullopt);
     const TemporaryFolder folder;
     write_ply(empty, folder / "empty.ply");
-    EXPECT_TRUE(soup_of(read_ply(folder / "empty.ply")).triangles.empty());
+    EXPECT_TRUE(only_soup(read_ply(folder / "empty.ply")).triangles.empty());
     // As in every format: an empty image would hide the error.
     EXPECT_THAT(error_of([&] { read_scene(folder / "empty.ply"); }), ErrorAt("empty.ply"));
   }
@@ -363,7 +363,7 @@ TEST(Ply, SurvivesTruncationAndDamage) {
   const auto read = [](std::span<const std::byte> bytes) {
     Input input = Input::memory("damaged.ply", bytes);
     const Scene scene = read_ply(input);
-    EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
+    EXPECT_EQ(defect(only_soup(scene)), std::nullopt);
   };
   for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     SCOPED_TRACE(encoding);
@@ -411,8 +411,8 @@ TEST(Ply, ReadsAcrossBufferBordersAsASlowDecoderDoes_seed6) {
     }
   }
   const Scene scene = read_bytes(b.text());
-  EXPECT_EQ(soup_of(scene).positions, positions);
-  EXPECT_EQ(soup_of(scene).triangles, triangles);
+  EXPECT_EQ(only_soup(scene).positions, positions);
+  EXPECT_EQ(only_soup(scene).triangles, triangles);
 }
 
 TEST(Ply, RoundTripsBitForBit_seed7) {
@@ -432,14 +432,13 @@ TEST(Ply, RoundTripsBitForBit_seed7) {
         soup.appearance = VertexColors{rgba};
       else
         soup.appearance = FaceColors{rgba};
-      Scene scene;
+      Scene scene = scene_of(soup);
       scene.info.up = {0, 0, 1};
-      scene.primitives = soup;
       const TemporaryFolder folder;
       EXPECT_THAT(write_ply(scene, folder / "a.ply"), ElementsAre());
       const Scene again = read_ply(folder / "a.ply");
-      EXPECT_EQ(soup_of(again).positions, soup.positions);
-      EXPECT_EQ(soup_of(again).triangles, soup.triangles);
+      EXPECT_EQ(only_soup(again).positions, soup.positions);
+      EXPECT_EQ(only_soup(again).triangles, soup.triangles);
       EXPECT_EQ(by_vertex ? vertex_rgba(again) : face_rgba(again), rgba);
       std::ifstream file(folder / "a.ply", std::ios::binary);
       const std::string text((std::istreambuf_iterator<char>(file)), {});
@@ -467,8 +466,8 @@ TEST(Ply, HostileFilesEndWell) {
     std::size_t count = 0;
     errors[name] = error_of([&] {
       const Scene scene = read_ply(entry.path());
-      EXPECT_EQ(defect(soup_of(scene)), std::nullopt) << name;
-      count = soup_of(scene).triangles.size();
+      EXPECT_EQ(defect(only_soup(scene)), std::nullopt) << name;
+      count = only_soup(scene).triangles.size();
     });
     if (!errors[name]) triangles[name] = count;
   }

@@ -137,10 +137,9 @@ class RandomScene {
     return soft;
   }
 
-  /// A scene without primitives: all other members.
+  /// A scene with one layer, an empty soup; all other members have values.
   Scene scene() {
-    Scene result;
-    result.origin = {1e6 + 1.0 / 3.0, -0.1, 1e-300};
+    Scene result = scene_of(TriangleSoup{}, {1e6 + 1.0 / 3.0, -0.1, 1e-300});
     result.info = {.name = "a \"soup\" of \xC3\xBC",
                    .up = {0.0f, 0.6f, 0.8f},
                    .background = {real(), real(), -0.0f},
@@ -249,8 +248,15 @@ inline bool same(const Camera& a, const Camera& b) {
 
 /// Name of the first difference, or "".
 inline std::string difference(const Scene& a, const Scene& b) {
-  if (!std::visit(SamePrimitives{}, a.primitives, b.primitives)) return "primitives";
-  if (!same_bits(a.origin, b.origin)) return "origin";
+  if (a.layers.size() != b.layers.size()) return "number of layers";
+  for (std::size_t i = 0; i < a.layers.size(); ++i) {
+    const Layer &of_a = a.layers[i], &of_b = b.layers[i];
+    const std::string layer = " of layer " + std::to_string(i);
+    if (!std::visit(SamePrimitives{}, of_a.primitives, of_b.primitives))
+      return "primitives" + layer;
+    if (!same_bits(of_a.world_from_layer, of_b.world_from_layer)) return "world_from_layer" + layer;
+    if (of_a.name != of_b.name || of_a.visible != of_b.visible) return "name or visible" + layer;
+  }
   if (a.info.name != b.info.name || a.info.source != b.info.source) return "name or source";
   if (a.info.notes != b.info.notes) return "notes";
   if (!same_bits(a.info.up, b.info.up)) return "up";

@@ -30,9 +30,9 @@ TEST(SceneFile, TellsFormatsByContentBeforeName) {
   const Remark misnaming{.kind = Remark::Kind::content_misnamed, .names = {".ply", "OFF"}};
   EXPECT_THAT(read_scene(folder / "a.off").info.remarks, Not(Contains(misnaming)));
   const Scene misnamed = read_scene(folder / "b.ply");
-  EXPECT_EQ(soup_of(misnamed).triangles.size(), 1u);
+  EXPECT_EQ(only_soup(misnamed).triangles.size(), 1u);
   EXPECT_THAT(misnamed.info.remarks, Contains(misnaming));
-  EXPECT_EQ(soup_of(read_scene(folder / "c")).triangles.size(), 1u);
+  EXPECT_EQ(only_soup(read_scene(folder / "c")).triangles.size(), 1u);
 }
 
 TEST(SceneFile, AsksTheNameWhereTheContentSaysNothing) {
@@ -52,11 +52,9 @@ TEST(SceneFile, RefusesFilesWithoutTrianglesAlikeInEveryFormat) {
   write_text(folder / "a.gltf",
              R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
                  "nodes": [{}]})");
-  Scene ours;
   TriangleSoup soup;
   soup.appearance = FaceColors{};
-  ours.primitives = soup;
-  write_scene(ours, folder / "ours.glb");
+  write_scene(scene_of(soup), folder / "ours.glb");
   for (const char* name : {"a.off", "a.ply", "a.gltf", "ours.glb"})
     EXPECT_THAT(error_of([&] { read_scene(folder / name); }), ErrorAt(name));
 }
@@ -97,7 +95,7 @@ TEST(SceneFile, FindsMobileNerfByItsFolderAndByItsObj) {
       std::string(TUREEN_SOURCE_DIR) + "/../shared/data/soups/mobilenerf_drums";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist";
   for (const char* name : {"", "/shape2.obj"})
-    EXPECT_EQ(soup_of(read_scene(folder + name)).triangles.size(), 11026u) << name;
+    EXPECT_EQ(only_soup(read_scene(folder + name)).triangles.size(), 11026u) << name;
 }
 
 TEST(SceneFile, EveryFormatStandsInTheTableOnce) {
@@ -117,13 +115,13 @@ TEST(SceneFile, WritesByExtension) {
     for (const std::string& extension : format.written_extensions) {
       const auto path = folder / ("b" + extension);
       write_scene(scene, path);
-      EXPECT_EQ(soup_of(read_scene(path)).positions, soup_of(scene).positions) << extension;
+      EXPECT_EQ(only_soup(read_scene(path)).positions, only_soup(scene).positions) << extension;
     }
   }
   write_scene(scene, folder / "b");
   const Scene exported = read_scene(folder / "b");
-  EXPECT_TRUE(std::get<LatticeTexture>(soup_of(exported).appearance).mlp);
-  EXPECT_EQ(soup_of(exported).triangles, soup_of(scene).triangles);
+  EXPECT_TRUE(std::get<LatticeTexture>(only_soup(exported).appearance).mlp);
+  EXPECT_EQ(only_soup(exported).triangles, only_soup(scene).triangles);
   EXPECT_THAT(error_of<UsageError>([&] { write_scene(scene, folder / "b.xyz"); }),
               ErrorAt("", ".xyz", ".off", ".coff"));
 }

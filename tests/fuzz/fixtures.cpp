@@ -79,7 +79,7 @@ Scene compressed_scene() {
   LatticeTexture texture = random.lattice_texture(3, 2, false);
   texture.mlp = random.diffsoup_mlp();
   soup.appearance = std::move(texture);
-  scene.primitives = std::move(soup);
+  only_soup(scene) = std::move(soup);
   return scene;
 }
 
@@ -93,11 +93,11 @@ void add_glb(Collection& all) {
     if (name == "face_bytes" || name == "vertex_floats") all.add("preview", name + ".glb", bytes);
   }
   const Scene scene = compressed_scene();
-  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   all.add_file("gltf", "compressed.glb",
                [&](const auto& path) { write_compressed_glb(scene, compressed, path); });
 
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   const std::size_t vertices = used_vertices(soup.triangles);
   all.add("compressed_geometry", "three_faces",
           with_first_byte(soup.triangles.size(), with_first_byte(vertices, compressed.geometry)));
@@ -163,13 +163,12 @@ void add_text_meshes(Collection& all) {
   append({0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0xff, 0xff, 0xff, 0xff});
   all.add("ply", "strips.ply", big);
   RandomScene random(2);
-  Scene scene;
   TriangleSoup soup = random.geometry(3, true);
   soup.appearance = FaceColors{random.colors(3, false)};
-  scene.primitives = soup;
+  Scene scene = scene_of(soup);
   all.add_file("ply", "faces.ply", [&](const auto& path) { write_ply(scene, path); });
   soup.appearance = VertexColors{random.colors(soup.positions.size(), true)};
-  scene.primitives = soup;
+  only_soup(scene) = soup;
   all.add_file("ply", "vertices.ply", [&](const auto& path) { write_ply(scene, path); });
   all.add("obj", "quad.obj",
           "# a quad\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 -1e2\nvt 0.25 0.75\nvt 1 0.75\n"

@@ -45,8 +45,7 @@ FolderFiles diffsoup_files() {
   for (DenseLayer& layer : texture.mlp->layers)
     std::fill(layer.weights.begin(), layer.weights.end(), 0.5f);
   soup.appearance = std::move(texture);
-  Scene scene;
-  scene.primitives = std::move(soup);
+  const Scene scene = scene_of(std::move(soup));
   const Scratch scratch("diffsoup_files");
   write_diffsoup_export(scene, scratch.folder() / "export");
   FolderFiles files;

@@ -11,11 +11,14 @@ namespace tureen::fuzz {
 namespace fs = std::filesystem;
 
 void require_whole(const Scene& scene) {
-  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
-  const auto reason = soup ? defect(*soup) : std::nullopt;
-  if (!reason) return;
-  std::fprintf(stderr, "a reader returned a scene with a defect: %s\n", reason->c_str());
-  std::abort();
+  for (const Layer& layer : scene.layers) {
+    auto reason = defect(layer);
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives); soup && !reason)
+      reason = defect(*soup);
+    if (!reason) continue;
+    std::fprintf(stderr, "a reader returned a scene with a defect: %s\n", reason->c_str());
+    std::abort();
+  }
 }
 
 Scratch::Scratch(const std::string& name)

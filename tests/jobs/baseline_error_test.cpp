@@ -12,7 +12,7 @@ class BaselineError : public testing::TestWithParam<test::CloudCoverage> {};
 
 TEST_P(BaselineError, IsNoSmallerThanOurs) {
   const Scene scene = test::cutout_cloud({.coverage = GetParam()});
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   gl::Context context = gl::Context::create({});
   double ours = 0, baseline = 0;
   // Every second view. In either pipeline, one to eight pixels of a view fall to the other side of

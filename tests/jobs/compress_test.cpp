@@ -17,7 +17,7 @@ namespace compressed_test {
 /// The first faces of the example, with some of its cameras at a fifth of their size.
 Scene part_of_the_example(std::size_t faces, std::size_t cameras = 8) {
   Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& soup = only_soup(scene);
   soup.triangles.resize(faces);
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   texture.patches.resize(faces);
@@ -35,7 +35,7 @@ Scene with_cameras(Scene scene, std::vector<Camera> cameras) {
 /// The scene's own images, with every channel changed by `off`, up or down.
 std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   const gl::Context context = gl::Context::create({});
-  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)),
                     {.background = {scene.info.background, 1.0f}});
   std::vector<Photograph> photographs;
   for (const Camera& camera : scene.cameras) {
@@ -51,7 +51,7 @@ std::vector<Photograph> own_photographs(const Scene& scene, int off) {
 
 TEST(Compress, KeepsWithinItsBoundAndUsesIt) {
   const Scene scene = part_of_the_example(500);
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   const CompressResult large = compress(scene, {.max_loss_db = 0.1});
   const CompressResult small = compress(scene, {.max_loss_db = 1});
   EXPECT_LE(large.loss.db, 0.1);
@@ -85,7 +85,7 @@ TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
 
 TEST(Compress, OmitsWhatNoViewSees) {
   Scene scene = part_of_the_example(300);
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& soup = only_soup(scene);
   // Three degenerate faces.
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ TEST(Compress, TexelsThatNoViewShowsTakeLittle) {
   const CompressResult before = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_EQ(before.weighing_views, 8u);
   // Behind the eyes of all cameras: a copy of the same faces.
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& soup = only_soup(scene);
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   std::size_t texels = 0;
   auto& bytes = std::get<std::vector<std::uint8_t>>(texture.texels);
@@ -161,7 +161,7 @@ TEST(Compress, TrainingCamerasJoinTheRecordedOnes) {
 
   // Faces seen by the file's own camera must stay. This face is far from all others, and too small
   // for views of the whole scene.
-  TriangleSoup& soup = std::get<TriangleSoup>(scene.primitives);
+  TriangleSoup& soup = only_soup(scene);
   const auto first = std::uint32_t(soup.positions.size());
   for (const glm::vec3 corner : {glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)})
     soup.positions.push_back(0.02f * corner + glm::vec3(0, 0, -500));
@@ -173,7 +173,7 @@ TEST(Compress, TrainingCamerasJoinTheRecordedOnes) {
                         LatticeTexture::features] = 255;
   request.photographs = own_photographs(with_cameras(scene, request.training_cameras), 8);
   const CompressResult without = compress(scene, request);
-  const glm::dvec3 eye = scene.origin + glm::dvec3(0, 0, -499.9);
+  const glm::dvec3 eye = origin_of(only_layer(scene)) + glm::dvec3(0, 0, -499.9);
   scene.cameras = {look_at(eye, eye - glm::dvec3(0, 0, 0.1), {0, 1, 0}, 0.7, 64, 48)};
   const CompressResult with = compress(scene, request);
   EXPECT_EQ(with.lent_cameras, 8u);
@@ -219,7 +219,7 @@ TEST(Compress, OneCameraDoesNotSpeakForAll) {
 
 TEST(Compress, FacesOfOneColorHaveOneTexelACorner) {
   Scene scene = part_of_the_example(40);
-  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texture = std::get<LatticeTexture>(only_soup(scene).appearance);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
   constexpr std::size_t channels = LatticeTexture::channels;
   const std::size_t plain = 20;
@@ -242,12 +242,12 @@ TEST(Compress, FacesOfOneColorHaveOneTexelACorner) {
 // As before training: edges lie anywhere, and coarse alphas move them all.
 TEST(Compress, AlphasAroundTheThresholdHaveFinerSteps) {
   Scene scene = part_of_the_example(200);
-  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texture = std::get<LatticeTexture>(only_soup(scene).appearance);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
   test::Random random(5);
   for (std::size_t i = LatticeTexture::features; i < texels.size(); i += LatticeTexture::channels)
     texels[i] = std::uint8_t(118 + random.below(20));
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   const gl::Context context = gl::Context::create({});
   const CompressedSoup coarse =
       encode_compressed(soup, {.position_bits = 20, .texels = {.alpha_step = 85}});
@@ -257,7 +257,7 @@ TEST(Compress, AlphasAroundTheThresholdHaveFinerSteps) {
 
 TEST(Compress, RefusesWhatItCannotHold) {
   Scene scene = part_of_the_example(2);
-  std::get<TriangleSoup>(scene.primitives).appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};
+  only_soup(scene).appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};
   EXPECT_THAT(test::error_of<UsageError>([&] { compress(scene, {}); }),
               test::ErrorAt("", appearance_name(FaceColors{})));
 }

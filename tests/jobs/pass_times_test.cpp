@@ -86,7 +86,7 @@ TEST_P(DeviceTimers, NameEveryPassOfEveryFrame) {
   const gl::Context context = gl::Context::create(GetParam().request);
   if (!context.capabilities().timer_queries) GTEST_SKIP() << "no timer queries here";
   const Scene scene = small_cloud();
-  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin);
+  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)));
   gl::PassTimer timer(context);
   renderer.draw(scene.cameras[0]);  // before the timer: not counted
   for (int round = 0; round < 2; ++round) {
@@ -109,7 +109,7 @@ TEST_P(DeviceTimers, AreNotUsedWhereTheyMislead) {
   const gl::Context context = gl::Context::create(GetParam().request);
   if (!context.capabilities().software) GTEST_SKIP() << "not a software renderer";
   const Scene scene = small_cloud();
-  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin);
+  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)));
   const PassTimes times = time_passes(context, renderer, scene.cameras, 2);
   EXPECT_EQ(times.gap, PassTimesGap::no_timers);
   EXPECT_THAT(times.reason, Names(context.capabilities().renderer));
@@ -126,7 +126,7 @@ TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const Scene scene = small_cloud();
   Renderer renderer(
-      context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+      context, only_soup(scene), origin_of(only_layer(scene)),
       {.plan = {.site = ShadingSite::nowhere}, .background = glm::vec4(0.2f, 0.4f, 0.6f, 1.0f)});
   EXPECT_EQ(renderer.plan().site, ShadingSite::nowhere);
   renderer.draw(scene.cameras[0]);

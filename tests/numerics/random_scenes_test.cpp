@@ -146,11 +146,10 @@ TEST(Numerics, H10_RandomScenesLookTheSameToAllThree) {
       if (face != no_face) ++shown[hazard_of(face)];
     device.add(seed, scene, expected, draw(shared_context(), soup, origin, camera));
 
-    const trainer::Model model =
-        trainer::from_scene({.primitives = soup, .cameras = {}, .origin = origin, .info = {}},
-                            {.min_level = 3, .max_level = 3, .seed = std::uint64_t(seed)});
+    const trainer::Model model = trainer::from_scene(
+        scene_of(soup, origin), {.min_level = 3, .max_level = 3, .seed = std::uint64_t(seed)});
     const Scene made = trainer::to_scene(model);
-    const HazardousScene learned{std::get<TriangleSoup>(made.primitives), made.origin, camera};
+    const HazardousScene learned{only_soup(made), origin_of(only_layer(made)), camera};
     trained.add(seed, learned, render_oracle(learned.soup, learned.origin, camera),
                 drawn_by_trainer(model, camera));
   }

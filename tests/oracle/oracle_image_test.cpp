@@ -275,7 +275,7 @@ TEST(CutoutCloud, CoversWhatItPromises) {
     std::size_t sum = 0, pixels = 0;
     for (const Camera& camera : scene.cameras) {
       const OracleImage image =
-          render_oracle(std::get<TriangleSoup>(scene.primitives), scene.origin, camera);
+          render_oracle(only_soup(scene), origin_of(only_layer(scene)), camera);
       sum += covered(image);
       pixels += image.face.size();
     }

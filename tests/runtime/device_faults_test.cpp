@@ -55,7 +55,7 @@ class DeviceFaults : public testing::TestWithParam<NamedContext> {
   DeviceFaults()
       : context(gl::Context::create(GetParam().request)),
         scene(cutout_cloud(small)),
-        soup(std::get<TriangleSoup>(scene.primitives)),
+        soup(only_soup(scene)),
         camera(scene.cameras.front()) {}
 
   Image8 image() const {
@@ -189,7 +189,7 @@ struct OlderDriver {
 TEST(OlderDrivers, DrawTheSameWithoutWhatTheyLack) {
   gl::Context newer = gl::Context::create(osmesa);
   const Scene scene = cutout_cloud(small);
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   const auto draw = [&](const gl::Context& context) {
     Renderer renderer(context, soup, {});
     renderer.draw(scene.cameras.front());

@@ -46,11 +46,11 @@ std::uint64_t row_texels(const gl::Context& context) {
 TEST(DeviceForecast, IsRightForManyTexels) {
   const gl::Context context = gl::Context::create(test::osmesa);
   const Scene cloud = test::cutout_cloud({.triangles = 2000, .level = 5});
-  const auto& soup = std::get<TriangleSoup>(cloud.primitives);
+  const auto& soup = only_soup(cloud);
   for (const bool specialise : {true, false}) {
     RenderOptions options;
     options.plan.specialise = specialise;
-    const Renderer renderer(context, soup, cloud.origin, options);
+    const Renderer renderer(context, soup, origin_of(only_layer(cloud)), options);
     const std::uint64_t forecast = device_forecast(soup, renderer.plan()).bytes;
     // Three stores of four bytes per texel, each padded by less than a row: 49,152 of 13 million
     // bytes, of which 5504 are used.

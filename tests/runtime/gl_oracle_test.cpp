@@ -236,7 +236,7 @@ TEST(GlOracleSingle, LlvmpipeInterpolatesOverTheUnsnappedTriangle) {
 // arithmetic.
 TEST(GlOracleSingle, TheCutoutCloudThatCoversEverythingAgrees) {
   const Scene scene = test::cutout_cloud({.coverage = test::CloudCoverage::all});
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   const Camera& camera = scene.cameras.front();
   expect_agreement(snapped_oracle(soup, camera),
                    draw(soup, camera, {.site = ShadingSite::deferred}), "deferred",

@@ -18,7 +18,7 @@ Image8 draw_golden(const gl::ContextRequest& request, Kind kind, RenderOptions o
   const gl::Context context = gl::Context::create(request);
   const Scene scene = golden_scene(kind);
   options.background = glm::vec4(scene.info.background, 1.0f);
-  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin, options);
+  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)), options);
   renderer.draw(scene.cameras.at(0));
   return renderer.read_color();
 }
@@ -61,7 +61,7 @@ TEST(Golden, Example) {
   RenderOptions options;
   options.plan.reversed_depth = false;
   options.background = glm::vec4(scene.info.background, 1.0f);
-  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin, options);
+  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)), options);
   renderer.draw(resized(scene.cameras.at(golden_example_camera), 320, 240));
   expect_golden(renderer.read_color(), "example");
 }
@@ -74,7 +74,7 @@ TEST(Golden, DebugViews) {
   for (const NamedContext& named : every_context) {
     const gl::Context context = gl::Context::create(named.request);
     DebugViewRenderer debug_renderer(
-        context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+        context, only_soup(scene), origin_of(only_layer(scene)),
         {.reversed_depth = false, .background = glm::vec4(scene.info.background, 1.0f)});
     const bool is_reference = named.request.backend == gl::Backend::osmesa;
     for (const DebugViewName& name : debug_view_names()) {

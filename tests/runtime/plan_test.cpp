@@ -230,7 +230,7 @@ TEST_P(SpecialisedKinds, DrawsWhatTheGenericPlanDraws) {
 TEST(Specialised, DrawsTheCutOutCloudAsTheGenericPlanDoes) {
   const Scene cloud = cutout_cloud({.triangles = 2000, .level = 5, .width = 320, .height = 180});
   ASSERT_GE(cloud.cameras.size(), 4u);
-  const auto& soup = std::get<TriangleSoup>(cloud.primitives);
+  const auto& soup = only_soup(cloud);
   const std::vector<Camera> views(cloud.cameras.begin(), cloud.cameras.begin() + 4);
   const std::vector<Image8> generic = images(soup, views, {.specialise = false});
   const Difference found = difference(images(soup, views, {}), generic);

@@ -30,8 +30,7 @@ std::vector<Camera> two_views(const Scene& scene) {
 }
 
 Drawn draw(const Scene& scene, const Camera& camera, const PlanPreferences& plan) {
-  return test::draw(context(), std::get<TriangleSoup>(scene.primitives), scene.origin, camera,
-                    plan);
+  return test::draw(context(), only_soup(scene), origin_of(only_layer(scene)), camera, plan);
 }
 
 struct RealSoup {
@@ -48,10 +47,10 @@ TEST_P(RealData, AgreesWithTheOracle) {
   const auto [name, min_compared] = GetParam();
   if (!std::filesystem::exists(data(name))) GTEST_SKIP() << "no ../shared/data";
   const Scene scene = read_scene(data(name));
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   int view = 0;
   for (const Camera& camera : two_views(scene)) {
-    const OracleImage oracle = test::snapped_oracle(soup, scene.origin, camera);
+    const OracleImage oracle = test::snapped_oracle(soup, origin_of(only_layer(scene)), camera);
     Drawn drawn = draw(scene, camera, {.site = ShadingSite::deferred});
     const std::string which = "view " + std::to_string(view++);
     test::expect_agreement(oracle, drawn, which, {.min_compared = min_compared});

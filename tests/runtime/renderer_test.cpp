@@ -277,12 +277,13 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
 TEST(Renderer, SmallTexturesHoldTheSameScene) {
   const gl::Context context = gl::Context::create(osmesa);
   const Scene cloud = cutout_cloud({.triangles = 2000, .level = 5, .width = 320, .height = 180});
-  const auto& soup = std::get<TriangleSoup>(cloud.primitives);
-  const Image8 large = draw(context, soup, cloud.origin, cloud.cameras[0]);
+  const auto& soup = only_soup(cloud);
+  const Image8 large = draw(context, soup, origin_of(only_layer(cloud)), cloud.cameras[0]);
   RenderOptions options;
   options.limits =
       DeviceLimits{.max_texture_size = 64, .max_array_layers = 2048, .clip_control = true};
-  EXPECT_EQ(draw(context, soup, cloud.origin, cloud.cameras[0], options).pixels, large.pixels);
+  EXPECT_EQ(draw(context, soup, origin_of(only_layer(cloud)), cloud.cameras[0], options).pixels,
+            large.pixels);
 }
 
 TEST(Renderer, ADeviceThatIsTooSmallGetsAForecast) {
@@ -293,7 +294,7 @@ TEST(Renderer, ADeviceThatIsTooSmallGetsAForecast) {
       DeviceLimits{.max_texture_size = 64, .max_array_layers = 16, .clip_control = true};
   const auto refusal = error_of<DeviceLimitError>([&] {
     // NOLINTNEXTLINE(bugprone-unused-raii): the test is the construction
-    Renderer(context, std::get<TriangleSoup>(cloud.primitives), cloud.origin, options);
+    Renderer(context, only_soup(cloud), origin_of(only_layer(cloud)), options);
   });
   // 16 layers of 64 x 64 texels hold 65,536; a triangle has 561.
   EXPECT_THAT(refusal, Names(116));

@@ -16,7 +16,6 @@ namespace round_trip_test {
 
 using test::Drawn;
 using test::Kind;
-using tureen::test::soup_of;
 using tureen::test::TemporaryFolder;
 
 gl::Context& context() {
@@ -25,7 +24,8 @@ gl::Context& context() {
 }
 
 Drawn draw(const Scene& scene, std::size_t view, const PlanPreferences& plan) {
-  return test::draw(context(), soup_of(scene), scene.origin, scene.cameras.at(view), plan);
+  return test::draw(context(), only_soup(scene), origin_of(only_layer(scene)),
+                    scene.cameras.at(view), plan);
 }
 
 Scene written_and_read(const Scene& scene, const std::filesystem::path& path) {
@@ -52,10 +52,9 @@ void expect_the_same_pixels(const Scene& written, const Scene& read) {
 }
 
 /// A scene with one random camera.
-Scene scene_of(TriangleSoup soup, std::uint64_t seed) {
+Scene scene_with_camera(TriangleSoup soup, std::uint64_t seed) {
   test::Random random(seed);
-  Scene scene;
-  scene.primitives = std::move(soup);
+  Scene scene = scene_of(std::move(soup));
   scene.cameras = {test::random_camera(random, 320, 240)};
   return scene;
 }
@@ -70,17 +69,18 @@ TEST_P(RoundTrip, OfOurGlbDrawsTheSamePixels) {
   const TemporaryFolder folder;
   // The two seeds have different features: shared vertices, degenerate faces, float texels.
   const bool odd = seed() % 2 == 1;
-  Scene scene = scene_of(test::random_soup(seed(), {.kind = kind(),
-                                                    .shared_vertices = odd,
-                                                    .degenerate = !odd,
-                                                    .float_texels = odd,
-                                                    .filter = odd ? UvMaterial::Filter::nearest
-                                                                  : UvMaterial::Filter::linear}),
-                         seed());
-  scene.origin = {1e3 + 1e-9, -0.1, 1.0 / 3};
+  Scene scene = scene_with_camera(
+      test::random_soup(seed(),
+                        {.kind = kind(),
+                         .shared_vertices = odd,
+                         .degenerate = !odd,
+                         .float_texels = odd,
+                         .filter = odd ? UvMaterial::Filter::nearest : UvMaterial::Filter::linear}),
+      seed());
+  only_layer(scene).world_from_layer = at_origin({1e3 + 1e-9, -0.1, 1.0 / 3});
   scene.cameras[0].view_from_world *=
       glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, 1, 0),
-                 glm::dvec4(-scene.origin, 1));
+                 glm::dvec4(-origin_of(only_layer(scene)), 1));
   expect_the_same_pixels(scene, written_and_read(scene, folder / "soup.glb"));
 }
 
@@ -105,7 +105,7 @@ TEST_P(RoundTripOfColors, OfEightBitsDrawsTheSamePixels) {
                                      : std::get<VertexColors>(soup.appearance).rgba;
   for (glm::vec4& color : rgba)
     for (int c = 0; c < 4; ++c) color[c] = std::round(color[c] * 255.0f) / 255.0f;
-  const Scene scene = scene_of(std::move(soup), 603);
+  const Scene scene = scene_with_camera(std::move(soup), 603);
   Scene read = written_and_read(scene, folder / (std::string("soup") + extension));
   read.cameras = scene.cameras;
   expect_the_same_pixels(scene, read);
@@ -130,10 +130,11 @@ TEST(CutoutCloud, ReadFromADiffSoupExportAgreesWithTheOracle) {
   read.cameras = scene.cameras;
   for (const std::size_t view : {1, 4}) {
     const Drawn drawn = draw(read, view, {.site = ShadingSite::deferred});
-    test::expect_agreement(test::snapped_oracle(soup_of(read), read.origin, read.cameras[view]),
-                           drawn, "view " + std::to_string(view),
-                           // The bound for the variant in gl_oracle_test.cpp.
-                           {.max_face_mismatch = 3e-5});
+    test::expect_agreement(
+        test::snapped_oracle(only_soup(read), origin_of(only_layer(read)), read.cameras[view]),
+        drawn, "view " + std::to_string(view),
+        // The bound for the variant in gl_oracle_test.cpp.
+        {.max_face_mismatch = 3e-5});
   }
   expect_the_same_pixels(scene, read);
 }

@@ -80,8 +80,7 @@ Scene cutout_cloud(const CutoutCloudOptions& options) {
   texture.mlp = random_lattice_mlp(random);
   soup.appearance = std::move(texture);
 
-  Scene scene;
-  scene.primitives = std::move(soup);
+  Scene scene = scene_of(std::move(soup));
   scene.info.name = "cut-out cloud";
   scene.info.up = {0, 0, 1};
   scene.info.source = "generated";

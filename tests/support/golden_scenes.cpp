@@ -5,8 +5,7 @@
 namespace tureen::test {
 
 Scene golden_scene(Kind kind) {
-  Scene scene;
-  scene.primitives = random_soup(2026, {.kind = kind, .faces = 150, .size = 0.25});
+  Scene scene = scene_of(random_soup(2026, {.kind = kind, .faces = 150, .size = 0.25}));
   Random random(11);
   scene.cameras.push_back(random_camera(random, 320, 240));
   scene.info.name = to_string(kind);

@@ -20,7 +20,7 @@ void write_all(const std::filesystem::path& example, const std::filesystem::path
 
   // An export has one lattice level.
   Scene exported = golden_scene(Kind::lattice_mlp);
-  exported.primitives =
+  only_soup(exported) =
       random_soup(2026, {.kind = Kind::lattice_mlp, .faces = 150, .size = 0.25, .level = 4});
   write_scene(exported, folder / "diffsoup");
 }

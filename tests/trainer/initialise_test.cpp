@@ -423,9 +423,8 @@ TEST(InitialModel, BeginsAtPointsWhereThereAreSome) {
 }
 
 TEST(InitialModel, OfAMeshBisectsToTheNumberOfTriangles) {
-  Scene mesh;
-  mesh.primitives = tureen::test::random_soup(
-      96, {.kind = tureen::test::Kind::vertex_colors, .faces = 60, .shared_vertices = true});
+  const Scene mesh = scene_of(tureen::test::random_soup(
+      96, {.kind = tureen::test::Kind::vertex_colors, .faces = 60, .shared_vertices = true}));
   Config config = preset(Preset::object);
   config.initialisation = Initialisation::mesh;
   config.initial_triangles = 100;

@@ -140,7 +140,7 @@ void expect_same_fields(const Model& actual, const Model& expected, double toler
 TEST(FromScene, ReturnsWhatToSceneMade) {
   const Model model = random_model(26, {.faces = 10, .min_level = 1, .max_level = 3});
   const Scene scene = to_scene(model);
-  ASSERT_EQ(defect(std::get<TriangleSoup>(scene.primitives)), std::nullopt);
+  ASSERT_EQ(defect(only_soup(scene)), std::nullopt);
   // Values are clamped to 1e-4 from 0 and 1; the rest is roundings of logits below 10.
   expect_same_fields(from_scene(scene, {.min_level = 1, .max_level = 3}), model, 1.01e-4);
   expect_same_fields(from_scene(scene, {.min_level = 0, .max_level = 3}), model, 1.01e-4);
@@ -158,9 +158,8 @@ TEST_F(OnDisk, TheSceneIsWrittenAndReadAgain) {
   const Scene scene = to_scene(model);
   EXPECT_THAT(write_scene(scene, folder_ / "soup.glb"), testing::IsEmpty());
   const Scene read = read_scene(folder_ / "soup.glb");
-  const auto& written =
-      std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
-  const auto& again = std::get<LatticeTexture>(std::get<TriangleSoup>(read.primitives).appearance);
+  const auto& written = std::get<LatticeTexture>(only_soup(scene).appearance);
+  const auto& again = std::get<LatticeTexture>(only_soup(read).appearance);
   EXPECT_EQ(again.texels, written.texels);
   ASSERT_TRUE(again.mlp.has_value());
   EXPECT_EQ(parameters_of(*again.mlp), model.mlp);
@@ -210,12 +209,10 @@ TEST(FromScene, TakesEveryAppearance) {
   for (const tureen::test::Kind kind : tureen::test::all_kinds)
     for (const bool shared : {false, true}) {
       SCOPED_TRACE(to_string(kind));
-      Scene scene;
       const TriangleSoup soup =
           tureen::test::random_soup(30, {.kind = kind, .faces = 30, .shared_vertices = shared});
-      scene.primitives = soup;
-      scene.origin = {1, 2, 3};
-      const Model model = from_scene(scene, {.min_level = 0, .max_level = 2, .seed = 3});
+      const Model model =
+          from_scene(scene_of(soup, {1, 2, 3}), {.min_level = 0, .max_level = 2, .seed = 3});
       ASSERT_EQ(model.faces(), soup.triangles.size());
       for (std::size_t face = 0; face < model.faces(); ++face)
         for (int corner = 0; corner < 3; ++corner)
@@ -223,7 +220,7 @@ TEST(FromScene, TakesEveryAppearance) {
                     soup.positions[soup.triangles[face][corner]]);
       EXPECT_EQ(model.origin, glm::dvec3(1, 2, 3));
       EXPECT_TRUE(std::ranges::all_of(model.logits, [](float x) { return std::isfinite(x); }));
-      EXPECT_EQ(defect(std::get<TriangleSoup>(to_scene(model).primitives)), std::nullopt);
+      EXPECT_EQ(defect(only_soup(to_scene(model))), std::nullopt);
     }
 }
 
@@ -232,10 +229,8 @@ TEST(FromScene, KeepsColoursOfFacesAndCorners) {
                     .triangles = {{2, 0, 1}},
                     .appearance = FaceColors{{{0.25f, 0.5f, 0.75f, 1.0f}}}};
   const auto features = [&soup](double b0, double b1) {
-    Scene scene;
-    scene.primitives = soup;
     std::vector<float> texture;
-    fine_texture(from_scene(scene, {.min_level = 0, .max_level = 1}), 0, texture);
+    fine_texture(from_scene(scene_of(soup), {.min_level = 0, .max_level = 1}), 0, texture);
     return glm::dvec3(test::textured(texture, 1, b0, b1, 0), test::textured(texture, 1, b0, b1, 1),
                       test::textured(texture, 1, b0, b1, 2));
   };
@@ -252,19 +247,18 @@ TEST(FromScene, KeepsColoursOfFacesAndCorners) {
 }
 
 TEST(FromScene, MovesTheOriginToASoupFarFromIt) {
-  Scene scene;
-  scene.primitives = TriangleSoup{.positions = {{4096, 0, 0}, {4097, 0, 0}, {4096, 1, 0}},
-                                  .triangles = {{0, 1, 2}},
-                                  .appearance = FaceColors{{glm::vec4(1.0f)}}};
-  scene.origin = {0, 0, 1e6};
+  const Scene scene = scene_of(TriangleSoup{.positions = {{4096, 0, 0}, {4097, 0, 0}, {4096, 1, 0}},
+                                            .triangles = {{0, 1, 2}},
+                                            .appearance = FaceColors{{glm::vec4(1.0f)}}},
+                               {0, 0, 1e6});
   const Model model = from_scene(scene, {});
   EXPECT_EQ(model.origin, glm::dvec3(4096.5, 0.5, 1e6));
   EXPECT_EQ(model.positions[1], glm::vec3(0.5f, -0.5f, 0.0f));
 }
 
 TEST(FromScene, RefusesAnEmptySoup) {
-  Scene scene;
-  scene.primitives = TriangleSoup{.positions = {}, .triangles = {}, .appearance = FaceColors{}};
+  const Scene scene =
+      scene_of(TriangleSoup{.positions = {}, .triangles = {}, .appearance = FaceColors{}});
   EXPECT_THROW(from_scene(scene, {}), InputError);
 }
 

@@ -199,8 +199,7 @@ TEST(SmokeTraining, RunsWithoutTheCommandLine) {
   EXPECT_GT(result.test_psnr_db, 0);
   EXPECT_EQ(evaluated.info.name, "still life");
   EXPECT_EQ(evaluated.cameras.size(), still_life().train.size());
-  EXPECT_EQ(std::get<TriangleSoup>(evaluated.primitives).triangles.size(),
-            result.state.model.faces());
+  EXPECT_EQ(only_soup(evaluated).triangles.size(), result.state.model.faces());
   EXPECT_FALSE(read_training_log(log).empty());
   fs::remove(log);
 }

@@ -82,9 +82,7 @@ Scene to_scene(const Model& model) {
   texture.texels = std::move(values);
   texture.mlp = color_mlp(model.mlp);
   soup.appearance = std::move(texture);
-  Scene scene;
-  scene.primitives = std::move(soup);
-  scene.origin = model.origin;
+  Scene scene = scene_of(std::move(soup), model.origin);
   scene.info.source = "trained by Tureen";
   return scene;
 }

@@ -94,14 +94,15 @@ class FaceLogits {
 }  // namespace
 
 Model from_scene(Scene scene, const FromScene& options) {
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   if (soup.triangles.empty()) throw InputError({}, "the initial scene has no triangle");
   Model model{.min_level = options.min_level,
               .max_level = options.max_level,
               .positions = {},
               .logits = {},
               .mlp = {},
-              .origin = scene.origin};
+              .origin = origin_of(only_layer(scene))};
 
   const Bounds box = bounds(soup);
   const glm::dvec3 centre = box.centre();

@@ -46,7 +46,7 @@ double opacity_binary_fraction(const Model& model) {
 Scene scene_of(const std::string& name, const Dataset& dataset, const Config& config,
                const TrainingState& state) {
   Scene scene = to_scene(state.model);
-  round_to_bytes(std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance));
+  round_to_bytes(std::get<LatticeTexture>(only_soup(scene).appearance));
   scene.cameras = cameras_of(dataset.train);
   scene.info.name = name;
   scene.info.up = dataset.up;

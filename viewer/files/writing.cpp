@@ -56,7 +56,7 @@ void write_image(const ImageJob& job, const StageRequest& request) {
     request.progress(preparing_share + (1 - preparing_share) * done);
   };
   if (job.debug_view.what != DebugView::color) {
-    DebugViewRenderer debug_renderer(request.context, job.scene.soup(), job.scene.scene->origin,
+    DebugViewRenderer debug_renderer(request.context, job.scene.soup(), job.scene.origin(),
                                      {.background = background});
     debug_renderer.show(job.debug_view.what, job.debug_view.features);
     ImageTiles tiles = tiles_of(debug_renderer, request.context.capabilities());

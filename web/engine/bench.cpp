@@ -97,12 +97,13 @@ Json add_published(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
   options.plan.quality = scene.quality;
-  const TriangleSoup& soup = opaque_soup(scene);
+  make_opaque(scene);
+  const TriangleSoup& soup = only_soup(scene);
   const double start = milliseconds();
   RenderPlan plan = make_baseline_plan(soup, options.plan);
   const double planned = milliseconds();
-  to.published =
-      make_baseline_renderer(page_view().context(), soup, scene.origin, std::move(plan), options);
+  to.published = make_baseline_renderer(page_view().context(), soup, origin_of(only_layer(scene)),
+                                        std::move(plan), options);
   Json result = facts(*to.published, planned);
   result["plan_ms"] = planned - start;
   return result;

@@ -25,7 +25,7 @@ struct Loader {
   std::optional<TriangleSoup> reduced;   // at a lower lattice level, to save memory
   std::optional<PreparedSoup> prepared;  // reads the scene's soup, or the reduced one
 
-  const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
+  const TriangleSoup& soup() const { return only_soup(*scene); }
 };
 
 Loader& loader() {
@@ -53,7 +53,7 @@ Json notes_of(const Scene& scene) {
 }
 
 Json describe(const Scene& scene) {
-  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto& soup = only_soup(scene);
   Subject subject = tureen::subject_of(scene);
   const UpGuess up = guess_up(evidence_of(scene, subject));
   subject.up = up.axis;
@@ -76,7 +76,7 @@ Json take(Scene scene) {
   loader().prepared.reset();
   loader().reduced.reset();
   loader().scene = std::move(scene);
-  opaque_soup(*loader().scene);
+  make_opaque(*loader().scene);
   return describe(*loader().scene);
 }
 
@@ -112,8 +112,9 @@ Json prepare(const Json& arguments) {
   RenderOptions options;
   options.plan.max_alpha_cell_bytes = max_alpha_cell_bytes;
   options.plan.quality = scene.quality;
-  loader().prepared = prepare_soup(loader().reduced ? *loader().reduced : loader().soup(),
-                                   scene.origin, limits_of(arguments.at("limits")), options);
+  loader().prepared =
+      prepare_soup(loader().reduced ? *loader().reduced : loader().soup(),
+                   origin_of(only_layer(scene)), limits_of(arguments.at("limits")), options);
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)

@@ -218,9 +218,9 @@ Json background(const Json& color) {
 /// renderer has.
 Json open_debug_view_renderer(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
-  opaque_soup(scene);
+  make_opaque(scene);
   view().set_debug_view_renderer(
-      DebugViewRenderer(view().context(), std::get<TriangleSoup>(scene.primitives), scene.origin));
+      DebugViewRenderer(view().context(), only_soup(scene), origin_of(only_layer(scene))));
   return nullptr;
 }
 

@@ -29,7 +29,7 @@ Scene random_scene(unsigned seed, std::size_t faces, std::optional<int> level, b
   LatticeTexture texture = random.lattice_texture(faces, level, false);
   texture.mlp = random.diffsoup_mlp();
   soup.appearance = std::move(texture);
-  scene.primitives = std::move(soup);
+  only_soup(scene) = std::move(soup);
   return scene;
 }
 
@@ -67,21 +67,21 @@ TEST(CompressedGlb, IsReadAsTheEncoderSaid) {
     const bool shared = seed % 2 == 0;
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     Scene scene = random_scene(seed, 30, seed % 3 ? std::optional<int>(2) : std::nullopt, shared);
-    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    const auto& soup = only_soup(scene);
     const CompressedSoup compressed = encode_compressed(
         soup, {.position_bits = 12, .texels = {.feature_step = 9, .alpha_step = 85}});
     TriangleSoup promised = decode_compressed(compressed, soup);
     EXPECT_EQ(promised.triangles.size(), 30u);
     EXPECT_FALSE(defect(promised));
     const Scene back = read_back(written(scene, compressed, std::to_string(seed)));
-    scene.primitives = std::move(promised);
+    only_soup(scene) = std::move(promised);
     EXPECT_EQ(test::difference(scene, back), "");
   }
 }
 
 TEST(CompressedGlb, TellsOtherViewersThatItIsNotForThem) {
   Scene scene = random_scene(98, 4, 1, false);
-  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   const auto json = test::glb_json(written(scene, compressed, "required"));
   EXPECT_EQ(json["extensionsRequired"], nlohmann::json::array({tureen_extension}));
   EXPECT_EQ(json["extensions"][tureen_extension]["version"], tureen_compressed_version);
@@ -93,33 +93,32 @@ TEST(CompressedGlb, HoldsLatticeTexturesOnly) {
   Scene scene = random.scene();
   TriangleSoup soup = random.geometry(2, false);
   soup.appearance = FaceColors{random.colors(2, true)};
-  scene.primitives = std::move(soup);
+  only_soup(scene) = std::move(soup);
   EXPECT_THROW(write_compressed_glb(scene, {}, "never_written.glb"), UsageError);
   EXPECT_FALSE(std::filesystem::exists("never_written.glb"));
 }
 
 TEST(CompressedGlb, AnEmptySoupComesBackEmpty) {
-  Scene scene;
   TriangleSoup soup;
   soup.appearance = LatticeTexture{};
-  scene.primitives = soup;
+  const Scene scene = scene_of(soup);
   const CompressedSoup compressed = encode_compressed(soup, {});
   const Scene back = read_back(written(scene, compressed, "empty"));
-  EXPECT_TRUE(std::get<TriangleSoup>(back.primitives).triangles.empty());
+  EXPECT_TRUE(only_soup(back).triangles.empty());
 }
 
 TEST(CompressedGlb, SurvivesDamage) {
   Scene scene = random_scene(100, 3, 0, false);
   scene.cameras.clear();
   // The network is stored as in other files, and takes thousands of bytes.
-  std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
-  const CompressedSoup compressed = encode_compressed(
-      std::get<TriangleSoup>(scene.primitives), {.texels = {.feature_step = 16, .alpha_step = 85}});
+  std::get<LatticeTexture>(only_soup(scene).appearance).mlp.reset();
+  const CompressedSoup compressed =
+      encode_compressed(only_soup(scene), {.texels = {.feature_step = 16, .alpha_step = 85}});
   // Without checksums, the damage reaches the decoders.
   const auto bytes = without_checksums(written(scene, compressed, "damage"));
   const auto read = [](std::span<const std::byte> b) {
     const Scene back = read_back(b);
-    ASSERT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
+    ASSERT_FALSE(defect(only_soup(back)));
   };
   EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
   EXPECT_GT(test::survive_damage(bytes, read).refused, 0u);
@@ -127,7 +126,7 @@ TEST(CompressedGlb, SurvivesDamage) {
 
 TEST(CompressedGlb, DamageIsToldByChecksums) {
   Scene scene = random_scene(102, 20, 2, false);
-  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   auto bytes = written(scene, compressed, "checksum");
   for (const auto& [key, array] : {std::pair("slim_geometry", compressed.geometry),
                                    std::pair("slim_texels", compressed.texels)}) {
@@ -148,7 +147,7 @@ TEST(CompressedGlb, DamageIsToldByChecksums) {
 
 TEST(CompressedGlb, CountsThatDoNotFitAreRefused) {
   Scene scene = random_scene(101, 5, 1, false);
-  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   const auto bytes = written(scene, compressed, "counts");
   const auto json = test::glb_json(bytes);
   for (const auto& [key, value] :

@@ -27,7 +27,7 @@ struct GlbKind {
 
 inline void fill_soup(Scene& scene, TriangleSoup soup, Appearance appearance) {
   soup.appearance = std::move(appearance);
-  scene.primitives = std::move(soup);
+  only_layer(scene).primitives = std::move(soup);
 }
 
 /// Each kind of colour appearance, with shared and unshared vertices.
@@ -84,7 +84,7 @@ inline std::vector<GlbKind> glb_kinds() {
         [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, true); });
   }
   all.push_back({"soft_triangles", [](RandomScene& random, Scene& scene, std::size_t faces) {
-                   scene.primitives = random.soft_triangles(faces, 3);
+                   only_layer(scene).primitives = random.soft_triangles(faces, 3);
                  }});
   return all;
 }

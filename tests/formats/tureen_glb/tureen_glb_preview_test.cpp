@@ -45,8 +45,8 @@ std::size_t beginning_of(Bytes bytes) {
 
 TriangleSoup soup_of(const Scene& scene) {
   // A preview shows soft triangles as hard ones, at any opacity.
-  const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
-  return soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
+  const auto* soft = std::get_if<SoftTriangles>(&only_layer(scene).primitives);
+  return soft ? to_opaque(*soft, 0.0f).soup : only_soup(scene);
 }
 
 class GlbPreview : public ::testing::TestWithParam<test::GlbKind> {};
@@ -63,11 +63,11 @@ TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
     EXPECT_FALSE(preview_of(Bytes(bytes).first(std::size_t(*size) - 1)));
     std::optional<Scene> preview = preview_of(Bytes(bytes).first(std::size_t(*size)));
     ASSERT_TRUE(preview);
-    const TriangleSoup shown = std::get<TriangleSoup>(preview->primitives);
+    const TriangleSoup shown = only_soup(*preview);
     EXPECT_FALSE(defect(shown));
     EXPECT_TRUE(test::same_bits(shown.positions, soup.positions));
     EXPECT_TRUE(test::same_bits(shown.triangles, soup.triangles));
-    preview->primitives = whole.primitives;
+    only_layer(*preview).primitives = only_layer(whole).primitives;
     EXPECT_EQ(test::difference(*preview, whole), "") << "except the primitives";
 
     const auto expect_color = [](const glm::vec4& color, const glm::vec3& wanted) {
@@ -126,7 +126,7 @@ TEST_P(GlbPreviewMesh, AsksForMoreAtEveryLengthThatIsTooShort) {
 
 TEST_P(GlbPreviewMesh, SurvivesDamage) {
   RandomScene random(4);
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   GetParam().fill(random, scene, 1);
   const std::vector<std::byte> bytes = test::glb_bytes(scene, GetParam().name);
   const std::size_t size = std::size_t(size_of(bytes).value());
@@ -135,7 +135,7 @@ TEST_P(GlbPreviewMesh, SurvivesDamage) {
     const std::optional<Scene> preview = preview_of(damaged);
     if (!preview) return;
     ++shown;
-    EXPECT_FALSE(defect(std::get<TriangleSoup>(preview->primitives)));
+    EXPECT_FALSE(defect(only_soup(*preview)));
   };
   const test::Survival survival = test::survive_damage(Bytes(bytes).first(size), read);
   EXPECT_GT(survival.refused, size);
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Kind, GlbPreviewMesh, ::testing::ValuesIn(mesh_kinds())
 // -- Files that have none -------------------------------------------------------------------------
 
 TEST(GlbPreviewFile, OtherFilesHaveNone) {
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   RandomScene random(5);
   fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
   const std::vector<std::byte> bytes = test::glb_bytes(scene, "foreign");
@@ -170,7 +170,7 @@ TEST(GlbPreviewFile, CompressedFilesAndEmptySoupsHaveNone) {
   Scene scene = random.scene();
   TriangleSoup soup = random.geometry(4, true);
   soup.appearance = random.lattice_texture(4, 1, false);
-  scene.primitives = soup;
+  only_soup(scene) = soup;
   const auto path = test::temporary_glb("compressed_preview");
   write_compressed_glb(scene, encode_compressed(soup, {}), path);
   const std::vector<std::byte> compressed = Input::open(path).read_rest();
@@ -191,7 +191,7 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
   Scene scene = random.scene();
   TriangleSoup lattice = random.geometry(5, true);
   lattice.appearance = random.lattice_texture(5, 2, false);
-  scene.primitives = std::move(lattice);
+  only_soup(scene) = std::move(lattice);
   const std::vector<std::byte> bytes = test::glb_bytes(scene, "wrong_preview");
   const auto refusal = [](Bytes damaged) {
     // The last byte is missing: the file is still arriving.
@@ -246,10 +246,9 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
 
 TEST(GlbPreviewFile, DoesNotLookAtWhatHasNotArrived) {
   RandomScene random(8);
-  Scene scene;
   TriangleSoup soup = random.geometry(5, false);
   soup.appearance = random.lattice_texture(5, 2, false);
-  scene.primitives = std::move(soup);
+  const Scene scene = scene_of(std::move(soup));
   std::vector<std::byte> bytes = test::glb_bytes(scene, "texels_preview");
   const std::size_t size = std::size_t(size_of(bytes).value());
   std::fill(bytes.begin() + std::ptrdiff_t(size), bytes.end(), std::byte(0));

@@ -51,12 +51,12 @@ TEST_P(TureenGlb, EmptyComesBackToo) {
 
 TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
   RandomScene random(5);
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   GetParam().fill(random, scene, 1);
   const auto bytes = test::glb_bytes(scene, GetParam().name);
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_back(damaged);
-    if (const auto* soup = std::get_if<TriangleSoup>(&back.primitives)) {
+    if (const auto* soup = std::get_if<TriangleSoup>(&only_layer(back).primitives)) {
       EXPECT_FALSE(defect(*soup));
     }
   };
@@ -80,9 +80,8 @@ TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
 TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
   const Scene scene = test::random_scene(GetParam(), 6, 9);
   // A preview shows soft triangles with the mean of their harmonics, at any opacity.
-  const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
-  const TriangleSoup soup =
-      soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
+  const auto* soft = std::get_if<SoftTriangles>(&only_layer(scene).primitives);
+  const TriangleSoup soup = soft ? to_opaque(*soft, 0.0f).soup : only_soup(scene);
   const auto bytes = test::glb_bytes(scene, GetParam().name);
   const auto json = test::glb_json(bytes);
   const auto& primitive = json["meshes"][0]["primitives"][0];
@@ -145,7 +144,7 @@ TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
 
 TEST(TureenGlbFile, StoresColoursThatAreBytesAsBytes) {
   RandomScene random(9);
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
   const auto json = test::glb_json(test::glb_bytes(scene, "bytes"));
   const int rgba = json["extensions"][tureen_extension]["appearance"]["rgba"];
@@ -280,9 +279,9 @@ TEST(TureenGlbEarlierPreset, IsReadAsAnEdit) {
   const Scene scene = scene_of_levels();
   const Scene back = read_back(with_preset(scene, earlier_preset));
   const TriangleSoup expected =
-      edited(std::get<TriangleSoup>(scene.primitives),
+      edited(only_soup(scene),
              {.keeps_face = {0, 1, 1}, .lattice_level = 2, .color = Edits::Color::baked});
-  const auto& soup = std::get<TriangleSoup>(back.primitives);
+  const auto& soup = only_soup(back);
   EXPECT_EQ(soup.positions, expected.positions);
   EXPECT_EQ(soup.triangles, expected.triangles);
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
@@ -309,8 +308,8 @@ TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {
   EXPECT_EQ(back.info.remarks[0].names,
             (std::vector<std::string>{"texel_bits", "color", "feature_storage", "site",
                                       "alpha_to_coverage", "promised_psnr_db"}));
-  EXPECT_EQ(std::get<LatticeTexture>(std::get<TriangleSoup>(back.primitives).appearance).texels,
-            std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).texels);
+  EXPECT_EQ(std::get<LatticeTexture>(only_soup(back).appearance).texels,
+            std::get<LatticeTexture>(only_soup(scene).appearance).texels);
 }
 
 TEST(TureenGlbEarlierPreset, WhatNoVersionHadIsIgnored) {
@@ -365,7 +364,7 @@ TEST(TureenGlbEarlierPreset, SurvivesTruncationAndDamage) {
   const auto bytes = with_preset(scene_of_levels(), earlier_preset);
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_back(damaged);
-    EXPECT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
+    EXPECT_FALSE(defect(only_soup(back)));
     EXPECT_FALSE(defect(back.quality));
   };
   EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
@@ -386,7 +385,7 @@ TEST(TureenGlbEarlierPreset, SurvivesTruncationAndDamage) {
 
 TEST(TureenGlbFile, RefusesImagesNamedTwice) {
   RandomScene random(11);
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   TriangleSoup soup = random.geometry(2, false);
   UvTextures textures = random.uv_textures(soup, false);
   fill_soup(scene, std::move(soup), std::move(textures));
@@ -398,7 +397,7 @@ TEST(TureenGlbFile, RefusesImagesNamedTwice) {
 }
 
 TEST(TureenGlbFile, SaysWhenATextIsNotUtf8) {
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   scene.info.name = "caf\xE9";
   const auto path = test::temporary_glb("latin");
   const auto losses = write_tureen_glb(scene, path);
@@ -411,7 +410,7 @@ TEST(TureenGlbFile, SaysWhenATextIsNotUtf8) {
 
 TEST(TureenGlbFile, ReportsProgressUpToOne) {
   RandomScene random(12);
-  Scene scene;
+  Scene scene = scene_of(TriangleSoup{});
   fill_soup(scene, random.geometry(5, true), FaceColors{random.colors(5, false)});
   const auto bytes = test::glb_bytes(scene, "progress");
   std::vector<double> seen;
