@@ -107,5 +107,21 @@ TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
   EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
 }
 
+TEST(Navigation, TheSubjectOfSeveralLayersContainsAll) {
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};
+  soup.triangles = {{0, 1, 2}};
+  soup.appearance = FaceColors{{glm::vec4(1)}};
+  Scene scene = scene_of(soup, {100, 200, 300});
+  Layer second{.visible = false, .primitives = soup};
+  // Twice as large, turned by 90 degrees about z: x becomes y, and y becomes -x.
+  second.world_from_layer = {{0, 2, 0, 0}, {-2, 0, 0, 0}, {0, 0, 2, 0}, {10, 20, 30, 1}};
+  ASSERT_EQ(defect(second), std::nullopt);
+  scene.layers.push_back(second);
+  EXPECT_EQ(subject_of(scene).low, glm::dvec3(6, 20, 30));
+  EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
+  EXPECT_EQ(subject_of(Scene{}).low, glm::dvec3(0));
+}
+
 }  // namespace navigation_test
 }  // namespace tureen

@@ -1,0 +1,140 @@
+#include "scene/scene.hpp"
+
+#include <gmock/gmock.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace tureen {
+namespace scene_test {
+
+using testing::HasSubstr;
+
+Layer layer_with(const glm::dmat4& world_from_layer) {
+  return {.world_from_layer = world_from_layer};
+}
+
+/// A rotation by 1 rad about a slanted axis.
+glm::dmat4 rotation() { return glm::rotate(glm::dmat4(1), 1.0, glm::dvec3(0.2, -0.5, 0.7)); }
+
+TriangleSoup triangle() {
+  return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}},
+          .triangles = {{0, 1, 2}},
+          .appearance = FaceColors{{glm::vec4(1)}}};
+}
+
+SoftTriangles soft_triangle() {
+  return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}},
+          .sigma = {1},
+          .opacity = {0.5f},
+          .coefficients = {glm::vec3(0)}};
+}
+
+TEST(Layer, SimilaritiesHaveNoDefect) {
+  EXPECT_EQ(defect(Layer{}), std::nullopt);
+  EXPECT_EQ(defect(layer_with(at_origin({1e9, -2, 0.1}))), std::nullopt);
+  const glm::dmat4 mirror = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1));
+  for (const double scale : {1.0, 1e-12, 1e12, 1e-200, 1e200, 1e-310, -3.0})
+    for (const glm::dmat4& handed : {glm::dmat4(1), mirror}) {
+      const glm::dmat4 linear = rotation() * glm::scale(glm::dmat4(1), glm::dvec3(scale)) * handed;
+      EXPECT_EQ(defect(layer_with(at_origin({1, 2, 3}) * linear)), std::nullopt) << scale;
+    }
+}
+
+TEST(Layer, SinglePrecisionIsNoDefect) {
+  const glm::mat4 turn(rotation()), scale = glm::scale(glm::mat4(1), glm::vec3(0.1f));
+  glm::mat4 product(1);
+  for (int i = 0; i < 10; ++i) product = scale * (turn * product);
+  EXPECT_EQ(defect(layer_with(glm::dmat4(product))), std::nullopt);
+}
+
+TEST(Layer, OtherTransformsHaveADefect) {
+  const auto defect_of = [](const glm::dmat4& world_from_layer) {
+    return defect(layer_with(world_from_layer)).value_or("");
+  };
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row) {
+        glm::dmat4 matrix(1);
+        matrix[column][row] = bad;
+        EXPECT_THAT(defect_of(matrix), HasSubstr("not finite")) << column << ", " << row;
+      }
+  for (int column = 0; column < 4; ++column) {
+    glm::dmat4 perspective(1);
+    perspective[column][3] += 1e-9;
+    EXPECT_THAT(defect_of(perspective), HasSubstr("last row")) << column;
+  }
+  glm::dmat4 zero(0);
+  zero[3] = {1, 2, 3, 1};
+  EXPECT_THAT(defect_of(zero), HasSubstr("zero"));
+  // Just beyond the tolerance, and far beyond it.
+  for (const double by : {1e-4, 1.0}) {
+    const glm::dmat4 stretch = glm::scale(glm::dmat4(1), glm::dvec3(1, 1 + by, 1));
+    EXPECT_THAT(defect_of(rotation() * stretch), HasSubstr("stretches")) << by;
+    glm::dmat4 shear(1);
+    shear[1][0] = by;
+    EXPECT_THAT(defect_of(rotation() * shear), HasSubstr("shears")) << by;
+  }
+  const glm::dmat4 flat = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, 0));
+  EXPECT_THAT(defect_of(flat), HasSubstr("stretches"));
+}
+
+TEST(Layer, ItsOriginIsItsTranslation) {
+  const glm::dvec3 origin(1e6 + 1.0 / 3, -0.1, 1e-300);
+  EXPECT_EQ(origin_of(layer_with(at_origin(origin))), origin);
+  EXPECT_EQ(origin_of(layer_with(at_origin(origin) * rotation())), origin);
+  EXPECT_EQ(origin_of(Layer{}), glm::dvec3(0));
+}
+
+TEST(Layer, TheBoundsOfSoftTrianglesAreThoseOfTheirCorners) {
+  for (const Layer& layer : {scene_of(triangle(), {1, 2, 3}).layers[0],
+                             scene_of(soft_triangle(), {1, 2, 3}).layers[0]}) {
+    EXPECT_EQ(bounds(layer).low, glm::vec3(0, 0, 0));
+    EXPECT_EQ(bounds(layer).high, glm::vec3(1, 2, 3));
+  }
+}
+
+TEST(Scene, OfOneSoupHasOneLayer) {
+  Scene scene = scene_of(triangle(), {1, 2, 3});
+  EXPECT_EQ(scene.layers.size(), 1u);
+  EXPECT_EQ(&only_layer(scene), &scene.layers[0]);
+  EXPECT_EQ(&only_soup(scene), &std::get<TriangleSoup>(scene.layers[0].primitives));
+  EXPECT_TRUE(only_layer(scene).visible);
+  EXPECT_EQ(origin_of(only_layer(scene)), glm::dvec3(1, 2, 3));
+}
+
+TEST(Scene, OfSeveralLayersHasNoOnlyLayer) {
+  Scene scene;
+  const auto refusal = [&]() -> std::string {
+    try {
+      only_layer(scene);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(), "this needs a scene with one layer; this scene has no layer");
+  scene.layers = {{.name = "house"}, {}, {.name = "garden"}};
+  EXPECT_EQ(refusal(),
+            "this needs a scene with one layer; this scene has 3: house, layer 1, garden");
+  EXPECT_THROW(only_soup(scene), UsageError);
+}
+
+TEST(Scene, EverySoftLayerBecomesOpaque) {
+  Scene scene = scene_of(soft_triangle());
+  scene.layers.push_back({.primitives = triangle()});
+  scene.layers.push_back({.primitives = soft_triangle()});
+  make_opaque(scene);
+  ASSERT_EQ(scene.layers.size(), 3u);
+  for (const Layer& layer : scene.layers)
+    EXPECT_EQ(std::get<TriangleSoup>(layer.primitives).triangles.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<FaceColors>(
+      std::get<TriangleSoup>(scene.layers[1].primitives).appearance));
+  EXPECT_EQ(scene.info.remarks.size(), 2 * to_opaque(soft_triangle()).remarks.size());
+}
+
+}  // namespace scene_test
+}  // namespace tureen
