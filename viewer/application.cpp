@@ -193,10 +193,12 @@ void Application::frame() {
 
   const bool was_loading = state_.busy.has_value(), was_busy = was_loading || state_.writing;
   try {
-    worker_.collect();
-    writer_.collect();
+    // Also after a job that began and ended between two frames: a new message needs more than one.
+    for (Worker* worker : {&worker_, &writer_})
+      if (worker->collect()) frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   } catch (const std::exception& error) {
     state_.messages.error("The operation failed", error.what(), now);
+    frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();

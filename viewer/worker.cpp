@@ -47,13 +47,14 @@ void Worker::drop(JobKind kind) {
   std::erase_if(waiting_, [&](const Job& other) { return other.kind == kind; });
 }
 
-void Worker::collect() {
+bool Worker::collect() {
   std::vector<Done> done;
   {
     const std::lock_guard lock(mutex_);
     done = std::exchange(done_, {});
   }
   for (const Done& each : done) each.completion();
+  return !done.empty();
 }
 
 std::optional<Worker::Status> Worker::status() const {

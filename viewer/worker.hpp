@@ -40,8 +40,8 @@ class Worker {
 
   void start(Job job);
   void abandon(JobKind kind);
-  /// Runs the completions of finished jobs.
-  void collect();
+  /// Runs the completions of finished jobs. Returns whether there were any.
+  bool collect();
 
   struct Status {
     std::string what;
