@@ -42,7 +42,7 @@ std::uint64_t max_memory() { return process_limit; }
 
 std::uint64_t parse_memory_size(const std::string& text) {
   const auto refuse = [&] {
-    throw UsageError("'" + text + "' is not a memory size", "write it as 512MB or 8GB");
+    throw UsageError("'" + text + "' is not a memory size", "write it as 512MiB or 8GiB");
   };
   const Decimal number = parse_decimal(text);
   if (!number.end) refuse();
@@ -59,7 +59,7 @@ std::uint64_t parse_memory_size(const std::string& text) {
 }
 
 std::string memory_size_text(std::uint64_t bytes) {
-  static constexpr std::array<const char*, 5> names{"bytes", "kB", "MB", "GB", "TB"};
+  static constexpr std::array<const char*, 5> names{"bytes", "KiB", "MiB", "GiB", "TiB"};
   std::size_t unit = 0;
   while (unit + 1 < units.size() && bytes >> units[unit + 1].bits > 0) ++unit;
   char text[32];

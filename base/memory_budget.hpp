@@ -27,11 +27,11 @@ std::uint64_t max_memory();
 /// The hint in every error about this limit.
 inline constexpr const char* max_memory_hint = "raise the limit with --max-memory";
 
-/// Parses "512MB", "4 GB", "1.5GB" or a number of bytes; kB, MB, GB and TB are powers of 1024.
-/// Throws UsageError for any other text, for zero and for more than a file can have.
+/// Parses "512MiB", "4 GB", "1.5g" or a number of bytes. Units are powers of 1024, with or without
+/// the "i". Throws UsageError for any other text, below 1 byte and above 2^62 bytes.
 std::uint64_t parse_memory_size(const std::string& text);
 
-/// The inverse: "4 GB", "1.5 MB", "17 bytes".
+/// The inverse, to four digits: "4 GiB", "1.5 MiB", "17 bytes".
 std::string memory_size_text(std::uint64_t bytes);
 
 /// Counts the memory that one read operation may still allocate, over all files that it opens.

@@ -4,7 +4,6 @@
 namespace tureen {
 
 inline constexpr const char* max_memory_help =
-    "memory limit for reading files, 4GB by default; a file that needs more is "
-    "rejected";
+    "memory limit for reading files, 4 GiB by default; a file that needs more is rejected";
 
 }  // namespace tureen

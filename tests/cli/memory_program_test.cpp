@@ -53,7 +53,7 @@ TEST_F(MaxMemory, IsInTheHelpAndRefusedWhereItIsNone) {
     EXPECT_THAT(run({arguments[0], "--help"}).out, Names("--max-memory"));
     const ChildResult result = run({arguments[0], arguments[1], "--max-memory", "much"});
     EXPECT_EQ(result.exit_code, 2) << arguments[0];
-    EXPECT_THAT(result.err, Names("much", "512MB", "8GB"));
+    EXPECT_THAT(result.err, Names("much", "512MiB", "8GiB"));
   }
 }
 

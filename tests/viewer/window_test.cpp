@@ -413,7 +413,7 @@ TEST_F(Window, WhatCannotBeIsSaid) {
 TEST_F(Window, ObeysTheLimitOfMemory) {
   const ChildResult refused = replay(Person().wait(), {"soup.glb", "--max-memory", "64kB"});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err, Names("64 kB", "--max-memory"));
+  EXPECT_THAT(refused.err, Names("64 KiB", "--max-memory"));
   const ChildResult read = replay(Person().wait(), {"soup.glb", "--max-memory", "1GB"});
   EXPECT_EQ(read.exit_code, 0) << read.err;
 }
