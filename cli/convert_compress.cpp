@@ -90,7 +90,7 @@ std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs)
     doubts.push_back(
         "Compression: the scene was already compressed. Its earlier loss adds to this one and is "
         "not included.");
-  if (!with_photographs && scene.cameras.size() < telling_cameras)
+  if (!with_photographs && scene.cameras.size() < min_representative_cameras)
     doubts.push_back(fmt::format(
         "Compression: {}, so the loss is estimated for views from above and around. For views from "
         "within the scene it may be much larger. --photographs measures it.",
@@ -128,7 +128,7 @@ std::vector<std::string> losses_of(const CompressResult& result, const DatasetAr
     losses.push_back(
         fmt::format("Compression: the {} training cameras of {} are not used, because fewer than "
                     "{} of them show the scene.",
-                    training_cameras, name_of(photographs), telling_cameras));
+                    training_cameras, name_of(photographs), min_representative_cameras));
   if (result.unseen_texels > 0)
     losses.push_back(
         fmt::format("Compression: {} of {} texels are invisible in {} recorded views and are "
@@ -155,17 +155,15 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
               "--photographs", arguments.photographs.path,
               "with --compress: dataset for measuring the loss on test photographs; by default the "
               "loss is estimated from images of the scene. If the scene has few cameras, the "
-              "dataset's training cameras also decide which parts are visible. Images larger than "
-              "the "
-              "scaled photographs can lose more than --max-error")
+              "dataset's training cameras also decide which parts are visible. If you draw OUT at "
+              "a larger size than the scaled photographs, the loss can exceed --max-error")
           .value_name("DATASET")
           .needs(compressed);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
       .add_flag("--keep-unseen", arguments.keep_unseen,
-                "with --compress: keep faces that are invisible in up to 200 recorded cameras and "
-                "in views from above "
-                "and around")
+                "with --compress: keep unseen faces; a face is unseen if no test view shows it. "
+                "Test views: at most 200 recorded cameras, and views from above and around")
       .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,
@@ -188,7 +186,7 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
       throw InputError({arguments.photographs.path, {}, {}}, "the dataset has no test photographs");
-    if (scene.cameras.size() < telling_cameras)
+    if (scene.cameras.size() < min_representative_cameras)
       request.training_cameras = training_cameras(arguments.photographs, lost);
   }
   const std::optional<std::uint64_t> published = published_bytes(scene, glb);

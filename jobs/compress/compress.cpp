@@ -75,7 +75,8 @@ void lower_levels(TriangleSoup& soup, const Cancel& cancel) {
 std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& scene,
                                      const CompressRequest& request, const Cancel& cancel) {
   std::vector<Camera> cameras = scene.cameras;
-  if (cameras.size() >= telling_cameras || request.training_cameras.size() < telling_cameras)
+  if (cameras.size() >= min_representative_cameras ||
+      request.training_cameras.size() < min_representative_cameras)
     return cameras;
   // Cameras that show nothing of the scene, e.g. with damaged poses, would favour removing all
   // faces.
@@ -86,7 +87,7 @@ std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& sc
   std::vector<Camera> showing;
   for (std::size_t i = 0; i < others.size(); ++i)
     if (pixels[i] > 0) showing.push_back(others[i]);
-  if (showing.size() >= telling_cameras)
+  if (showing.size() >= min_representative_cameras)
     cameras.insert(cameras.end(), showing.begin(), showing.end());
   return cameras;
 }
@@ -104,7 +105,7 @@ class Search {
         views_(compress_views(scene, recorded_, counted_views)),
         soup_(only_soup(scene)) {
     // With fewer cameras the typical viewpoints are unknown, so all faces are kept.
-    if (request.keep_unseen || recorded_.size() < telling_cameras) return;
+    if (request.keep_unseen || recorded_.size() < min_representative_cameras) return;
     const std::vector<Camera> all = all_views(scene, views_);
     const std::size_t faces = soup_.triangles.size();
     soup_ = seen_faces(context_, scene, all, cancel_);
@@ -119,7 +120,7 @@ class Search {
     find_bits(result);
     lower_levels(soup_, cancel_);
     const CompressImportance importance(context_, soup_, origin_, views_,
-                                        recorded_.size() >= telling_cameras, cancel_);
+                                        recorded_.size() >= min_representative_cameras, cancel_);
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(), [&](std::uint8_t alpha) {
       return find_step(result, importance, alpha);
     });

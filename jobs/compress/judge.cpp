@@ -34,7 +34,7 @@ std::vector<Camera> compress_views(const Scene& scene, std::span<const Camera> r
   const std::size_t some = std::min(count, recorded.size());
   for (std::size_t i = 0; i < some; ++i)
     views.push_back(limited(recorded[i * recorded.size() / some]));
-  if (recorded.size() >= telling_cameras || some == count) return views;
+  if (recorded.size() >= min_representative_cameras || some == count) return views;
   const std::vector<Camera> around =
       hemisphere(subject_of(scene), int(std::min(count - some, hemisphere_views)),
                  {.width = max_pixels, .height = 600});

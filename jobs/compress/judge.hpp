@@ -1,5 +1,5 @@
-// The loss of a scene when its soup is compressed: against photographs, or without them against its
-// own images.
+// The loss from compressing a scene's soup: against photographs, or without photographs against the
+// scene's own images.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 namespace tureen {
 
 struct CompressLoss {
-  /// Decrease of the mean PSNR over the views, against photographs. Without photographs
+  /// Decrease of the mean PSNR over the views, against photographs. Without photographs,
   /// decibels_lost() for a model of assumed_model_db.
   double db = 0;
   /// PSNR against the scene's own images, all views together.
@@ -26,7 +26,7 @@ struct CompressViews {
   std::size_t photographs = 0;
   std::size_t cameras = 0;   // number of used recorded cameras
   std::size_t recorded = 0;  // recorded cameras of the scene
-  std::size_t around = 0;    // only if the scene has fewer than telling_cameras
+  std::size_t around = 0;    // 0 if the scene has min_representative_cameras or more
 
   bool operator==(const CompressViews&) const = default;
 };
@@ -40,7 +40,7 @@ class CompressJudge {
   /// error costs better models more.
   static constexpr double assumed_model_db = 32;
 
-  /// Draws the scene from the cameras of the photographs, or without them from up to 24
+  /// Draws the scene from the cameras of the photographs, or without photographs from up to 24
   /// compress_views. `context` must be current and outlive the judge. The scene holds a soup
   /// without defect(). Throws UsageError if the scene's PSNR against the photographs is below
   /// hopeless_db, where the loss is meaningless. Throws the errors of drawing. `cancel` may be
@@ -71,18 +71,18 @@ class CompressJudge {
   double model_db_ = assumed_model_db;
 };
 
-/// Smallest number of recorded cameras that represents the typical viewpoints of a scene: a
-/// compressed file keeps one camera, a training set has dozens.
-inline constexpr std::size_t telling_cameras = 8;
+/// Smallest number of recorded cameras that represents the typical viewpoints of a scene. A
+/// compressed file has only one camera, a training set has dozens.
+inline constexpr std::size_t min_representative_cameras = 8;
 
 /// A scene with a lower CompressJudge::model_db most likely does not belong to the photographs.
 /// Soups against photographs of another scene have 5 to 8 dB (four pairs of the example, the fox
 /// and lego). Soups after 20 training steps have 12 and 13 dB against their own.
 inline constexpr double hopeless_db = 10;
 
-/// At most `count` of the recorded cameras, evenly spaced in their order. With fewer than
-/// telling_cameras also `count` views, at most 64, on the upper half of a sphere around the scene.
-/// No image side exceeds 800 pixels.
+/// At most `count` of the recorded cameras, evenly spaced in their order. If `recorded` has fewer
+/// than min_representative_cameras, at most 64 views on the upper half of a sphere around the scene
+/// fill the list up to `count`. No image side exceeds 800 pixels.
 std::vector<Camera> compress_views(const Scene& scene, std::span<const Camera> recorded,
                                    std::size_t count);
 
