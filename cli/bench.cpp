@@ -153,11 +153,11 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
   command.footer(
       R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
 with the baseline if it supports the scene. Warm-up frames run until the times are stable. A
-frame ends when the device has finished. First the plan is compared with itself (A/A). "best ms"
-is the smallest of the rounds' medians; ratios use it. Times within twice the spread are
-"equal"; the spread is the larger of the A/A spread and the spread between rounds. Differences
-are reported from 3 rounds. The 99th percentile and the 1 % low need 100 samples; a sample is
-one view in one round. Loading is measured separately.
+frame ends when the device has finished. First, the first case is compared with itself (A/A).
+"best ms" is the smallest of the rounds' medians; ratios use it. Times within twice the spread
+are "equal"; the spread is the larger of the A/A spread and the spread between rounds.
+Differences are reported only if at least 3 rounds were run. The 99th percentile and the 1 % low
+need 100 samples; a sample is one view in one round. Loading is measured separately.
 
 Examples:
   tureen bench soup.glb                                   8 views from above at 1280x720

@@ -51,7 +51,7 @@ int run_program(int argc, char** argv) {
   tureen COMMAND --help               options and examples of a command
 
 Exit codes: 0 done, 1 a comparison or check failed, 2 wrong usage, 3 invalid input,
-4 no OpenGL context, 5 any other error.)");
+4 no OpenGL context, display or requested GPU, 5 any other error.)");
 
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   add_commands(program, arguments);

@@ -84,7 +84,7 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Tria
   WrittenImages images =
       draw_views(drawer_of(debug_renderer, device), device, views, options.output);
   const std::string sentence = std::string("debug view: ") + name_of(options.show.what) +
-                               " of the stored soup, one sample a pixel";
+                               " without specialisations, one sample a pixel";
   return {std::move(images),
           {sentence},
           {},

@@ -87,9 +87,10 @@ void add_report(Command& program) {
   Command command =
       program.add_command("report", "Show results as a page of tables, plots and images");
   command.footer(
-      R"(Reads results from bench, tradeoff and eval (--json or -o), logs from train, files that the page bench.html saved, and measurements from ./dev. Several results of one kind appear
-side by side; tradeoff results of several scenes share one table with means. The page needs no
-network. It links to images and does not copy them.
+      R"(Reads results from bench, tradeoff and eval (--json or -o), logs from train, files that the
+page bench.html saved, and measurements from ./dev. Several results of one kind appear side by
+side; tradeoff results of several scenes share one table with means. The page needs no network.
+It links to images and does not copy them.
 
 Examples:
   tureen report timed/bench.json                opens in a browser, or prints the page's path
@@ -103,7 +104,8 @@ Exit codes: 0 done, 2 wrong usage, 3 a result cannot be read, 5 the page cannot 
       .required();
   command
       .add_option("-o,--output", options->output,
-                  "page to write; by default the page opens in a browser")
+                  "page to write; by default report.html in the user's cache folder, which then "
+                  "opens in a browser")
       .value_name("OUT.html");
   command.does([options] { return report(*options); });
 }

@@ -80,9 +80,9 @@ void add_tradeoff(Command& program, std::vector<std::string> arguments) {
       program.add_command("tradeoff", "Measure error against frame time, and choose edits");
   command.footer(
       R"(Measures each edit and quality setting alone, then combinations of those that matter. Each
-measurement has the frame time and the error against the oracle's image of the same model
-(E_render). The reference for quality settings has 8 x 8 samples a pixel. With photographs, the
-report also has the error against them (E_model), for the baseline too. The choice is the
+measurement has the frame time and E_render, the error against the oracle's image of the
+unchanged scene. The reference for quality settings has 8 x 8 samples a pixel. With photographs,
+the report also has the error against them (E_model), for the baseline too. The choice is the
 fastest configuration within --least-psnr and --most-mismatch; it contains no quality setting.
 docs/tradeoff.md describes the method.
 
@@ -105,8 +105,8 @@ on the device, or the output cannot be written.)");
       command, "--reference", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
       "reference for edits, drawn by the CPU in double precision: device (default, vertices "
-      "rounded "
-      "as on the device) or exact (not rounded; the error then includes the device's rounding)")
+      "rounded as on the device) or exact (not rounded; the error then includes the device's "
+      "rounding)")
       .value_name("NAME");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
@@ -130,8 +130,9 @@ on the device, or the output cannot be written.)");
       .value_name("N");
   command
       .add_option("--combinations", options->combinations,
-                  "limit for the combinations of edits, and for those of quality settings, 48 by "
-                  "default; 0 changes one edit or setting at a time")
+                  "largest number of combinations of edits, and the same limit for combinations of "
+                  "quality settings: each 48 by default, 256 with --full; 0 changes one edit or "
+                  "setting at a time")
       .check(between(0, 10000))
       .value_name("N");
   command
@@ -148,8 +149,7 @@ on the device, or the output cannot be written.)");
   command
       .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
                   "limit for the choice: largest fraction of pixels that are covered in only one "
-                  "image, the "
-                  "device's or the reference, 1e-4 by default")
+                  "image, the device's or the reference, 1e-4 by default")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");
   const Option write =

@@ -170,7 +170,7 @@ class Bench:
             self.keep('dense', {'dense': rows_of(text or '')})
 
     def gpu(self):
-        """Frame times of tureen, the baseline and the device's ceilings, from 1280x720 to 3840x2160."""
+        """Frame times of tureen, the baseline and the upper limits of the device, from 1280x720 to 3840x2160."""
         drawn = json.loads(self.run('gpu-device', TUREEN, 'render', EXAMPLE, '--size', '16x16', '-o',
                                     self.out / 'device.png', '--json') or '{}')
         if drawn.get('software') and not self.quick:

@@ -45,11 +45,13 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program
       .add_option("--api", arguments.api,
                   "graphics API: gl (default, OpenGL 3.3) or es (OpenGL ES 3.0)")
-      ->check(CLI::IsMember({"gl", "es"}));
+      ->check(CLI::IsMember({"gl", "es"}))
+      ->option_text("NAME");
   program
       .add_option("--pipeline", arguments.pipeline,
                   "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
-      ->check(CLI::IsMember({"auto", "baseline", "published"}));
+      ->check(CLI::IsMember({"auto", "baseline", "published"}))
+      ->option_text("NAME");
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
@@ -61,14 +63,16 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
           max_memory_help)
       ->option_text("SIZE");
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
-  program.add_flag("--report", arguments.report,
-                   "at the end, print the time to the first image and the longest frame time while "
-                   "loading");
+  program.add_flag(
+      "--report", arguments.report,
+      "at the end, print the time to the first image, and the longest frame time while "
+      "loading (drawing excluded)");
   program.add_option("--record", arguments.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
-      .add_option("--replay", arguments.replay,
-                  "session file to replay, then exit; exit with 1 if an error is shown")
+      .add_option(
+          "--replay", arguments.replay,
+          "session file to replay, then exit; exit with 1 if the window then shows an error")
       ->option_text("FILE");
 }
 
@@ -101,8 +105,9 @@ int run(const Arguments& arguments) {
   std::signal(SIGTERM, note_interrupt);
   application.run();
   if (arguments.report)
-    std::fprintf(stderr, "first image after %.2f s; longest frame while loading %.1f ms\n",
-                 application.report().first_image_seconds, application.report().longest_busy_ms);
+    std::fprintf(
+        stderr, "first image after %.2f s; longest frame while loading %.1f ms, drawing excluded\n",
+        application.report().first_image_seconds, application.report().longest_busy_ms);
   if (arguments.replay.empty()) return int(ExitCode::done);
   const std::vector<std::string> errors = application.errors();
   for (const std::string& error : errors)
@@ -124,8 +129,8 @@ Examples:
   tureen view soup.glb
   tureen view soup.glb photographs/          [ and ] select the photographs' cameras
 
-Exit codes: 0 done, 1 a replayed session ended with an error, 2 wrong usage, 3 the session
-or the settings cannot be read, 4 no display or no OpenGL, 5 any other error.)");
+Exit codes: 0 done, 1 the window showed an error at the end of a replay, 2 wrong usage, 3 the
+session or the settings cannot be read, 4 no display or no OpenGL, 5 any other error.)");
   Arguments arguments;
   add_arguments(program, arguments);
   try {

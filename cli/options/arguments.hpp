@@ -1,5 +1,6 @@
 // The command line: commands, their options, and the conversion of arguments to values. CLI11 does
-// the parsing. Only arguments.cpp includes it, because it costs seconds of compile time per file.
+// the parsing. In cli/, only arguments.cpp includes it, because it costs seconds of compile time
+// per file.
 #pragma once
 
 #include <cstddef>
@@ -43,15 +44,15 @@ UsageError unknown_word(const std::string& option, const std::string& word,
 /// returns the handle again.
 class Option {
  public:
-  /// Parsing fails without it; `is_required` false takes this back.
+  /// Parsing fails without this option; `is_required` false makes it optional again.
   Option required(bool is_required = true);
   /// Name of the value in --help, such as "N" or "FOLDER"; by default its type and requirements.
   Option value_name(const std::string& name);
   /// Checks each value before it is stored. Checks run in the order in which they were added.
   Option check(const Check& refusal);
-  /// Parsing fails if this one was given and `other` was not.
+  /// Parsing fails if this option was given and `other` was not.
   Option needs(const Option& other);
-  /// Parsing fails if both were given.
+  /// Parsing fails if this option and `other` were given.
   Option excludes(const Option& other);
   /// A list: "a,b" is two values.
   Option split_at_commas();
@@ -161,10 +162,10 @@ class CommandLine {
   ///
   /// 1. an unknown command;
   /// 2. an option without its value;
-  /// 3. for each given option, in the order of addition and the program's first: its checks, too
-  ///    many values, a value of the wrong type, exceptions from its function. This step sets
-  ///    variables and calls functions; a flag that prints a text ends it here, and --help after the
-  ///    last option;
+  /// 3. for each given option, the program's options before the command's, each group in the order
+  ///    in which the options were added: its checks, too many values, a value of the wrong type,
+  ///    exceptions from its function. This step sets variables and calls functions. A flag that
+  ///    prints a text ends parsing in this step. --help ends parsing at the end of this step;
   /// 4. for each option in the same order: required and missing, needs(), excludes();
   /// 5. unknown options, with the replacement of those from earlier versions
   ///    (cli/options/retired.hpp), and unexpected arguments;

@@ -17,13 +17,14 @@ void add_case_options(Command& command, BenchCaseArguments& options) {
           "--only", options.only,
           "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
           "tureen-compute (the plan with --shading), generic (no specialisation), baseline, "
-          "triangles and copy (the ceilings); ratios are relative to the first")
+          "triangles and copy (upper limits of the speed, see --ceilings); ratios are relative to "
+          "the first case")
       .split_at_commas()
       .single_argument()
       .value_name("NAME,..");
   command.add_flag("--ceilings", options.ceilings,
-                   "also measure two ceilings: drawing the triangles with an empty fragment "
-                   "shader, and copying the same number of pixels");
+                   "also measure two upper limits of the speed: drawing the triangles with an "
+                   "empty fragment shader, and copying the same number of pixels");
 }
 
 void check(const BenchCaseArguments& options) {

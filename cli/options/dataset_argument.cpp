@@ -22,8 +22,8 @@ std::string refuse_scale(const std::string& text) {
 Option add_scale_option(Command& command, DatasetArgument& argument) {
   return command
       .add_option("--scale", argument.options.scale,
-                  "size of the photographs as a fraction of the original, above 0, 1 by default: "
-                  "0.5 halves both sides, and each pixel is the mean of the pixels it covers")
+                  "scale of the photographs, above 0 and at most 1 (default): 0.5 halves both "
+                  "sides, and each pixel is the mean of the pixels it covers")
       .check(refuse_scale)
       .value_name("FRACTION");
 }
@@ -32,9 +32,8 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
   const Option dataset =
       command
           .add_option("DATASET", argument.path,
-                      "posed photographs: a folder with transforms.json, with "
-                      "transforms_train.json and transforms_test.json, or with a COLMAP model and "
-                      "images")
+                      "posed photographs: a folder with one of these: transforms.json; "
+                      "transforms_train.json and transforms_test.json; a COLMAP model and images")
           .required();
   add_scale_option(command, argument);
   command

@@ -49,9 +49,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
               options.plan.specialisations =
                   options.plan.specialisations.without(specialisation_of(name));
           },
-          "switch these specialisations off, so that the work they skip is done: names from "
-          "docs/specialisations.md, separated by "
-          "commas, such as alpha-test,background")
+          "do not apply these specialisations (keep the work that they skip): names from "
+          "docs/specialisations.md, separated by commas, such as alpha-test,background")
       .value_name("NAMES")
       .split_at_commas()
       .single_argument()

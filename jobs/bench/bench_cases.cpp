@@ -80,7 +80,8 @@ class CopyCase final : public BenchCase {
     copy_ = std::make_unique<CopyCeiling>(context);
     copy_->finish();
     configuration.upload_ms = milliseconds_since(start);
-    configuration.plan = {"copies the same number of pixels with a full-screen triangle (ceiling)"};
+    configuration.plan = {
+        "copies the same number of pixels with a full-screen triangle (upper limit of the speed)"};
   }
   void draw(const Camera& camera) override { copy_->draw(camera.width, camera.height); }
   void finish() const override { copy_->finish(); }

@@ -1,5 +1,6 @@
 // The cases of `tureen bench`: the plan, optionally with either shading stage; the same pipeline
-// without specialisations; the baseline; and the device's ceilings.
+// without specialisations; the baseline; and two upper limits of the speed (ceilings): the
+// triangles with an empty fragment shader, and a copy of the same number of pixels.
 #pragma once
 
 #include <memory>
@@ -20,7 +21,7 @@ struct BenchCaseOptions {
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};      // includes the sampling quality
   std::vector<std::string> only;  // names of cases; empty: the default cases
-  bool ceilings = false;
+  bool ceilings = false;          // whether to add the upper limits
 };
 
 /// The names that BenchCaseOptions::only supports.
@@ -48,7 +49,7 @@ struct SkippedCase {
 };
 
 struct BenchCases {
-  std::vector<std::unique_ptr<BenchCase>> list;  // the first is the reference of ratios
+  std::vector<std::unique_ptr<BenchCase>> list;  // the first is the reference for ratios
   double peak_mib = 0;  // of the process, when the first case is ready to draw
   std::vector<SkippedCase> skipped;
 };
