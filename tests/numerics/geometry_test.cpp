@@ -282,7 +282,7 @@ TEST(Numerics, G4_AFloorThroughTheCameraIsClippedNotDropped) {
   constexpr int side = 128;
   const Camera camera = straight_camera(side, side, 100);
   for (const float behind : {1.0f, 30.0f, 1e3f, 1e5f}) {
-    // A wall at the far end, which the naive form shows through the floor; then the floor.
+    // A wall at the far end, which the naive method shows through the floor; then the floor.
     const std::vector<glm::vec3> wall = {{-90, -60, -61}, {90, -60, -61}, {0, 90, -61}};
     std::vector<glm::vec3> corners = wall;
     for (int i = -4; i < 4; ++i) {

@@ -49,7 +49,7 @@ TEST(Numerics, S1_TheScoreStaysBoundedForEveryOpacity) {
   for (const double alpha : {0.0, 1e-7, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 1 - 1e-7, 1.0}) {
     const auto a = float(alpha);
     // Within 2^-23 of an alpha of 1, draws are rarely lost; this many draws contain some. At 1 no
-    // draw is lost, and the naive form, which would divide by 0 for a lost draw, does not scatter
+    // draw is lost, and the naive method, which would divide by 0 for a lost draw, does not scatter
     // either.
     const int draws = a < 1 && 1 - a < 0x1p-20f ? 1 << 26 : 1 << 20;
     Moments by_logit, by_alpha;

@@ -351,7 +351,7 @@ TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
       ASSERT_GT(largest, 0) << kernels;
       ours = worse(ours, most / largest);
     }
-    // The naive form: the derivatives of one bad pixel, added to the sum.
+    // The naive method: the derivatives of one bad pixel, added to the sum.
     trainer::MlpParameters sum{};
     kernels::NetworkState<float> pixel{};
     pixel.input[trainer::blend_channel] = std::numeric_limits<float>::quiet_NaN();

@@ -21,7 +21,7 @@ void Recorder::add(const Measurement& measured) {
   if (measured.naive) {
     const auto message = [&] {
       return case_.stressed + ", " + case_.parameter + " " + std::to_string(measured.at) +
-             ": the error of the naive form is " + std::to_string(*measured.naive);
+             ": the error of the naive method is " + std::to_string(*measured.naive);
     };
     const bool fails = !(*measured.naive <= measured.tolerance);
     if (case_.naive_fails_from && measured.at >= *case_.naive_fails_from) {
@@ -40,7 +40,7 @@ Recorder::~Recorder() {
   if (!case_.naive.empty()) {
     EXPECT_TRUE(std::any_of(measurements_.begin(), measurements_.end(),
                             [](const Measurement& m) { return !(*m.naive <= m.tolerance); }))
-        << case_.stressed << ": the naive form (" << case_.naive
+        << case_.stressed << ": the naive method (" << case_.naive
         << ") is nowhere worse than allowed";
   }
   const auto any = [&](auto where) {

@@ -540,7 +540,7 @@ TEST(Numerics, T9_AGreyRampArrivesBitByBit) {
         }
     }
   const auto encoded = [](int g) { return std::round(255 * srgb_from_linear(g / 255.0)); };
-  // The values in the catalogue for the naive form.
+  // The values in the catalogue for the naive method.
   EXPECT_EQ(encoded(8), 50);
   EXPECT_EQ(encoded(64), 137);
   EXPECT_EQ(encoded(128), 188);

@@ -344,7 +344,7 @@ TEST(Numerics, R3b_APixelThatIsNoNumberSparesTheNetwork) {
       for (const float weight : end.model.mlp) ours += !std::isfinite(weight);
       EXPECT_NE(end.model.mlp, state.model.mlp);
     }
-    // The naive form: one such pixel without the check.
+    // The naive method: one such pixel without the check.
     trainer::MlpParameters gradient{};
     kernels::NetworkState<float> pixel{};
     for (float& input : pixel.input) input = 0.5f;

@@ -105,7 +105,7 @@ DirectionErrors direction_errors(const Camera& camera, double near, double far) 
 }
 
 /// far / near above which (f + n) / (f - n) is 1 in floats. The far plane then has a w of 0, and
-/// the naive form gives no finite number. Below, it is only worse than ours.
+/// the naive method gives no finite number. Below, it is only worse than ours.
 constexpr double cliff = 0x1p25;
 
 TEST(Numerics, V1_DirectionsDoNotDependOnTheDepthRange) {
