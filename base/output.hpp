@@ -14,7 +14,8 @@ namespace tureen {
 
 class Output {
  public:
-  /// Opens a temporary file beside writable_file (output_path.hpp); throws the same errors.
+  /// Opens a temporary file beside the path that writable_file() returns (output_path.hpp). Throws
+  /// OutputError if that fails, and the errors of writable_file().
   explicit Output(std::filesystem::path path);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -29,7 +30,8 @@ class Output {
   }
   std::uint64_t position() const { return position_; }
 
-  /// Flushes, closes and renames to `path`. Throws OutputError and leaves `path` unchanged.
+  /// Flushes, closes and renames to `path`. On failure, throws OutputError; `path` is then
+  /// unchanged.
   void commit();
 
  private:
@@ -46,8 +48,8 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// Moves the folder `made` to `path` and removes the folder that was there. If the system can swap
-/// two names (Linux), `path` names one of the two folders at every moment. Throws OutputError and
-/// leaves `path` unchanged.
+/// two names (Linux), `path` names one of the two folders at every moment. On failure, throws
+/// OutputError; `path` is then unchanged.
 void replace_folder(const std::filesystem::path& made, const std::filesystem::path& path);
 
 /// Creates a folder and its missing parents. Throws OutputError.

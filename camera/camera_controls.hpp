@@ -15,9 +15,9 @@
 // per smoothing() seconds, at any frame rate. camera() returns the shown view. With smoothing 0 the
 // shown view equals the goal at once, without advance().
 //
-// Ignored are: non-finite numbers, negative seconds, changes that move the target beyond 1e5 radii
-// of the subject, and results that overflow a double. Drags are additive: splitting one into parts
-// makes no difference.
+// These are ignored: non-finite numbers, negative seconds, changes that move the target beyond 1e5
+// radii of the subject, and results that overflow a double. Drags are additive: splitting a drag
+// into parts makes no difference.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@
 namespace tureen {
 
 /// Determines the action of a drag and of the wheel. While the view glides, the target (orbit) or
-/// the eye (fly) moves evenly. Both modes share one state; switching the mode does not change the
-/// image.
+/// the eye (fly) is interpolated linearly; the other point follows from it. Both modes share one
+/// state; switching the mode does not change the image.
 enum class NavigationMode {
   orbit,  // about a fixed target
   fly,    // from a fixed eye
@@ -91,7 +91,8 @@ class CameraControls {
   NavigationMode mode() const { return mode_; }
   void set_mode(NavigationMode mode) { mode_ = mode; }
 
-  /// Depending on the mode: orbit() or look(), dolly() towards the pointer or scale_speed().
+  /// In orbit mode, drag() calls orbit() and wheel() calls dolly() towards the pointer. In fly
+  /// mode, they call look() and scale_speed().
   void drag(double dx, double dy);
   void wheel(double steps, glm::dvec2 pointer);
 
@@ -99,10 +100,11 @@ class CameraControls {
   /// Positive dx is to the right, positive dy down. The up axis stays upright in the image. The
   /// elevation stops 0.1 degrees before the poles, because beyond them the scene is upside down
   /// with left and right swapped. At a pole the azimuth is undefined. At 0.1 degrees from it, the
-  /// horizontal part of the line of sight is 1.7e-3, enough for 13 digits. A view already closer to
-  /// a pole (top, bottom, a recorded one) is kept. The roll of a recorded camera falls by a factor
-  /// e each time the pointer has moved roll_fade times the image's height, here and in look().
-  /// pan(), dolly() and flight keep it; frame(), look_from(), home() and set_up() reset it.
+  /// horizontal part of the line of sight is 1.7e-3. The azimuth then has 13 exact digits. A view
+  /// already closer to a pole (top, bottom, a recorded one) is kept. The roll of a recorded camera
+  /// falls by a factor e each time the pointer has moved roll_fade times the image's height, here
+  /// and in look(). pan(), dolly() and flight keep it; frame(), look_from(), home() and set_up()
+  /// reset it.
   void orbit(double dx, double dy);
   static constexpr double roll_fade = 0.15;
 
@@ -110,8 +112,9 @@ class CameraControls {
   void pan(double dx, double dy);
 
   /// Each positive step moves the eye a tenth of the distance nearer to the target; negative steps
-  /// undo it. Limits: 1e-5 and 1e4 radii of the subject. With a pointer, measured from the
-  /// viewport's top left corner, the point under it at the target's depth stays under it.
+  /// undo it. Limits of the distance: 1e-5 and 1e4 radii of the subject. `pointer` is relative to
+  /// the viewport's top left corner. The point under the pointer, at the target's depth, stays
+  /// under the pointer.
   void dolly(double steps);
   void dolly(double steps, glm::dvec2 pointer);
 
@@ -155,8 +158,8 @@ class CameraControls {
   void reset();
   void set_first_view(const std::optional<Camera>& camera) { first_view_ = camera; }
 
-  /// Makes a point of the scene the target and centres it, at the same size. Ignored if it is not
-  /// in front of the eye.
+  /// Makes a point of the scene the target and centres it. Its depth, and so its scale in the
+  /// image, does not change. Ignored if it is not in front of the eye.
   void focus(const glm::dvec3& point);
   /// Moves the target along the line of sight to this depth; the image is unchanged. Ignored unless
   /// positive.
@@ -168,12 +171,12 @@ class CameraControls {
   const glm::dvec3& up() const { return goal_.up; }  // of unit length
 
   /// Goes to a recorded camera. After arrival, camera() at its size returns that camera bit by bit,
-  /// including the name; at other sizes resized(). Pose, roll, focal lengths and principal point
-  /// stay until an input moves the view. Input continues without a jump: it changes only the
-  /// requested pose or lens, and the roll decays as in orbit(). The target is the point on the line
-  /// of sight nearest to the box's centre, at least a tenth of the radius in front of the eye. A
-  /// camera with a size or focal length that is not positive, or with non-finite numbers, is
-  /// ignored.
+  /// including the name; at other sizes it returns resized(). Pose, roll, focal lengths and
+  /// principal point stay until an input moves the view. The next input starts from this camera
+  /// without a jump. It changes only the pose or the lens, whichever it acts on. Roll decays as in
+  /// orbit(). The target is the point on the line of sight nearest to the box's centre, at least a
+  /// tenth of the radius in front of the eye. A camera with a size or focal length that is not
+  /// positive, or with non-finite numbers, is ignored.
   void adopt(const Camera& camera);
   /// Whether the shown view is an adopted camera, unmoved.
   bool shows_adopted() const { return adopted_ && !moving_; }

@@ -46,10 +46,10 @@ double facing(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera)
 inline constexpr std::array adversarial_names = {"inside", "far", "grazing", "most overdraw"};
 
 /// Four worst-case views for a renderer:
-///   "inside"         the eye at the centre of mass of the triangles, looking along the one of
-///                    eight horizontal directions with the largest overdraw
+///   "inside"         the eye at the centre of mass of the triangles, looking in the direction with
+///                    the largest overdraw, of eight horizontal ones
 ///   "far"            the whole box at a twentieth of its framed size: triangles below a pixel
-///   "grazing"        of 64 views around the box, the one with the smallest facing()
+///   "grazing"        of 64 views around the box, the view with the smallest facing()
 ///   "most overdraw"  of 24 directions at the framing distance, half and a quarter of it, the view
 ///                    with the largest estimated_overdraw()
 /// Scenes with more than 200,000 faces are sampled at every n-th face. Asserts a soup without

@@ -18,14 +18,14 @@
 
 namespace tureen {
 
-/// The lens of a view in image heights. It applies to images of any size, as resized()
-/// (scene/camera.hpp) does.
+/// The lens of a view, independent of the image size: lengths are fractions of the image height.
 struct ViewLens {
-  double focal = 1.3737387097273113;  // fy / height; 40 degrees
+  double focal = 1.3737387097273113;  // fy / height; default: fov_y() is 40 degrees
   double aspect = 1;                  // fx / fy: height over width of a pixel
-  glm::dvec2 offset{0.0};             // of the principal point from the centre, right and down
+  /// From the image centre to the principal point, right and down, in image heights.
+  glm::dvec2 offset{0.0};
 
-  double fov_y() const;  // the full vertical angle about the centre, radians
+  double fov_y() const;  // full vertical angle in radians, without the offset
 };
 
 ViewLens lens_of_angle(double fov_y);
@@ -66,7 +66,7 @@ void place_eye(ViewState& state, const glm::dvec3& eye);
 /// Interpolation between the two then takes the short way.
 void take_short_way(ViewState& state, const ViewState& reference);
 
-/// The point that moves evenly from one state to the next.
+/// The point that is interpolated linearly between two states.
 enum class GlideAbout { target, eye };
 
 /// Interpolates two states: `part` 0 is `from`, 1 is `to`. Angles, target (or eye) and the

@@ -1,4 +1,5 @@
-// Reads and writes scene files of every format, detected by content rather than name.
+// Reads and writes scene files of every format. Reading detects the format by content; writing
+// selects it by extension.
 #pragma once
 
 #include <filesystem>
@@ -34,8 +35,8 @@ void require_written_format(const std::filesystem::path& path);
 
 /// Writes by the extension of `path`: .glb, .off, .coff, .ply, or a DiffSoup export folder if there
 /// is none. The output is complete or absent. Returns one sentence for each loss of the format.
-/// Throws UsageError if the format cannot store this scene or the extension is unknown; throws
-/// OutputError.
+/// Throws UsageError if the format cannot store this scene or the extension is unknown. Throws
+/// OutputError if the output cannot be written.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
 
 /// One row of the table of formats, for help texts.

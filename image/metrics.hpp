@@ -27,11 +27,13 @@ struct Metrics {
   double mse = 0;
   double psnr_db = 0;  // -10 log10 of mse, at most 100
   double ssim = 0;
-  double flip = 0;      // mean FLIP (LDR, 67 pixels per degree)
-  double max_abs = 0;   // largest channel difference
-  double p999_abs = 0;  // 99.9th percentile over all channels; rendering bugs appear above it
-  double coverage_mismatch =
-      0;  // fraction of pixels that only one image covers (MetricOptions::alpha_threshold)
+  double flip = 0;     // mean FLIP (LDR, 67 pixels per degree)
+  double max_abs = 0;  // largest channel difference
+  /// 99.9th percentile over all channels. Rendering bugs often affect only the 0.1 % of differences
+  /// above it; see max_abs.
+  double p999_abs = 0;
+  /// Fraction of pixels that only one image covers (MetricOptions::alpha_threshold).
+  double coverage_mismatch = 0;
   double failing_fraction = 0;  // of pixels, see MetricOptions
   std::size_t non_finite = 0;   // pixels with a NaN or an infinity in either image
 };

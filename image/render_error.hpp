@@ -1,5 +1,5 @@
-// E_render: the error of a rendering approximation over several views of one model. The reference
-// is the same model rendered by the oracle, never a photograph. The error against photographs is
+// E_render: the error of an approximation over several views of a scene. The reference is the
+// unchanged scene rendered by the oracle, never a photograph. The error against photographs is
 // another quantity, and the two never share an axis (docs/tradeoff.md).
 #pragma once
 
@@ -50,7 +50,8 @@ class RenderErrorMeter {
 
 /// The loss in PSNR against photographs that the rendering error causes, in dB. `model_db` is the
 /// PSNR of the exact model, `render_db` that of the rendering error. For uncorrelated errors the
-/// loss is 10 log10(1 + 10^((model - render) / 10)). Example: 50 dB cost a model of 27 dB 0.02 dB.
+/// loss is 10 log10(1 + 10^((model - render) / 10)). Example: a model of 27 dB loses 0.02 dB at a
+/// render_db of 50.
 double decibels_lost(double model_db, double render_db);
 
 }  // namespace tureen

@@ -22,8 +22,8 @@ struct OracleOptions {
   /// Rays per pixel along each axis, default 1: the pixel is the mean of supersampling^2 rays on a
   /// regular grid.
   int supersampling = 1;
-  /// The colour of pixels without a hit. If absent, such pixels are transparent: the colour is that
-  /// of the covered part alone, and alpha is the coverage.
+  /// The colour of pixels without a hit. If absent, pixels without a hit are transparent. A partly
+  /// covered pixel has the colour of its covered part, and alpha is the coverage.
   std::optional<glm::vec3> background = glm::vec3(0.0f);
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
@@ -33,7 +33,8 @@ struct OracleImage {
   static constexpr std::uint32_t no_face = tureen::no_face;
 
   ImageF color;
-  /// The visible face and its depth, one entry a ray, (width * supersampling) a row, from the top.
+  /// The visible face and its depth along each ray, row by row from the top. A row has width *
+  /// supersampling rays.
   std::vector<std::uint32_t> face;
   std::vector<double> depth;  // infinity without a face
 };

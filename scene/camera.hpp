@@ -8,16 +8,17 @@
 
 namespace tureen {
 
-/// Focal lengths and principal point in pixels. (cx, cy) is measured from the top left corner of
-/// the image to the right and down: an image of width w centred on the axis has cx = w / 2. The
-/// centre of the pixel (column, row) lies at (column + 0.5, row + 0.5).
+/// Focal lengths and principal point are in pixels. (cx, cy) is measured from the top left corner
+/// of the image, to the right and down. If the viewing axis meets the centre of the image, cx is
+/// width / 2 and cy is height / 2. Pixel centres lie at (column + 0.5, row + 0.5).
 struct Camera {
   std::string name;
   int width = 0;
   int height = 0;
   double fx = 0, fy = 0;
   double cx = 0, cy = 0;
-  /// Rigid: a rotation and a translation. World coordinates include the scene's origin.
+  /// Rigid: a rotation and a translation. World coordinates are absolute: the scene's origin plus a
+  /// position in the soup.
   glm::dmat4 view_from_world{1.0};
 
   /// The camera's centre in world coordinates.

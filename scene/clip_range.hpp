@@ -17,8 +17,11 @@ struct ClipRange {
 
 /// The storage of depth limits how close the near plane may be to an eye inside the scene.
 enum class DepthStorage {
-  fixed_24,        // precision falls in proportion to far / near: a thousandth of the radius
-  reversed_float,  // precision does not depend on the near plane: a billionth
+  /// Precision falls in proportion to far / near; near is at least a thousandth of the scene's
+  /// radius.
+  fixed_24,
+  /// Precision does not depend on the near plane; near is at least a billionth of the radius.
+  reversed_float,
 };
 
 /// `eye` is relative to the soup's origin. `forward` is the viewing axis, of unit length; depth is

@@ -2,8 +2,9 @@
 //
 // At level L the lattice has resolution n = 2^L and texels at (x, y), x, y >= 0, x + y <= n. Texel
 // (x, y) lies at barycentrics b0 = x/n (weight of vertex 0), b1 = y/n (vertex 1), b2 = 1 - b0 - b1
-// (vertex 2). At level 0 the texel order is therefore vertex 2, vertex 0, vertex 1.
-// shaders/lattice.glsl states the same rule in GLSL; a test compares the two.
+// (vertex 2). Texels are stored diagonal by diagonal (texel_index). At level 0 their order is
+// therefore vertex 2, vertex 0, vertex 1. shaders/lattice.glsl states the same rule in GLSL; a test
+// compares the two.
 #pragma once
 
 #include <algorithm>
@@ -85,9 +86,9 @@ constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
           {p, q, Real(1) - p - q}};
 }
 
-/// Interpolates three texels' values by differences, so that equal values are returned exactly. The
-/// weights' sum may be one rounding below 1. In a weighted sum the weights can sum to slightly less
-/// than 1: a constant alpha of 1/2 would fail the threshold at one point in twenty.
+/// Interpolates three texels' values by differences, so that equal values are returned exactly. A
+/// plain weighted sum would not do this, because rounding can make the weights sum to slightly less
+/// than 1. A constant alpha of 1/2 would then fail the threshold at one point in twenty.
 /// shaders/appearance_lattice.glsl does the same.
 template <class Real, class Value>
 constexpr Value interpolated(const std::array<Real, 3>& weights, const Value& a, const Value& b,

@@ -25,7 +25,7 @@
 
 namespace tureen::viewer {
 
-/// A scene, photographs or a camera path, detected from its name and contents.
+/// Opens a scene, photographs or a camera path, detected from its name and contents.
 struct OpenPath {
   std::filesystem::path path;
 };
@@ -34,11 +34,11 @@ struct OpenPhotographs {
 };
 struct CloseDataset {};
 struct ReloadScene {};
-/// Draw the scene with these options.
+/// Draws the scene with these options.
 struct ChooseDrawing {
   DrawingChoice choice;
 };
-/// Show the view of the recorded camera of this index.
+/// Moves the view to the recorded camera with this index.
 struct ShowRecorded {
   int index = 0;
 };
@@ -78,7 +78,7 @@ struct Photographs {
   std::vector<std::string> notes;
 };
 
-/// The image-taking panel's fields.
+/// The fields of the panel *Images*.
 struct ImageWish {
   bool window_size = true;
   glm::ivec2 size{3840, 2160};
@@ -88,9 +88,9 @@ struct ImageWish {
 struct State {
   Settings settings;
   std::unique_ptr<Stage> stage;  // null before the first scene
-  DrawingChoice wanted;          // of the stage, or of the one in preparation
+  DrawingChoice wanted;          // options of the stage in preparation, otherwise of `stage`
   DebugViewChoice debug_view;
-  std::unique_ptr<DebugViewRenderer> debug_renderer;  // of the stage, after the first use
+  std::unique_ptr<DebugViewRenderer> debug_renderer;  // of `stage`; null before its first use
   std::optional<Photographs> photographs;
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
@@ -104,13 +104,14 @@ struct State {
   bool show_files = false;  // the window that opens files
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;
-  /// Size of the image without the panels at its right, in window points and in framebuffer pixels.
+  /// Size of the image (the window without the panels at its right), in points and in framebuffer
+  /// pixels.
   glm::ivec2 points{1, 1}, pixels{1, 1};
   double now = 0;  // seconds of the window's clock
 
   /// The cameras of the photographs if there are any, otherwise of the scene.
   std::vector<const Camera*> recorded_cameras() const;
-  /// The current view as a keyframe at this time.
+  /// The current view as a keyframe; `seconds` is its time in the path.
   CameraKeyframe keyframe_of_now(double seconds) const;
   /// The photograph of the selected camera, if the view has not moved; otherwise null.
   const Photograph* photograph() const;

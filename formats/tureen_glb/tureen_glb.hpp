@@ -40,8 +40,8 @@ bool is_tureen_glb(const GlbContainer& glb);
 /// camera without pixels or with a side above 65,536, for non-finite numbers in a camera or
 /// material, and above 4 GiB. Throws OutputError if the file cannot be written.
 ///
-/// Memory in addition to the scene: the final colours (8 bytes a vertex of the drawn mesh) and the
-/// encoded images. The scene's arrays are written without a copy.
+/// Memory in addition to the scene: the vertex colours for other glTF viewers (8 bytes a vertex of
+/// the glTF mesh) and the encoded images. The scene's arrays are written without a copy.
 std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -42,8 +42,8 @@ struct BenchmarkOptions {
   int max_frames_per_sample = 100;
 
   /// Warm-up: frames of the first camera, until the last three times are within `stable_within` of
-  /// their smallest. The number of frames is limited by the next two settings. After
-  /// `max_warm_up_seconds` it ends once the minimums of frames and seconds are reached.
+  /// their smallest. Warm-up never ends before both minimums are reached. After that, it ends when
+  /// times are stable or a maximum is reached.
   int min_warm_up_frames = 3;
   int max_warm_up_frames = 100;
   double max_warm_up_seconds = 2;

@@ -21,12 +21,13 @@ struct Point {
 /// Errors within this difference are ties: a tenth of the smallest visible difference.
 inline constexpr double psnr_tie_db = 0.1;
 
-/// Indices of the points on the front, fastest first. Points are grouped by equal speed: within the
-/// spread of either, measured from the fastest of the group, so that chains of ties do not drift. A
-/// group contributes a point if its best PSNR exceeds that of the front so far by more than
-/// `tie_db`. Among its best, within `tie_db`, the point with the fewest departures is taken, then
+/// Indices of the points on the front, fastest first. Points of equal speed form a group. A point
+/// joins if its time differs from that of the group's fastest point by at most the larger spread of
+/// the two. Comparing with the fastest point prevents chains of ties. A group contributes a point
+/// if its best PSNR exceeds the PSNR of the front's last point by more than `tie_db`. Among the
+/// group's points within `tie_db` of its best, the point with the fewest departures is taken, then
 /// the fastest, then the first. Times and PSNR therefore both increase along the front. For every
-/// other point the front has one that is as fast and as good, up to the ties.
+/// other point, a point on the front is as fast and as good, up to the ties.
 std::vector<std::size_t> pareto_front(std::span<const Point> points, double tie_db = psnr_tie_db);
 
 /// The reference point of the hypervolume: 100 ms and 20 dB.
@@ -36,8 +37,9 @@ struct Corner {
 };
 
 /// The area between the corner and the points, with the logarithm of time on the horizontal axis:
-/// decades times decibels. It grows with any improvement of time or PSNR; 0 if every point is
-/// slower or worse than the corner. Exact, without ties.
+/// decades times decibels. It grows if a point on the front that is better than the corner becomes
+/// faster or better. It is 0 if every point is slower or worse than the corner. Exact, without
+/// ties.
 double hypervolume(std::span<const Point> points, const Corner& corner = {});
 
 /// Error limits for an automatic choice.

@@ -16,17 +16,17 @@
 
 namespace tureen {
 
-/// The split of the index into column, row and layer, equal for all stores of a scene. With layers
-/// of 2^21 texels, 256 layers (the minimum on every device) hold 2^29 texels.
+/// The split of the index into column, row and layer, equal for all stores of a scene. Every device
+/// supports at least 256 layers. With layers of 2^21 texels, they hold 2^29 texels.
 struct TexelLayout {
   int row_bits = 12;   // 4096 columns; 2048 on devices with that limit
-  int layer_bits = 9;  // rows of a layer
+  int layer_bits = 9;  // 512 rows a layer
   int max_layers = 256;
 
   static TexelLayout of(const DeviceLimits& limits);
-  /// The layout for stores of at most `max_texels` texels that exceed one layer; a single layer is
-  /// as high as its contents. Layers are low enough that there are 32 to 64 and the last one wastes
-  /// at most 1/32.
+  /// The layout for stores of at most `max_texels` texels. If they fill less than one layer, the
+  /// layout is unchanged. Otherwise layers get fewer rows, so that the largest store has at least
+  /// 32 layers, if the device allows it. Its last layer then wastes at most 1/32 of the store.
   TexelLayout fitted(std::uint64_t max_texels) const;
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
   /// Largest number of texels in one store: shaders count them in 32 bits.
@@ -61,7 +61,7 @@ struct TexelSource {
   /// so the complete contents never need to be in memory twice.
   std::function<void(std::uint64_t first, std::span<std::byte> out)> fill;
 
-  /// A source that owns its values: format.bytes of them are a texel.
+  /// A source that owns its values. Each texel takes format.bytes bytes of them.
   template <class T>
   static TexelSource of(const TexelFormat& format, std::vector<T> values, std::string what) {
     const std::uint64_t count = values.size() * sizeof(T) / format.bytes;
@@ -77,7 +77,8 @@ struct TexelSource {
 class TexelStore {
  public:
   TexelStore() = default;
-  /// Throws DeviceLimitError with a size that would fit.
+  /// Throws DeviceLimitError if the texels exceed the layout's capacity (the reason has the
+  /// fraction that fits) or the device's memory.
   TexelStore(const TexelLayout& layout, const TexelSource& source);
 
   GLuint texture() const { return texture_.id(); }

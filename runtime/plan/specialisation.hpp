@@ -32,8 +32,8 @@ enum class Specialisation : std::uint8_t {
 /// One specialisation, as a plan applied it.
 struct AppliedSpecialisation {
   Specialisation what = {};
-  /// Skipped faces, bands or hidden neurons, by kind, and their total number. Both are 0 if nothing
-  /// is counted.
+  /// `count`: faces, bands or hidden neurons to which this specialisation applies. `total`: all
+  /// faces, bands or neurons that it examined. Both are 0 if this specialisation counts nothing.
   std::size_t count = 0, total = 0;
   /// Largest change of a colour, in steps of 8 bits: 0 (exact up to rounding) to 0.5.
   double margin = 0;

@@ -15,8 +15,8 @@ namespace tureen {
 
 /// The default changes nothing. Level, colour and bytes apply only to lattice textures.
 struct Edits {
-  /// One entry per face: 0 removes the face. An empty vector keeps all faces. At least one face is
-  /// kept.
+  /// One entry per face: 0 removes the face. An empty vector keeps all faces. At least one entry
+  /// must keep its face.
   std::vector<std::uint8_t> keeps_face = {};
   /// Largest lattice level of any face, 0..lattice::max_level. Finer lattices are projected
   /// (scene/edit/lattice_levels.hpp).

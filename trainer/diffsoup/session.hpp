@@ -48,7 +48,7 @@ class TrainingSession {
   /// SessionOptions::progress. In both cases it first writes a checkpoint if possible.
   void run();
 
-  /// Runs `work` after run(). If it throws, a checkpoint is written first.
+  /// Runs `work` after run(). If it throws, writes a checkpoint and then passes the error on.
   void keep_if_it_fails(const std::function<void()>& work);
 
   /// Training time, including earlier sessions.

@@ -26,7 +26,8 @@ struct TrainingRequest {
 
   /// Before the first step. `visible`: some training image shows a triangle.
   std::function<void(const Backend&, bool visible)> begun = {};
-  /// Stores the finished scene. If it throws, a checkpoint is written first.
+  /// Stores the finished scene. If it throws, train() writes a checkpoint and then passes the error
+  /// on.
   std::function<void(const Scene&)> finished = {};
   /// Fraction done of drawing the test views with the trainer's own renderer.
   std::function<void(double fraction)> measuring = {};
@@ -42,10 +43,10 @@ struct TrainingResult {
   double opacity_binary_fraction = 0;  // fraction of texels with an alpha within 0.05 of 0 or 1
 };
 
-/// Trains on dataset.train, whose images are released, and tests on dataset.test. Throws
-/// OutputError if a file of `session` cannot be written, DeviceLimitError if the device lacks
-/// memory, and any error from a callback. Asserts that a checkpoint has the views of the dataset
-/// (difference() in checkpoint.hpp); its configuration must be request.config.
+/// Trains on dataset.train and tests on dataset.test. train() frees the images of dataset.train.
+/// Throws OutputError if a file of `session` cannot be written, DeviceLimitError if the device
+/// lacks memory, and any error from a callback. Asserts that a checkpoint has the views of the
+/// dataset (difference() in checkpoint.hpp); its configuration must be request.config.
 TrainingResult train(Dataset& dataset, TrainingRequest request);
 
 }  // namespace tureen::trainer

@@ -18,9 +18,9 @@
 //                 {"at": 2.1,  "close": true} ] }
 //
 // "at" is in seconds since the start of the session and never decreases. "await" stops the clock
-// until nothing is being loaded and nothing moves. "picture" saves the content of the window.
-// "replace" copies the second file over the first, as a running trainer does. Relative paths start
-// at the program's working folder.
+// until nothing is being loaded and nothing moves. "picture" saves the window as a PNG in the
+// folder for images (`--images`). "replace" copies the second file over the first, as a running
+// trainer does. Other relative paths start at the program's working folder.
 #pragma once
 
 #include <filesystem>
@@ -54,8 +54,8 @@ class Recorder {
   Session session_;
 };
 
-/// Replays a session by its own clock: a frame advances it by 1/60 s, independent of its real
-/// duration. A session thus shows the same images on every machine.
+/// Replays a session by the session's own clock. Each frame advances the clock by 1/60 s, whatever
+/// its real duration, so that a session shows the same images on every machine.
 class Replay {
  public:
   explicit Replay(Session session) : session_(std::move(session)) {}

@@ -65,7 +65,7 @@ struct CloseAsked {};
 
 /// Only in sessions: later events wait until nothing is being loaded and nothing moves.
 struct AwaitRest {};
-/// Only in sessions: saves the window with its interface as a PNG of this name in the session's
+/// Only in sessions: saves the window with its interface as a PNG of this name in the program's
 /// folder for images.
 struct WindowScreenshot {
   std::string name;

@@ -18,7 +18,8 @@ namespace tureen::trainer::kernels {
 /// Maximum width and height of images: a ProjectedFace stores its rectangle in 16 bits.
 inline constexpr int max_image_side = 32767;
 
-/// A pinhole camera relative to the model's origin.
+/// A pinhole camera relative to the model's origin. As in scene/camera.hpp, (cx, cy) is measured
+/// from the top left corner of the image, and pixel centres lie at (column + 0.5, row + 0.5).
 struct View {
   int width, height;  // at most max_image_side
   double fx, fy, cx, cy;
@@ -36,7 +37,7 @@ struct ProjectedFace {
   TUREEN_HOST_DEVICE bool empty() const { return x0 >= x1; }
 };
 
-/// e_0, e_1, e_2 at (x, y); integers are pixel centres.
+/// e_0, e_1, e_2 at (x, y) in pixel indices: (3, 5) is the centre of the pixel in column 3, row 5.
 template <class Real>
 TUREEN_HOST_DEVICE void edge_values(const ProjectedFace& face, Real x, Real y, Real (&e)[3]) {
   for (int k = 0; k < 3; ++k)
