@@ -1,8 +1,10 @@
 #include "runtime/gl/program.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.hpp"
 
@@ -68,14 +70,38 @@ Program Program::compute(const std::string& source) {
   return program;
 }
 
-void Program::link() const {
+void Program::link() {
   glLinkProgram(object_.id());
   GLint linked = 0;
   glGetProgramiv(object_.id(), GL_LINK_STATUS, &linked);
-  if (linked) return;
+  if (linked) return look_up_uniforms();
   char log[4096] = "";
   glGetProgramInfoLog(object_.id(), sizeof log, nullptr, log);
   throw ContextError("the driver cannot link a program: " + std::string(log));
+}
+
+void Program::look_up_uniforms() {
+  GLint count = 0;
+  glGetProgramiv(object_.id(), GL_ACTIVE_UNIFORMS, &count);
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    char name[256] = "";
+    GLint elements = 0;
+    GLenum type = 0;
+    glGetActiveUniform(object_.id(), i, sizeof name, nullptr, &elements, &type, name);
+    const GLint found = glGetUniformLocation(object_.id(), name);
+    // Arrays are reported by their first element.
+    const std::string_view text(name);
+    locations_.emplace_back(text.substr(0, text.find('[')), found);
+  }
+  std::sort(locations_.begin(), locations_.end());
+}
+
+GLint Program::location(const char* name) const {
+  const std::string_view wanted(name);
+  const auto at =
+      std::lower_bound(locations_.begin(), locations_.end(), wanted,
+                       [](const auto& known, std::string_view each) { return known.first < each; });
+  return at != locations_.end() && at->first == wanted ? at->second : -1;
 }
 
 void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }

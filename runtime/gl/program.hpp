@@ -1,4 +1,4 @@
-// A linked shader program and its uniforms by name.
+// A linked shader program and its uniforms by name. Their locations are looked up once, at link.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -7,6 +7,8 @@
 #include <glm/vec4.hpp>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/gl/objects.hpp"
 
@@ -36,10 +38,13 @@ class Program {
   void set(const char* name, std::span<const glm::vec4> values) const;
 
  private:
-  void link() const;
-  GLint location(const char* name) const { return glGetUniformLocation(object_.id(), name); }
+  void link();
+  void look_up_uniforms();
+  /// -1, which GL ignores, for a name that the program does not use.
+  GLint location(const char* name) const;
 
   Object<ProgramTraits> object_;
+  std::vector<std::pair<std::string, GLint>> locations_;  // by name
 };
 
 }  // namespace tureen::gl
