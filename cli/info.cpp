@@ -156,7 +156,7 @@ ExitCode inform(const InfoOptions& options) {
   const Subject subject = subject_of(scene);
   const std::uint64_t on_disk = bytes_on_disk(options.scene.path);
   const RenderPlan plan = make_plan(soup, named_devices().back().limits);
-  const DeviceForecast forecast = device_forecast(soup, plan);
+  const DeviceForecast forecast = device_forecast(soup, plan.layers.front());
   const Lint findings = lint(soup);
   Described appearance;
   std::visit(appearance, soup.appearance);
@@ -230,7 +230,7 @@ ExitCode inform(const InfoOptions& options) {
                   {{"resolution_scale", scene.quality.resolution_scale},
                    {"supersampling", scene.quality.supersampling}}},
                  {"plan", describe(plan)},
-                 {"specialisations", results::specialisations_json(plan.applied)},
+                 {"specialisations", results::specialisations_json(plan.applied())},
                  {"devices", devices},
                  {"lint", to_json(findings)}});
     print_json(json);

@@ -21,7 +21,7 @@
 #include "cli/report.hpp"
 #include "image/video_file.hpp"
 #include "jobs/results/plan_json.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
+#include "runtime/debug_views/debug_views.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 
@@ -72,24 +72,25 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
   WrittenImages images = draw_views(drawer, device, views, options.output);
   if (options.frames > 0) images.times = times;
   const RenderPlan& plan = renderer.plan();
-  return {std::move(images), describe(plan), plan.applied, {}, renderer.device_bytes()};
+  return {std::move(images), describe(plan), plan.applied(), {}, renderer.device_bytes()};
 }
 
 Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
                       const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  DebugViewRenderer debug_renderer(context, soup, origin_of(only_layer(scene)),
-                                   {.background = background});
-  debug_renderer.show(options.show.what, options.show.features);
-  WrittenImages images =
-      draw_views(drawer_of(debug_renderer, device), device, views, options.output);
+  DebugViews debug_views(soup);
+  Renderer renderer(context,
+                    prepare_debug_views(soup, origin_of(only_layer(scene)), device_limits(device)),
+                    {.background = background});
+  debug_views.show(renderer, options.show.what, options.show.features);
+  WrittenImages images = draw_views(drawer_of(renderer, device), device, views, options.output);
   const std::string sentence = std::string("debug view: ") + name_of(options.show.what) +
                                " without specialisations, one sample a pixel";
   return {std::move(images),
           {sentence},
           {},
-          legend_lines(debug_renderer.legend()),
-          debug_renderer.device_bytes()};
+          legend_lines(debug_views.legend()),
+          renderer.device_bytes()};
 }
 
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.

@@ -18,8 +18,9 @@ constexpr int rays_in_a_band = 1 << 20;
 
 }  // namespace
 
-OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
+OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
                           const OracleOptions& options) {
+  const Camera& camera = input.camera;
   const int n = options.supersampling;
   assert(n >= 1);
   const Camera fine = n == 1 ? camera : resized(camera, camera.width * n, camera.height * n);

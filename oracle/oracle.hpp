@@ -11,7 +11,7 @@
 
 #include "image/image.hpp"
 #include "oracle/hits.hpp"
-#include "scene/camera.hpp"
+#include "scene/frame_input.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
@@ -41,7 +41,7 @@ struct OracleImage {
 
 /// `soup` has no defect(); `origin` is Scene::origin. The near plane is that of clip_range() for
 /// reversed depth.
-OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
+OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
                           const OracleOptions& options = {});
 
 }  // namespace tureen

@@ -19,7 +19,7 @@ namespace {
 /// compares the sum with the created stores.
 class Forecaster {
  public:
-  Forecaster(const TriangleSoup& soup, const RenderPlan& plan) : soup_(soup), plan_(plan) {}
+  Forecaster(const TriangleSoup& soup, const SoupPlan& plan) : soup_(soup), plan_(plan) {}
 
   DeviceForecast run() {
     result_.bytes = slots() * 3 * sizeof(glm::vec3);
@@ -132,13 +132,13 @@ class Forecaster {
   }
 
   const TriangleSoup& soup_;
-  const RenderPlan& plan_;
+  const SoupPlan& plan_;
   DeviceForecast result_;
 };
 
 }  // namespace
 
-DeviceForecast device_forecast(const TriangleSoup& soup, const RenderPlan& plan) {
+DeviceForecast device_forecast(const TriangleSoup& soup, const SoupPlan& plan) {
   return Forecaster(soup, plan).run();
 }
 

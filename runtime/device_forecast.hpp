@@ -18,8 +18,8 @@ struct DeviceForecast {
   std::string largest_store;
 };
 
-/// The forecast for a plan of our own pipeline for this soup.
-DeviceForecast device_forecast(const TriangleSoup& soup, const RenderPlan& plan);
+/// The forecast for this soup with its plan from make_plan.
+DeviceForecast device_forecast(const TriangleSoup& soup, const SoupPlan& plan);
 
 /// Largest number of texels in one store on such a device.
 std::uint64_t texel_capacity(const DeviceLimits& limits);

@@ -26,17 +26,6 @@ void copy_rows(const Image8& tile, int column, Image8& band) {
     std::copy_n(&tile.at(0, y), tile.width, &band.at(column, y));
 }
 
-template <class Drawer>
-ImageTiles tiles_drawn_by(Drawer& drawer, int largest) {
-  ImageTiles tiles;
-  tiles.draw = [&drawer](const Camera& camera) {
-    drawer.draw(camera);
-    return drawer.read_color();
-  };
-  tiles.side = std::min(tiles.side, largest);
-  return tiles;
-}
-
 }  // namespace
 
 Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
@@ -48,7 +37,8 @@ Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
   return part;
 }
 
-void draw_in_bands(const Camera& camera, const ImageTiles& tiles, const BandSink& sink) {
+void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandSink& sink) {
+  const Camera& camera = input.camera;
   assert(camera.width > 0 && camera.height > 0 && tiles.side > 0);
   const int width = in_blocks(tiles.side), height = tile_height(camera, tiles);
   // Bands are aligned with the lower border, as on devices. The uppermost band has the remaining
@@ -58,7 +48,7 @@ void draw_in_bands(const Camera& camera, const ImageTiles& tiles, const BandSink
     Image8 band(camera.width, rows);
     for (int column = 0; column < camera.width; column += width) {
       const glm::ivec2 size(std::min(width, camera.width - column), rows);
-      const Image8 tile = tiles.draw(cut_out_of(camera, {column, row}, size));
+      const Image8 tile = tiles.draw({cut_out_of(camera, {column, row}, size), input.time});
       assert(tile.width == size.x && tile.height == size.y);
       copy_rows(tile, column, band);
       if (tiles.progress)
@@ -69,10 +59,10 @@ void draw_in_bands(const Camera& camera, const ImageTiles& tiles, const BandSink
   }
 }
 
-Image8 draw_in_tiles(const Camera& camera, const ImageTiles& tiles) {
-  Image8 image(camera.width, camera.height);
+Image8 draw_in_tiles(const FrameInput& input, const ImageTiles& tiles) {
+  Image8 image(input.camera.width, input.camera.height);
   auto next = image.pixels.begin();
-  draw_in_bands(camera, tiles, [&](const Image8& rows) {
+  draw_in_bands(input, tiles, [&](const Image8& rows) {
     next = std::copy(rows.pixels.begin(), rows.pixels.end(), next);
   });
   return image;
@@ -85,12 +75,14 @@ ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
         "not match");
   // 2^26 samples: 1 GiB of targets, the limit for images drawn whole.
   constexpr int max_samples = 8192;
-  return tiles_drawn_by(renderer, std::min(capabilities.max_image_side, max_samples) /
-                                      renderer.plan().quality.supersampling);
-}
-
-ImageTiles tiles_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& capabilities) {
-  return tiles_drawn_by(debug_renderer, capabilities.max_image_side);
+  const int largest = std::min(capabilities.max_image_side, max_samples);
+  ImageTiles tiles;
+  tiles.draw = [&renderer](const FrameInput& input) {
+    renderer.draw(input);
+    return renderer.read_color();
+  };
+  tiles.side = std::min(tiles.side, largest / renderer.plan().quality.supersampling);
+  return tiles;
 }
 
 }  // namespace tureen

@@ -11,15 +11,14 @@
 #include <cstddef>
 #include <functional>
 
-#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 
 namespace tureen {
 
 /// The size of the tiles, and the function that draws them.
 struct ImageTiles {
-  /// Draws the image of a camera, with at most `side` rows and columns.
-  std::function<Image8(const Camera& camera)> draw = {};
+  /// Draws a frame with at most `side` rows and columns.
+  std::function<Image8(const FrameInput& input)> draw = {};
   int side = 4096;  // above 0
   /// Largest size of a band in bytes, except for a band of a single row.
   std::size_t band_bytes = std::size_t(128) << 20;
@@ -34,14 +33,13 @@ using BandSink = std::function<void(const Image8& rows)>;
 Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size);
 
 /// Holds one band and one tile in memory. Exceptions from `draw`, `sink` and `progress` end it.
-void draw_in_bands(const Camera& camera, const ImageTiles& tiles, const BandSink& sink);
+void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandSink& sink);
 
 /// The complete image, if memory suffices for its 4 bytes a pixel.
-Image8 draw_in_tiles(const Camera& camera, const ImageTiles& tiles);
+Image8 draw_in_tiles(const FrameInput& input, const ImageTiles& tiles);
 
 /// Tiles drawn by this renderer, which must outlive them. Throws UsageError if its
 /// plan has a resolution scale: tiles drawn at a lower resolution would not match at their borders.
 ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities);
-ImageTiles tiles_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& capabilities);
 
 }  // namespace tureen

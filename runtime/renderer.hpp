@@ -1,13 +1,13 @@
-// A soup on a device, drawn frame by frame.
+// A scene on a device, drawn frame by frame as a list of passes (runtime/passes/pass.hpp).
 //
 // Not included: windows, input, loading files, choosing cameras. The context of construction must
 // be current for every call and on destruction, unless leave_context() was called.
 //
 // GL state, for other users of the context: every call sets the state on which it depends, with
 // four exceptions. Wireframe (glPolygonMode), logic operations and conditional rendering must be
-// off, and the depth range must be GL's default. Nothing is restored: programs, vertex arrays,
-// framebuffers, buffers, textures, samplers, viewport, tests, masks and pixel storage are changed
-// afterwards. The clip control is reset to GL's default.
+// off, and the depth range must be GL's default. Calls change programs, vertex arrays,
+// framebuffers, buffers, textures, samplers, viewport, tests, masks and pixel storage, and do not
+// restore them. The clip control is reset to GL's default.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -19,15 +19,14 @@
 
 #include "image/image.hpp"
 #include "runtime/gl/context.hpp"
+#include "runtime/passes/pass.hpp"
 #include "runtime/plan/plan.hpp"
-#include "runtime/prepared_soup.hpp"
+#include "runtime/prepared_scene.hpp"
 #include "runtime/render_options.hpp"
-#include "scene/camera.hpp"
-#include "scene/triangle_soup.hpp"
+#include "scene/frame_input.hpp"
 
 namespace tureen {
 
-class Pipeline;
 namespace gl {
 class PassTimer;
 }
@@ -36,24 +35,9 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
 class Renderer {
  public:
-  /// Plans and uploads; the soup is not needed afterwards. It must have no defect(). Throws
-  /// DeviceLimitError with a forecast if it does not fit; throws UsageError as make_plan does.
-  Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-           const RenderOptions& options = {});
-  /// The same with a plan from make_plan for this soup, within the device's limits. options.plan is
-  /// ignored.
-  Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, RenderPlan plan,
-           const RenderOptions& options = {});
-  /// The same from the result of prepare_soup, within the device's limits; the images are
-  /// identical. Only the background of the options is used. Throws DeviceLimitError if the device
-  /// refuses the memory.
-  Renderer(const gl::Context& context, PreparedSoup prepared, const RenderOptions& options = {});
-  /// Draws with a pipeline from outside runtime/, which holds the soup on the device and must not
-  /// refer to the plan. The plan has the quality, which is applied here, and the description.
-  /// `bounds` are those of the soup, relative to `origin`. Only the background of the options is
-  /// used.
-  Renderer(const gl::Context& context, std::unique_ptr<Pipeline> pipeline, RenderPlan plan,
-           const Bounds& bounds, glm::dvec3 origin, const RenderOptions& options = {});
+  /// Uploads a scene that was prepared for limits within those of the device. Only the background
+  /// of the options is used. Throws DeviceLimitError if the device refuses the memory.
+  Renderer(const gl::Context& context, PreparedScene prepared, const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -62,10 +46,18 @@ class Renderer {
 
   void set_background(glm::vec4 background);
 
+  /// Adds a pass after the present ones. Its result is filtered like theirs if the plan has another
+  /// number of samples than one a pixel.
+  void add_pass(std::unique_ptr<Pass> pass);
+  /// Replaces all passes of later frames.
+  void set_passes(Passes passes);
+  /// The soups on the device, for passes that draw them; they live as long as the renderer.
+  std::span<const std::unique_ptr<DeviceSoup>> soups() const;
+
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
   /// has finished. Asserts a positive size. Throws DeviceLimitError if the size, in pixels or in
   /// samples, exceeds Capabilities::max_image_side.
-  void draw(const Camera& camera);
+  void draw(const FrameInput& input);
 
   /// Waits for the device.
   void finish() const;
@@ -82,12 +74,13 @@ class Renderer {
   glm::ivec2 sample_size() const;
 
   /// The visible face of each sample of the last frame: sample_size() entries, row 0 on top,
-  /// no_face for the background. Empty if the plan shades forward.
+  /// no_face for the background. Empty if no pass stores faces, as in forward plans.
   std::vector<std::uint32_t> read_faces() const;
 
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
-  /// left corner. Returns nullopt for the background, and for a pipeline whose depth cannot be
-  /// read. Its precision is that of the depth buffer. Waits for the device.
+  /// left corner. Returns nullopt for the background, and if no pass stores
+  /// depth, as in some debug views. Its precision is that of the depth buffer.
+  /// Waits for the device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 
   /// Copies the last frame to a framebuffer (0 is the window), its lower left corner to `corner`.

@@ -317,28 +317,28 @@ void Application::draw_image() {
 }
 
 void Application::draw_scene() {
+  Stage& stage = *state_.stage;
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
-  const bool shows_debug_view = state_.debug_view.what != DebugView::color && state_.debug_renderer;
   // Colours until the debug view is prepared.
-  const DebugViewChoice debug_view = shows_debug_view ? state_.debug_view : DebugViewChoice{};
+  const DebugViewChoice debug_view = stage.debug_views ? state_.debug_view : DebugViewChoice{};
   const bool same = image_is_current_ && drawn_debug_view_ == debug_view &&
                     camera.view_from_world == drawn_camera_.view_from_world &&
                     camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
                     camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
                     camera.cx == drawn_camera_.cx && camera.cy == drawn_camera_.cy;
-  if (shows_debug_view && !same) {
-    state_.debug_renderer->show(debug_view.what, debug_view.features);
-    state_.debug_renderer->draw(camera);
-  } else if (!shows_debug_view && (!same || state_.draw_continuously)) {
-    frame_clock_.draw(state_.stage->renderer, camera);
+  if (stage.debug_views) {
+    // Their frame times would not be those of ordinary frames.
+    if (!same) {
+      stage.debug_views->show(stage.renderer, debug_view.what, debug_view.features);
+      stage.renderer.draw({camera});
+    }
+  } else if (!same || state_.draw_continuously) {
+    frame_clock_.draw(stage.renderer, {camera});
   }
   drawn_debug_view_ = debug_view;
   drawn_camera_ = camera;
   image_is_current_ = true;
-  if (shows_debug_view)
-    state_.debug_renderer->blit_to(0);
-  else
-    state_.stage->renderer.blit_to(0);
+  stage.renderer.blit_to(0);
 }
 
 void Application::save_window_image(const std::string& name) {

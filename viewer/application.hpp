@@ -124,7 +124,9 @@ class Application {
   FileWatch watch_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
-  bool image_is_current_ = false, debug_renderer_asked_ = false;
+  bool image_is_current_ = false;
+  /// Whether a worker prepares the scene for debug views (true) or for colours (false).
+  std::optional<bool> preparing_debug_views_;
   Camera drawn_camera_;
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;

@@ -7,32 +7,34 @@
 namespace tureen::viewer {
 
 void Application::prepare_debug_view_when_needed() {
-  if (state_.debug_view.what == DebugView::color || !state_.stage || state_.debug_renderer ||
-      debug_renderer_asked_)
+  if (!state_.stage) return;
+  const bool wanted = state_.debug_view.what != DebugView::color;
+  if (wanted == state_.stage->debug_views.has_value()) {
+    if (preparing_debug_views_) worker_.abandon(JobKind::debug_view);
+    preparing_debug_views_.reset();
     return;
-  debug_renderer_asked_ = true;
-  const StageSource scene = state_.stage->source();
-  const DebugViewOptions options{.background = glm::vec4(scene.scene->info.background, 1.0f)};
-  worker_.start({.kind = JobKind::debug_view,
-                 .what = "preparing debug views of " + short_name(scene.path),
-                 .work =
-                     [this, scene, options](const Worker::Progress&) {
-                       auto debug_renderer = std::make_shared<DebugViewRenderer>(
-                           window_.context(), scene.soup(), scene.origin(), options);
-                       debug_renderer->leave_context();
-                       return Worker::Completion([this, debug_renderer, of = scene.scene] {
-                         if (!state_.stage || state_.stage->scene != of) return;
-                         state_.debug_renderer =
-                             std::make_unique<DebugViewRenderer>(std::move(*debug_renderer));
-                         image_is_current_ = false;
-                       });
-                     },
-                 .failed =
-                     [this](const std::string& reason) {
-                       state_.debug_view.what = DebugView::color;
-                       debug_renderer_asked_ = false;
-                       state_.messages.error("The debug view cannot be shown", reason, state_.now);
-                     }});
+  }
+  if (preparing_debug_views_ == wanted) return;
+  preparing_debug_views_ = wanted;
+  const StageSource source = state_.stage->source();
+  const DrawingChoice choice = state_.wanted;
+  worker_.start(
+      {.kind = JobKind::debug_view,
+       .what = (wanted ? "preparing debug views of " : "preparing ") + short_name(source.path),
+       .work =
+           [this, source, choice, wanted](const Worker::Progress& progress) {
+             const auto prepare = wanted ? prepare_debug_stage : prepare_stage;
+             std::shared_ptr<Stage> stage = prepare(source, {window_.context(), choice, progress});
+             return Worker::Completion([this, stage = std::move(stage)] {
+               if (state_.stage && state_.stage->scene == stage->scene)
+                 show(std::make_unique<Stage>(std::move(*stage)), true);
+             });
+           },
+       .failed =
+           [this](const std::string& reason) {
+             state_.debug_view.what = DebugView::color;
+             state_.messages.error("The debug view cannot be shown", reason, state_.now);
+           }});
 }
 
 void Application::compare_when_needed() {
@@ -47,8 +49,9 @@ void Application::compare_when_needed() {
   if (comparison.result || comparison.asked) return;
   comparison.asked = true;
   Renderer& renderer = state_.stage->renderer;
+  if (state_.stage->debug_views) state_.stage->debug_views->show(renderer, DebugView::color);
   try {
-    renderer.draw(photograph->camera);
+    renderer.draw({photograph->camera});
   } catch (const DeviceLimitError& error) {
     comparison.show = Comparison::Show::off;
     image_is_current_ = false;  // the targets of the window's image are gone

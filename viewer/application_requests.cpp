@@ -78,8 +78,7 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   image_is_current_ = false;
   worker_.abandon(JobKind::debug_view);
   worker_.abandon(JobKind::comparison);
-  state_.debug_renderer.reset();
-  debug_renderer_asked_ = false;
+  preparing_debug_views_.reset();
   state_.comparison.forget();
   frame_clock_.clear();
   if (same_scene) return;  // only the method of drawing changed

@@ -20,10 +20,10 @@ FrameClock::FrameClock(const gl::Context& context, std::function<double()> clock
       timers_.push_back(std::make_unique<gl::PassTimer>(context));
 }
 
-void FrameClock::draw(Renderer& renderer, const Camera& camera) {
+void FrameClock::draw(Renderer& renderer, const FrameInput& input) {
   const double begin = clock_();
   if (timers_.empty()) {
-    renderer.draw(camera);
+    renderer.draw(input);
     const double asked = clock_();
     renderer.finish();
     note({1e3 * (asked - begin), 1e3 * (clock_() - asked)});
@@ -37,7 +37,7 @@ void FrameClock::draw(Renderer& renderer, const Camera& camera) {
   }
   renderer.time_passes(&timer);
   const double asking = clock_();
-  renderer.draw(camera);
+  renderer.draw(input);
   renderer.time_passes(nullptr);
   note({1e3 * (clock_() - asking), device_ms});
 }

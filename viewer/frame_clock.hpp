@@ -29,7 +29,7 @@ class FrameClock {
   FrameClock(const gl::Context& context, std::function<double()> clock);
 
   /// Draws a frame with the renderer and records its times.
-  void draw(Renderer& renderer, const Camera& camera);
+  void draw(Renderer& renderer, const FrameInput& input);
 
   /// Oldest first, at most frames_kept.
   const std::vector<FrameParts>& frames() const { return frames_; }

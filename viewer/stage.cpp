@@ -67,7 +67,22 @@ std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageReque
   Renderer renderer = prepare_renderer(source, request);
   renderer.leave_context();
   return std::make_unique<Stage>(
-      Stage{{source}, request.choice, std::move(renderer), preparing.seconds()});
+      Stage{{source}, request.choice, std::nullopt, std::move(renderer), preparing.seconds()});
+}
+
+std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const StageRequest& request) {
+  const Stopwatch preparing;
+  const Scene& scene = *source.scene;
+  const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
+  const DeviceLimits limits = device_limits(request.context.capabilities());
+  Renderer renderer(request.context,
+                    prepare_debug_views(source.soup(), source.origin(), limits, options), options);
+  renderer.leave_context();
+  return std::make_unique<Stage>(Stage{{source},
+                                       request.choice,
+                                       DebugViews(source.soup()),
+                                       std::move(renderer),
+                                       preparing.seconds()});
 }
 
 }  // namespace tureen::viewer

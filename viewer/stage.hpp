@@ -10,6 +10,7 @@
 #include "camera/navigation.hpp"
 #include "camera/up_axis.hpp"
 #include "jobs/baseline/baseline.hpp"
+#include "runtime/debug_views/debug_views.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/scene.hpp"
 #include "viewer/files/file_watch.hpp"
@@ -42,7 +43,10 @@ struct StageSource {
 };
 
 struct Stage : StageSource {
-  DrawingChoice choice;  // the options of `renderer`
+  DrawingChoice choice;
+  /// If the renderer was prepared for debug views; otherwise it was prepared by the choice. There
+  /// is only one renderer, so that the device holds the scene once.
+  std::optional<DebugViews> debug_views;
   Renderer renderer;
   double prepare_seconds = 0;
 
@@ -64,6 +68,9 @@ Renderer prepare_renderer(const StageSource& scene, const StageRequest& request)
 /// Reads a scene and prepares it. The renderer has left the context, so that the drawing thread can
 /// use it. Throws InputError, DeviceLimitError and UsageError.
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request);
+
+/// Prepares a scene that was read, for debug views, likewise.
+std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const StageRequest& request);
 
 /// Prepares a scene that was read, likewise.
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request);

@@ -12,7 +12,7 @@
 
 #include "camera/camera_controls.hpp"
 #include "formats/dataset/dataset.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 #include "viewer/animation.hpp"
 #include "viewer/comparison.hpp"
 #include "viewer/debug_view_choice.hpp"
@@ -90,7 +90,6 @@ struct State {
   std::unique_ptr<Stage> stage;  // null before the first scene
   DrawingChoice wanted;          // options of the stage in preparation, otherwise of `stage`
   DebugViewChoice debug_view;
-  std::unique_ptr<DebugViewRenderer> debug_renderer;  // of `stage`; null before its first use
   std::optional<Photographs> photographs;
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none

@@ -20,9 +20,9 @@ namespace tureen::cli {
 
 namespace {
 
-double timed_draw(const Drawer& drawer, const Camera& camera) {
+double timed_draw(const Drawer& drawer, const FrameInput& input) {
   const auto start = std::chrono::steady_clock::now();
-  drawer.draw(camera);
+  drawer.draw(input);
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
 }
@@ -48,7 +48,7 @@ Camera small_view(const Camera& camera) {
 /// Draws an image at once and writes it. Returns its thumbnail.
 Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
                   FrameTimes& times) {
-  times.ms.push_back(timed_draw(drawer, camera));
+  times.ms.push_back(timed_draw(drawer, {camera}));
   const Image8 image = drawer.read();
   write_image(image, path);
   return thumbnail(image);
@@ -60,17 +60,17 @@ Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesys
                   FrameTimes& times, const std::function<void(double)>& progress) {
   times.ms.push_back(0);
   ImageTiles tiles = drawer.tiles();
-  tiles.draw = [&](const Camera& part) {
+  tiles.draw = [&](const FrameInput& part) {
     times.ms.back() += timed_draw(drawer, part);
     return drawer.read();
   };
   tiles.progress = progress;
   Output output(path);
   PngRows rows(output, camera.width, camera.height);
-  draw_in_bands(camera, tiles, [&](const Image8& band) { rows.append(band); });
+  draw_in_bands({camera}, tiles, [&](const Image8& band) { rows.append(band); });
   rows.finish();
   output.commit();
-  drawer.draw(small_view(camera));
+  drawer.draw({small_view(camera)});
   return drawer.read();
 }
 
@@ -91,24 +91,14 @@ double FrameTimes::p95() const {
 
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
   return {.draw =
-              [&renderer](const Camera& camera) {
-                renderer.draw(camera);
+              [&renderer](const FrameInput& input) {
+                renderer.draw(input);
                 renderer.finish();
               },
           .read = [&renderer] { return renderer.read_color(); },
           .tiles = [&renderer, &device] { return tiles_of(renderer, device); },
           .supersampling = renderer.plan().quality.supersampling,
           .resolution_scale = renderer.plan().quality.resolution_scale};
-}
-
-Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device) {
-  return {.draw =
-              [&debug_renderer](const Camera& camera) {
-                debug_renderer.draw(camera);
-                debug_renderer.finish();
-              },
-          .read = [&debug_renderer] { return debug_renderer.read_color(); },
-          .tiles = [&debug_renderer, &device] { return tiles_of(debug_renderer, device); }};
 }
 
 WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
@@ -120,7 +110,7 @@ WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
   Progress progress("drawing");
   // Not counted: it compiles shaders and, for an image without tiles, creates the targets.
   const Camera& first = cameras.front();
-  drawer.draw(needs_tiles(drawer, device, first) ? small_view(first) : first);
+  drawer.draw({needs_tiles(drawer, device, first) ? small_view(first) : first});
   for (int i = 0; i < count; ++i) {
     const auto update = [&](double done) { progress.update((i + done) / count); };
     update(0);
@@ -147,10 +137,10 @@ WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& camera
   WrittenImages result{{path}, {}};
   VideoFile video(path, {first.width, first.height, frames_per_second});
   Progress progress("drawing");
-  drawer.draw(first);  // compiles shaders; not counted
+  drawer.draw({first});  // compiles shaders; not counted
   for (const Camera& camera : cameras) {
     progress.update(double(result.times.ms.size()) / double(cameras.size()));
-    result.times.ms.push_back(timed_draw(drawer, camera));
+    result.times.ms.push_back(timed_draw(drawer, {camera}));
     video.add(drawer.read());
   }
   video.commit();
@@ -169,7 +159,7 @@ FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
   Progress progress("timing");
   FrameTimes times;
   for (int i = -warm_up; i < frames; ++i) {
-    const double ms = timed_draw(drawer, cameras[std::size_t(i + warm_up) % cameras.size()]);
+    const double ms = timed_draw(drawer, {cameras[std::size_t(i + warm_up) % cameras.size()]});
     if (i >= 0) times.ms.push_back(ms);
     progress.update(double(i + warm_up + 1) / (frames + warm_up));
   }

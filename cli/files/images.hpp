@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/image_tiles.hpp"
 #include "runtime/renderer.hpp"
 
@@ -21,18 +20,17 @@ struct FrameTimes {
   double p95() const;
 };
 
-/// The common functions of Renderer and DebugViewRenderer.
+/// A renderer, and what its images need.
 struct Drawer {
-  std::function<void(const Camera& camera)> draw;  // waits for the device
+  std::function<void(const FrameInput& input)> draw;  // waits for the device
   std::function<Image8()> read;
   std::function<ImageTiles()> tiles;
   int supersampling = 1;
   double resolution_scale = 1.0;
 };
 
-/// `renderer`, `debug_renderer` and `device` must outlive the Drawer.
+/// `renderer` and `device` must outlive the Drawer.
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device);
-Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device);
 
 struct WrittenImages {
   std::vector<std::string> paths;

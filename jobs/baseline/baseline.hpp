@@ -4,7 +4,7 @@
 //
 // The baseline has the viewer's shortcomings too. It draws lattice textures with a color MLP, with
 // one lattice level for all faces, from lookup textures that must fit the largest 2D texture of the
-// device. It has no specialisations, and neither faces nor points can be read from its renderers.
+// device. It has no specialisations, and faces cannot be read from its renderers.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -28,15 +28,13 @@ enum class PipelineKind {
 /// that the baseline cannot draw, for ShadingStage::compute, and for a quality with a defect().
 RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences = {});
 
-/// Uploads the soup; it is not needed afterwards. The plan is from make_baseline_plan for this
-/// soup; options.plan is ignored. The context must be current. Throws DeviceLimitError if the
-/// lookup textures do not fit the device's limits, or those of the options.
-Renderer make_baseline_renderer(const gl::Context& context, const TriangleSoup& soup,
-                                glm::dvec3 origin, RenderPlan plan,
-                                const RenderOptions& options = {});
+/// The soup with the baseline's passes. The plan is from make_baseline_plan for this soup, which
+/// must not move until a Renderer was made. The Renderer throws DeviceLimitError if the lookup
+/// textures exceed `limits`.
+PreparedScene prepare_baseline(const TriangleSoup& soup, glm::dvec3 origin,
+                               const DeviceLimits& limits, RenderPlan plan);
 
-/// Plans and uploads for this pipeline. Throws what the Renderer's constructor throws, or the
-/// baseline's functions.
+/// Plans and uploads for this pipeline. Throws as prepare_scene, make_baseline_plan and Renderer.
 Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                        PipelineKind kind, const RenderOptions& options = {});
 

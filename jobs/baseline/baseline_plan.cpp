@@ -34,14 +34,17 @@ RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& p
   for (const LatticePatch& patch : texture->patches)
     if (patch.level != level)
       throw UsageError("the baseline supports only one lattice level for all faces");
-  RenderPlan plan;
+  SoupPlan layer;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
-    if (drawable(soup, t)) plan.faces.push_back(t);
-  plan.color_mlp = true;
-  plan.lattice.uniform_level = int(level);
+    if (drawable(soup, t)) layer.faces.push_back(t);
+  layer.site = ShadingSite::deferred;
+  layer.color_mlp = true;
+  layer.lattice.uniform_level = int(level);
+  layer.appearance = appearance_name(soup.appearance);
+  layer.soup_faces = soup.triangles.size();
+  RenderPlan plan;
+  plan.layers.push_back(std::move(layer));
   plan.quality = preferences.quality;
-  plan.appearance = appearance_name(soup.appearance);
-  plan.soup_faces = soup.triangles.size();
   plan.specialise = preferences.specialise;
   plan.description = description_of(preferences);
   return plan;

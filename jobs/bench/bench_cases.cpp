@@ -47,18 +47,18 @@ class RendererCase final : public BenchCase {
     configuration.plan_ms = milliseconds_since(start);
     start = std::chrono::steady_clock::now();
     const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
-    renderer_ = std::make_unique<Renderer>(
-        is_baseline
-            ? make_baseline_renderer(context, soup, origin_of(only_layer(scene)), std::move(plan),
-                                     options)
-            : Renderer(context, soup, origin_of(only_layer(scene)), std::move(plan), options));
+    const DeviceLimits limits = device_limits(context.capabilities());
+    PreparedScene prepared =
+        is_baseline ? prepare_baseline(soup, origin_of(only_layer(scene)), limits, std::move(plan))
+                    : prepare_scene(soup, origin_of(only_layer(scene)), limits, std::move(plan));
+    renderer_ = std::make_unique<Renderer>(context, std::move(prepared), options);
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
     configuration.plan = describe(renderer_->plan());
-    configuration.specialisations = renderer_->plan().applied;
+    configuration.specialisations = renderer_->plan().applied();
     configuration.device_mib = double(renderer_->device_bytes()) / bytes_per_mib;
   }
-  void draw(const Camera& camera) override { renderer_->draw(camera); }
+  void draw(const FrameInput& input) override { renderer_->draw(input); }
   void finish() const override { renderer_->finish(); }
   Image8 last_frame() const override { return renderer_->read_color(); }
   PassTimes passes(std::span<const Camera> cameras) override {
@@ -83,7 +83,9 @@ class CopyCase final : public BenchCase {
     configuration.plan = {
         "copies the same number of pixels with a full-screen triangle (upper limit of the speed)"};
   }
-  void draw(const Camera& camera) override { copy_->draw(camera.width, camera.height); }
+  void draw(const FrameInput& input) override {
+    copy_->draw(input.camera.width, input.camera.height);
+  }
   void finish() const override { copy_->finish(); }
   Image8 last_frame() const override { return copy_->read_copy(); }
   PassTimes passes(std::span<const Camera>) override {
@@ -162,7 +164,7 @@ std::unique_ptr<BenchCase> make_case(const std::string& name, const BenchCaseOpt
 
 BenchmarkCase BenchCase::benchmark_case() {
   return {.name = configuration.name,
-          .draw = [this](const Camera& camera) { draw(camera); },
+          .draw = [this](const FrameInput& input) { draw(input); },
           .finish = [this] { finish(); }};
 }
 

@@ -31,7 +31,7 @@ std::span<const std::string> bench_case_names();
 class BenchCase {
  public:
   virtual ~BenchCase() = default;
-  virtual void draw(const Camera& camera) = 0;
+  virtual void draw(const FrameInput& input) = 0;
   virtual void finish() const = 0;
   virtual Image8 last_frame() const = 0;
   /// The mean times of passes over these views; a reason and no times if the device has no timer.

@@ -99,10 +99,11 @@ double CompressJudge::model_db(const std::vector<double>& squared_errors) const 
 
 void CompressJudge::draw(const TriangleSoup& soup,
                          const std::function<void(std::size_t, const ImageF&)>& visit) const {
-  Renderer renderer(context_, soup, origin_, {.background = {background_, 1.0f}});
+  Renderer renderer(context_, prepare_scene(soup, origin_, device_limits(context_.capabilities())),
+                    {.background = {background_, 1.0f}});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (cancel_) cancel_();
-    renderer.draw(cameras_[i]);
+    renderer.draw({cameras_[i]});
     visit(i, to_float(renderer.read_color()));
   }
 }

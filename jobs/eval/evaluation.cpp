@@ -57,7 +57,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   };
   for (std::size_t i = 0; i < photographs.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(photographs.size()));
-    renderer.draw(photographs[i].camera);
+    renderer.draw({photographs[i].camera});
     running.push_back(std::async(std::launch::async, measure, i, std::cref(photographs[i]),
                                  renderer.read_color(), std::cref(options)));
     if (running.size() == most) take_first();
@@ -65,7 +65,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   while (!running.empty()) take_first();
   result.mean = mean_of(result.views);
   result.plan = describe(renderer.plan());
-  result.specialisations = renderer.plan().applied;
+  result.specialisations = renderer.plan().applied();
   return result;
 }
 

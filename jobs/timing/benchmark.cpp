@@ -64,7 +64,7 @@ double BenchmarkRun::sample(const BenchmarkCase& benchmark_case, const Camera& c
                             int frames) const {
   benchmark_case.finish();
   const double start = clock_();
-  for (int i = 0; i < frames; ++i) benchmark_case.draw(camera);
+  for (int i = 0; i < frames; ++i) benchmark_case.draw({camera});
   benchmark_case.finish();
   return 1000 * (clock_() - start) / frames;
 }

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "jobs/timing/frame_statistics.hpp"
-#include "scene/camera.hpp"
+#include "scene/frame_input.hpp"
 
 namespace tureen {
 
@@ -25,8 +25,8 @@ namespace tureen {
 /// no presentation.
 struct BenchmarkCase {
   std::string name;
-  std::function<void(const Camera&)> draw;  // may return before the device has finished
-  std::function<void()> finish;             // waits for the device
+  std::function<void(const FrameInput&)> draw;  // may return before the device has finished
+  std::function<void()> finish;                 // waits for the device
 };
 
 struct BenchmarkOptions {

@@ -15,7 +15,7 @@ double wall_ms(Renderer& renderer, std::span<const Camera> cameras, int repeats)
   renderer.finish();
   const auto start = std::chrono::steady_clock::now();
   for (const Camera& camera : cameras) {
-    for (int i = 0; i < repeats; ++i) renderer.draw(camera);
+    for (int i = 0; i < repeats; ++i) renderer.draw({camera});
     renderer.finish();
   }
   const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start;
@@ -62,7 +62,7 @@ PassTimes time_passes(const gl::Context& context, Renderer& renderer,
   // After three disturbed attempts, a fourth is unlikely to succeed.
   for (int attempt = 0; attempt < 3 && passes.empty(); ++attempt) {
     for (const Camera& camera : cameras)
-      for (int i = 0; i < repeats; ++i) renderer.draw(camera);
+      for (int i = 0; i < repeats; ++i) renderer.draw({camera});
     renderer.finish();
     passes = timer.collect();
   }

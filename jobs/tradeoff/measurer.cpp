@@ -71,7 +71,7 @@ void Measurer::measure_group(std::vector<Job> jobs) {
     report_share(0.2 * made_);
     try {
       std::unique_ptr<Renderer> renderer = renderer_for(job);
-      renderer->draw(scene_.cameras.front());
+      renderer->draw({scene_.cameras.front()});
       running.push_back({std::move(job), std::move(renderer)});
     } catch (const Error& error) {
       // The defaults must be drawable. Other configurations that are not supported are skipped.
@@ -90,7 +90,7 @@ void Measurer::time_and_compare(std::vector<Running>& running) {
   for (const Running& each : running)
     cases.push_back(
         {each.job.outcome.name,
-         [renderer = each.renderer.get()](const Camera& camera) { renderer->draw(camera); },
+         [renderer = each.renderer.get()](const FrameInput& input) { renderer->draw(input); },
          [renderer = each.renderer.get()] { renderer->finish(); }});
   const BenchmarkResult result =
       run_benchmark(cases, scene_.cameras,
@@ -129,7 +129,7 @@ void Measurer::compare(std::vector<Running>& running, std::size_t first) {
     report_share(0.8 + 0.2 * double(i) / double(running.size()));
     std::vector<Image8> drawn;
     for (const Camera& camera : scene_.cameras) {
-      running[i].renderer->draw(camera);
+      running[i].renderer->draw({camera});
       drawn.push_back(running[i].renderer->read_color());
     }
     if (errors.size() >= most) take(errors.size() - most);

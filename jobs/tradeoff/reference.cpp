@@ -60,7 +60,7 @@ ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera
       oracle.progress = [&](double fraction) {
         options.progress((first + fraction * strip.height) / camera.height);
       };
-    OracleImage drawn = render_oracle(soup, origin, strip, oracle);
+    OracleImage drawn = render_oracle(soup, origin, {strip}, oracle);
     set_coverage(drawn, n);
     std::copy(drawn.color.pixels.begin(), drawn.color.pixels.end(), &image.at(0, first));
   }

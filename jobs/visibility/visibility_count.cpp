@@ -20,10 +20,11 @@ void visit_images(const gl::Context& context, const TriangleSoup& soup, glm::dve
                   std::span<const Camera> views, const std::function<void(double)>& progress,
                   const Visit& visit) {
   // Forward plans do not store faces.
-  Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
+  Renderer renderer(context, prepare_scene(soup, origin, device_limits(context.capabilities()),
+                                           {.plan = {.site = ShadingSite::deferred}}));
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (progress) progress(double(i) / double(views.size()));
-    renderer.draw(views[i]);
+    renderer.draw({views[i]});
     visit(views[i], renderer.read_faces());
   }
 }

@@ -1,6 +1,6 @@
 // Debug views: quantities of a soup that a frame can show besides its final colour. Defines their
 // names, their availability for a soup, and the values behind the colours. docs/debug-views.md
-// shows each. runtime/debug_views/debug_view_renderer.hpp draws them.
+// shows each. runtime/debug_views/debug_views.hpp draws them.
 #pragma once
 
 #include <cstdint>

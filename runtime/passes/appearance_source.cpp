@@ -43,7 +43,7 @@ TexelSource color_source(std::uint64_t count, const char* what,
 /// The sources keep pointers to the soup and to elements of the plan: the plan may be moved.
 class Preparation {
  public:
-  Preparation(const TriangleSoup& soup, const RenderPlan& plan, const TexelLayout& layout)
+  Preparation(const TriangleSoup& soup, const SoupPlan& plan, const TexelLayout& layout)
       : soup_(soup), plan_(plan), layout_(layout) {
     result_.constants = {{"ALPHA_THRESHOLD", "0.5"}, {"COLOR_MLP", plan.color_mlp ? "1" : "0"}};
   }
@@ -243,7 +243,7 @@ class Preparation {
   }
 
   const TriangleSoup& soup_;
-  const RenderPlan& plan_;
+  const SoupPlan& plan_;
   const TexelLayout& layout_;
   AppearanceSource result_;
 };
@@ -258,7 +258,7 @@ void AppearanceSource::fit_layout(const TexelLayout& device) {
   constants["TEXEL_LAYER_BITS"] = std::to_string(layout.layer_bits);
 }
 
-AppearanceSource prepare_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+AppearanceSource prepare_appearance(const TriangleSoup& soup, const SoupPlan& plan,
                                     const TexelLayout& layout) {
   return Preparation(soup, plan, layout).run();
 }

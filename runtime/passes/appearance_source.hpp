@@ -33,7 +33,7 @@ struct AppearanceSource {
 
 /// The sources read the soup and the elements of plan.faces. Both must outlive them without moving;
 /// the plan object itself may be moved. Throws DeviceLimitError.
-AppearanceSource prepare_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+AppearanceSource prepare_appearance(const TriangleSoup& soup, const SoupPlan& plan,
                                     const TexelLayout& layout);
 
 }  // namespace tureen

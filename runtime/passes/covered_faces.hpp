@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "runtime/passes/geometry_source.hpp"
-#include "runtime/passes/pipeline.hpp"
+#include "runtime/passes/pass.hpp"
 
 namespace tureen {
 

@@ -3,7 +3,7 @@
 
 #include "runtime/gl/program.hpp"
 #include "runtime/passes/geometry_source.hpp"
-#include "runtime/passes/pipeline.hpp"
+#include "runtime/passes/pass.hpp"
 
 namespace tureen {
 

@@ -25,7 +25,7 @@ struct Run {
 /// Source and destination of the texels and cells of each slot.
 class Placement {
  public:
-  Placement(const LatticeTexture& texture, const RenderPlan& plan) : texture_(texture) {
+  Placement(const LatticeTexture& texture, const SoupPlan& plan) : texture_(texture) {
     // Without a uniform level and without changed levels, texels are uploaded unchanged, and faces
     // that share texels share cells.
     repacked_ = plan.lattice.uniform_level >= 0 || !plan.lattice.levels.empty();
@@ -187,7 +187,7 @@ TexelSource alpha_texel_source(const std::vector<Value>& values, const SharedPla
           "lattice alpha", fill};
 }
 
-void check_capacity(const Placement& placement, const RenderPlan& plan, const TexelLayout& layout) {
+void check_capacity(const Placement& placement, const SoupPlan& plan, const TexelLayout& layout) {
   const std::uint64_t needed = std::max(placement.texel_count(), placement.cells());
   if (needed <= layout.capacity()) return;
   const std::uint64_t fitting = layout.capacity() * plan.faces.size() / needed;
@@ -200,7 +200,7 @@ void check_capacity(const Placement& placement, const RenderPlan& plan, const Te
 
 }  // namespace
 
-LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,
+LatticeSources prepare_lattice(const LatticeTexture& texture, const SoupPlan& plan,
                                const TexelLayout& layout) {
   const auto placement = std::make_shared<const Placement>(texture, plan);
   check_capacity(*placement, plan, layout);

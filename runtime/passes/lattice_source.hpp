@@ -19,7 +19,7 @@ struct LatticeSources {
 /// Creates only the sources that the plan reads: features1 if the network uses it, alpha for
 /// cut-outs, patches without a uniform level. The others have no `fill`. All read `texture`, which
 /// must outlive them. Throws DeviceLimitError.
-LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,
+LatticeSources prepare_lattice(const LatticeTexture& texture, const SoupPlan& plan,
                                const TexelLayout& layout);
 
 }  // namespace tureen

@@ -11,7 +11,7 @@ namespace tureen {
 namespace {
 
 void choose_site(PlanDraft& draft) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   // A colour takes one or three reads, so a second pass over the pixels costs more than it saves.
   const bool cheap = plan.flat_colors ||
                      std::holds_alternative<VertexColors>(draft.soup.appearance) ||
@@ -28,26 +28,34 @@ void choose_site(PlanDraft& draft) {
 }
 
 void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   const ShadingStage wanted = draft.preferences.shading_stage;
   if (wanted == ShadingStage::compute && !limits.compute_shaders)
     throw DeviceLimitError(
         "shading as compute needs compute shaders (OpenGL 4.3 or ES 3.1), which this device lacks");
-  plan.requested_stage = wanted;
   if (plan.site == ShadingSite::deferred) plan.shading_stage = wanted;
 }
 
 }  // namespace
 
 bool RenderPlan::applies(Specialisation what) const {
-  return std::any_of(applied.begin(), applied.end(),
-                     [what](const AppliedSpecialisation& each) { return each.what == what; });
+  return std::any_of(layers.begin(), layers.end(), [what](const SoupPlan& layer) {
+    return std::any_of(layer.applied.begin(), layer.applied.end(),
+                       [what](const AppliedSpecialisation& each) { return each.what == what; });
+  });
+}
+
+std::vector<AppliedSpecialisation> RenderPlan::applied() const {
+  std::vector<AppliedSpecialisation> all;
+  for (const SoupPlan& layer : layers)
+    all.insert(all.end(), layer.applied.begin(), layer.applied.end());
+  return all;
 }
 
 void plan_appearance(PlanDraft& draft, const FaceColors&) { draft.plan.flat_colors = true; }
 
 void plan_appearance(PlanDraft& draft, const VertexColors& colors) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   if (!draft.may(Specialisation::interpolation) || plan.opaque_count < plan.faces.size()) return;
   for (const std::uint32_t t : plan.faces) {
     const glm::uvec3& v = draft.soup.triangles[t];
@@ -62,20 +70,32 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
   if (draft.plan.color_mlp) plan_network(draft, *textures.mlp, {});
 }
 
-RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
-                     const PlanPreferences& preferences) {
-  if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
+namespace {
+
+SoupPlan make_soup_plan(const TriangleSoup& soup, const DeviceLimits& limits,
+                        const PlanPreferences& preferences) {
   PlanDraft draft{soup, preferences, {}};
-  draft.plan.specialise = preferences.specialise;
   draft.plan.appearance = appearance_name(soup.appearance);
   draft.plan.soup_faces = soup.triangles.size();
-  draft.plan.quality = preferences.quality;
-  draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
   plan_faces(draft, limits);
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
   choose_site(draft);
   choose_stage(draft, limits);
   return std::move(draft.plan);
+}
+
+}  // namespace
+
+RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
+                     const PlanPreferences& preferences) {
+  if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
+  RenderPlan plan;
+  plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
+  plan.quality = preferences.quality;
+  plan.specialise = preferences.specialise;
+  plan.requested_stage = preferences.shading_stage;
+  plan.layers.push_back(make_soup_plan(soup, limits, preferences));
+  return plan;
 }
 
 }  // namespace tureen

@@ -70,9 +70,11 @@ struct LatticePlan {
   std::uint64_t refused_alpha_cell_bytes = 0;
 };
 
-struct RenderPlan {
+/// The method of drawing one soup.
+struct SoupPlan {
   ShadingSite site = ShadingSite::deferred;
-  bool reversed_depth = false;
+  /// `fragment` if there is no choice.
+  ShadingStage shading_stage = ShadingStage::fragment;
 
   /// faces[slot] is the face of the soup that this slot of the device draws. Opaque faces come
   /// first; each part is sorted spatially.
@@ -85,39 +87,48 @@ struct RenderPlan {
   /// Small-triangle culling: each frame skips faces that cover no pixel centre (covered_faces.hpp).
   bool drops_small_triangles = false;
 
-  bool flat_colors = false;  // one colour a face suffices, for any stored appearance
+  bool flat_colors = false;  // each face has one constant colour, whatever its stored appearance
   bool color_mlp = false;    // the network is evaluated
   MlpWeights mlp_weights = MlpWeights::uniforms;
   bool view_direction = false;   // the network uses it
   bool latent_features = false;  // the network uses features 4 and above
   bool depth_rejects_background = false;
   int harmonics_degree = 0;
-  FeatureRanges feature_ranges;  // of the network's inputs, for constant weights
+  FeatureRanges feature_ranges;  // of the network's inputs: constant weights need them to find
+                                 // neurons that never fire
   LatticePlan lattice;
-
-  /// `fragment` if there is no choice.
-  ShadingStage shading_stage = ShadingStage::fragment;
-  Quality quality;
 
   /// In the order of discovery, without duplicates.
   std::vector<AppliedSpecialisation> applied;
-  bool applies(Specialisation what) const;
 
-  // Facts about the soup and the request, for messages and tests.
+  // Facts about the soup, for messages and tests.
 
   std::string appearance;            // appearance_name() of the soup
   std::size_t soup_faces = 0;        // all faces
   std::size_t undrawable_faces = 0;  // no area or non-finite corners: not drawn
   int zero_weights = 0;              // in the network, not computed
-  bool specialise = true;            // PlanPreferences::specialise
-  /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
-  ShadingStage requested_stage = ShadingStage::fragment;
-  /// All sentences of describe(), for a pipeline from outside runtime/; empty for ours.
-  std::vector<std::string> description;
 };
 
-/// The soup must have no defect(). Throws UsageError for a quality with a defect(). Throws
-/// DeviceLimitError if the compute stage is requested without compute shaders.
+/// The method of drawing a scene: what its layers share, and a plan for each layer.
+struct RenderPlan {
+  bool reversed_depth = false;
+  Quality quality;
+  bool specialise = true;  // PlanPreferences::specialise
+  /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
+  ShadingStage requested_stage = ShadingStage::fragment;
+  std::vector<SoupPlan> layers;
+  /// All sentences of describe(), for passes from outside runtime/; empty for ours.
+  std::vector<std::string> description;
+
+  /// Whether a layer applies it.
+  bool applies(Specialisation what) const;
+  /// The specialisations of all layers, in their order.
+  std::vector<AppliedSpecialisation> applied() const;
+};
+
+/// The plan of a scene with one soup, which must have no defect(). Throws UsageError for a quality
+/// with a defect(). Throws DeviceLimitError if the compute stage is requested without compute
+/// shaders.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 

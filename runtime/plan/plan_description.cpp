@@ -62,7 +62,7 @@ std::string effect_of(const AppliedSpecialisation& applied) {
   return {};
 }
 
-std::string describe_frame(const RenderPlan& plan) {
+std::string describe_frame(const SoupPlan& plan, const RenderPlan& common) {
   std::string sentence = "draws " + part_of(plan.faces.size(), plan.soup_faces) + "faces (" +
                          plan.appearance + "), near ones first in " +
                          std::to_string(plan.clusters.size()) + " clusters, ";
@@ -70,8 +70,8 @@ std::string describe_frame(const RenderPlan& plan) {
               : plan.site == ShadingSite::deferred ? "a visibility pass, then colour once a pixel"
                                                    : "no colours, an empty fragment shader";
   if (plan.color_mlp && plan.site != ShadingSite::nowhere) sentence += " by the color MLP";
-  sentence += plan.reversed_depth ? "; reversed depth" : "; ordinary depth range";
-  if (!plan.specialise) sentence += "; no specialisation, as requested";
+  sentence += common.reversed_depth ? "; reversed depth" : "; ordinary depth range";
+  if (!common.specialise) sentence += "; no specialisation, as requested";
   return sentence;
 }
 
@@ -89,25 +89,29 @@ std::vector<std::string> describe_sampling(const Quality& quality) {
   return sentences;
 }
 
-std::vector<std::string> describe(const RenderPlan& plan) {
-  if (!plan.description.empty()) return plan.description;
-  std::vector<std::string> sentences{describe_frame(plan)};
+std::vector<std::string> describe(const RenderPlan& common) {
+  if (!common.description.empty()) return common.description;
+  std::vector<std::string> sentences;
   const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
-  for (std::string& sentence : describe_sampling(plan.quality)) add(std::move(sentence));
-  if (plan.undrawable_faces > 0)
-    add(std::to_string(plan.undrawable_faces) +
-        " faces without area or with corners that are not finite are not drawn");
-  for (const AppliedSpecialisation& each : plan.applied) add(describe(each));
-  if (plan.zero_weights > 0)
-    add(std::to_string(plan.zero_weights) + " weights of zero are not computed (exact)");
-  if (plan.lattice.refused_alpha_cell_bytes > 0)
-    add("alpha is stored by texel: by cell it would need " +
-        fixed_decimal(double(plan.lattice.refused_alpha_cell_bytes) / 1e6, 1) +
-        " MB, which is more than allowed");
-  if (plan.requested_stage == ShadingStage::compute)
-    add(plan.shading_stage == ShadingStage::compute
-            ? "shading runs as compute, as requested"
-            : "shading does not run as compute: colours are written in the only pass");
+  for (const SoupPlan& plan : common.layers) {
+    add(describe_frame(plan, common));
+    if (&plan == &common.layers.front())
+      for (std::string& sentence : describe_sampling(common.quality)) add(std::move(sentence));
+    if (plan.undrawable_faces > 0)
+      add(std::to_string(plan.undrawable_faces) +
+          " faces without area or with corners that are not finite are not drawn");
+    for (const AppliedSpecialisation& each : plan.applied) add(describe(each));
+    if (plan.zero_weights > 0)
+      add(std::to_string(plan.zero_weights) + " weights of zero are not computed (exact)");
+    if (plan.lattice.refused_alpha_cell_bytes > 0)
+      add("alpha is stored by texel: by cell it would need " +
+          fixed_decimal(double(plan.lattice.refused_alpha_cell_bytes) / 1e6, 1) +
+          " MB, which is more than allowed");
+    if (common.requested_stage == ShadingStage::compute)
+      add(plan.shading_stage == ShadingStage::compute
+              ? "shading runs as compute, as requested"
+              : "shading does not run as compute: colours are written in the only pass");
+  }
   return sentences;
 }
 

@@ -15,7 +15,7 @@ constexpr double steps_of(double change) { return 255.0 * change; }
 struct PlanDraft {
   const TriangleSoup& soup;
   PlanPreferences preferences;
-  RenderPlan plan;
+  SoupPlan plan;
 
   /// Whether the caller allows this specialisation.
   bool may(Specialisation what) const {

@@ -60,7 +60,7 @@ void plan_small_triangles(PlanDraft& draft, const DeviceLimits& limits) {
 
 void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
   const TriangleSoup& soup = draft.soup;
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   std::vector<std::uint32_t> faces = drawable_faces(draft);
 
   std::vector<FaceAlpha> alpha(soup.triangles.size(), FaceAlpha::cut_out);

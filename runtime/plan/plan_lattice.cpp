@@ -23,7 +23,7 @@ bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges&
 /// error of the colour per error of the features.
 void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
                         const LatticeTraits& traits, double gain) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   const std::size_t count = plan.faces.size();
   std::vector<std::uint8_t> levels(count);
   std::size_t texels = 0, kept = 0, affine_faces = 0;
@@ -55,7 +55,7 @@ namespace {
 
 /// Called after the levels are chosen. Counts shared cells once for each face.
 void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   if (plan.opaque_count == plan.faces.size() || plan.flat_colors) return;
   std::uint64_t cells = 0;
   for (std::size_t i = 0; i < plan.faces.size(); ++i)
@@ -69,7 +69,7 @@ void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
 }
 
 void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   plan.color_mlp = texture.mlp.has_value();
   if (!draft.preferences.specialise) {
     if (plan.color_mlp) plan_network(draft, *texture.mlp, {});

@@ -33,7 +33,7 @@ void keep_reading(FeatureRange& range) {
 }  // namespace
 
 void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& measured) {
-  RenderPlan& plan = draft.plan;
+  SoupPlan& plan = draft.plan;
   plan.view_direction = mlp.encoding != DirectionEncoding::none;
   plan.latent_features = true;
   plan.feature_ranges = measured;

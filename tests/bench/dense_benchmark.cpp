@@ -11,6 +11,7 @@
 #include "jobs/timing/benchmark.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/bench/plain_renderer.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace {
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
   const gl::Context context = gl::Context::create({});
   const glm::vec4 black(0, 0, 0, 1);
   const auto with_plan = [&](const PlanPreferences& plan) {
-    return Renderer(context, soup, glm::dvec3(0), {.plan = plan, .background = black});
+    return renderer_of(context, soup, glm::dvec3(0), {.plan = plan, .background = black});
   };
   PlainRenderer plain(soup);
   Renderer ours = with_plan({}), generic = with_plan({.specialise = false});
@@ -63,10 +64,11 @@ int run(int argc, char** argv) {
       {.specialisations = SpecialisationSet::all().without(Specialisation::small_triangles)});
   const auto finish = [] { glFinish(); };
   const BenchmarkCase cases[] = {
-      {"plain", [&](const Camera& camera) { plain.draw(camera); }, finish},
-      {"generic", [&](const Camera& camera) { generic.draw(camera); }, finish},
-      {"no small-triangle culling", [&](const Camera& camera) { with_small.draw(camera); }, finish},
-      {"tureen", [&](const Camera& camera) { ours.draw(camera); }, finish}};
+      {"plain", [&](const FrameInput& input) { plain.draw(input.camera); }, finish},
+      {"generic", [&](const FrameInput& input) { generic.draw(input); }, finish},
+      {"no small-triangle culling", [&](const FrameInput& input) { with_small.draw(input); },
+       finish},
+      {"tureen", [&](const FrameInput& input) { ours.draw(input); }, finish}};
   const BenchmarkResult result =
       run_benchmark(cases, views_around(soup, scene.info.up, width, height),
                     {.rounds = rounds, .clock = processor_time ? processor_seconds : nullptr});

@@ -17,6 +17,7 @@
 #include "jobs/timing/benchmark.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/cutout_cloud.hpp"
+#include "tests/support/renderer_of.hpp"
 #include "tests/support/trait_soups.hpp"
 
 namespace tureen::test {
@@ -54,10 +55,10 @@ nlohmann::json compared(const FrameTimes& with, const FrameTimes& without) {
 void compare(const gl::Context& context, const Settings& settings, const char* what,
              const std::string& scene, const TriangleSoup& soup, std::span<const Camera> cameras,
              const PlanPreferences& without) {
-  Renderer fast(context, soup, glm::dvec3(0.0));
-  Renderer slow(context, soup, glm::dvec3(0.0), {.plan = without});
+  Renderer fast = renderer_of(context, soup, glm::dvec3(0.0));
+  Renderer slow = renderer_of(context, soup, glm::dvec3(0.0), {.plan = without});
   const auto benchmark_case = [](const char* name, Renderer& renderer) {
-    return BenchmarkCase{name, [&renderer](const Camera& camera) { renderer.draw(camera); },
+    return BenchmarkCase{name, [&renderer](const FrameInput& input) { renderer.draw(input); },
                          [&renderer] { renderer.finish(); }};
   };
   const BenchmarkCase cases[] = {benchmark_case("with", fast), benchmark_case("without", slow)};

@@ -48,7 +48,7 @@ TEST(ShippedSoup, LooksLikePhotographsThatItWasNotTrainedOn) {
       pixel = glm::vec4(glm::mix(background, glm::vec3(pixel), pixel.a), 1);
     const OracleImage drawn =
         render_oracle(only_soup(scene()), origin_of(only_layer(scene())),
-                      example::with_z_up(camera), {.supersampling = 3, .background = background});
+                      {example::with_z_up(camera)}, {.supersampling = 3, .background = background});
     mean_squared += mean_squared_error(photograph, drawn.color) / double(cameras.size());
   }
   // Measured: 34.5 dB, with nine samples per pixel. Less than 33 dB means another soup or another

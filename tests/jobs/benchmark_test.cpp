@@ -26,8 +26,8 @@ struct Machine {
                                std::function<double(const Camera&)> frame_ms) {
     return {.name = name,
             .draw =
-                [this, name, frame_ms = std::move(frame_ms)](const Camera& camera) {
-                  pending += frame_ms(camera) / 1000;
+                [this, name, frame_ms = std::move(frame_ms)](const FrameInput& input) {
+                  pending += frame_ms(input.camera) / 1000;
                   log += name;
                 },
             .finish =

@@ -10,6 +10,7 @@
 #include "scene/lattice.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen {
 namespace compressed_test {
@@ -35,11 +36,11 @@ Scene with_cameras(Scene scene, std::vector<Camera> cameras) {
 /// The scene's own images, with every channel changed by `off`, up or down.
 std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   const gl::Context context = gl::Context::create({});
-  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)),
-                    {.background = {scene.info.background, 1.0f}});
+  Renderer renderer = renderer_of(context, only_soup(scene), origin_of(only_layer(scene)),
+                                  {.background = {scene.info.background, 1.0f}});
   std::vector<Photograph> photographs;
   for (const Camera& camera : scene.cameras) {
-    renderer.draw(camera);
+    renderer.draw({camera});
     Image8 image = renderer.read_color();
     for (auto& pixel : image.pixels)
       for (int c = 0; c < 3; ++c)

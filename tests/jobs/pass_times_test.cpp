@@ -11,6 +11,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen {
 namespace pass_times_test {
@@ -86,14 +87,14 @@ TEST_P(DeviceTimers, NameEveryPassOfEveryFrame) {
   const gl::Context context = gl::Context::create(GetParam().request);
   if (!context.capabilities().timer_queries) GTEST_SKIP() << "no timer queries here";
   const Scene scene = small_cloud();
-  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)));
+  Renderer renderer = renderer_of(context, only_soup(scene), origin_of(only_layer(scene)));
   gl::PassTimer timer(context);
-  renderer.draw(scene.cameras[0]);  // before the timer: not counted
+  renderer.draw({scene.cameras[0]});  // before the timer: not counted
   for (int round = 0; round < 2; ++round) {
     renderer.time_passes(&timer);
-    for (int i = 0; i < 3; ++i) renderer.draw(scene.cameras[0]);
+    for (int i = 0; i < 3; ++i) renderer.draw({scene.cameras[0]});
     renderer.time_passes(nullptr);
-    renderer.draw(scene.cameras[0]);
+    renderer.draw({scene.cameras[0]});
     const auto passes = timer.collect();
     ASSERT_EQ(passes.size(), 2u);
     EXPECT_EQ(passes[0].pass, "visibility");
@@ -109,7 +110,7 @@ TEST_P(DeviceTimers, AreNotUsedWhereTheyMislead) {
   const gl::Context context = gl::Context::create(GetParam().request);
   if (!context.capabilities().software) GTEST_SKIP() << "not a software renderer";
   const Scene scene = small_cloud();
-  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)));
+  Renderer renderer = renderer_of(context, only_soup(scene), origin_of(only_layer(scene)));
   const PassTimes times = time_passes(context, renderer, scene.cameras, 2);
   EXPECT_EQ(times.gap, PassTimesGap::no_timers);
   EXPECT_THAT(times.reason, Names(context.capabilities().renderer));
@@ -125,11 +126,11 @@ class Ceilings : public testing::TestWithParam<test::NamedContext> {};
 TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const Scene scene = small_cloud();
-  Renderer renderer(
+  Renderer renderer = renderer_of(
       context, only_soup(scene), origin_of(only_layer(scene)),
       {.plan = {.site = ShadingSite::nowhere}, .background = glm::vec4(0.2f, 0.4f, 0.6f, 1.0f)});
-  EXPECT_EQ(renderer.plan().site, ShadingSite::nowhere);
-  renderer.draw(scene.cameras[0]);
+  EXPECT_EQ(renderer.plan().layers[0].site, ShadingSite::nowhere);
+  renderer.draw({scene.cameras[0]});
   const Image8 image = renderer.read_color();
   EXPECT_THAT(image.pixels, testing::Each(glm::u8vec4(51, 102, 153, 255)));
   EXPECT_TRUE(renderer.read_faces().empty());

@@ -9,6 +9,7 @@
 #include "scene/clip_range.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
+#include "tests/support/renderer_of.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/fragments.hpp"
 
@@ -52,13 +53,14 @@ std::vector<double> min_gaps(bool reversed) {
   for (int k = 2 * steps_per_octave; k >= -27 * steps_per_octave; --k) {
     const auto apart = float(std::exp2(double(k) / steps_per_octave));
     for (const bool rear_first : {false, true}) {
-      Renderer renderer(shared_context(), two_walls(apart, rear_first), glm::dvec3(0),
-                        {.plan = {.reversed_depth = reversed, .site = ShadingSite::deferred}});
+      Renderer renderer =
+          renderer_of(shared_context(), two_walls(apart, rear_first), glm::dvec3(0),
+                      {.plan = {.reversed_depth = reversed, .site = ShadingSite::deferred}});
       for (std::size_t i = 0; i < from.size(); ++i) {
         if (gaps[i] > 0) continue;
         Camera camera = straight_camera(side, side, side);
         camera.view_from_world[3] = glm::dvec4(0, 0, -from[i], 1);
-        renderer.draw(camera);
+        renderer.draw({camera});
         for (const std::uint32_t face : renderer.read_faces())
           if ((face < 2) == rear_first) gaps[i] = std::exp2(double(k + 1) / steps_per_octave);
       }

@@ -12,14 +12,15 @@
 #include <vector>
 
 #include "oracle/hits.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/edit/lint.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/numerics/vertex_probe.hpp"
 #include "tests/support/agreement.hpp"
+#include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/renderer_of.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/fragments.hpp"
 #include "trainer/diffsoup/backend.hpp"
@@ -162,7 +163,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
     }
     DebugViewRenderer debug_renderer(shared_context(), soup, glm::dvec3(0));
     debug_renderer.show(DebugView::overdraw);
-    debug_renderer.draw(camera);
+    debug_renderer.renderer().draw({camera});
     const std::vector<std::uint8_t> on_device = debug_renderer.read_fragment_counts();
     const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), 0.01, 100);
     for (std::size_t t = 0; t < corners.size(); t += 3) {
@@ -368,15 +369,15 @@ TEST(Numerics, G6_ADollyPastALargeFaceIsContinuous) {
                                     {-1, 4, 4},  {-1, 4, -4}, {-1, -4, -4}};
   TriangleSoup soup = soup_of(corners);
   soup.appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};
-  Renderer renderer(shared_context(), soup, glm::dvec3(0),
-                    {.plan = {.site = ShadingSite::deferred}});
+  Renderer renderer =
+      renderer_of(shared_context(), soup, glm::dvec3(0), {.plan = {.site = ShadingSite::deferred}});
   std::vector<double> before, naive_before;
   constexpr double stride = 0.05;
   for (int step = 0; step <= 100; ++step) {
     const double eye = 2.5 - step * stride;  // along -z
     Camera camera = straight;
     camera.view_from_world[3] = glm::dvec4(0, 0, -eye, 1);
-    renderer.draw(camera);
+    renderer.draw({camera});
     const Faces faces = renderer.read_faces();
     ASSERT_EQ(faces.size(), std::size_t(side * side));
     std::vector<double> now, naive_now;
@@ -554,17 +555,17 @@ TEST(Numerics, G9_OfCoincidentFacesTheLowerOneShowsEveryTime) {
     ASSERT_EQ(std::count(on_grid.begin(), on_grid.end(), 0u), shown_pixels(on_grid));
     // With normal frames, where opaque faces hide the copies behind them before anything is drawn,
     // and with all copies drawn.
-    Renderer renderer(shared_context(), soup, glm::dvec3(0),
-                      {.plan = {.site = ShadingSite::deferred}});
-    Renderer of_all(shared_context(), soup, glm::dvec3(0),
-                    {.plan = {.specialise = false, .site = ShadingSite::deferred}});
+    Renderer renderer = renderer_of(shared_context(), soup, glm::dvec3(0),
+                                    {.plan = {.site = ShadingSite::deferred}});
+    Renderer of_all = renderer_of(shared_context(), soup, glm::dvec3(0),
+                                  {.plan = {.specialise = false, .site = ShadingSite::deferred}});
     std::vector<std::uint32_t> order(static_cast<std::size_t>(copies));
     std::iota(order.begin(), order.end(), 0u);
     Faces first[4];
     double ours = 0, naive = 0;
     for (int run = 0; run < 100; ++run) {
-      renderer.draw(camera);
-      of_all.draw(camera);
+      renderer.draw({camera});
+      of_all.draw({camera});
       for (std::size_t i = order.size(); i > 1; --i)
         std::swap(order[i - 1], order[random.below(std::uint32_t(i))]);
       const Faces frame[4] = {renderer.read_faces(), of_all.read_faces(),

@@ -6,7 +6,7 @@
 
 #include "runtime/gl/program.hpp"
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/fragment_store.hpp"
+#include "runtime/passes/frame_target.hpp"
 #include "runtime/passes/geometry.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "tests/numerics/recorder.hpp"
@@ -27,13 +27,16 @@ class NamedByDevice {
                            .constants = {{"ALPHA_TEST", "0"}},
                            .generated = {{"appearance.glsl", ""}}},
                           api())),
-        store_(1, 1, 0) {}
+        target_({.visibility = true}) {
+    target_.resize({1, 1});
+  }
 
-  std::uint32_t name_of(std::uint32_t face) const {
+  std::uint32_t name_of(std::uint32_t face) {
     Camera camera = straight_camera(1, 1, 1);
     camera.view_from_world[3] = glm::dvec4(0, 0, -1, 1);
-    store_.begin();
     gl::use_plain_rasterisation(1, 1);
+    target_.begin(glm::vec4(0.0f));
+    target_.draw_visibility();
     glDisable(GL_DEPTH_TEST);
     program_.use();
     Geometry::set_camera(program_, {camera, camera.eye(), {0.01, 100}},
@@ -41,7 +44,7 @@ class NamedByDevice {
     glBindVertexArray(nothing_.id());
     glDrawArrays(GL_POINTS, int(3 * face), 1);
     glFinish();
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, store_.framebuffer());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.visibility_framebuffer());
     std::uint32_t fragment[4] = {};
     glReadPixels(0, 0, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragment);
     return fragment[0];
@@ -51,7 +54,7 @@ class NamedByDevice {
   static gl::Api api() { return shared_context().capabilities().api; }
 
   gl::Program program_;
-  FragmentStore store_;
+  FrameTarget target_;
   gl::VertexArray nothing_ = gl::VertexArray::create();
 };
 
@@ -91,7 +94,7 @@ TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
                      .parameter = "face",
                      .unit = "of the three indices that arrive changed",
                      .naive = "indices that pass through a float"});
-  const NamedByDevice device;
+  NamedByDevice device;
   const TexelOnDevice texel;
   // The last index is the largest whose vertices OpenGL can count.
   for (const std::uint32_t face :

@@ -18,6 +18,7 @@
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/renderer_of.hpp"
 #include "tests/support/shader_probe.hpp"
 
 namespace tureen::test {
@@ -158,8 +159,8 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
                                     .background = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f),
                                     .limits = {}};
         shared_context().make_current();
-        Renderer renderer(shared_context(), soup, glm::dvec3(0), options);
-        renderer.draw(camera);
+        Renderer renderer = renderer_of(shared_context(), soup, glm::dvec3(0), options);
+        renderer.draw({camera});
         const Image8 image = renderer.read_color();
         int by_needles = 0, compared = 0;
         double off = 0;

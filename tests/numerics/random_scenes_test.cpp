@@ -150,7 +150,7 @@ TEST(Numerics, H10_RandomScenesLookTheSameToAllThree) {
         scene_of(soup, origin), {.min_level = 3, .max_level = 3, .seed = std::uint64_t(seed)});
     const Scene made = trainer::to_scene(model);
     const HazardousScene learned{only_soup(made), origin_of(only_layer(made)), camera};
-    trained.add(seed, learned, render_oracle(learned.soup, learned.origin, camera),
+    trained.add(seed, learned, render_oracle(learned.soup, learned.origin, {camera}),
                 drawn_by_trainer(model, camera));
   }
   for (const Hazard hazard : {Hazard::corner_at_the_eye, Hazard::below_a_pixel, Hazard::coincident})

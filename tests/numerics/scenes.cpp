@@ -41,7 +41,7 @@ Camera straight_camera(int width, int height, double focal) {
 
 std::vector<std::uint32_t> faces_of_oracle(const TriangleSoup& soup, const Camera& camera,
                                            oracle::Coverage coverage) {
-  return render_oracle(soup, glm::dvec3(0), camera, {.rays = {.coverage = coverage}}).face;
+  return render_oracle(soup, glm::dvec3(0), {camera}, {.rays = {.coverage = coverage}}).face;
 }
 
 std::vector<std::uint32_t> faces_of_device(const TriangleSoup& soup, const Camera& camera,

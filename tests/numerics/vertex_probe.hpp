@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "runtime/passes/pipeline.hpp"
+#include "runtime/passes/pass.hpp"
 
 namespace tureen::test {
 

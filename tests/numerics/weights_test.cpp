@@ -12,7 +12,7 @@
 #include "image/quantise.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "runtime/plan/color_mlp_source.hpp"
-#include "runtime/prepared_soup.hpp"
+#include "runtime/prepared_scene.hpp"
 #include "runtime/render_options.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -186,8 +186,9 @@ void expect_high_precision(const std::string& glsl) {
 std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
   const TriangleSoup soup = random_soup(31, {.kind = Kind::lattice_mlp});
   const AppearanceSource appearance =
-      prepare_soup(soup, glm::dvec3(0), DeviceLimits{}, {.plan = {.specialise = specialise}})
-          .appearance;
+      prepare_scene(soup, glm::dvec3(0), DeviceLimits{}, {.plan = {.specialise = specialise}})
+          .layers.front()
+          .soup->appearance;
   std::vector<std::string> shaders;
   for (const char* file :
        {"forward.frag", "visibility.frag", "shading.frag", "shading.comp", "debug_view.frag"}) {

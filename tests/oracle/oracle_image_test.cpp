@@ -53,7 +53,7 @@ class OracleImages : public testing::TestWithParam<test::Kind> {
 
 // The definition: the first visible hit along the ray.
 TEST_P(OracleImages, ShowTheFirstVisibleHitOfEveryRay) {
-  const OracleImage image = render_oracle(soup_, no_origin, camera_);
+  const OracleImage image = render_oracle(soup_, no_origin, {camera_});
   const oracle::Rays rays(soup_, no_origin, camera_);
   std::vector<std::uint32_t> expected(image.face.size(), OracleImage::no_face);
   std::size_t skipped = 0;
@@ -82,12 +82,12 @@ TEST_P(OracleImages, ShowTheFirstVisibleHitOfEveryRay) {
 
 // [G3] Scene and camera far from the world's origin.
 TEST_P(OracleImages, DoNotChangeWhenSceneAndCameraMoveTogether) {
-  const OracleImage here = render_oracle(soup_, no_origin, camera_);
+  const OracleImage here = render_oracle(soup_, no_origin, {camera_});
   for (int k = 0; k <= 20; k += 5) {
     const glm::dvec3 offset = std::ldexp(1.0, k) * glm::dvec3(1, -1, 1);
     Camera moved = camera_;
     moved.view_from_world = glm::translate(camera_.view_from_world, -offset);
-    const Difference change = difference(here, render_oracle(soup_, offset, moved));
+    const Difference change = difference(here, render_oracle(soup_, offset, {moved}));
     EXPECT_EQ(change.faces, 0u) << "2^" << k;
     // The camera's translation is rounded at 2^20 * 2^-53 = 1e-10. Textures of faces seen edge-on
     // magnify this, to 2.4e-7 here and at most 2.4e-6 with 11 other seeds. The limit is four times
@@ -97,13 +97,13 @@ TEST_P(OracleImages, DoNotChangeWhenSceneAndCameraMoveTogether) {
 }
 
 TEST_P(OracleImages, DoNotChangeWithTheSceneScaled) {
-  const OracleImage here = render_oracle(soup_, no_origin, camera_);
+  const OracleImage here = render_oracle(soup_, no_origin, {camera_});
   for (const float scale : {0x1p-10f, 0x1p10f, 1e-3f, 1e3f}) {
     TriangleSoup scaled = soup_;
     for (glm::vec3& p : scaled.positions) p *= scale;
     Camera far = camera_;
     far.view_from_world[3] = glm::dvec4(double(scale) * glm::dvec3(camera_.view_from_world[3]), 1);
-    const Difference change = difference(here, render_oracle(scaled, no_origin, far));
+    const Difference change = difference(here, render_oracle(scaled, no_origin, {far}));
     const bool exact = std::abs(std::frexp(scale, std::array<int, 1>{}.data())) == 0.5f;
     // Scaling by a power of two has no rounding. Other scales move vertices by 6e-8 of their
     // coordinates, 1e-5 pixel. No centre changes sides, neither here nor with 11 other seeds.
@@ -123,8 +123,8 @@ TEST_P(OracleImages, MirrorWithTheScene) {
   const glm::dmat4 flip = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
   camera.view_from_world = flip * camera_.view_from_world * flip;
   camera.cx = camera.width - camera_.cx;
-  const OracleImage here = render_oracle(soup_, no_origin, camera_);
-  const OracleImage there = render_oracle(mirrored, no_origin, camera);
+  const OracleImage here = render_oracle(soup_, no_origin, {camera_});
+  const OracleImage there = render_oracle(mirrored, no_origin, {camera});
   for (int row = 0; row < camera.height; ++row)
     for (int column = 0; column < camera.width; ++column)
       ASSERT_EQ(here.face[row * camera.width + column],
@@ -132,8 +132,8 @@ TEST_P(OracleImages, MirrorWithTheScene) {
 }
 
 TEST_P(OracleImages, RepeatBitForBit) {
-  const OracleImage a = render_oracle(soup_, no_origin, camera_);
-  const OracleImage b = render_oracle(soup_, no_origin, camera_);
+  const OracleImage a = render_oracle(soup_, no_origin, {camera_});
+  const OracleImage b = render_oracle(soup_, no_origin, {camera_});
   EXPECT_EQ(a.face, b.face);
   EXPECT_EQ(a.color.pixels, b.color.pixels);
 }
@@ -149,8 +149,8 @@ TEST(OracleImage, DoesNotDependOnTheOrderOfFaces) {
   std::reverse(patches.begin(), patches.end());
   test::Random random(22);
   const Camera camera = test::random_camera(random, 96, 64);
-  const OracleImage a = render_oracle(soup, no_origin, camera);
-  const OracleImage b = render_oracle(reversed, no_origin, camera);
+  const OracleImage a = render_oracle(soup, no_origin, {camera});
+  const OracleImage b = render_oracle(reversed, no_origin, {camera});
   EXPECT_EQ(a.color.pixels, b.color.pixels);
   for (std::size_t i = 0; i < a.face.size(); ++i)
     if (a.face[i] != OracleImage::no_face) {
@@ -170,8 +170,8 @@ TEST(OracleImage, FacesWithoutAreaChangeNothing) {
   const Camera camera = test::random_camera(random, 96, 64);
   for (const Coverage coverage : {Coverage::exact, Coverage::snapped}) {
     const OracleOptions options{.rays = {.coverage = coverage}};
-    EXPECT_EQ(render_oracle(soup, no_origin, camera, options).color.pixels,
-              render_oracle(more, no_origin, camera, options).color.pixels);
+    EXPECT_EQ(render_oracle(soup, no_origin, {camera}, options).color.pixels,
+              render_oracle(more, no_origin, {camera}, options).color.pixels);
   }
 }
 
@@ -186,7 +186,7 @@ TEST(OracleImage, CoincidentFacesAreWonByTheLowerIndex) {
   const Camera camera = test::random_camera(random, 96, 64);
   for (const Coverage coverage : {Coverage::exact, Coverage::snapped}) {
     const OracleImage image =
-        render_oracle(soup, no_origin, camera, {.rays = {.coverage = coverage}});
+        render_oracle(soup, no_origin, {camera}, {.rays = {.coverage = coverage}});
     for (const std::uint32_t face : image.face)
       ASSERT_TRUE(face < 40 || face == OracleImage::no_face);
     EXPECT_GT(covered(image), 500u);
@@ -204,9 +204,9 @@ TEST(OracleImage, SnappedCoverageStaysCloseToExact) {
   const TriangleSoup soup = test::random_soup(51, {.faces = 200, .size = 0.3});
   test::Random random(52);
   const Camera camera = test::random_camera(random, 160, 120);
-  const OracleImage exact = render_oracle(soup, no_origin, camera);
+  const OracleImage exact = render_oracle(soup, no_origin, {camera});
   const OracleImage snapped =
-      render_oracle(soup, no_origin, camera, {.rays = {.coverage = Coverage::snapped}});
+      render_oracle(soup, no_origin, {camera}, {.rays = {.coverage = Coverage::snapped}});
   const Difference change = difference(exact, snapped);
   EXPECT_LE(change.faces, 15u);
   EXPECT_EQ(change.largest, 0.0);  // face colours are constant
@@ -218,11 +218,11 @@ TEST(OracleImage, SupersamplingAveragesTheRaysOfAFinerImage) {
   const Camera camera = test::random_camera(random, 48, 32);
   const glm::vec3 background(0.2f, 0.4f, 0.6f);
   const OracleImage fine =
-      render_oracle(soup, no_origin, resized(camera, 144, 96), {.background = background});
+      render_oracle(soup, no_origin, {resized(camera, 144, 96)}, {.background = background});
   const OracleImage coarse =
-      render_oracle(soup, no_origin, camera, {.supersampling = 3, .background = background});
+      render_oracle(soup, no_origin, {camera}, {.supersampling = 3, .background = background});
   const OracleImage clear =
-      render_oracle(soup, no_origin, camera, {.supersampling = 3, .background = std::nullopt});
+      render_oracle(soup, no_origin, {camera}, {.supersampling = 3, .background = std::nullopt});
   EXPECT_EQ(coarse.face, fine.face);
   for (int row = 0; row < 32; ++row)
     for (int column = 0; column < 48; ++column) {
@@ -246,7 +246,8 @@ TEST(OracleImage, AnEmptySoupIsBackground) {
   soup.appearance = FaceColors{};
   test::Random random(71);
   const Camera camera = test::random_camera(random, 8, 6);
-  const OracleImage image = render_oracle(soup, no_origin, camera, {.background = glm::vec3(0.5f)});
+  const OracleImage image =
+      render_oracle(soup, no_origin, {camera}, {.background = glm::vec3(0.5f)});
   for (const glm::vec4& pixel : image.color.pixels)
     EXPECT_EQ(pixel, glm::vec4(0.5f, 0.5f, 0.5f, 1));
 }
@@ -275,7 +276,7 @@ TEST(CutoutCloud, CoversWhatItPromises) {
     std::size_t sum = 0, pixels = 0;
     for (const Camera& camera : scene.cameras) {
       const OracleImage image =
-          render_oracle(only_soup(scene), origin_of(only_layer(scene)), camera);
+          render_oracle(only_soup(scene), origin_of(only_layer(scene)), {camera});
       sum += covered(image);
       pixels += image.face.size();
     }

@@ -12,6 +12,7 @@
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace covered_faces_test {
@@ -174,9 +175,10 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
       corner = first + 20.0f * (corner - first);
     }
   const SpecialisationSet all = SpecialisationSet::all();
-  Renderer without(context, soup, glm::dvec3(0),
-                   {.plan = {.specialisations = all.without(Specialisation::small_triangles)}});
-  ASSERT_FALSE(without.plan().drops_small_triangles);
+  Renderer without =
+      renderer_of(context, soup, glm::dvec3(0),
+                  {.plan = {.specialisations = all.without(Specialisation::small_triangles)}});
+  ASSERT_FALSE(without.plan().layers[0].drops_small_triangles);
   int showing = 0;
   for (int i = 0; i < 4; ++i) {
     Camera camera = random_camera(random, 200 + 37 * i, 150);
@@ -185,14 +187,14 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
       camera = look_at(eye, 0.3 * random.direction(), {0, 0, 1}, 1.2, 200, 151);
     }
     // A new renderer for each view: after a frame that shows most faces, the search pauses.
-    Renderer with(context, soup, glm::dvec3(0), {.plan = {.specialisations = all}});
-    ASSERT_TRUE(with.plan().drops_small_triangles);
-    with.draw(camera);
-    without.draw(camera);
+    Renderer with = renderer_of(context, soup, glm::dvec3(0), {.plan = {.specialisations = all}});
+    ASSERT_TRUE(with.plan().layers[0].drops_small_triangles);
+    with.draw({camera});
+    without.draw({camera});
     const Image8 a = with.read_color(), b = without.read_color();
     EXPECT_TRUE(a.pixels == b.pixels) << "seed " << seed << ", view " << i;
     EXPECT_EQ(with.read_faces(), without.read_faces());
-    with.draw(camera);  // possibly with a paused search
+    with.draw({camera});  // possibly with a paused search
     EXPECT_TRUE(with.read_color().pixels == b.pixels) << "seed " << seed << ", again, view " << i;
     showing += std::any_of(a.pixels.begin(), a.pixels.end(),
                            [&](glm::u8vec4 p) { return p != a.pixels[0]; })
@@ -212,16 +214,17 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
   Random random(seed);
   for (const Quality& quality : {Quality{.resolution_scale = 0.6}, Quality{.supersampling = 3}}) {
     const SpecialisationSet all = SpecialisationSet::all();
-    Renderer with(context, soup, glm::dvec3(0),
-                  {.plan = {.specialisations = all, .quality = quality}});
-    Renderer without(context, soup, glm::dvec3(0),
-                     {.plan = {.specialisations = all.without(Specialisation::small_triangles),
-                               .quality = quality}});
-    ASSERT_TRUE(with.plan().drops_small_triangles);
-    ASSERT_FALSE(without.plan().drops_small_triangles);
+    Renderer with = renderer_of(context, soup, glm::dvec3(0),
+                                {.plan = {.specialisations = all, .quality = quality}});
+    Renderer without =
+        renderer_of(context, soup, glm::dvec3(0),
+                    {.plan = {.specialisations = all.without(Specialisation::small_triangles),
+                              .quality = quality}});
+    ASSERT_TRUE(with.plan().layers[0].drops_small_triangles);
+    ASSERT_FALSE(without.plan().layers[0].drops_small_triangles);
     const Camera camera = random_camera(random, 211, 150);
-    with.draw(camera);
-    without.draw(camera);
+    with.draw({camera});
+    without.draw({camera});
     const Image8 a = with.read_color(), b = without.read_color();
     EXPECT_TRUE(a.pixels == b.pixels) << "seed " << seed;
     EXPECT_TRUE(std::any_of(a.pixels.begin(), a.pixels.end(),

@@ -14,12 +14,13 @@
 #include "oracle/hits.hpp"
 #include "oracle/shade.hpp"
 #include "oracle/uv_sampling.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/lattice.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace debug_view_test {
@@ -181,8 +182,8 @@ using Expected = std::function<std::optional<glm::dvec3>(int column, int row, co
 /// near the border of a cell can fall to the other side.
 void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_renderer,
                   const Expected& expected, double steps, double max_off = 0.002) {
-  const Image8 image = debug_renderer.read_color();
-  const std::vector<std::uint32_t> faces = debug_renderer.read_faces();
+  const Image8 image = debug_renderer.renderer().read_color();
+  const std::vector<std::uint32_t> faces = debug_renderer.renderer().read_faces();
   const auto hits = all_hits(scenery);
   std::size_t compared = 0, off = 0;
   for (int row = 0; row < height; ++row)
@@ -214,7 +215,7 @@ class DebugViews : public testing::TestWithParam<NamedContext> {
                                    FeatureChoice choice = {}) const {
     DebugViewRenderer result(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
     result.show(what, choice);
-    result.draw(scenery.camera);
+    result.renderer().draw({scenery.camera});
     return result;
   }
 };
@@ -227,15 +228,16 @@ TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
   std::uint64_t seed = 30;
   for (const Kind kind : all_kinds) {
     const Scenery scenery(++seed, kind);
-    Renderer renderer(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
-    renderer.draw(scenery.camera);
+    Renderer renderer =
+        renderer_of(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
+    renderer.draw({scenery.camera});
     const auto expected = renderer.read_faces();
     for (const DebugViewName& name : debug_view_names()) {
       const bool all_fragments = name.what == DebugView::alpha || name.what == DebugView::overdraw;
       if (why_not(name.what, scenery.soup) || all_fragments) continue;
       const DebugViewRenderer shown = debug_renderer(scenery, name.what, {0, 1});
-      EXPECT_EQ(shown.read_faces(), expected) << name.name << ", seed " << seed;
-      const Image8 image = shown.read_color();
+      EXPECT_EQ(shown.renderer().read_faces(), expected) << name.name << ", seed " << seed;
+      const Image8 image = shown.renderer().read_color();
       std::size_t off = 0;
       for (std::size_t i = 0; i < expected.size(); ++i)
         off += (image.pixels[i].a == 255) != (expected[i] != no_face);
@@ -250,10 +252,10 @@ TEST_P(DebugViews, FinalColorsAreThoseOfTheRenderer) {
   std::uint64_t seed = 60;
   for (const Kind kind : all_kinds) {
     const Scenery scenery(++seed, kind);
-    Renderer renderer(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
-    renderer.draw(scenery.camera);
+    Renderer renderer = renderer_of(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
+    renderer.draw({scenery.camera});
     const Image8 expected = renderer.read_color();
-    const Image8 shown = debug_renderer(scenery, DebugView::color).read_color();
+    const Image8 shown = debug_renderer(scenery, DebugView::color).renderer().read_color();
     // Specialisations may change a colour by half a step, which rounding can make a whole step.
     for (std::size_t i = 0; i < shown.pixels.size(); ++i)
       for (int c = 0; c < 4; ++c)
@@ -331,7 +333,7 @@ TEST_P(DebugViews, AlphaShowsAlsoWhatIsCutOut) {
     const Scenery scenery(++seed, kind);
     const DebugViewRenderer shown = debug_renderer(scenery, DebugView::alpha);
     const auto hits = all_hits(scenery);
-    const auto faces = shown.read_faces();
+    const auto faces = shown.renderer().read_faces();
     std::size_t others = 0, cut_out = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
       others += faces[i] != (hits[i].empty() ? no_face : hits[i].front().face);
@@ -381,7 +383,7 @@ TEST_P(DebugViews, OverdrawCountsEveryFragment) {
   const Scenery scenery(14, Kind::lattice, 0.7);
   const DebugViewRenderer shown = debug_renderer(scenery, DebugView::overdraw);
   const auto counts = shown.read_fragment_counts();
-  const Image8 image = shown.read_color();
+  const Image8 image = shown.renderer().read_color();
   const auto hits = all_hits(scenery);
   ASSERT_EQ(counts.size(), hits.size());
   std::size_t off = 0, most = 0;
@@ -406,7 +408,7 @@ TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
   soup.appearance = FaceColors{std::vector<glm::vec4>(300, glm::vec4(1))};
   DebugViewRenderer shown(context, soup, {});
   shown.show(DebugView::overdraw);
-  shown.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 16, 16));
+  shown.renderer().draw({look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 16, 16)});
   for (const std::uint8_t count : shown.read_fragment_counts())
     ASSERT_EQ(int(count), max_counted_fragments);
 }
@@ -414,10 +416,10 @@ TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
 TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
   const Scenery scenery(15, Kind::face_colors, 0.5);
   const DebugViewRenderer shown = debug_renderer(scenery, DebugView::wireframe);
-  const Image8 image = shown.read_color();
-  const Image8 colors = debug_renderer(scenery, DebugView::color).read_color();
+  const Image8 image = shown.renderer().read_color();
+  const Image8 colors = debug_renderer(scenery, DebugView::color).renderer().read_color();
   const glm::u8vec4 line(240, 240, 240, 255);
-  const auto faces = shown.read_faces();
+  const auto faces = shown.renderer().read_faces();
   std::size_t lines = 0, off = 0, compared = 0;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {

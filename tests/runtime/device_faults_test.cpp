@@ -15,6 +15,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace device_faults_test {
@@ -59,8 +60,8 @@ class DeviceFaults : public testing::TestWithParam<NamedContext> {
         camera(scene.cameras.front()) {}
 
   Image8 image() const {
-    Renderer renderer(context, soup, {});
-    renderer.draw(camera);
+    Renderer renderer = renderer_of(context, soup, {});
+    renderer.draw({camera});
     return renderer.read_color();
   }
 
@@ -75,19 +76,19 @@ TEST_P(DeviceFaults, MemoryThatIsRefusedIsALimitAndTheDeviceServesOn) {
   {
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
     const Replaced texture(glad_glTexImage3D, PFNGLTEXIMAGE3DPROC(refuse_texture));
-    EXPECT_THAT([&] { Renderer(context, soup, {}); }, Throws<DeviceLimitError>());
+    EXPECT_THAT([&] { renderer_of(context, soup, {}); }, Throws<DeviceLimitError>());
   }
   {
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
     const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));
-    EXPECT_THAT([&] { Renderer(context, soup, {}); }, Throws<DeviceLimitError>());
+    EXPECT_THAT([&] { renderer_of(context, soup, {}); }, Throws<DeviceLimitError>());
   }
   EXPECT_EQ(image().pixels, before.pixels);
 }
 
 TEST_P(DeviceFaults, AnImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
   const Image8 before = image();
-  Renderer renderer(context, soup, {});
+  Renderer renderer = renderer_of(context, soup, {});
   Camera large = camera;
   large.width *= 2;
   {
@@ -95,16 +96,16 @@ TEST_P(DeviceFaults, AnImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
                           PFNGLCHECKFRAMEBUFFERSTATUSPROC(+[](GLenum) -> GLenum {
                             return GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT;
                           }));
-    EXPECT_THAT([&] { renderer.draw(large); }, Throws<DeviceLimitError>());
+    EXPECT_THAT([&] { renderer.draw({large}); }, Throws<DeviceLimitError>());
   }
-  renderer.draw(camera);
+  renderer.draw({camera});
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
 
 TEST_P(DeviceFaults, AResetIsReportedAsAResetAndNotAsAnImage) {
   if (!glGetGraphicsResetStatus) GTEST_SKIP() << "older contexts do not report resets";
-  Renderer renderer(context, soup, {});
-  renderer.draw(camera);
+  Renderer renderer = renderer_of(context, soup, {});
+  renderer.draw({camera});
   const auto is_reset = Throws<ContextError>();
   {
     const Replaced status(glad_glGetGraphicsResetStatus,
@@ -114,7 +115,7 @@ TEST_P(DeviceFaults, AResetIsReportedAsAResetAndNotAsAnImage) {
     // An allocation that a reset device rejects is not a lack of memory.
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
     const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));
-    EXPECT_THAT([&] { Renderer(context, soup, {}); }, is_reset);
+    EXPECT_THAT([&] { renderer_of(context, soup, {}); }, is_reset);
   }
   {
     const Replaced status(glad_glGetGraphicsResetStatus,
@@ -123,7 +124,7 @@ TEST_P(DeviceFaults, AResetIsReportedAsAResetAndNotAsAnImage) {
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(+[]() -> GLenum {
                            return 0x0507; /*context lost*/
                          }));
-    EXPECT_THAT([&] { Renderer(context, soup, {}); }, is_reset);
+    EXPECT_THAT([&] { renderer_of(context, soup, {}); }, is_reset);
   }
   EXPECT_EQ(renderer.read_color().pixels, image().pixels);
 }
@@ -191,8 +192,8 @@ TEST(OlderDrivers, DrawTheSameWithoutWhatTheyLack) {
   const Scene scene = cutout_cloud(small);
   const auto& soup = only_soup(scene);
   const auto draw = [&](const gl::Context& context) {
-    Renderer renderer(context, soup, {});
-    renderer.draw(scene.cameras.front());
+    Renderer renderer = renderer_of(context, soup, {});
+    renderer.draw({scene.cameras.front()});
     return renderer.read_color();
   };
   const Image8 whole = draw(newer);

@@ -7,6 +7,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen {
 namespace device_forecast_test {
@@ -21,8 +22,8 @@ TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
     const TriangleSoup soup = test::random_soup(17, options);
     RenderOptions render;
     render.plan.specialise = specialise;
-    const Renderer renderer(context, soup, glm::dvec3(0), render);
-    const DeviceForecast forecast = device_forecast(soup, renderer.plan());
+    const Renderer renderer = renderer_of(context, soup, glm::dvec3(0), render);
+    const DeviceForecast forecast = device_forecast(soup, renderer.plan().layers[0]);
     // Stores of this size fill at most one layer. The padding of each is less than a row, with at
     // most 16 bytes per texel. No appearance has more than six stores.
     const auto row_bytes =
@@ -50,8 +51,8 @@ TEST(DeviceForecast, IsRightForManyTexels) {
   for (const bool specialise : {true, false}) {
     RenderOptions options;
     options.plan.specialise = specialise;
-    const Renderer renderer(context, soup, origin_of(only_layer(cloud)), options);
-    const std::uint64_t forecast = device_forecast(soup, renderer.plan()).bytes;
+    const Renderer renderer = renderer_of(context, soup, origin_of(only_layer(cloud)), options);
+    const std::uint64_t forecast = device_forecast(soup, renderer.plan().layers[0]).bytes;
     // Three stores of four bytes per texel, each padded by less than a row: 49,152 of 13 million
     // bytes, of which 5504 are used.
     const std::uint64_t padding = 3 * row_texels(context) * 4;
@@ -63,9 +64,9 @@ TEST(DeviceForecast, IsRightForManyTexels) {
 TEST(DeviceForecast, IsRightWhereFacesBetweenPixelsAreFound) {
   const gl::Context context = gl::Context::create(test::osmesa);
   const TriangleSoup soup = test::random_soup(3, {.faces = 40000});
-  const Renderer renderer(context, soup, glm::dvec3(0));
-  ASSERT_TRUE(renderer.plan().drops_small_triangles);
-  const std::uint64_t forecast = device_forecast(soup, renderer.plan()).bytes;
+  const Renderer renderer = renderer_of(context, soup, glm::dvec3(0));
+  ASSERT_TRUE(renderer.plan().layers[0].drops_small_triangles);
+  const std::uint64_t forecast = device_forecast(soup, renderer.plan().layers[0]).bytes;
   // One store of 16 bytes per texel is padded by less than a row: 32,160 of 65,536 bytes are used.
   EXPECT_GE(renderer.device_bytes(), forecast);
   EXPECT_LE(renderer.device_bytes(), forecast + row_texels(context) * 16);

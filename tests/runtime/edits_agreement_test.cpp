@@ -7,6 +7,7 @@
 #include "scene/edit/edits.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen {
 namespace edits_agreement_test {
@@ -80,9 +81,9 @@ TEST_P(EditedSoup, TakesTheBytesThatTheForecastSays) {
   const TriangleSoup drawn = soup(701);
   const PlanPreferences plan{.site = ShadingSite::deferred};
   context().make_current();
-  const Renderer renderer(context(), drawn, glm::dvec3(0), {.plan = plan});
-  const auto forecast =
-      device_forecast(drawn, make_plan(drawn, device_limits(context().capabilities()), plan));
+  const Renderer renderer = renderer_of(context(), drawn, glm::dvec3(0), {.plan = plan});
+  const auto forecast = device_forecast(
+      drawn, make_plan(drawn, device_limits(context().capabilities()), plan).layers[0]);
   // Stores are padded to whole rows: each by at most one row of 4096 texels with 16 bytes.
   EXPECT_GE(renderer.device_bytes(), forecast.bytes);
   EXPECT_LE(renderer.device_bytes(), forecast.bytes + 6 * 4096 * 16);

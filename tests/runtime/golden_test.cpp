@@ -6,10 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_file.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/golden_scenes.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace golden_test {
@@ -18,8 +19,8 @@ Image8 draw_golden(const gl::ContextRequest& request, Kind kind, RenderOptions o
   const gl::Context context = gl::Context::create(request);
   const Scene scene = golden_scene(kind);
   options.background = glm::vec4(scene.info.background, 1.0f);
-  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)), options);
-  renderer.draw(scene.cameras.at(0));
+  Renderer renderer = renderer_of(context, only_soup(scene), origin_of(only_layer(scene)), options);
+  renderer.draw({scene.cameras.at(0)});
   return renderer.read_color();
 }
 
@@ -61,8 +62,8 @@ TEST(Golden, Example) {
   RenderOptions options;
   options.plan.reversed_depth = false;
   options.background = glm::vec4(scene.info.background, 1.0f);
-  Renderer renderer(context, only_soup(scene), origin_of(only_layer(scene)), options);
-  renderer.draw(resized(scene.cameras.at(golden_example_camera), 320, 240));
+  Renderer renderer = renderer_of(context, only_soup(scene), origin_of(only_layer(scene)), options);
+  renderer.draw({resized(scene.cameras.at(golden_example_camera), 320, 240)});
   expect_golden(renderer.read_color(), "example");
 }
 
@@ -75,12 +76,12 @@ TEST(Golden, DebugViews) {
     const gl::Context context = gl::Context::create(named.request);
     DebugViewRenderer debug_renderer(
         context, only_soup(scene), origin_of(only_layer(scene)),
-        {.reversed_depth = false, .background = glm::vec4(scene.info.background, 1.0f)});
+        {.plan = {.reversed_depth = false}, .background = glm::vec4(scene.info.background, 1.0f)});
     const bool is_reference = named.request.backend == gl::Backend::osmesa;
     for (const DebugViewName& name : debug_view_names()) {
       debug_renderer.show(name.what, {4, 3});
-      debug_renderer.draw(scene.cameras.at(0));
-      expect_golden(debug_renderer.read_color(), std::string("debug_view_") + name.name,
+      debug_renderer.renderer().draw({scene.cameras.at(0)});
+      expect_golden(debug_renderer.renderer().read_color(), std::string("debug_view_") + name.name,
                     is_reference ? "" : named.name);
     }
   }

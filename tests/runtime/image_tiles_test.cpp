@@ -12,6 +12,7 @@
 #include "oracle/oracle.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace image_tiles_test {
@@ -42,8 +43,10 @@ TEST(ImageTiles, EveryPixelComesFromItsOwnRay) {
   for (const auto& [width, height] : {std::pair(1, 1), {64, 64}, {65, 129}, {333, 257}, {20000, 3}})
     for (const int side : {1, 37, 64, 100, 4096}) {
       const Camera camera = camera_of_rays(width, height);
-      const Image8 image =
-          draw_in_tiles(camera, {.draw = image_of_rays, .side = side, .band_bytes = 1 << 20});
+      const Image8 image = draw_in_tiles(
+          {camera}, {.draw = [](const FrameInput& input) { return image_of_rays(input.camera); },
+                     .side = side,
+                     .band_bytes = 1 << 20});
       EXPECT_EQ(image.pixels, image_of_rays(camera).pixels)
           << width << " x " << height << " in tiles of " << side;
     }
@@ -53,7 +56,8 @@ TEST(ImageTiles, TilesAndBandsStayWithinTheirBounds) {
   const Camera camera = camera_of_rays(1000, 501);
   std::vector<double> fractions;
   ImageTiles tiles{.side = 300, .band_bytes = 4000 * 130};
-  tiles.draw = [&](const Camera& part) {
+  tiles.draw = [&](const FrameInput& input) {
+    const Camera& part = input.camera;
     EXPECT_LE(part.width, 300);
     EXPECT_LE(part.height, 130);
     // Tiles begin at multiples of 64 pixels from the lower left corner.
@@ -64,7 +68,7 @@ TEST(ImageTiles, TilesAndBandsStayWithinTheirBounds) {
   };
   tiles.progress = [&](double fraction) { fractions.push_back(fraction); };
   int rows = 0;
-  draw_in_bands(camera, tiles, [&](const Image8& band) {
+  draw_in_bands({camera}, tiles, [&](const Image8& band) {
     EXPECT_EQ(band.width, 1000);
     EXPECT_LE(band.pixels.size() * 4, tiles.band_bytes);
     rows += band.height;
@@ -78,11 +82,11 @@ TEST(ImageTiles, TilesAndBandsStayWithinTheirBounds) {
 TEST(ImageTiles, ProgressMayAbandonTheImage) {
   int drawn = 0;
   ImageTiles tiles{.side = 64};
-  tiles.draw = [&](const Camera& part) { return ++drawn, image_of_rays(part); };
+  tiles.draw = [&](const FrameInput& part) { return ++drawn, image_of_rays(part.camera); };
   tiles.progress = [](double fraction) {
     if (fraction > 0.4) throw std::runtime_error("enough");
   };
-  EXPECT_THROW(draw_in_tiles(camera_of_rays(640, 64), tiles), std::runtime_error);
+  EXPECT_THROW(draw_in_tiles({camera_of_rays(640, 64)}, tiles), std::runtime_error);
   EXPECT_EQ(drawn, 5);
 }
 
@@ -114,13 +118,13 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   soup.appearance = colors;
   Camera camera = look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 256, 256);
   camera.fx = camera.fy = 64;  // an eighth of a unit is 8 pixels
-  Renderer renderer(context, soup, {}, {.background = glm::vec4(0.0f)});
-  renderer.draw(camera);
+  Renderer renderer = renderer_of(context, soup, {}, {.background = glm::vec4(0.0f)});
+  renderer.draw({camera});
   const Image8 whole = renderer.read_color();
   for (const int side : {64, 128}) {
     ImageTiles tiles = tiles_of(renderer, context.capabilities());
     tiles.side = side;
-    EXPECT_EQ(draw_in_tiles(camera, tiles).pixels, whole.pixels) << side;
+    EXPECT_EQ(draw_in_tiles({camera}, tiles).pixels, whole.pixels) << side;
   }
 }
 
@@ -139,14 +143,14 @@ TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
           random_soup(seed, {.kind = kind, .faces = 300, .size = 0.2, .degenerate = true});
       RenderOptions options{.background = glm::vec4(0.0f)};
       options.plan.quality.supersampling = supersampling;
-      Renderer renderer(context, soup, {}, options);
+      Renderer renderer = renderer_of(context, soup, {}, options);
       Random random(seed);
       const Camera camera = random_camera(random, 333, 257);
-      renderer.draw(camera);
+      renderer.draw({camera});
       const Image8 whole = renderer.read_color();
       ImageTiles tiles = tiles_of(renderer, context.capabilities());
       tiles.side = 128;
-      const Image8 image = draw_in_tiles(camera, tiles);
+      const Image8 image = draw_in_tiles({camera}, tiles);
       std::size_t off = 0, off_by_more = 0, coverage = 0, transparent = 0;
       for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const glm::ivec4 difference =
@@ -187,11 +191,11 @@ TEST(ImageTiles, AnImageBeyondTheDeviceShowsWhatTheOracleSees) {
   camera.cy = 8;
   camera.width = width;
   camera.height = 16;
-  Renderer renderer(context, soup, {});
-  EXPECT_THROW(renderer.draw(camera), DeviceLimitError);
-  const Image8 image = draw_in_tiles(camera, tiles_of(renderer, context.capabilities()));
+  Renderer renderer = renderer_of(context, soup, {});
+  EXPECT_THROW(renderer.draw({camera}), DeviceLimitError);
+  const Image8 image = draw_in_tiles({camera}, tiles_of(renderer, context.capabilities()));
   const Image8 expected = quantised(
-      render_oracle(soup, {}, camera, {.rays = {.coverage = oracle::Coverage::snapped}}).color);
+      render_oracle(soup, {}, {camera}, {.rays = {.coverage = oracle::Coverage::snapped}}).color);
   std::size_t off = 0, covered = 0;
   for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
     off += image.pixels[i] != expected.pixels[i];
@@ -208,7 +212,7 @@ TEST(ImageTiles, AResolutionScaleIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
   RenderOptions options;
   options.plan.quality.resolution_scale = 0.5;
-  Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {}, options);
+  Renderer renderer = renderer_of(context, random_soup(9, {.kind = Kind::lattice}), {}, options);
   EXPECT_THROW(tiles_of(renderer, context.capabilities()), UsageError);
 }
 

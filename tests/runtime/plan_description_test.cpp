@@ -12,14 +12,16 @@ using testing::ElementsAre;
 TEST(PlanDescription, HasASentenceForEachFact) {
   RenderPlan plan;
   plan.reversed_depth = true;
-  plan.faces = {4, 2, 0};
-  plan.clusters.resize(1);
-  plan.color_mlp = true;
-  plan.appearance = "lattice texture";
-  plan.soup_faces = 6;
-  plan.undrawable_faces = 2;
-  plan.applied = {{Specialisation::transparent_faces, 1, 4}, {Specialisation::background}};
-  plan.requested_stage = plan.shading_stage = ShadingStage::compute;
+  plan.layers.emplace_back();
+  plan.layers[0].faces = {4, 2, 0};
+  plan.layers[0].clusters.resize(1);
+  plan.layers[0].color_mlp = true;
+  plan.layers[0].appearance = "lattice texture";
+  plan.layers[0].soup_faces = 6;
+  plan.layers[0].undrawable_faces = 2;
+  plan.layers[0].applied = {{Specialisation::transparent_faces, 1, 4},
+                            {Specialisation::background}};
+  plan.requested_stage = plan.layers[0].shading_stage = ShadingStage::compute;
   EXPECT_THAT(
       describe(plan),
       ElementsAre(

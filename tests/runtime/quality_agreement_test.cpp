@@ -9,6 +9,7 @@
 #include "tests/support/agreement.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen {
 namespace quality_agreement_test {
@@ -62,7 +63,7 @@ TEST_P(Supersampling, AgreesWithTheSupersampledOracle) {
   for (const int n : {2, 3}) {
     const Camera camera = camera_for(6, 96, 72);
     const OracleImage oracle = render_oracle(
-        soup, {}, camera, {.rays = {.coverage = oracle::Coverage::snapped}, .supersampling = n});
+        soup, {}, {camera}, {.rays = {.coverage = oracle::Coverage::snapped}, .supersampling = n});
     const Drawn drawn =
         test::draw(context, soup, {}, camera,
                    {.site = ShadingSite::deferred, .quality = {.supersampling = n}});
@@ -114,11 +115,11 @@ TEST_P(ResolutionScale, SamplesAreTheOracles) {
   Camera camera = camera_for(7, 331, 247);
   for (const double scale : {0.25, 0.7}) {
     context.make_current();
-    Renderer renderer(
+    Renderer renderer = renderer_of(
         context, soup, {},
         {.plan = {.site = ShadingSite::deferred, .quality = {.resolution_scale = scale}},
          .limits = {}});
-    renderer.draw(camera);
+    renderer.draw({camera});
     const glm::ivec2 size = renderer.sample_size();
     EXPECT_EQ(size, glm::ivec2(std::lround(331 * scale), std::lround(247 * scale)));
     EXPECT_EQ(renderer.read_color().width, camera.width);

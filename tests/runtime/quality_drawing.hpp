@@ -3,6 +3,7 @@
 
 #include "runtime/renderer.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 
@@ -23,8 +24,8 @@ inline Camera camera_of(int width, int height) {
 
 inline Image8 draw(const gl::Context& context, const TriangleSoup& soup, const Camera& camera,
                    const RenderOptions& options) {
-  Renderer renderer(context, soup, {}, options);
-  renderer.draw(camera);
+  Renderer renderer = renderer_of(context, soup, {}, options);
+  renderer.draw({camera});
   return renderer.read_color();
 }
 

@@ -5,6 +5,7 @@
 #include "runtime/gl/api.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace quality_test {
@@ -42,11 +43,11 @@ TEST_P(Frames, LeaveNothingForTheNext) {
     for (const Camera& camera : cameras) alone.push_back(draw(context, soup, camera, options));
   std::vector<Renderer> renderers;
   for (const RenderOptions& options : every_way)
-    renderers.emplace_back(context, soup, glm::dvec3(0), options);
+    renderers.push_back(renderer_of(context, soup, glm::dvec3(0), options));
   for (int round = 0; round < 2; ++round)
     for (std::size_t c = 0; c < 2; ++c)
       for (std::size_t i = 0; i < renderers.size(); ++i) {
-        renderers[i].draw(cameras[c]);
+        renderers[i].draw({cameras[c]});
         const Image8 image = renderers[i].read_color();
         EXPECT_EQ(image.width, cameras[c].width);
         EXPECT_EQ(image.pixels, alone[2 * i + c].pixels) << describe(every_way[i].plan.quality);
@@ -79,9 +80,9 @@ TEST_P(Frames, DoNotDependOnForeignState) {
     const Image8 expected = draw(fresh, soup, camera, options);
     gl::Context disturbed = gl::Context::create(GetParam().request);
     disturb();
-    Renderer renderer(disturbed, soup, {}, options);
+    Renderer renderer = renderer_of(disturbed, soup, {}, options);
     disturb();
-    renderer.draw(camera);
+    renderer.draw({camera});
     disturb();
     EXPECT_EQ(renderer.read_color().pixels, expected.pixels) << describe(options.plan.quality);
   }
@@ -90,8 +91,8 @@ TEST_P(Frames, DoNotDependOnForeignState) {
 TEST_P(Frames, AreCopiedAtFullSize) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const TriangleSoup soup = soup_of(Kind::face_colors);
-  Renderer renderer(context, soup, {}, options_with({.resolution_scale = 0.5}));
-  renderer.draw(camera_of(40, 30));
+  Renderer renderer = renderer_of(context, soup, {}, options_with({.resolution_scale = 0.5}));
+  renderer.draw({camera_of(40, 30)});
   const Image8 expected = renderer.read_color();
   // A framebuffer of the image's size that does not belong to the renderer.
   GLuint texture, framebuffer;

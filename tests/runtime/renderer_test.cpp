@@ -14,14 +14,15 @@
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace renderer_test {
 
 Image8 draw(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
             const Camera& camera, const RenderOptions& options = {}) {
-  Renderer renderer(context, soup, origin, options);
-  renderer.draw(camera);
+  Renderer renderer = renderer_of(context, soup, origin, options);
+  renderer.draw({camera});
   return renderer.read_color();
 }
 
@@ -123,14 +124,14 @@ TEST(Renderer, AnAlphaOfOneHalfThroughoutHasNoHoles) {
 
 TEST(Renderer, AnImageTooLargeForTheDeviceIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
-  Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {});
+  Renderer renderer = renderer_of(context, random_soup(9, {.kind = Kind::lattice}), {});
   Random random(9);
   const int side = context.capabilities().max_image_side;
   ASSERT_GT(side, 0);
   EXPECT_THAT(
-      error_of<DeviceLimitError>([&] { renderer.draw(random_camera(random, side + 1, 1)); }),
+      error_of<DeviceLimitError>([&] { renderer.draw({random_camera(random, side + 1, 1)}); }),
       Names(std::to_string(side + 1) + "x1"));
-  renderer.draw(random_camera(random, side, 1));
+  renderer.draw({random_camera(random, side, 1)});
   EXPECT_EQ(renderer.read_color().width, side);
 }
 
@@ -157,9 +158,9 @@ TEST(Renderer, ForeignStateChangesNothing) {
         glPixelStorei(GL_PACK_ROW_LENGTH, 100);
       };
       disturb();
-      Renderer renderer(context, soup, {});
+      Renderer renderer = renderer_of(context, soup, {});
       disturb();
-      renderer.draw(camera);
+      renderer.draw({camera});
       disturb();
       EXPECT_EQ(renderer.read_color().pixels, expected.pixels) << to_string(kind);
     }
@@ -175,11 +176,11 @@ TEST(Renderer, DrawsTheSameAfterItLeftTheContext) {
     const TriangleSoup soup = random_soup(11, {.kind = Kind::lattice_mlp, .level = 2});
     Random random(11);
     const Camera camera = random_camera(random, 64, 48);
-    Renderer renderer(context, soup, {}, {.plan = plan});
-    renderer.draw(camera);
+    Renderer renderer = renderer_of(context, soup, {}, {.plan = plan});
+    renderer.draw({camera});
     const Image8 expected = renderer.read_color();
     renderer.leave_context();
-    renderer.draw(camera);
+    renderer.draw({camera});
     EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
   }
 }
@@ -191,8 +192,8 @@ TEST(Renderer, NamesTheSameFacesOnEs) {
   std::vector<std::uint32_t> faces[2];
   for (int i = 0; i < 2; ++i) {
     const gl::Context context = gl::Context::create(i == 0 ? osmesa : egl_es30);
-    Renderer renderer(context, soup, {});
-    renderer.draw(camera);
+    Renderer renderer = renderer_of(context, soup, {});
+    renderer.draw({camera});
     faces[i] = renderer.read_faces();
   }
   EXPECT_EQ(faces[0], faces[1]);
@@ -213,8 +214,8 @@ TEST(Renderer, TellsThePointThatAPixelShows) {
       const gl::Context context = gl::Context::create(named.request);
       RenderOptions options;
       options.plan.quality.resolution_scale = scale;
-      Renderer renderer(context, soup, origin, options);
-      renderer.draw(camera);
+      Renderer renderer = renderer_of(context, soup, origin, options);
+      renderer.draw({camera});
       EXPECT_EQ(renderer.point_at({1, 1}), std::nullopt) << "background";
       EXPECT_EQ(renderer.point_at({-1, 60}), std::nullopt) << "beside the image";
       // At a sample's centre; at half the resolution this is a pixel's corner.
@@ -241,13 +242,14 @@ TEST(Renderer, AlphaByTheTexelIsAlphaByTheCell) {
       const gl::Context context = gl::Context::create(osmesa);
       RenderOptions lean;
       lean.plan.max_alpha_cell_bytes = 1000;
-      Renderer by_cell(context, soup, {}), by_texel(context, soup, {}, lean);
-      EXPECT_TRUE(by_cell.plan().lattice.alpha_by_cell);
-      ASSERT_FALSE(by_texel.plan().lattice.alpha_by_cell);
-      EXPECT_GT(by_texel.plan().lattice.refused_alpha_cell_bytes, 1000u);
+      Renderer by_cell = renderer_of(context, soup, {});
+      Renderer by_texel = renderer_of(context, soup, {}, lean);
+      EXPECT_TRUE(by_cell.plan().layers[0].lattice.alpha_by_cell);
+      ASSERT_FALSE(by_texel.plan().layers[0].lattice.alpha_by_cell);
+      EXPECT_GT(by_texel.plan().layers[0].lattice.refused_alpha_cell_bytes, 1000u);
       EXPECT_LT(by_texel.device_bytes(), by_cell.device_bytes());
-      by_cell.draw(camera);
-      by_texel.draw(camera);
+      by_cell.draw({camera});
+      by_texel.draw({camera});
       EXPECT_EQ(by_texel.read_faces(), by_cell.read_faces())
           << "the same arithmetic on the same bytes";
     }
@@ -266,9 +268,9 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
   };
   for (const auto& [plan, each] : bytes_a_pixel) {
     SCOPED_TRACE(each);
-    Renderer renderer(context, soup, {}, {.plan = plan});
+    Renderer renderer = renderer_of(context, soup, {}, {.plan = plan});
     EXPECT_EQ(renderer.target_bytes(), 0u) << "no frame yet";
-    renderer.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, width, height));
+    renderer.draw({look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, width, height)});
     EXPECT_EQ(double(renderer.target_bytes()), each * width * height);
   }
 }
@@ -294,7 +296,7 @@ TEST(Renderer, ADeviceThatIsTooSmallGetsAForecast) {
       DeviceLimits{.max_texture_size = 64, .max_array_layers = 16, .clip_control = true};
   const auto refusal = error_of<DeviceLimitError>([&] {
     // NOLINTNEXTLINE(bugprone-unused-raii): the test is the construction
-    Renderer(context, only_soup(cloud), origin_of(only_layer(cloud)), options);
+    renderer_of(context, only_soup(cloud), origin_of(only_layer(cloud)), options);
   });
   // 16 layers of 64 x 64 texels hold 65,536; a triangle has 561.
   EXPECT_THAT(refusal, Names(116));
@@ -317,10 +319,10 @@ TEST(Renderer, AnEmptySoupIsAllBackground) {
 TEST(Renderer, TheTargetFollowsTheCamera) {
   const gl::Context context = gl::Context::create(osmesa);
   const TriangleSoup soup = random_soup(6, {.kind = Kind::lattice});
-  Renderer renderer(context, soup, {});
+  Renderer renderer = renderer_of(context, soup, {});
   Random random(6);
   for (const auto& [width, height] : {std::pair{64, 48}, {33, 77}, {64, 48}}) {
-    renderer.draw(random_camera(random, width, height));
+    renderer.draw({random_camera(random, width, height)});
     EXPECT_EQ(renderer.read_color().width, width);
     EXPECT_EQ(renderer.read_faces().size(), std::size_t(width) * std::size_t(height));
   }

@@ -7,10 +7,11 @@
 
 #include "base/error.hpp"
 #include "jobs/baseline/baseline.hpp"
-#include "runtime/passes/resampled_pipeline.hpp"
+#include "runtime/passes/filter_pass.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace resampling_test {
@@ -63,7 +64,7 @@ class Resampling : public testing::TestWithParam<NamedContext> {
   Image8 draw(const gl::Context& context, const Camera& camera, const Variant& variant,
               const RenderOptions& options) const {
     Renderer renderer = make_renderer(context, soup, {}, variant.pipeline, options);
-    renderer.draw(camera);
+    renderer.draw({camera});
     return renderer.read_color();
   }
   const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
@@ -119,13 +120,13 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Resampling, testing::ValuesIn(every_context
 TEST(ResamplingLimits, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsDrawn) {
   const gl::Context context = gl::Context::create(osmesa);
   const TriangleSoup soup = soup_of(Kind::face_colors);
-  Renderer renderer(context, soup, {}, options_with({.supersampling = 8}));
+  Renderer renderer = renderer_of(context, soup, {}, options_with({.supersampling = 8}));
   const int side = context.capabilities().max_image_side;
-  renderer.draw(camera_of(16, 12));
+  renderer.draw({camera_of(16, 12)});
   const Image8 before = renderer.read_color();
-  EXPECT_THAT(error_of<DeviceLimitError>([&] { renderer.draw(camera_of(side / 8 + 1, 10)); }),
+  EXPECT_THAT(error_of<DeviceLimitError>([&] { renderer.draw({camera_of(side / 8 + 1, 10)}); }),
               Names(std::to_string(8 * (side / 8 + 1)) + "x80", side));
-  renderer.draw(camera_of(16, 12));
+  renderer.draw({camera_of(16, 12)});
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
 

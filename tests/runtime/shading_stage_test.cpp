@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace shading_stage_test {
@@ -26,12 +27,12 @@ class ShadingStages : public testing::TestWithParam<NamedContext> {
   void expect_same(const TriangleSoup& soup, std::span<const Camera> cameras, RenderOptions options,
                    const std::string& what) {
     options.plan.shading_stage = ShadingStage::fragment;
-    Renderer fragment(context_, soup, {}, options);
+    Renderer fragment = renderer_of(context_, soup, {}, options);
     options.plan.shading_stage = ShadingStage::compute;
-    Renderer compute(context_, soup, {}, options);
+    Renderer compute = renderer_of(context_, soup, {}, options);
     for (const Camera& camera : cameras) {
-      fragment.draw(camera);
-      compute.draw(camera);
+      fragment.draw({camera});
+      compute.draw({camera});
       const Image8 expected = fragment.read_color(), actual = compute.read_color();
       ASSERT_EQ(actual.pixels.size(), expected.pixels.size()) << what;
       std::size_t different = 0;
@@ -81,12 +82,12 @@ TEST_P(ShadingStages, ShowTheSameWithEveryQuality) {
 TEST_P(ShadingStages, TakeTurnsWithoutATrace) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const Camera cameras[] = {camera_of(64, 48), camera_of(37, 61)};
-  Renderer fragment(context_, soup, {}, {.plan = deferred(ShadingStage::fragment)});
-  Renderer compute(context_, soup, {}, {.plan = deferred(ShadingStage::compute)});
+  Renderer fragment = renderer_of(context_, soup, {}, {.plan = deferred(ShadingStage::fragment)});
+  Renderer compute = renderer_of(context_, soup, {}, {.plan = deferred(ShadingStage::compute)});
   for (int round = 0; round < 3; ++round)
     for (const Camera& camera : cameras) {
-      fragment.draw(camera);
-      compute.draw(camera);
+      fragment.draw({camera});
+      compute.draw({camera});
       const Image8 computed = compute.read_color();
       EXPECT_EQ(computed.pixels, fragment.read_color().pixels);
       EXPECT_EQ(compute.read_faces(), fragment.read_faces());
@@ -105,7 +106,9 @@ INSTANTIATE_TEST_SUITE_P(Contexts, ShadingStages, testing::ValuesIn(contexts),
 TEST(ShadingStagePlan, IsTheFragmentStageUnlessComputeIsAskedFor) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const auto planned = [&](bool compute_shaders, const PlanPreferences& preferences) {
-    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences).shading_stage;
+    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences)
+        .layers[0]
+        .shading_stage;
   };
   EXPECT_EQ(planned(true, {}), ShadingStage::fragment);
   EXPECT_EQ(planned(true, deferred(ShadingStage::compute)), ShadingStage::compute);
@@ -120,9 +123,9 @@ TEST(ShadingStagePlan, IsComputeOnlyWhereThePlanIsDeferred) {
     return make_plan(soup, limits, preferences);
   };
   const RenderPlan forward = plan_of({.site = ShadingSite::forward});
-  EXPECT_EQ(forward.shading_stage, ShadingStage::fragment);
+  EXPECT_EQ(forward.layers[0].shading_stage, ShadingStage::fragment);
   EXPECT_EQ(forward.requested_stage, ShadingStage::compute);
-  EXPECT_EQ(plan_of({}).shading_stage, ShadingStage::compute);
+  EXPECT_EQ(plan_of({}).layers[0].shading_stage, ShadingStage::compute);
 }
 
 }  // namespace shading_stage_test

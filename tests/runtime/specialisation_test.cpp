@@ -94,7 +94,7 @@ TEST_P(Omission, DoesNotHappenWhereTheSceneLacksTheTrait) {
   const TriangleSoup soup = soup_without_trait(what(), seed());
   const RenderPlan with = plan_of(soup);
   EXPECT_FALSE(with.applies(what()));
-  EXPECT_EQ(with.applied, plan_of(soup, SpecialisationSet::all().without(what())).applied);
+  EXPECT_EQ(with.applied(), plan_of(soup, SpecialisationSet::all().without(what())).applied());
 }
 
 std::vector<Case> cases() {
@@ -136,7 +136,7 @@ TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
       rgba.resize(more.triangles.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     }
     ASSERT_EQ(defect(more), std::nullopt);
-    EXPECT_EQ(plan_of(more).undrawable_faces, 600u);
+    EXPECT_EQ(plan_of(more).layers[0].undrawable_faces, 600u);
     const std::vector<Camera> views = four_views(seed);
     const Difference found = difference(images(more, views, {}), images(soup, views, {}));
     EXPECT_EQ(found.channels, 0u);
@@ -154,9 +154,9 @@ TEST(SpecialisationNames, AreFoundAgain) {
 
 TEST(SpecialisationNames, OnlyWhatIsAskedForIsOmitted) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 3});
-  EXPECT_TRUE(plan_of(soup, SpecialisationSet()).applied.empty());
+  EXPECT_TRUE(plan_of(soup, SpecialisationSet()).applied().empty());
   const RenderPlan plan = plan_of(soup, SpecialisationSet::only(Specialisation::background));
-  EXPECT_EQ(plan.applied, std::vector{AppliedSpecialisation{Specialisation::background}});
+  EXPECT_EQ(plan.applied(), std::vector{AppliedSpecialisation{Specialisation::background}});
 }
 
 }  // namespace specialisation_test

@@ -11,6 +11,7 @@
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 
@@ -29,10 +30,11 @@ inline std::vector<Image8> images(const TriangleSoup& soup, const std::vector<Ca
                                   const PlanPreferences& plan) {
   static gl::Context context = gl::Context::create(osmesa);
   context.make_current();
-  Renderer renderer(context, soup, glm::dvec3(0.0), {.plan = plan, .background = glm::vec4(1.0f)});
+  Renderer renderer =
+      renderer_of(context, soup, glm::dvec3(0.0), {.plan = plan, .background = glm::vec4(1.0f)});
   std::vector<Image8> images;
   for (const Camera& view : views) {
-    renderer.draw(view);
+    renderer.draw({view});
     images.push_back(renderer.read_color());
   }
   return images;

@@ -10,6 +10,7 @@
 #include "jobs/baseline/baseline.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/evidence.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 
@@ -61,8 +62,8 @@ Image8 image_of_faces(const OracleImage& oracle, const Drawn& drawn) {
 Drawn draw(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
            const PlanPreferences& plan) {
   context.make_current();
-  Renderer renderer(context, soup, origin, {.plan = plan, .limits = {}});
-  renderer.draw(camera);
+  Renderer renderer = renderer_of(context, soup, origin, {.plan = plan, .limits = {}});
+  renderer.draw({camera});
   return {renderer.read_color(), renderer.read_faces()};
 }
 
@@ -70,13 +71,13 @@ Drawn draw_baseline(gl::Context& context, const TriangleSoup& soup, glm::dvec3 o
                     const Camera& camera) {
   context.make_current();
   Renderer renderer = make_renderer(context, soup, origin, PipelineKind::baseline);
-  renderer.draw(camera);
+  renderer.draw({camera});
   return {renderer.read_color(), {}};
 }
 
 OracleImage snapped_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                            oracle::Attributes attributes) {
-  return render_oracle(soup, origin, camera,
+  return render_oracle(soup, origin, {camera},
                        {.rays = {.coverage = oracle::Coverage::snapped, .attributes = attributes}});
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 #include "tests/support/trait_soups.hpp"
 
 namespace tureen::web {
@@ -19,7 +20,7 @@ namespace prepared_archive_test {
 using Blobs = std::vector<std::vector<std::byte>>;
 
 /// Copied in blocks of a few grains, as by a worker.
-Blobs all_blobs(const PreparedSoup& prepared) {
+Blobs all_blobs(const PreparedScene& prepared) {
   Blobs blobs(blob_count(prepared));
   for (std::size_t blob = 0; blob < blobs.size(); ++blob) {
     blobs[blob].resize(blob_size(prepared, blob));
@@ -47,8 +48,8 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
   /// Draws with and without packing; expects equal bytes.
   static void expect_same(const TriangleSoup& soup, const RenderOptions& options) {
     const Camera camera = camera_of(soup);
-    Renderer here(context(), soup, glm::dvec3(0.0), options);
-    here.draw(camera);
+    Renderer here = renderer_of(context(), soup, glm::dvec3(0.0), options);
+    here.draw({camera});
     const Image8 expected = here.read_color();
 
     std::vector<std::byte> head;
@@ -57,8 +58,8 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
       // Destroyed before the drawing, with everything prepared from it.
       // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
       const TriangleSoup gone = soup;
-      const PreparedSoup prepared =
-          prepare_soup(gone, glm::dvec3(0.0), device_limits(context().capabilities()), options);
+      const PreparedScene prepared =
+          prepare_scene(gone, glm::dvec3(0.0), device_limits(context().capabilities()), options);
       head = pack_head(prepared);
       blobs = all_blobs(prepared);
     }
@@ -67,7 +68,7 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
       std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
     };
     Renderer there(context(), unpack(head, read), options);
-    there.draw(camera);
+    there.draw({camera});
     EXPECT_EQ(there.read_color().pixels, expected.pixels);
     EXPECT_EQ(there.read_faces(), here.read_faces());
     EXPECT_EQ(describe(there.plan()), describe(here.plan()));

@@ -11,7 +11,7 @@
 #include "image/png.hpp"
 #include "image/png_rows.hpp"
 #include "image/video_file.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
+#include "runtime/debug_views/debug_views.hpp"
 #include "runtime/image_tiles.hpp"
 
 namespace tureen::viewer {
@@ -41,7 +41,7 @@ void draw_frames(const AnimationJob& job, const StageRequest& request,
   Renderer renderer = prepare_renderer(job.scene, request);
   const std::vector<Camera> cameras = frames(job.path, job.rate);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    renderer.draw(cameras[i]);
+    renderer.draw({cameras[i]});
     take(renderer.read_color(), i);
     request.progress(preparing_share +
                      (1 - preparing_share) * double(i + 1) / double(cameras.size()));
@@ -56,25 +56,29 @@ void write_image(const ImageJob& job, const StageRequest& request) {
     request.progress(preparing_share + (1 - preparing_share) * done);
   };
   if (job.debug_view.what != DebugView::color) {
-    DebugViewRenderer debug_renderer(request.context, job.scene.soup(), job.scene.origin(),
-                                     {.background = background});
-    debug_renderer.show(job.debug_view.what, job.debug_view.features);
-    ImageTiles tiles = tiles_of(debug_renderer, request.context.capabilities());
+    const gl::Capabilities& device = request.context.capabilities();
+    DebugViews debug_views(job.scene.soup());
+    Renderer renderer(
+        request.context,
+        prepare_debug_views(job.scene.soup(), job.scene.origin(), device_limits(device)),
+        {.background = background});
+    debug_views.show(renderer, job.debug_view.what, job.debug_view.features);
+    ImageTiles tiles = tiles_of(renderer, device);
     tiles.progress = progress;
-    write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
+    write_rows(job, [&](const BandSink& sink) { draw_in_bands({job.camera}, tiles, sink); });
     return;
   }
   Renderer renderer = prepare_renderer(job.scene, request);
   renderer.set_background(background);
   if (renderer.plan().quality.resolution_scale < 1) {
     // Tiles of a lower resolution would not match at their borders, so the image is drawn whole.
-    renderer.draw(job.camera);
+    renderer.draw({job.camera});
     write_rows(job, [&](const BandSink& sink) { sink(renderer.read_color()); });
     return;
   }
   ImageTiles tiles = tiles_of(renderer, request.context.capabilities());
   tiles.progress = progress;
-  write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
+  write_rows(job, [&](const BandSink& sink) { draw_in_bands({job.camera}, tiles, sink); });
 }
 
 void write_animation(const AnimationJob& job, const StageRequest& request) {

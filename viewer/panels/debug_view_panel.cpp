@@ -42,8 +42,8 @@ void debug_view_panel(State& state) {
   aside(current.meaning);
   if (debug_view.what == DebugView::features)
     feature_choice(debug_view.features, feature_count(soup));
-  if (debug_view.what != DebugView::color && state.debug_renderer)
-    legend_rows(state.debug_renderer->legend());
+  if (debug_view.what != DebugView::color && state.stage->debug_views)
+    legend_rows(state.stage->debug_views->legend());
 }
 
 }  // namespace tureen::viewer

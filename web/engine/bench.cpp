@@ -61,7 +61,7 @@ BenchScene& scene_at(const Json& index) {
 Json facts(const Renderer& renderer, double start) {
   renderer.finish();
   Json specialisations = Json::array();
-  for (const AppliedSpecialisation& each : renderer.plan().applied)
+  for (const AppliedSpecialisation& each : renderer.plan().applied())
     specialisations.push_back({{"name", name_of(each.what)},
                                {"count", each.count},
                                {"total", each.total},
@@ -102,8 +102,10 @@ Json add_published(const Json& arguments) {
   const double start = milliseconds();
   RenderPlan plan = make_baseline_plan(soup, options.plan);
   const double planned = milliseconds();
-  to.published = make_baseline_renderer(page_view().context(), soup, origin_of(only_layer(scene)),
-                                        std::move(plan), options);
+  const DeviceLimits limits = device_limits(page_view().capabilities());
+  to.published.emplace(
+      page_view().context(),
+      prepare_baseline(soup, origin_of(only_layer(scene)), limits, std::move(plan)), options);
   Json result = facts(*to.published, planned);
   result["plan_ms"] = planned - start;
   return result;
@@ -184,10 +186,10 @@ BenchCase bench_case_of(const Json& benchmark_case) {
 BenchmarkCase benchmark_case_of(const BenchCase& bench_case) {
   return {.name = bench_case.name,
           .draw =
-              [&bench_case](const Camera& camera) {
-                const std::size_t index = std::stoul(camera.name);
+              [&bench_case](const FrameInput& input) {
+                const std::size_t index = std::stoul(input.camera.name);
                 for (std::size_t i = 0; i < bench_case.renderers.size(); ++i)
-                  bench_case.renderers[i]->draw(bench_case.scenes[i]->cameras[index]);
+                  bench_case.renderers[i]->draw({bench_case.scenes[i]->cameras[index]});
               },
           .finish =
               [&bench_case] {
@@ -290,7 +292,7 @@ Json show(const Json& arguments) {
     const auto& cameras = scene.cameras;
     if (cameras.empty()) continue;
     const Camera& camera = cameras[cell.at("camera").get<std::size_t>() % cameras.size()];
-    renderer.draw(resized(camera, cell.at("width"), cell.at("height")));
+    renderer.draw({resized(camera, cell.at("width"), cell.at("height"))});
     renderer.blit_to(0, {cell.at("x").get<int>(), cell.at("y").get<int>()});
   }
   return nullptr;

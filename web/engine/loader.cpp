@@ -9,6 +9,7 @@
 #include "runtime/render_options.hpp"
 #include "scene/edit/edits.hpp"
 #include "web/engine/commands.hpp"
+#include "web/engine/page_options.hpp"
 #include "web/engine/prepared_archive.hpp"
 #include "web/engine/scene_path.hpp"
 
@@ -16,14 +17,10 @@ namespace tureen::web {
 
 namespace {
 
-/// A page shares the device's memory with all other pages. Above this size, half the memory is more
-/// important than an alpha test in two thirds of the time (docs/decisions/alpha-cells.md).
-constexpr std::uint64_t max_alpha_cell_bytes = 16 << 20;
-
 struct Loader {
   std::optional<Scene> scene;
-  std::optional<TriangleSoup> reduced;   // at a lower lattice level, to save memory
-  std::optional<PreparedSoup> prepared;  // reads the scene's soup, or the reduced one
+  std::optional<TriangleSoup> reduced;    // at a lower lattice level, to save memory
+  std::optional<PreparedScene> prepared;  // reads the scene's soup, or the reduced one
 
   const TriangleSoup& soup() const { return only_soup(*scene); }
 };
@@ -109,12 +106,9 @@ Json prepare(const Json& arguments) {
   if (const auto level = arguments.find("level"); level != arguments.end())
     loader().reduced =
         edited(loader().soup(), {.lattice_level = level->get<int>()}, report_progress);
-  RenderOptions options;
-  options.plan.max_alpha_cell_bytes = max_alpha_cell_bytes;
-  options.plan.quality = scene.quality;
-  loader().prepared =
-      prepare_soup(loader().reduced ? *loader().reduced : loader().soup(),
-                   origin_of(only_layer(scene)), limits_of(arguments.at("limits")), options);
+  loader().prepared = prepare_scene(loader().reduced ? *loader().reduced : loader().soup(),
+                                    origin_of(only_layer(scene)), limits_of(arguments.at("limits")),
+                                    page_options(scene));
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)

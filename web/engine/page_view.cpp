@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/error.hpp"
 #include "runtime/gl/api.hpp"
 
 namespace tureen::web {
@@ -28,7 +29,7 @@ PageView::Stage PageView::make_stage(Renderer renderer, ShownScene scene) const 
   if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
   controls.reset();
   controls.arrive();
-  return {std::move(renderer), std::move(scene), controls};
+  return {{}, std::move(renderer), std::move(scene), controls};
 }
 
 void PageView::show_preview(Renderer renderer, ShownScene scene) {
@@ -50,22 +51,45 @@ void PageView::set_viewport(int width, int height) {
 
 void PageView::drop_scene() {
   stage_.reset();
-  debug_renderer_.reset();
-  debug_view_ = DebugView::color;
+  read_scene_.reset();
 }
 
 void PageView::show(DebugView what, const FeatureChoice& features) {
-  if (what != DebugView::color) debug_renderer_.value().show(what, features);
+  const bool shows_debug_view = what != DebugView::color;
+  if (!stage_ && !shows_debug_view) return;
+  if (!stage_) throw UsageError("there is no scene for a debug view");
+  Stage& stage = *stage_;
+  if (shows_debug_view) DebugViews(read_scene_.value().soup).require(what, features);
+  if (const bool had_debug_views = stage.debug_views.has_value();
+      shows_debug_view != had_debug_views) {
+    try {
+      prepare_renderer(shows_debug_view);
+    } catch (const DeviceLimitError&) {
+      prepare_renderer(had_debug_views);
+      throw;
+    }
+  }
+  if (shows_debug_view) stage.debug_views->show(*stage.renderer, what, features);
   debug_view_ = what;
+  features_ = features;
 }
 
-void PageView::set_debug_view_renderer(DebugViewRenderer debug_renderer) {
-  debug_renderer_.emplace(std::move(debug_renderer));
-  debug_renderer_->set_background(glm::vec4(background_, 1.0f));
+void PageView::prepare_renderer(bool for_debug_views) {
+  const ReadScene& scene = read_scene_.value();
+  Stage& stage = *stage_;
+  stage.renderer.reset();
+  stage.debug_views.reset();
+  const DeviceLimits limits = device_limits(capabilities());
+  stage.renderer.emplace(context_,
+                         for_debug_views
+                             ? prepare_debug_views(scene.soup, scene.origin, limits, scene.options)
+                             : prepare_scene(scene.soup, scene.origin, limits, scene.options));
+  if (for_debug_views) stage.debug_views.emplace(scene.soup);
+  stage.renderer->set_background(glm::vec4(background_, 1.0f));
 }
 
 Legend PageView::legend() const {
-  return shows_debug_view() ? debug_renderer_->legend() : Legend{};
+  return stage_ && stage_->debug_views ? stage_->debug_views->legend() : Legend{};
 }
 
 bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
@@ -75,8 +99,11 @@ bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   // A smaller image would suffice, but only this size has exactly the visible depth.
   Stage& stage = *current();
   const glm::ivec2 size(viewport);
-  stage.renderer.draw(stage.controls.camera(size.x, size.y));
-  const std::optional<glm::dvec3> point = stage.renderer.point_at(place);
+  // Not every debug view draws depth.
+  if (stage.debug_views) stage.debug_views->show(*stage.renderer, DebugView::color);
+  stage.renderer->draw({stage.controls.camera(size.x, size.y)});
+  const std::optional<glm::dvec3> point = stage.renderer->point_at(place);
+  if (stage.debug_views) stage.debug_views->show(*stage.renderer, debug_view_, features_);
   if (point) stage.controls.focus(*point);
   return point.has_value();
 }
@@ -84,25 +111,14 @@ bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
 void PageView::set_background(glm::vec3 background) {
   background_ = background;
   for (std::optional<Stage>* stage : {&stage_, &preview_})
-    if (*stage) (*stage)->renderer.set_background(glm::vec4(background, 1.0f));
-  if (debug_renderer_) debug_renderer_->set_background(glm::vec4(background, 1.0f));
+    if (*stage) (*stage)->renderer->set_background(glm::vec4(background, 1.0f));
 }
 
 void PageView::draw(int width, int height, double seconds) {
   controls().advance(seconds, flight_);
   if (!shows_scene()) return clear_canvas(width, height);
-  draw_frame(controls().camera(width, height));
-  if (shows_debug_view())
-    debug_renderer_->blit_to(0);
-  else
-    current()->renderer.blit_to(0);
-}
-
-void PageView::draw_frame(const Camera& camera) {
-  if (shows_debug_view())
-    debug_renderer_->draw(camera);
-  else
-    current()->renderer.draw(camera);
+  current()->renderer->draw({controls().camera(width, height)});
+  current()->renderer->blit_to(0);
 }
 
 void PageView::clear_canvas(int width, int height) const {
@@ -117,8 +133,8 @@ void PageView::clear_canvas(int width, int height) const {
 Image8 PageView::image(int width, int height) { return image(controls().camera(width, height)); }
 
 Image8 PageView::image(const Camera& camera) {
-  draw_frame(camera);
-  return shows_debug_view() ? debug_renderer_->read_color() : current()->renderer.read_color();
+  current()->renderer->draw({camera});
+  return current()->renderer->read_color();
 }
 
 }  // namespace tureen::web

@@ -7,7 +7,7 @@
 
 #include "camera/camera_controls.hpp"
 #include "image/image.hpp"
-#include "runtime/debug_views/debug_view_renderer.hpp"
+#include "runtime/debug_views/debug_views.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/renderer.hpp"
 
@@ -35,12 +35,23 @@ class PageView {
   /// Frees the scene's memory on the device, but not the preview's.
   void drop_scene();
   bool shows_scene() const { return stage_ || preview_; }
-  const Renderer& renderer() const { return current()->renderer; }
+  const Renderer& renderer() const { return *current()->renderer; }
 
-  /// Selects a debug view. Throws UsageError with the sentence of why_not().
+  /// The shown scene, read again in this instance: debug views need more data than its renderer
+  /// has.
+  struct ReadScene {
+    TriangleSoup soup;
+    glm::dvec3 origin;
+    RenderOptions options;  // of ordinary frames
+  };
+  void keep_read_scene(ReadScene scene) { read_scene_.emplace(std::move(scene)); }
+  bool has_read_scene() const { return read_scene_.has_value(); }
+
+  /// Selects a debug view, or the colours. Debug views need keep_read_scene() before. The device
+  /// holds the scene once: if it must be prepared anew, the old renderer ends first. Throws
+  /// UsageError with the sentence of why_not(), and DeviceLimitError; then the frames are as
+  /// before.
   void show(DebugView what, const FeatureChoice& features);
-  bool has_debug_view_renderer() const { return debug_renderer_.has_value(); }
-  void set_debug_view_renderer(DebugViewRenderer debug_renderer);
   Legend legend() const;
 
   /// The controls of the preview or the scene; idle ones without both.
@@ -71,20 +82,21 @@ class PageView {
 
  private:
   struct Stage {
-    Renderer renderer;
+    std::optional<DebugViews> debug_views;  // if the renderer was prepared for them
+    std::optional<Renderer> renderer;       // always, except while another one is made
     ShownScene scene;
     CameraControls controls;
   };
+  void prepare_renderer(bool for_debug_views);
   Stage make_stage(Renderer renderer, ShownScene scene) const;
   const Stage* current() const { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
-  bool shows_debug_view() const { return debug_view_ != DebugView::color && !preview_; }
-  void draw_frame(const Camera& camera);
 
   gl::Context context_;
   std::optional<Stage> stage_, preview_;
-  std::optional<DebugViewRenderer> debug_renderer_;  // for stage_
-  DebugView debug_view_ = DebugView::color;
+  std::optional<ReadScene> read_scene_;      // of stage_
+  DebugView debug_view_ = DebugView::color;  // of stage_
+  FeatureChoice features_;
   CameraControls idle_;
   std::optional<glm::ivec2> viewport_;
   Flight flight_;

@@ -1,101 +1,174 @@
 #include "web/engine/prepared_archive.hpp"
 
+#include <cassert>
+
 #include "web/engine/archive.hpp"
 
 namespace tureen::web {
 
 namespace {
 
-// One function per type lists its archived members, for both directions.
+// One function per type, for both directions. Each names all members of its type in a structured
+// binding, so that a new member does not compile until it is archived or left out on purpose.
 
-template <class Archive, class Plan>
-void archive_plan(Archive& archive, Plan& plan) {
-  archive(plan.site, plan.reversed_depth, plan.faces, plan.opaque_count, plan.clusters,
-          plan.drops_small_triangles, plan.flat_colors, plan.color_mlp, plan.mlp_weights,
-          plan.view_direction, plan.latent_features, plan.depth_rejects_background,
-          plan.harmonics_degree, plan.feature_ranges, plan.lattice.uniform_level,
-          plan.lattice.levels, plan.lattice.alpha_by_cell, plan.lattice.refused_alpha_cell_bytes,
-          plan.applied, plan.shading_stage, plan.quality.resolution_scale,
-          plan.quality.supersampling, plan.appearance, plan.soup_faces, plan.undrawable_faces,
-          plan.zero_weights, plan.specialise, plan.requested_stage);
+template <class Archive, class Value>
+void archive_quality(Archive& archive, Value& value) {
+  auto& [resolution_scale, supersampling] = value;
+  archive(resolution_scale, supersampling);
 }
 
-template <class Archive, class Network>
-void archive_network(Archive& archive, Network& mlp) {
-  archive(mlp.text, mlp.weights, mlp.biases, mlp.hidden_neurons, mlp.dead_neurons, mlp.zero_weights,
-          mlp.reads_features1);
+template <class Archive, class Value>
+void archive_lattice(Archive& archive, Value& value) {
+  auto& [uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes] = value;
+  archive(uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes);
 }
 
-template <class Archive, class Sampler>
-void archive_sampler(Archive& archive, Sampler& sampler) {
-  archive(sampler.name, sampler.source.format, sampler.source.count, sampler.source.what);
+template <class Archive, class Value>
+void archive_layer_plan(Archive& archive, Value& value) {
+  auto& [site, shading_stage, faces, opaque_count, clusters, drops_small_triangles, flat_colors,
+         color_mlp, mlp_weights, view_direction, latent_features, depth_rejects_background,
+         harmonics_degree, feature_ranges, lattice, applied, appearance, soup_faces,
+         undrawable_faces, zero_weights] = value;
+  archive(site, shading_stage, faces, opaque_count, clusters, drops_small_triangles, flat_colors,
+          color_mlp, mlp_weights, view_direction, latent_features, depth_rejects_background,
+          harmonics_degree, feature_ranges);
+  archive_lattice(archive, lattice);
+  archive(applied, appearance, soup_faces, undrawable_faces, zero_weights);
 }
 
-template <class Archive, class Prepared>
-void archive_head(Archive& archive, Prepared& prepared) {
-  archive_plan(archive, prepared.plan);
-  archive(prepared.bounds, prepared.origin, prepared.geometry.face_count, prepared.appearance.glsl,
-          prepared.appearance.constants, prepared.appearance.layout);
-  archive_network(archive, prepared.appearance.mlp);
+template <class Archive, class Value>
+void archive_network(Archive& archive, Value& value) {
+  auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] =
+      value;
+  archive(text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1);
 }
 
-const TexelSource& source_of(const PreparedSoup& prepared, std::size_t blob) {
-  return prepared.appearance.samplers[blob - 1].source;
+template <class Archive, class Value>
+void archive_sampler(Archive& archive, Value& value) {
+  auto& [name, source] = value;
+  auto& [format, count, what, fill] = source;  // `fill` reads a blob
+  archive(name, format, count, what);
+}
+
+/// Archives the number of elements, so that reading creates them, and each of them.
+template <class Archive, class List, class Each>
+void archive_list(Archive& archive, List& list, const Each& each) {
+  std::size_t count = list.size();
+  archive(count);
+  if constexpr (!std::is_const_v<List>) list.resize(count);
+  for (auto& element : list) each(archive, element);
+}
+
+template <class Archive, class Value>
+void archive_soup(Archive& archive, Value& value) {
+  auto& [appearance, geometry] = value;
+  auto& [glsl, constants, samplers, mlp, layout] = appearance;
+  archive(glsl, constants);
+  archive_list(archive, samplers, [](auto& to, auto& sampler) { archive_sampler(to, sampler); });
+  archive_network(archive, mlp);
+  archive(layout);
+  auto& [face_count, fill] = geometry;  // `fill` reads a blob
+  archive(face_count);
+}
+
+template <class Archive, class Value>
+void archive_layer(Archive& archive, Value& value) {
+  auto& [bounds, origin, soup] = value;
+  archive(bounds, origin);
+  if constexpr (!std::is_const_v<Value>) soup.emplace();
+  assert(soup && "the page's instance makes no passes from outside runtime/");
+  archive_soup(archive, *soup);
+}
+
+template <class Archive, class Value>
+void archive_scene(Archive& archive, Value& value) {
+  auto& [plan, layers, make_passes] = value;
+  auto& [reversed_depth, quality, specialise, requested_stage, layer_plans, description] = plan;
+  archive(reversed_depth);
+  archive_quality(archive, quality);
+  archive(specialise, requested_stage);
+  archive_list(archive, layer_plans, [](auto& to, auto& layer) { archive_layer_plan(to, layer); });
+  archive(description);
+  archive_list(archive, layers, [](auto& to, auto& layer) { archive_layer(to, layer); });
+}
+
+/// The contents of a blob: a store of a soup's appearance or, without one, its corners.
+struct Blob {
+  const PreparedSoup* soup;
+  const TexelSource* store;
+};
+
+/// Blobs of a layer.
+std::size_t blobs_of(const PreparedLayer& layer) {
+  return 1 + layer.soup->appearance.samplers.size();
+}
+
+Blob blob_at(const PreparedScene& prepared, std::size_t index) {
+  for (const PreparedLayer& layer : prepared.layers) {
+    const std::size_t count = blobs_of(layer);
+    if (index < count)
+      return {&*layer.soup,
+              index == 0 ? nullptr : &layer.soup->appearance.samplers[index - 1].source};
+    index -= count;
+  }
+  assert(!"no such blob");
+  return {};
 }
 
 }  // namespace
 
-std::vector<std::byte> pack_head(const PreparedSoup& prepared) {
+std::vector<std::byte> pack_head(const PreparedScene& prepared) {
   ArchiveWriter archive;
-  archive_head(archive, prepared);
-  archive(prepared.appearance.samplers.size());
-  for (const auto& sampler : prepared.appearance.samplers) archive_sampler(archive, sampler);
+  archive_scene(archive, prepared);
   return archive.take();
 }
 
-std::size_t blob_count(const PreparedSoup& prepared) {
-  return 1 + prepared.appearance.samplers.size();
+std::size_t blob_count(const PreparedScene& prepared) {
+  std::size_t count = 0;
+  for (const PreparedLayer& layer : prepared.layers) count += blobs_of(layer);
+  return count;
 }
 
-std::uint64_t blob_size(const PreparedSoup& prepared, std::size_t blob) {
-  const std::uint64_t count =
-      blob == 0 ? prepared.geometry.face_count : source_of(prepared, blob).count;
-  return count * blob_grain(prepared, blob);
+std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob) {
+  const auto [soup, store] = blob_at(prepared, blob);
+  return (store ? store->count : soup->geometry.face_count) * blob_grain(prepared, blob);
 }
 
-std::size_t blob_grain(const PreparedSoup& prepared, std::size_t blob) {
-  return blob == 0 ? sizeof(FaceCorners) : source_of(prepared, blob).format.bytes;
+std::size_t blob_grain(const PreparedScene& prepared, std::size_t blob) {
+  const auto [soup, store] = blob_at(prepared, blob);
+  return store ? store->format.bytes : sizeof(FaceCorners);
 }
 
-void read_blob(const PreparedSoup& prepared, std::size_t blob, std::uint64_t offset,
+void read_blob(const PreparedScene& prepared, std::size_t blob, std::uint64_t offset,
                std::span<std::byte> out) {
+  const auto [soup, store] = blob_at(prepared, blob);
   const std::uint64_t first = offset / blob_grain(prepared, blob);
-  if (blob > 0) {
-    source_of(prepared, blob).fill(first, out);
+  if (store) {
+    store->fill(first, out);
     return;
   }
   std::vector<FaceCorners> corners(out.size() / sizeof(FaceCorners));
-  prepared.geometry.fill(static_cast<std::size_t>(first), corners);
+  soup->geometry.fill(static_cast<std::size_t>(first), corners);
   std::memcpy(out.data(), corners.data(), out.size());
 }
 
-PreparedSoup unpack(std::span<const std::byte> head, const BlobReader& read) {
-  PreparedSoup prepared;
+PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read) {
+  PreparedScene prepared;
   ArchiveReader archive(head);
-  archive_head(archive, prepared);
-  prepared.geometry.fill = [&read](std::size_t first, std::span<FaceCorners> out) {
-    read(0, first * sizeof(FaceCorners), std::as_writable_bytes(out));
-  };
-  std::size_t samplers = 0;
-  archive(samplers);
-  prepared.appearance.samplers.resize(samplers);
-  for (std::size_t i = 0; i < samplers; ++i) {
-    AppearanceSource::Sampler& sampler = prepared.appearance.samplers[i];
-    archive_sampler(archive, sampler);
-    sampler.source.fill = [&read, blob = i + 1, each = sampler.source.format.bytes](
-                              std::uint64_t first, std::span<std::byte> out) {
-      read(blob, first * each, out);
+  archive_scene(archive, prepared);
+  std::size_t blob = 0;
+  for (PreparedLayer& layer : prepared.layers) {
+    layer.soup->geometry.fill = [&read, blob](std::size_t first, std::span<FaceCorners> out) {
+      read(blob, first * sizeof(FaceCorners), std::as_writable_bytes(out));
     };
+    ++blob;
+    for (AppearanceSource::Sampler& sampler : layer.soup->appearance.samplers) {
+      sampler.source.fill = [&read, blob, each = sampler.source.format.bytes](
+                                std::uint64_t first, std::span<std::byte> out) {
+        read(blob, first * each, out);
+      };
+      ++blob;
+    }
   }
   return prepared;
 }

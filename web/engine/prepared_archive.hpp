@@ -1,4 +1,4 @@
-// Transfers a prepared soup from the instance that reads scenes (in a worker, which then ends) to
+// Transfers a prepared scene from the instance that reads scenes (in a worker, which then ends) to
 // the instance that draws them: a head, and blobs. The blobs are transferred block by block, so
 // neither instance holds the device's bytes twice.
 #pragma once
@@ -9,27 +9,27 @@
 #include <span>
 #include <vector>
 
-#include "runtime/prepared_soup.hpp"
+#include "runtime/prepared_scene.hpp"
 
 namespace tureen::web {
 
-/// Everything except the blobs.
-std::vector<std::byte> pack_head(const PreparedSoup& prepared);
+/// Everything except the blobs and make_passes, which the drawing instance has.
+std::vector<std::byte> pack_head(const PreparedScene& prepared);
 
-/// Blob 0 contains the corners of the faces; the others are the appearance's stores.
-std::size_t blob_count(const PreparedSoup& prepared);
-std::uint64_t blob_size(const PreparedSoup& prepared, std::size_t blob);
+/// The blobs of each layer in turn: the corners of its faces, then its appearance's stores.
+std::size_t blob_count(const PreparedScene& prepared);
+std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob);
 
 /// Copies the bytes of a blob from `offset` on. Offset and size must be multiples of blob_grain(),
 /// except at the blob's end.
-void read_blob(const PreparedSoup& prepared, std::size_t blob, std::uint64_t offset,
+void read_blob(const PreparedScene& prepared, std::size_t blob, std::uint64_t offset,
                std::span<std::byte> out);
-std::size_t blob_grain(const PreparedSoup& prepared, std::size_t blob);
+std::size_t blob_grain(const PreparedScene& prepared, std::size_t blob);
 
 using BlobReader =
     std::function<void(std::size_t blob, std::uint64_t offset, std::span<std::byte> out)>;
 
 /// The sources of the result use `read`, which must outlive them.
-PreparedSoup unpack(std::span<const std::byte> head, const BlobReader& read);
+PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read);
 
 }  // namespace tureen::web

@@ -8,7 +8,9 @@
 #include "camera/view_state.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/plan/plan_description.hpp"
+#include "scene/edit/edits.hpp"
 #include "web/engine/commands.hpp"
+#include "web/engine/page_options.hpp"
 #include "web/engine/page_view.hpp"
 #include "web/engine/scene_path.hpp"
 #include "web/engine/unpacking.hpp"
@@ -40,7 +42,7 @@ ShownScene scene_of(const Json& scene) {
 
 Json facts() {
   return {{"plan", describe(view().renderer().plan())},
-          {"drawn", view().renderer().plan().faces.size()},
+          {"drawn", view().renderer().plan().layers[0].faces.size()},
           {"device_bytes", view().renderer().device_bytes()}};
 }
 
@@ -214,13 +216,15 @@ Json background(const Json& color) {
   return nullptr;
 }
 
-/// {"folder", "paths"}: reads the scene again, for debug views that need more data than the
-/// renderer has.
-Json open_debug_view_renderer(const Json& arguments) {
+/// {"folder", "paths", "level"?: maximum lattice level}: reads the scene again, for debug views
+/// that need more data than the renderer has.
+Json read_for_debug_views(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
   make_opaque(scene);
-  view().set_debug_view_renderer(
-      DebugViewRenderer(view().context(), only_soup(scene), origin_of(only_layer(scene))));
+  TriangleSoup& soup = only_soup(scene);
+  if (const auto level = arguments.find("level"); level != arguments.end())
+    soup = edited(soup, {.lattice_level = level->get<int>()}, {});
+  view().keep_read_scene({std::move(soup), origin_of(only_layer(scene)), page_options(scene)});
   return nullptr;
 }
 
@@ -244,19 +248,19 @@ Json legend(const Json&) {
 
 Commands viewer_commands() {
   Commands commands = looking_around();
-  commands.insert({{"start", start},
-                   {"take_head", take_head},
-                   {"show", show},
-                   {"clear", clear},
-                   {"drop_preview", drop_preview},
-                   {"draw", draw},
-                   {"picture", image},
-                   {"background", background},
-                   {"has_debug_view_renderer",
-                    [](const Json&) { return Json(view().has_debug_view_renderer()); }},
-                   {"open_debug_view_renderer", open_debug_view_renderer},
-                   {"debug_view", show_debug_view},
-                   {"legend", legend}});
+  commands.insert(
+      {{"start", start},
+       {"take_head", take_head},
+       {"show", show},
+       {"clear", clear},
+       {"drop_preview", drop_preview},
+       {"draw", draw},
+       {"picture", image},
+       {"background", background},
+       {"is_read_for_debug_views", [](const Json&) { return Json(view().has_read_scene()); }},
+       {"read_for_debug_views", read_for_debug_views},
+       {"debug_view", show_debug_view},
+       {"legend", legend}});
   return commands;
 }
 

@@ -58,6 +58,7 @@ class CanvasViewer implements Viewer {
   private readonly ending = new AbortController();
   private loading: Loading | null = null;
   private source: SceneSource | null = null;
+  private level: number | null = null;  // the reduced lattice level of the scene
   private shown: SceneSummary | null = null;
   private previewed = false;
   private debugView_ = { name: 'color', features: { first: 0, count: 3 } };
@@ -217,6 +218,7 @@ class CanvasViewer implements Viewer {
     }
     this.previewed = false;
     this.source = source;
+    this.level = scene.level;
     this.debugView_ = { ...this.debugView_, name: 'color' };
     this.shown = sceneSummary(scene, facts);
     this.emit('scene', this.shown);
@@ -331,9 +333,9 @@ class CanvasViewer implements Viewer {
 
   async show(name: string, features = { first: 0, count: 3 }): Promise<void> {
     const mine = ++this.debugViewsAsked;
-    if (name !== 'color' && !this.engine.call<boolean>('has_debug_view_renderer')) {
+    if (name !== 'color' && !this.engine.call<boolean>('is_read_for_debug_views')) {
       if (!this.opening || this.opening.source !== this.source)
-        this.opening = { source: this.source, done: this.openDebugViewRenderer() };
+        this.opening = { source: this.source, done: this.readForDebugViews() };
       const { opening } = this;
       try {
         await opening.done;
@@ -348,14 +350,14 @@ class CanvasViewer implements Viewer {
   }
 
   /** Reads the scene again: the renderer holds too little data for debug views. */
-  private async openDebugViewRenderer(): Promise<void> {
+  private async readForDebugViews(): Promise<void> {
     const source = this.source;
     if (!source) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
     const name = this.shown!.name;
     const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
                                   : await openFiles(source.files, source.name ?? name);
     if (this.source !== source) throw new ViewerError('Another scene is open now.', 'cancelled');
-    readWith(this.engine, 'open_debug_view_renderer', files);
+    readWith(this.engine, 'read_for_debug_views', files, this.level === null ? {} : { level: this.level });
   }
 
   get stats(): FrameStats {

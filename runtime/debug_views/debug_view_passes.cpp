@@ -1,0 +1,213 @@
+#include "runtime/debug_views/debug_view_passes.hpp"
+
+#include <cmath>
+
+#include "runtime/gl/state.hpp"
+#include "runtime/passes/shader_source.hpp"
+#include "runtime/passes/soup_passes.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Factor of the colours below the wireframe's lines.
+constexpr const char* dimmed = "0.4";
+
+/// The shader constant of a debug view: SHOW_DEPTH for "depth".
+std::string constant_of(const DebugViewName& debug_view) {
+  std::string constant = std::string("SHOW_") + debug_view.name;
+  for (char& c : constant) c = c == '-' ? '_' : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  return constant;
+}
+
+/// The full-screen program that shows a debug view.
+gl::Program shown_program(const DeviceSoup& soup, const DebugViewSubject& subject, DebugView what) {
+  DeviceSoup::Constants constants;
+  for (const DebugViewName& name : debug_view_names())
+    constants[constant_of(name)] = std::to_string(int(name.what));
+  constants["SHOWN"] = std::to_string(int(what));
+  constants["NO_FACE"] = "0xffffffffu";
+  constants["COLOR_SCALE"] = what == DebugView::wireframe ? dimmed : "1.0";
+  const gl::Api api = soup.device().api;
+  return gl::Program(
+      assemble({.file = "full_screen.vert"}, api),
+      soup.source(
+          what == DebugView::overdraw ? "overdraw.frag" : "debug_view.frag", constants,
+          {{"debug_view_appearance.glsl", std::string("#include \"") + subject.shader + "\"\n"}}));
+}
+
+gl::Program face_program(const DeviceSoup& soup, const char* fragment) {
+  return soup.face_program(
+      fragment, {{"ALPHA_TEST", "0"}, {"LINE_PIXELS", "1.0"}, {"LINE_COLOR", "vec3(0.94)"}});
+}
+
+/// The uniforms of face_corners.glsl: window y points up, image y down.
+void set_corners(const gl::Program& program, const Camera& camera) {
+  const glm::dmat3 axes = camera.world_from_view_rotation();
+  program.set("view_axis", glm::vec3(-axes[2]));
+  program.set("window_x", glm::vec3(camera.fx * axes[0] - camera.cx * axes[2]));
+  program.set("window_y", glm::vec3(camera.fy * axes[1] - (camera.height - camera.cy) * axes[2]));
+}
+
+/// One triangle over the whole target, without depth test. The program is in use.
+class FullScreen {
+ public:
+  void draw(const gl::Program& program) {
+    glDisable(GL_DEPTH_TEST);
+    program.set("background_depth", 0.0f);
+    nothing_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  void leave_context() { nothing_.forget(); }
+
+ private:
+  gl::LocalVertexArray nothing_;
+};
+
+/// Colours the visible fragments by a stored or geometric value.
+class ValuePass final : public Pass {
+ public:
+  ValuePass(DeviceSoup& soup, std::size_t layer, const DebugViewSubject& subject,
+            ShownDebugView& shown)
+      : soup_(soup),
+        layer_(layer),
+        subject_(subject),
+        shown_(shown),
+        program_(shown_program(soup, subject, shown.what)) {}
+
+  const char* name() const override { return "debug view"; }
+  void draw(const Frame& frame, FrameTarget& target) override {
+    const FrameCamera& view = frame.layers[layer_];
+    const DepthScale scale = shown_.scale = depth_scale(subject_.middle, view.eye);
+    target.overwrite_color();
+    program_.use();
+    soup_.appearance().bind(program_);
+    set_eye(program_, view.eye);
+    set_rays(program_, view.camera);
+    set_corners(program_, view.camera);
+    program_.set("background", frame.background);
+    program_.set("depth_scale",
+                 glm::vec2(std::log(scale.near), 1.0 / std::log(scale.far / scale.near)));
+    const bool weight = shown_.what == DebugView::mlp_weight;
+    program_.set("first_feature",
+                 weight ? subject_.blend_channel.value_or(0) : shown_.features.first);
+    program_.set("features_shown", weight ? 1 : shown_.features.count);
+    target.bind_visibility(program_, soup_.appearance().unit_count());
+    full_screen_.draw(program_);
+  }
+  void leave_context() override { full_screen_.leave_context(); }
+
+ private:
+  const DeviceSoup& soup_;
+  std::size_t layer_;
+  const DebugViewSubject& subject_;
+  ShownDebugView& shown_;
+  gl::Program program_;
+  FullScreen full_screen_;
+};
+
+/// Draws the edges of the faces. Edges have the depth of their faces. The depth test passes edges
+/// of visible faces, and edges in front of them, where the alpha test rejected the face.
+class EdgePass final : public Pass {
+ public:
+  EdgePass(DeviceSoup& soup, std::size_t layer)
+      : soup_(soup), layer_(layer), program_(face_program(soup, "wireframe.frag")) {}
+  const char* name() const override { return "edges"; }
+  void draw(const Frame& frame, FrameTarget& target) override {
+    const FrameCamera& view = frame.layers[layer_];
+    target.draw_color();
+    glDepthMask(GL_FALSE);
+    glDepthFunc(target.nearer_or_equal());
+    program_.use();
+    set_corners(program_, view.camera);
+    soup_.draw_faces(program_, program_, view, target);
+  }
+
+ private:
+  DeviceSoup& soup_;
+  std::size_t layer_;
+  gl::Program program_;
+};
+
+/// Colours the fragment counts.
+class OverdrawPass final : public Pass {
+ public:
+  OverdrawPass(const DeviceSoup& soup, const DebugViewSubject& subject,
+               const FragmentCountPass& counts)
+      : counts_(counts), program_(shown_program(soup, subject, DebugView::overdraw)) {}
+  const char* name() const override { return "debug view"; }
+  void draw(const Frame& frame, FrameTarget& target) override {
+    target.overwrite_color();
+    program_.use();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, counts_.texture());
+    gl::use_texture_sampling(0);
+    program_.set("counts", 0);
+    program_.set("background", frame.background);
+    full_screen_.draw(program_);
+  }
+  void leave_context() override { full_screen_.leave_context(); }
+
+ private:
+  const FragmentCountPass& counts_;
+  gl::Program program_;
+  FullScreen full_screen_;
+};
+
+const char* shader_of(const TriangleSoup& soup) {
+  return std::holds_alternative<LatticeTexture>(soup.appearance) ? "debug_view_lattice.glsl"
+         : std::holds_alternative<UvTextures>(soup.appearance)   ? "debug_view_uv.glsl"
+                                                                 : "debug_view_plain.glsl";
+}
+
+}  // namespace
+
+DebugViewSubject::DebugViewSubject(const TriangleSoup& soup)
+    : middle(middle_bounds(soup)), shader(shader_of(soup)), features(feature_count(soup)) {
+  for (const DebugViewName& name : debug_view_names())
+    refusals[std::size_t(name.what)] = why_not(name.what, soup);
+  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance); texture && texture->mlp)
+    blend_channel = texture->mlp->blend_channel;
+  if (const auto* textures = std::get_if<UvTextures>(&soup.appearance); textures && textures->mlp)
+    blend_channel = textures->mlp->blend_channel;
+}
+
+FragmentCountPass::FragmentCountPass(DeviceSoup& soup, std::size_t layer)
+    : soup_(soup), layer_(layer), program_(face_program(soup, "fragment_count.frag")) {}
+
+void FragmentCountPass::resize(const FrameTarget& target) {
+  size_ = target.size();
+  counts_ = make_target(target_formats::rgba8, size_.x, size_.y);
+  framebuffer_ = make_framebuffer({counts_.id()}, 0);
+}
+
+void FragmentCountPass::draw(const Frame& frame, FrameTarget& target) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  const float none[4] = {0, 0, 0, 0};
+  glClearBufferfv(GL_COLOR, 0, none);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE);
+  soup_.draw_faces(program_, program_, frame.layers[layer_], target);
+}
+
+DebugViewPasses debug_view_passes(DeviceSoup& soup, const DebugViewSubject& subject,
+                                  ShownDebugView& shown) {
+  DebugViewPasses result;
+  const auto add = [&](std::unique_ptr<Pass> pass) { result.passes.push_back(std::move(pass)); };
+  if (shown.what == DebugView::overdraw) {
+    auto counts = std::make_unique<FragmentCountPass>(soup, 0);
+    result.counts = counts.get();
+    add(std::move(counts));
+    add(std::make_unique<OverdrawPass>(soup, subject, *result.counts));
+    return result;
+  }
+  add(make_visibility_pass(
+      soup, 0, shown.what == DebugView::alpha ? AlphaTest::never : AlphaTest::as_planned));
+  add(std::make_unique<ValuePass>(soup, 0, subject, shown));
+  if (shown.what == DebugView::wireframe) add(std::make_unique<EdgePass>(soup, 0));
+  return result;
+}
+
+}  // namespace tureen

@@ -1,0 +1,53 @@
+// Shows the debug views of runtime/debug_views/debug_view.hpp: prepares a soup for them, and gives
+// its Renderer the passes of one of them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/debug_views/debug_view.hpp"
+#include "runtime/renderer.hpp"
+
+namespace tureen {
+
+/// A soup with all its faces and all its stored values: no specialisation except those of the
+/// network's code, which are exact. Its Renderer also draws ordinary frames. Of the options'
+/// preferences, only reversed_depth has an effect. Otherwise as prepare_scene.
+PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
+                                  const DeviceLimits& device, const RenderOptions& options = {});
+
+/// The debug views of one soup. It must live until its renderer is destroyed or shows ordinary
+/// frames again.
+class DebugViews {
+ public:
+  /// The soup is not needed afterwards.
+  explicit DebugViews(const TriangleSoup& soup);
+  ~DebugViews();
+  DebugViews(DebugViews&&) noexcept;
+  DebugViews& operator=(DebugViews&&) noexcept;
+
+  /// Throws UsageError with the sentence of why_not() if the soup has no such debug view.
+  void require(DebugView what, const FeatureChoice& features = {}) const;
+
+  /// Selects the debug view of the next frames of a renderer from prepare_debug_views for this
+  /// soup; always the same renderer. Throws as require().
+  ///
+  /// A pixel shows the face or background of an ordinary frame, with three exceptions for fragments
+  /// that the alpha test rejects. DebugView::alpha shows the nearest face even if it is rejected,
+  /// overdraw counts every fragment, and the wireframe outlines whole triangles if nothing is in
+  /// front of them. Renderer::read_faces() is empty for overdraw.
+  void show(Renderer& renderer, DebugView what, const FeatureChoice& features = {});
+
+  /// The fragment count of each pixel of the last overdraw frame, row 0 on top, at most
+  /// max_counted_fragments; empty for other debug views.
+  std::vector<std::uint8_t> read_fragment_counts() const;
+
+  /// Legend of the last frame's colours.
+  Legend legend() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tureen

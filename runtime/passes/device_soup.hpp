@@ -1,0 +1,70 @@
+// A soup on the device: its appearance, its corners, and the drawing of its planned faces.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/gl/context.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/passes/covered_faces.hpp"
+#include "runtime/passes/device_appearance.hpp"
+#include "runtime/passes/geometry.hpp"
+#include "runtime/plan/draw_order.hpp"
+#include "runtime/plan/plan.hpp"
+
+namespace tureen {
+
+class DeviceSoup {
+ public:
+  using Constants = std::map<std::string, std::string>;
+
+  /// Uploads; the sources are not needed afterwards. `plan` must outlive this object. Throws
+  /// DeviceLimitError.
+  DeviceSoup(const gl::Capabilities& device, AppearanceSource appearance,
+             const GeometrySource& geometry, const SoupPlan& plan);
+
+  const SoupPlan& plan() const { return plan_; }
+  const gl::Capabilities& device() const { return device_; }
+  const DeviceAppearance& appearance() const { return appearance_; }
+
+  /// Complete GLSL for a file that reads the appearance.
+  std::string source(const char* file, const Constants& constants,
+                     const Constants& generated = {}) const;
+  /// The program that draws faces with this fragment shader.
+  gl::Program face_program(const char* fragment, const Constants& constants) const;
+
+  /// Draws the planned faces into a part of `target` that is bound, those without alpha test first,
+  /// each part from near to far. A program may be empty if its part is. Sets the uniforms of
+  /// geometry.vert, of the appearance and of view_direction.glsl.
+  void draw_faces(const gl::Program& opaque, const gl::Program& cut_out, const FrameCamera& camera,
+                  const FrameTarget& target);
+
+  std::size_t device_bytes() const;
+  /// See Renderer::leave_context().
+  void leave_context() { geometry_.leave_context(); }
+
+ private:
+  void draw_clusters(const gl::Program& program, std::span<const Cluster> clusters,
+                     const FrameCamera& camera, const FrameTarget& target);
+  void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count);
+
+  const SoupPlan& plan_;
+  gl::Capabilities device_;
+  DeviceAppearance appearance_;
+  Geometry geometry_;
+  FrontToBack order_;
+  std::optional<CoveredFaces> covered_;  // if small triangles are culled
+  gl::Buffer covered_vertices_;
+  std::vector<std::uint32_t> vertices_;  // for the last draw_covered()
+  int subpixel_bits_ = 0;
+  /// Culling costs time for every face. If more than this fraction of the faces remains, the next
+  /// frames draw all faces; the image is the same.
+  static constexpr double worthwhile = 0.7;
+  static constexpr int rested_frames = 30;  // the cost falls to a thirtieth
+  int search_rests_ = 0;                    // frames
+};
+
+}  // namespace tureen

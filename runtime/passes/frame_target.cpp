@@ -1,0 +1,82 @@
+#include "runtime/passes/frame_target.hpp"
+
+#include "runtime/gl/state.hpp"
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+const TargetFormat& FrameTarget::depth_format() const {
+  return format_.reversed_depth ? target_formats::depth32f : target_formats::depth24;
+}
+
+void FrameTarget::resize(glm::ivec2 size) {
+  color_ = format_.image_store ? make_image_target(target_formats::rgba8, size.x, size.y)
+                               : make_target(target_formats::rgba8, size.x, size.y);
+  depth_ = make_target(depth_format(), size.x, size.y);
+  color_framebuffer_ = make_framebuffer({color_.id()}, depth_.id());
+  if (format_.visibility) {
+    visible_ = make_target(target_formats::rg32ui, size.x, size.y);
+    visibility_framebuffer_ = make_framebuffer({visible_.id()}, depth_.id());
+  }
+  size_ = size;
+  gl::check("FrameTarget");
+}
+
+std::size_t FrameTarget::bytes() const {
+  return bytes_of(target_formats::rgba8, size_) + bytes_of(depth_format(), size_) +
+         (format_.visibility ? bytes_of(target_formats::rg32ui, size_) : 0);
+}
+
+void FrameTarget::begin(const glm::vec4& background) {
+  background_ = background;
+  visibility_drawn_ = depth_drawn_ = color_drawn_ = false;
+}
+
+void FrameTarget::draw_visibility() {
+  glBindFramebuffer(GL_FRAMEBUFFER, visibility_framebuffer_.id());
+  if (!visibility_drawn_) {
+    const GLuint empty[4] = {no_face, 0, 0, 0};
+    glClearBufferuiv(GL_COLOR, 0, empty);
+    visibility_drawn_ = true;
+  }
+  use_depth();
+}
+
+void FrameTarget::draw_color() {
+  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
+  if (!color_drawn_) glClearBufferfv(GL_COLOR, 0, &background_[0]);
+  color_drawn_ = true;
+  use_depth();
+}
+
+void FrameTarget::overwrite_color() {
+  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
+  color_drawn_ = true;
+}
+
+void FrameTarget::use_depth() {
+  glDepthFunc(nearer());
+  if (depth_drawn_) return;
+  const float far = far_depth();
+  glClearBufferfv(GL_DEPTH, 0, &far);
+  depth_drawn_ = true;
+}
+
+void FrameTarget::bind_visibility(const gl::Program& program, int unit) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D, visible_.id());
+  gl::use_texture_sampling(static_cast<unsigned>(unit));
+  program.set("visible", unit);
+}
+
+glm::dmat4 FrameTarget::clip_from_view(const Camera& camera, const ClipRange& range) const {
+  return format_.reversed_depth ? clip_from_view_reversed(camera, range.near)
+                                : tureen::clip_from_view(camera, range.near, range.far);
+}
+
+void FrameTarget::leave_context() {
+  visibility_framebuffer_ = {};
+  color_framebuffer_ = {};
+}
+
+}  // namespace tureen

@@ -1,0 +1,55 @@
+// One step of a frame. Renderer draws its passes in order, all into one FrameTarget. A module
+// outside runtime/ can implement passes of its own and add them to a Renderer (jobs/baseline).
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
+#include "runtime/passes/frame_target.hpp"
+#include "scene/clip_range.hpp"
+#include "scene/frame_input.hpp"
+
+namespace tureen {
+
+/// One frame's camera in the coordinates of a layer: lengths in the layer's unit, positions
+/// relative to its origin.
+struct FrameCamera {
+  Camera camera;
+  glm::dvec3 eye;
+  ClipRange range;
+};
+
+/// The data of a frame that its passes share.
+struct Frame {
+  FrameInput input;                 // width and height are those of the samples
+  ClipRange range;                  // in world units
+  glm::vec4 background;             // display-referred colour and alpha
+  std::vector<FrameCamera> layers;  // for each layer of the scene
+};
+
+class Pass {
+ public:
+  virtual ~Pass() = default;
+
+  /// The name in results: "visibility", "shading", .. Static storage.
+  virtual const char* name() const = 0;
+  /// Called before the first frame and when the size changes, after the target was resized: creates
+  /// textures of the pass's own, and framebuffers that use the target's textures. Throws
+  /// DeviceLimitError.
+  virtual void resize(const FrameTarget& target) { (void)target; }
+  /// Draws. Before each pass, the viewport is the whole target, depth is tested and written, and
+  /// blending, culling and the other tests are off (gl::use_plain_rasterisation). With reversed
+  /// depth, clip space has depth from 0 to 1. A pass binds its target itself.
+  virtual void draw(const Frame& frame, FrameTarget& target) = 0;
+  /// Bytes of the pass's own buffers and textures, without those that depend on the image's size.
+  virtual std::size_t device_bytes() const { return 0; }
+  /// Bytes of the textures that resize() created.
+  virtual std::size_t target_bytes() const { return 0; }
+  /// See Renderer::leave_context(). The caller calls resize() before the next draw().
+  virtual void leave_context() {}
+};
+
+using Passes = std::vector<std::unique_ptr<Pass>>;
+
+}  // namespace tureen

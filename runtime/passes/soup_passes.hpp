@@ -1,0 +1,28 @@
+// The passes that draw soups: a visibility pass that stores the visible fragments, and a shading
+// pass that colours them; or one forward pass that writes colours.
+#pragma once
+
+#include <span>
+
+#include "runtime/passes/device_soup.hpp"
+#include "runtime/passes/pass.hpp"
+
+namespace tureen {
+
+/// Width and height of a work group in invocations: GROUP_SIDE of shading.comp.
+inline constexpr int shading_group_side = 8;
+
+/// Whether the visibility pass tests alpha.
+enum class AlphaTest {
+  as_planned,  // for faces that are not opaque
+  never,       // rejected fragments are visible too
+};
+
+/// Stores the visible fragments of a soup, which must outlive the pass.
+std::unique_ptr<Pass> make_visibility_pass(DeviceSoup& soup, std::size_t layer,
+                                           AlphaTest test = AlphaTest::as_planned);
+
+/// The passes of a frame by the soups' plans; the soups must outlive them.
+Passes soup_passes(std::span<const std::unique_ptr<DeviceSoup>> soups);
+
+}  // namespace tureen

@@ -1,0 +1,13 @@
+// What a frame shows. Everything that draws takes it: renderers, debug views, the oracle.
+#pragma once
+
+#include "scene/camera.hpp"
+
+namespace tureen {
+
+struct FrameInput {
+  Camera camera;    // in world coordinates
+  double time = 0;  // seconds from the start of the scene; no primitive depends on it yet
+};
+
+}  // namespace tureen
