@@ -2,8 +2,10 @@
 // precision on empty space. The oracle uses the range for reversed depth.
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 
 #include "scene/camera.hpp"
 #include "scene/triangle_soup.hpp"
@@ -29,6 +31,21 @@ enum class DepthStorage {
 /// < near < far for every finite input. Geometry nearer than `near` is clipped. If the bounds lie
 /// entirely in front of the eye, nothing is clipped.
 ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
+                     DepthStorage storage);
+
+/// The box around a layer, in layer coordinates, and the layer's place: a similarity.
+struct PlacedBounds {
+  Bounds bounds;
+  glm::dmat4 world_from_layer{1.0};
+};
+
+/// The range of a frame that draws all these layers with one depth buffer, in world units. One
+/// layer has the range of its bounding sphere; several have that of the sphere around a common box,
+/// with its axes along the world's. Boxes without extent are ignored beside others: they contain
+/// nothing visible, and the box of an empty layer lies at an arbitrary place. Without layers, the
+/// range has no meaning, but is valid. For one layer that is only translated, the result equals
+/// clip_range(bounds, eye - translation, forward, storage) bit for bit.
+ClipRange clip_range(std::span<const PlacedBounds> layers, const Camera& camera,
                      DepthStorage storage);
 
 /// The viewing axis in world coordinates.
