@@ -59,11 +59,11 @@ WrittenImages draw_views(const Drawer& drawer, const gl::Capabilities& device, c
   return draw_images(drawer, device, views.cameras, {output, sheet});
 }
 
-Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
-                  const RenderOptions& options, glm::vec4 background, const Views& views) {
+Drawn draw_colors(const gl::Context& context, const Scene& scene, const RenderOptions& options,
+                  glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
   Renderer renderer =
-      make_renderer(context, soup, origin_of(only_layer(scene)), options.drawing.pipeline,
+      make_renderer(context, scene, options.drawing.pipeline,
                     {.plan = preferences_for(scene, options.drawing), .background = background});
   const Drawer drawer = drawer_of(renderer, device);
   // benchmark() rejects images in tiles. It runs first, because drawing may take hours.
@@ -75,12 +75,12 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
   return {std::move(images), describe(plan), plan.applied(), {}, renderer.device_bytes()};
 }
 
-Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
-                      const RenderOptions& options, glm::vec4 background, const Views& views) {
+Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const RenderOptions& options,
+                      glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  DebugViews debug_views(soup);
-  Renderer renderer(context,
-                    prepare_debug_views(soup, origin_of(only_layer(scene)), device_limits(device)),
+  const std::vector<PlacedSoup> layers = placed_soups(scene);
+  DebugViews debug_views(layers);
+  Renderer renderer(context, prepare_debug_views(layers, device_limits(device)),
                     {.background = background});
   debug_views.show(renderer, options.show.what, options.show.features);
   WrittenImages images = draw_views(drawer_of(renderer, device), device, views, options.output);
@@ -159,7 +159,7 @@ ExitCode render(RenderOptions options) {
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
   const auto draw = options.show.what == DebugView::color ? draw_colors : draw_debug_view;
-  const Drawn drawn = draw(context, scene, soup, options, background, views);
+  const Drawn drawn = draw(context, scene, options, background, views);
   const WrittenImages& images = drawn.images;
   const FrameTimes& times = images.times;
 

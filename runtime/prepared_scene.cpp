@@ -4,24 +4,50 @@
 
 namespace tureen {
 
-PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& limits,
+std::vector<PlacedSoup> placed_soups(const Scene& scene) {
+  std::vector<PlacedSoup> soups;
+  for (const Layer& layer : scene.layers)
+    soups.push_back({std::get<TriangleSoup>(layer.primitives), layer.world_from_layer, layer.name,
+                     layer.visible});
+  return soups;
+}
+
+PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan) {
   PreparedScene prepared;
   prepared.plan = std::move(plan);
-  const SoupPlan& soup_plan = prepared.plan.layers.front();
-  prepared.layers.push_back(
-      {.bounds = bounds(soup),
-       .origin = origin,
-       .soup =
-           PreparedSoup{.appearance = prepare_appearance(soup, soup_plan, TexelLayout::of(limits)),
-                        .geometry = prepare_geometry(soup, soup_plan.faces)}});
+  const TexelLayout layout = TexelLayout::of(limits);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const PlacedSoup& layer = layers[i];
+    const SoupPlan& soup_plan = prepared.plan.layers[i];
+    prepared.layers.push_back(
+        {.name = layer.name,
+         .bounds = bounds(layer.soup),
+         .world_from_layer = layer.world_from_layer,
+         .visible = layer.visible,
+         .soup = PreparedSoup{.appearance = prepare_appearance(layer.soup, soup_plan, layout),
+                              .geometry = prepare_geometry(layer.soup, soup_plan.faces)}});
+  }
   return prepared;
+}
+
+PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& device,
+                            const RenderOptions& options) {
+  const DeviceLimits limits = options.limits.value_or(device);
+  std::vector<const TriangleSoup*> soups;
+  for (const PlacedSoup& layer : layers) soups.push_back(&layer.soup);
+  return prepare_scene(layers, limits, make_plan(soups, limits, options.plan));
+}
+
+PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
+                            const RenderOptions& options) {
+  return prepare_scene(placed_soups(scene), device, options);
 }
 
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,
                             const RenderOptions& options) {
-  const DeviceLimits limits = options.limits.value_or(device);
-  return prepare_scene(soup, origin, limits, make_plan(soup, limits, options.plan));
+  const PlacedSoup layer{soup, at_origin(origin)};
+  return prepare_scene(std::span(&layer, 1), device, options);
 }
 
 }  // namespace tureen

@@ -5,16 +5,19 @@
 #pragma once
 
 #include <functional>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/passes/appearance_source.hpp"
+#include "runtime/passes/device_soup.hpp"
 #include "runtime/passes/geometry_source.hpp"
-#include "runtime/passes/soup_passes.hpp"
+#include "runtime/passes/pass.hpp"
 #include "runtime/plan/plan.hpp"
 #include "runtime/render_options.hpp"
-#include "scene/triangle_soup.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -25,10 +28,12 @@ struct PreparedSoup {
 };
 
 struct PreparedLayer {
-  Bounds bounds;  // relative to the origin
-  glm::dvec3 origin{0.0};
+  std::string name = {};
+  Bounds bounds = {};  // in layer coordinates
+  glm::dmat4 world_from_layer{1.0};
+  bool visible = true;
   /// Without it, passes from outside runtime/ hold the soup on the device.
-  std::optional<PreparedSoup> soup;
+  std::optional<PreparedSoup> soup = {};
 };
 
 /// The inputs of a function that makes passes.
@@ -42,19 +47,33 @@ struct PassInputs {
 struct PreparedScene {
   RenderPlan plan;
   std::vector<PreparedLayer> layers;  // one for each of plan.layers
-  /// Makes the passes of a frame, in the current context. May throw DeviceLimitError.
-  std::function<Passes(const PassInputs&)> make_passes = [](const PassInputs& inputs) {
-    return soup_passes(inputs.soups);
-  };
+  /// Makes the passes of a frame, in the current context, instead of those of the soups. May throw
+  /// DeviceLimitError.
+  std::function<Passes(const PassInputs&)> make_passes = {};
 };
 
-/// Plans for the device's limits, or for options.limits. The sources read the soup, which must not
-/// move until they have been used. The soup must have no defect(). Throws UsageError as make_plan
-/// does, and DeviceLimitError with the memory that the soup needs if it does not fit.
+/// A soup with its place. It refers to the soup.
+struct PlacedSoup {
+  const TriangleSoup& soup;
+  glm::dmat4 world_from_layer{1.0};
+  std::string name = {};
+  bool visible = true;
+};
+/// The layers of a scene, all of them soups.
+std::vector<PlacedSoup> placed_soups(const Scene& scene);
+
+/// Plans for the device's limits, or for options.limits. The sources read the soups, which must not
+/// move until they have been used. Soups and layers must have no defect(). Throws UsageError as
+/// make_plan does, and DeviceLimitError with the memory that a soup needs if it does not fit.
+PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& device,
+                            const RenderOptions& options = {});
+/// The same for a scene, whose layers are soups, and for a single soup.
+PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
+                            const RenderOptions& options = {});
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,
                             const RenderOptions& options = {});
-/// The same with a plan from make_plan for this soup and these limits.
-PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& limits,
+/// The same with a plan from make_plan for these soups and limits.
+PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan);
 
 }  // namespace tureen

@@ -8,46 +8,43 @@
 #include "runtime/gl/timer_query.hpp"
 #include "runtime/passes/depth_probe.hpp"
 #include "runtime/passes/filter_pass.hpp"
+#include "runtime/passes/soup_passes.hpp"
 #include "runtime/passes/targets.hpp"
 #include "scene/clip_range.hpp"
 
 namespace tureen {
 
-namespace {
-
-FrameFormat format_of(const PreparedScene& prepared, const RenderPlan& plan) {
-  FrameFormat format{.reversed_depth = plan.reversed_depth};
-  for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
-    if (!prepared.layers[i].soup) continue;
-    format.visibility |= plan.layers[i].site == ShadingSite::deferred;
-    format.image_store |= plan.layers[i].shading_stage == ShadingStage::compute;
-  }
-  return format;
-}
-
-}  // namespace
-
 struct Renderer::State {
   State(const gl::Context& context, PreparedScene& prepared, const RenderOptions& options)
       : plan(std::move(prepared.plan)),
         background(options.background),
-        device(context.capabilities()),
-        target(format_of(prepared, plan)) {
+        device(context.capabilities()) {
     gl::use_plain_pixel_transfer();
-    for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
-      PreparedLayer& layer = prepared.layers[i];
-      places.push_back({layer.bounds, layer.origin});
-      if (layer.soup)
-        soups.push_back(std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
-                                                     layer.soup->geometry, plan.layers[i]));
-    }
-    passes = prepared.make_passes({device, plan, soups});
+    upload(prepared.layers, plan.layers);
+    draws_soups = !prepared.make_passes;
+    arrange();
+    if (prepared.make_passes) passes = prepared.make_passes({device, plan, soups});
     if (plan.quality != Quality{}) filter.emplace(plan.quality, device.api);
   }
 
-  /// Calls act(pass) for each pass, the filter last.
+  struct Place {
+    PlacedBounds box;
+    bool visible = true;
+  };
+
+  void upload(std::vector<PreparedLayer>& layers, std::span<const SoupPlan> plans);
+  void arrange();
+  void remove(std::size_t layer);
+  FrameFormat format() const;
+
+  /// Calls act(pass) for each pass in order, the filter last.
   template <class Act>
   void for_each_pass(const Act& act) {
+    if (draws_soups) {
+      for (const SoupPasses& each : soup_passes) act(*each.faces);
+      for (const SoupPasses& each : soup_passes)
+        if (each.shading) act(*each.shading);
+    }
     for (const std::unique_ptr<Pass>& pass : passes) act(*pass);
     if (filter) act(*filter);
   }
@@ -61,25 +58,74 @@ struct Renderer::State {
   void resize(glm::ivec2 new_size);
   void set_frame(const FrameInput& input);
 
-  struct Place {
-    Bounds bounds;
-    glm::dvec3 origin;
-  };
-
-  const RenderPlan plan;  // soups and passes refer to it
+  RenderPlan plan;  // soups and passes refer to it
   std::vector<Place> places;
   glm::vec4 background;
   gl::Capabilities device;
-  FrameTarget target;
+  FrameTarget target{{}};
   std::vector<std::unique_ptr<DeviceSoup>> soups;
-  Passes passes;
-  std::optional<FilterPass> filter;  // for other than one sample a pixel
-  glm::ivec2 size{0};                // of the last image; 0 before the first
-  Frame frame;                       // the last one
-  Camera camera;                     // of the last frame, at the image's size
+  bool layered = false;                 // the passes are those of several layers
+  bool draws_soups = true;              // otherwise `passes` are all passes
+  std::vector<SoupPasses> soup_passes;  // one for each soup, if they are drawn
+  Passes passes;                        // from outside
+  std::optional<FilterPass> filter;     // for other than one sample a pixel
+  glm::ivec2 size{0};                   // of the last image; 0 before the first
+  Frame frame;                          // the last one
+  Camera camera;                        // of the last frame, at the image's size
   gl::PassTimer* timer = nullptr;
   std::optional<DepthProbe> probe;
+  std::vector<PlacedBounds> visible_boxes;  // for set_frame()
 };
+
+/// Appends the layers' places and soups.
+void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const SoupPlan> plans) {
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    PreparedLayer& layer = layers[i];
+    if (layer.soup)
+      soups.push_back(std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
+                                                   layer.soup->geometry, plans[i]));
+    places.push_back({{layer.bounds, layer.world_from_layer}, layer.visible});
+  }
+}
+
+/// Numbers the soups and makes the passes that are missing, after a change of the layers.
+void Renderer::State::arrange() {
+  const bool now_layered = soups.size() > 1;
+  // A change of the kind of plan needs other programs. One soup that remains of several keeps its
+  // plan and programs, which draw it correctly.
+  if (now_layered && !layered) {
+    for (SoupPlan& each : plan.layers) make_layered(each);
+    soup_passes.clear();
+    layered = true;
+  }
+  std::uint32_t first_slot = 0;
+  for (std::size_t i = 0; i < soups.size(); ++i) {
+    soups[i]->set_place(plan.layers[i], {i, first_slot, layered});
+    first_slot += static_cast<std::uint32_t>(plan.layers[i].faces.size());
+  }
+  if (draws_soups)
+    for (std::size_t i = soup_passes.size(); i < soups.size(); ++i)
+      soup_passes.push_back(make_soup_passes(*soups[i]));
+  target.set_format(format());
+  size = glm::ivec2(0);  // the next frame calls resize() of all passes
+}
+
+void Renderer::State::remove(std::size_t layer) {
+  const auto at = static_cast<std::ptrdiff_t>(layer);
+  if (draws_soups) soup_passes.erase(soup_passes.begin() + at);
+  soups.erase(soups.begin() + at);
+  places.erase(places.begin() + at);
+  plan.layers.erase(plan.layers.begin() + at);
+}
+
+FrameFormat Renderer::State::format() const {
+  FrameFormat result{.reversed_depth = plan.reversed_depth, .layered = layered};
+  for (const std::unique_ptr<DeviceSoup>& soup : soups) {
+    result.visibility |= soup->plan().site == ShadingSite::deferred;
+    result.image_store |= soup->plan().shading_stage == ShadingStage::compute;
+  }
+  return result;
+}
 
 void Renderer::State::resize(glm::ivec2 new_size) {
   size = glm::ivec2(0);  // if this throws, the next frame repeats it
@@ -103,13 +149,16 @@ void Renderer::State::set_frame(const FrameInput& input) {
   frame.input = input;
   if (filter) frame.input.camera = resampled(input.camera, target.size().x, target.size().y);
   frame.background = background;
+  visible_boxes.clear();
+  for (const Place& place : places)
+    if (place.visible) visible_boxes.push_back(place.box);
+  frame.range = clip_range(visible_boxes, camera, depth_storage());
   frame.layers.clear();
   for (const Place& place : places) {
-    const glm::dvec3 eye = camera.eye() - place.origin;
-    const ClipRange range = clip_range(place.bounds, eye, forward_of(camera), depth_storage());
-    frame.layers.push_back({frame.input.camera, eye, range});
+    frame.layers.push_back(
+        camera_in_layer(frame.input.camera, place.box.world_from_layer, frame.range));
+    frame.layers.back().visible = place.visible;
   }
-  frame.range = frame.layers.front().range;
 }
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities) {
@@ -131,6 +180,51 @@ const RenderPlan& Renderer::plan() const { return state_->plan; }
 
 void Renderer::set_background(glm::vec4 background) { state_->background = background; }
 
+std::size_t Renderer::layer_count() const { return state_->places.size(); }
+
+void Renderer::place_layer(std::size_t layer, const glm::dmat4& world_from_layer) {
+  state_->places[layer].box.world_from_layer = world_from_layer;
+}
+
+void Renderer::show_layer(std::size_t layer, bool visible) {
+  state_->places[layer].visible = visible;
+}
+
+void Renderer::add_layers(PreparedScene prepared) {
+  State& state = *state_;
+  assert(state.draws_soups && !prepared.make_passes);
+  assert(prepared.plan.reversed_depth == state.plan.reversed_depth);
+  assert(state.places.size() + prepared.layers.size() <= max_plan_layers);
+  const std::size_t before = state.places.size();
+  gl::use_plain_pixel_transfer();
+  try {
+    state.upload(prepared.layers, prepared.plan.layers);
+  } catch (...) {
+    state.soups.resize(before);
+    state.places.resize(before);
+    throw;
+  }
+  for (SoupPlan& each : prepared.plan.layers) {
+    make_layered(each);
+    state.plan.layers.push_back(std::move(each));
+  }
+  state.arrange();
+}
+
+void Renderer::remove_layer(std::size_t layer) {
+  state_->remove(layer);
+  state_->arrange();
+}
+
+void Renderer::swap_layers(std::size_t a, std::size_t b) {
+  State& state = *state_;
+  std::swap(state.soups[a], state.soups[b]);
+  std::swap(state.places[a], state.places[b]);
+  std::swap(state.plan.layers[a], state.plan.layers[b]);
+  if (state.draws_soups) std::swap(state.soup_passes[a], state.soup_passes[b]);
+  state.arrange();
+}
+
 void Renderer::add_pass(std::unique_ptr<Pass> pass) {
   state_->passes.push_back(std::move(pass));
   state_->size = glm::ivec2(0);  // the next frame calls its resize()
@@ -138,6 +232,8 @@ void Renderer::add_pass(std::unique_ptr<Pass> pass) {
 
 void Renderer::set_passes(Passes passes) {
   state_->passes = std::move(passes);
+  state_->draws_soups = false;
+  state_->soup_passes.clear();
   state_->size = glm::ivec2(0);
 }
 
@@ -157,6 +253,7 @@ void Renderer::draw(const FrameInput& input) {
     gl::use_plain_rasterisation(state.target.size().x, state.target.size().y);
     pass.draw(state.frame, state.target);
   });
+  state.target.end();
   if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, false);
   gl::check("draw");
 }
@@ -175,10 +272,21 @@ Image8 Renderer::read_color() const {
 
 glm::ivec2 Renderer::sample_size() const { return state_->target.size(); }
 
-std::vector<std::uint32_t> Renderer::read_faces() const {
-  if (!state_->target.has_visibility()) return {};
-  return read_visible_faces(state_->target.visibility_framebuffer(), sample_size(),
-                            state_->plan.layers.front().faces);
+std::vector<VisibleFace> Renderer::read_faces() const {
+  const State& state = *state_;
+  if (!state.target.has_visibility()) return {};
+  const std::vector<std::uint32_t> slots =
+      read_visible_slots(state.target.visibility_framebuffer(), sample_size());
+  std::vector<VisibleFace> result(slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i] == no_face) continue;
+    std::size_t layer = state.soups.size() - 1;
+    while (slots[i] < state.soups[layer]->place().first_slot) --layer;
+    const DeviceSoup& soup = *state.soups[layer];
+    result[i] = {static_cast<std::uint32_t>(layer),
+                 soup.plan().faces[slots[i] - soup.place().first_slot]};
+  }
+  return result;
 }
 
 std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {

@@ -33,6 +33,13 @@ class PassTimer;
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
+/// A face of a layer.
+struct VisibleFace {
+  std::uint32_t layer = 0;
+  std::uint32_t face = no_face;
+  bool operator==(const VisibleFace&) const = default;
+};
+
 class Renderer {
  public:
   /// Uploads a scene that was prepared for limits within those of the device. Only the background
@@ -46,12 +53,26 @@ class Renderer {
 
   void set_background(glm::vec4 background);
 
-  /// Adds a pass after the present ones. Its result is filtered like theirs if the plan has another
-  /// number of samples than one a pixel.
+  std::size_t layer_count() const;
+  /// Moves a layer. `world_from_layer` is a similarity: Layer's defect() accepts it.
+  void place_layer(std::size_t layer, const glm::dmat4& world_from_layer);
+  void show_layer(std::size_t layer, bool visible);
+  /// Adds the layers of a scene after the present ones, which stay on the device. Their plans
+  /// become those of several layers. Requires a scene without make_passes, the same choice of
+  /// reversed depth, and at most max_plan_layers layers. Throws DeviceLimitError; then nothing has
+  /// changed.
+  void add_layers(PreparedScene prepared);
+  /// Frees the layer's memory on the device. Later layers move up.
+  void remove_layer(std::size_t layer);
+  /// Changes the order: at equal depth the earlier layer is visible.
+  void swap_layers(std::size_t a, std::size_t b);
+
+  /// Adds a pass after those of the layers. Its result is filtered like theirs if the plan has
+  /// another number of samples than one a pixel.
   void add_pass(std::unique_ptr<Pass> pass);
-  /// Replaces all passes of later frames.
+  /// Replaces all passes of later frames, also those of the layers.
   void set_passes(Passes passes);
-  /// The soups on the device, for passes that draw them; they live as long as the renderer.
+  /// The soups on the device, for passes that draw them; they live as long as their layer.
   std::span<const std::unique_ptr<DeviceSoup>> soups() const;
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
@@ -75,7 +96,7 @@ class Renderer {
 
   /// The visible face of each sample of the last frame: sample_size() entries, row 0 on top,
   /// no_face for the background. Empty if no pass stores faces, as in forward plans.
-  std::vector<std::uint32_t> read_faces() const;
+  std::vector<VisibleFace> read_faces() const;
 
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
   /// left corner. Returns nullopt for the background, and if no pass stores

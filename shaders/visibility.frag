@@ -8,6 +8,10 @@ in vec2 barycentrics;
 
 layout(location = 0) out uvec2 fragment;
 
+#ifdef LAYERED
+uniform int first_slot;  // slots of all layers are numbered in one sequence
+#endif
+
 void main() {
   vec2 b = clamped_to_simplex(barycentrics);
 #if ALPHA_TEST
@@ -17,4 +21,7 @@ void main() {
   // Both may have been rounded up: without this the point would leave the triangle.
   packed_b.y = min(packed_b.y, 65535u - packed_b.x);
   fragment = uvec2(face, packed_b.x | (packed_b.y << 16));
+#ifdef LAYERED
+  fragment.x += uint(first_slot);
+#endif
 }

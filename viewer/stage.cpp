@@ -38,7 +38,7 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
 
 Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
   const Scene& scene = *source.scene;
-  return make_renderer(request.context, source.soup(), source.origin(), request.choice.pipeline,
+  return make_renderer(request.context, scene, request.choice.pipeline,
                        render_options(request.choice, scene));
 }
 
@@ -75,14 +75,11 @@ std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const Stag
   const Scene& scene = *source.scene;
   const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
   const DeviceLimits limits = device_limits(request.context.capabilities());
-  Renderer renderer(request.context,
-                    prepare_debug_views(source.soup(), source.origin(), limits, options), options);
+  const std::vector<PlacedSoup> layers = placed_soups(scene);
+  Renderer renderer(request.context, prepare_debug_views(layers, limits, options), options);
   renderer.leave_context();
-  return std::make_unique<Stage>(Stage{{source},
-                                       request.choice,
-                                       DebugViews(source.soup()),
-                                       std::move(renderer),
-                                       preparing.seconds()});
+  return std::make_unique<Stage>(Stage{
+      {source}, request.choice, DebugViews(layers), std::move(renderer), preparing.seconds()});
 }
 
 }  // namespace tureen::viewer

@@ -37,5 +37,8 @@ PreparedScene prepare_baseline(const TriangleSoup& soup, glm::dvec3 origin,
 /// Plans and uploads for this pipeline. Throws as prepare_scene, make_baseline_plan and Renderer.
 Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                        PipelineKind kind, const RenderOptions& options = {});
+/// The same for a scene of soups. Throws as only_layer for the baseline, which draws one layer.
+Renderer make_renderer(const gl::Context& context, const Scene& scene, PipelineKind kind,
+                       const RenderOptions& options = {});
 
 }  // namespace tureen

@@ -52,7 +52,8 @@ class FeaturesPass final : public Pass {
     size_ = target.size();
     for (gl::Texture& texture : features_)
       texture = make_target(target_formats::rgba8, size_.x, size_.y);
-    framebuffer_ = make_framebuffer({features_[0].id(), features_[1].id()}, target.depth_texture());
+    framebuffer_ =
+        make_framebuffer({features_[0].id(), features_[1].id()}, target.depth_attachment());
   }
 
   void draw(const Frame& frame, FrameTarget& target) override {
@@ -194,7 +195,7 @@ PreparedScene prepare_baseline(const TriangleSoup& soup, glm::dvec3 origin,
                                const DeviceLimits& limits, RenderPlan plan) {
   PreparedScene prepared;
   prepared.plan = std::move(plan);
-  prepared.layers.push_back({.bounds = bounds(soup), .origin = origin, .soup = {}});
+  prepared.layers.push_back({.bounds = bounds(soup), .world_from_layer = at_origin(origin)});
   prepared.make_passes = [&soup, limits](const PassInputs& inputs) {
     auto features =
         std::make_unique<FeaturesPass>(inputs.device, limits, soup, inputs.plan.layers.front());
@@ -217,6 +218,14 @@ Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm
           ? prepare_scene(soup, origin, limits, options)
           : prepare_baseline(soup, origin, limits, make_baseline_plan(soup, options.plan)),
       options);
+}
+
+Renderer make_renderer(const gl::Context& context, const Scene& scene, PipelineKind kind,
+                       const RenderOptions& options) {
+  if (kind == PipelineKind::baseline)
+    return make_renderer(context, only_soup(scene), origin_of(only_layer(scene)), kind, options);
+  const DeviceLimits limits = options.limits.value_or(device_limits(context.capabilities()));
+  return Renderer(context, prepare_scene(scene, limits, options), options);
 }
 
 }  // namespace tureen

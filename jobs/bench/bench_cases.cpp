@@ -50,7 +50,7 @@ class RendererCase final : public BenchCase {
     const DeviceLimits limits = device_limits(context.capabilities());
     PreparedScene prepared =
         is_baseline ? prepare_baseline(soup, origin_of(only_layer(scene)), limits, std::move(plan))
-                    : prepare_scene(soup, origin_of(only_layer(scene)), limits, std::move(plan));
+                    : prepare_scene(placed_soups(scene), limits, std::move(plan));
     renderer_ = std::make_unique<Renderer>(context, std::move(prepared), options);
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);

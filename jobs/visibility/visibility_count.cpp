@@ -25,7 +25,9 @@ void visit_images(const gl::Context& context, const TriangleSoup& soup, glm::dve
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (progress) progress(double(i) / double(views.size()));
     renderer.draw({views[i]});
-    visit(views[i], renderer.read_faces());
+    std::vector<std::uint32_t> faces;
+    for (const VisibleFace& visible : renderer.read_faces()) faces.push_back(visible.face);
+    visit(views[i], faces);
   }
 }
 

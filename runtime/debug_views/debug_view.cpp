@@ -134,8 +134,8 @@ std::optional<std::string> why_not(const FeatureChoice& choice, int feature_coun
   return std::nullopt;
 }
 
-glm::vec3 triangle_color(std::uint32_t face) {
-  const std::uint32_t h = mixed_bits(face + 1);
+glm::vec3 triangle_color(std::uint32_t face, std::uint32_t layer) {
+  const std::uint32_t h = mixed_bits(face + 1 + layer * 0x9e3779b9u);
   return 0.25f + 0.75f / 255.0f * glm::vec3(h & 255, h >> 8 & 255, h >> 16 & 255);
 }
 

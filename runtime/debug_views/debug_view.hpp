@@ -60,8 +60,8 @@ std::optional<std::string> why_not(const FeatureChoice& choice, int feature_coun
 
 // -- the values behind the colours, which the shaders also compute ------------------------------
 
-/// A bright colour for each face, one of 2^24, deterministic: a hash of its index.
-glm::vec3 triangle_color(std::uint32_t face);
+/// A bright colour for each face, one of 2^24, deterministic: a hash of its index and its layer's.
+glm::vec3 triangle_color(std::uint32_t face, std::uint32_t layer = 0);
 
 /// The colours of depth: heat_ramp(1 - t), t = ln(z / near) / ln(far / near), where z is the
 /// distance along the viewing axis. The scale is logarithmic, so equal ratios of depth are equal

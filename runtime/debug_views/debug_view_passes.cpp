@@ -1,5 +1,6 @@
 #include "runtime/debug_views/debug_view_passes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/gl/state.hpp"
@@ -49,12 +50,11 @@ void set_corners(const gl::Program& program, const Camera& camera) {
   program.set("window_y", glm::vec3(camera.fy * axes[1] - (camera.height - camera.cy) * axes[2]));
 }
 
-/// One triangle over the whole target, without depth test. The program is in use.
+/// One triangle over the whole target at a depth. The program is in use.
 class FullScreen {
  public:
-  void draw(const gl::Program& program) {
-    glDisable(GL_DEPTH_TEST);
-    program.set("background_depth", 0.0f);
+  void draw(const gl::Program& program, float depth) {
+    program.set("background_depth", depth);
     nothing_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
@@ -67,40 +67,61 @@ class FullScreen {
 /// Colours the visible fragments by a stored or geometric value.
 class ValuePass final : public Pass {
  public:
-  ValuePass(DeviceSoup& soup, std::size_t layer, const DebugViewSubject& subject,
+  ValuePass(const DeviceSoup& soup, std::span<const DebugViewSubject> subjects,
             ShownDebugView& shown)
       : soup_(soup),
-        layer_(layer),
-        subject_(subject),
+        subjects_(subjects),
         shown_(shown),
-        program_(shown_program(soup, subject, shown.what)) {}
+        program_(shown_program(soup, subjects[soup.place().layer], shown.what)) {}
 
   const char* name() const override { return "debug view"; }
   void draw(const Frame& frame, FrameTarget& target) override {
-    const FrameCamera& view = frame.layers[layer_];
-    const DepthScale scale = shown_.scale = depth_scale(subject_.middle, view.eye);
-    target.overwrite_color();
+    const std::size_t layer = soup_.place().layer;
+    const FrameCamera& view = frame.layers[layer];
+    const DebugViewSubject& subject = subjects_[layer];
+    const DepthScale scale = shown_.scale = depth_scale_of(frame);
+    if (target.layered()) {
+      target.draw_samples_of(layer);
+    } else {
+      target.overwrite_color();
+      glDisable(GL_DEPTH_TEST);
+    }
     program_.use();
     soup_.appearance().bind(program_);
     set_eye(program_, view.eye);
     set_rays(program_, view.camera);
     set_corners(program_, view.camera);
     program_.set("background", frame.background);
-    program_.set("depth_scale",
-                 glm::vec2(std::log(scale.near), 1.0 / std::log(scale.far / scale.near)));
+    program_.set("depth_scale", glm::vec2(std::log(scale.near / view.scale),
+                                          1.0 / std::log(scale.far / scale.near)));
+    program_.set("world_from_layer", glm::mat3(view.world_from_layer));
+    program_.set("layer", static_cast<int>(layer));
+    soup_.set_first_slot(program_);
     const bool weight = shown_.what == DebugView::mlp_weight;
     program_.set("first_feature",
-                 weight ? subject_.blend_channel.value_or(0) : shown_.features.first);
+                 weight ? subject.blend_channel.value_or(0) : shown_.features.first);
     program_.set("features_shown", weight ? 1 : shown_.features.count);
     target.bind_visibility(program_, soup_.appearance().unit_count());
-    full_screen_.draw(program_);
+    full_screen_.draw(program_, target.far_depth());
   }
   void leave_context() override { full_screen_.leave_context(); }
 
  private:
+  /// In world units, for all layers.
+  DepthScale depth_scale_of(const Frame& frame) const {
+    DepthScale all;
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      const FrameCamera& view = frame.layers[i];
+      const DepthScale one = depth_scale(subjects_[i].middle, view.eye);
+      const double near = one.near * view.scale, far = one.far * view.scale;
+      all = i == 0 ? DepthScale{near, far}
+                   : DepthScale{std::min(all.near, near), std::max(all.far, far)};
+    }
+    return all;
+  }
+
   const DeviceSoup& soup_;
-  std::size_t layer_;
-  const DebugViewSubject& subject_;
+  std::span<const DebugViewSubject> subjects_;
   ShownDebugView& shown_;
   gl::Program program_;
   FullScreen full_screen_;
@@ -110,11 +131,12 @@ class ValuePass final : public Pass {
 /// of visible faces, and edges in front of them, where the alpha test rejected the face.
 class EdgePass final : public Pass {
  public:
-  EdgePass(DeviceSoup& soup, std::size_t layer)
-      : soup_(soup), layer_(layer), program_(face_program(soup, "wireframe.frag")) {}
+  explicit EdgePass(DeviceSoup& soup)
+      : soup_(soup), program_(face_program(soup, "wireframe.frag")) {}
   const char* name() const override { return "edges"; }
   void draw(const Frame& frame, FrameTarget& target) override {
-    const FrameCamera& view = frame.layers[layer_];
+    const FrameCamera& view = frame.layers[soup_.place().layer];
+    if (!view.visible) return;
     target.draw_color();
     glDepthMask(GL_FALSE);
     glDepthFunc(target.nearer_or_equal());
@@ -125,7 +147,6 @@ class EdgePass final : public Pass {
 
  private:
   DeviceSoup& soup_;
-  std::size_t layer_;
   gl::Program program_;
 };
 
@@ -144,7 +165,8 @@ class OverdrawPass final : public Pass {
     gl::use_texture_sampling(0);
     program_.set("counts", 0);
     program_.set("background", frame.background);
-    full_screen_.draw(program_);
+    glDisable(GL_DEPTH_TEST);
+    full_screen_.draw(program_, 0.0f);
   }
   void leave_context() override { full_screen_.leave_context(); }
 
@@ -172,13 +194,15 @@ DebugViewSubject::DebugViewSubject(const TriangleSoup& soup)
     blend_channel = textures->mlp->blend_channel;
 }
 
-FragmentCountPass::FragmentCountPass(DeviceSoup& soup, std::size_t layer)
-    : soup_(soup), layer_(layer), program_(face_program(soup, "fragment_count.frag")) {}
+FragmentCountPass::FragmentCountPass(std::span<const std::unique_ptr<DeviceSoup>> soups) {
+  for (const std::unique_ptr<DeviceSoup>& soup : soups)
+    drawings_.push_back({*soup, face_program(*soup, "fragment_count.frag")});
+}
 
 void FragmentCountPass::resize(const FrameTarget& target) {
   size_ = target.size();
   counts_ = make_target(target_formats::rgba8, size_.x, size_.y);
-  framebuffer_ = make_framebuffer({counts_.id()}, 0);
+  framebuffer_ = make_framebuffer({counts_.id()});
 }
 
 void FragmentCountPass::draw(const Frame& frame, FrameTarget& target) {
@@ -189,24 +213,29 @@ void FragmentCountPass::draw(const Frame& frame, FrameTarget& target) {
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
-  soup_.draw_faces(program_, program_, frame.layers[layer_], target);
+  for (const auto& [soup, program] : drawings_) {
+    const FrameCamera& view = frame.layers[soup.place().layer];
+    if (view.visible) soup.draw_faces(program, program, view, target);
+  }
 }
 
-DebugViewPasses debug_view_passes(DeviceSoup& soup, const DebugViewSubject& subject,
+DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> soups,
+                                  std::span<const DebugViewSubject> subjects,
                                   ShownDebugView& shown) {
   DebugViewPasses result;
   const auto add = [&](std::unique_ptr<Pass> pass) { result.passes.push_back(std::move(pass)); };
   if (shown.what == DebugView::overdraw) {
-    auto counts = std::make_unique<FragmentCountPass>(soup, 0);
+    auto counts = std::make_unique<FragmentCountPass>(soups);
     result.counts = counts.get();
     add(std::move(counts));
-    add(std::make_unique<OverdrawPass>(soup, subject, *result.counts));
+    add(std::make_unique<OverdrawPass>(*soups.front(), subjects.front(), *result.counts));
     return result;
   }
-  add(make_visibility_pass(
-      soup, 0, shown.what == DebugView::alpha ? AlphaTest::never : AlphaTest::as_planned));
-  add(std::make_unique<ValuePass>(soup, 0, subject, shown));
-  if (shown.what == DebugView::wireframe) add(std::make_unique<EdgePass>(soup, 0));
+  const AlphaTest test = shown.what == DebugView::alpha ? AlphaTest::never : AlphaTest::as_planned;
+  for (const auto& soup : soups) add(make_visibility_pass(*soup, test));
+  for (const auto& soup : soups) add(std::make_unique<ValuePass>(*soup, subjects, shown));
+  if (shown.what == DebugView::wireframe)
+    for (const auto& soup : soups) add(std::make_unique<EdgePass>(*soup));
   return result;
 }
 

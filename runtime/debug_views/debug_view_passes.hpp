@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "runtime/debug_views/debug_view.hpp"
 #include "runtime/passes/device_soup.hpp"
@@ -34,7 +37,7 @@ struct ShownDebugView {
 /// Counts the fragments of each sample, in a texture of its own.
 class FragmentCountPass final : public Pass {
  public:
-  FragmentCountPass(DeviceSoup& soup, std::size_t layer);
+  explicit FragmentCountPass(std::span<const std::unique_ptr<DeviceSoup>> soups);
 
   const char* name() const override { return "fragment count"; }
   void resize(const FrameTarget& target) override;
@@ -48,9 +51,11 @@ class FragmentCountPass final : public Pass {
   GLuint framebuffer() const { return framebuffer_.id(); }
 
  private:
-  DeviceSoup& soup_;
-  std::size_t layer_;
-  gl::Program program_;
+  struct Drawing {
+    DeviceSoup& soup;
+    gl::Program program;
+  };
+  std::vector<Drawing> drawings_;  // for each soup
   glm::ivec2 size_{0};
   gl::Texture counts_;
   gl::Framebuffer framebuffer_;
@@ -61,8 +66,10 @@ struct DebugViewPasses {
   const FragmentCountPass* counts = nullptr;  // one of them, for DebugView::overdraw
 };
 
-/// The passes that show `shown.what`. The arguments must outlive them.
-DebugViewPasses debug_view_passes(DeviceSoup& soup, const DebugViewSubject& subject,
+/// The passes that show `shown.what`. The arguments must outlive them; there is a subject for each
+/// soup, and at least one soup.
+DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> soups,
+                                  std::span<const DebugViewSubject> subjects,
                                   ShownDebugView& shown);
 
 }  // namespace tureen

@@ -10,29 +10,9 @@ namespace tureen {
 
 namespace {
 
-/// A plan that draws all faces and stores all values.
-RenderPlan debug_view_plan(const TriangleSoup& soup, const DeviceLimits& limits,
-                           bool reversed_depth) {
-  SpecialisationSet exact;
-  exact.add(Specialisation::weight_uniforms);
-  exact.add(Specialisation::dead_neurons);
-  RenderPlan plan = make_plan(
-      soup, limits,
-      {.specialisations = exact, .reversed_depth = reversed_depth, .site = ShadingSite::deferred});
-  plan.layers.front().latent_features = feature_count(soup) > 4;
-  return plan;
-}
-
-}  // namespace
-
-PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
-                                  const DeviceLimits& device, const RenderOptions& options) {
-  const DeviceLimits limits = options.limits.value_or(device);
-  PreparedScene prepared = prepare_scene(
-      soup, origin, limits, debug_view_plan(soup, limits, options.plan.reversed_depth));
-  // Stores that face_corners.glsl and debug_view.frag read.
-  const std::vector<std::uint32_t>& faces = prepared.plan.layers.front().faces;
-  AppearanceSource& appearance = prepared.layers.front().soup->appearance;
+/// Adds stores that face_corners.glsl and debug_view.frag read.
+void add_debug_stores(const TriangleSoup& soup, const std::vector<std::uint32_t>& faces,
+                      const DeviceLimits& limits, AppearanceSource& appearance) {
   std::vector<glm::vec3> corners;
   corners.reserve(3 * faces.size());
   for (const std::uint32_t face : faces)
@@ -42,26 +22,63 @@ PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
   appearance.samplers.push_back(
       {"soup_faces", TexelSource::of(texel_formats::r32ui, faces, "faces")});
   appearance.fit_layout(TexelLayout::of(limits));
+}
+
+}  // namespace
+
+PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const DeviceLimits& device,
+                                  const RenderOptions& options) {
+  const DeviceLimits limits = options.limits.value_or(device);
+  std::vector<const TriangleSoup*> soups;
+  for (const PlacedSoup& layer : layers) soups.push_back(&layer.soup);
+  SpecialisationSet exact;
+  exact.add(Specialisation::weight_uniforms);
+  exact.add(Specialisation::dead_neurons);
+  RenderPlan plan = make_plan(soups, limits,
+                              {.specialisations = exact,
+                               .reversed_depth = options.plan.reversed_depth,
+                               .site = ShadingSite::deferred});
+  for (std::size_t i = 0; i < soups.size(); ++i)
+    plan.layers[i].latent_features = feature_count(*soups[i]) > 4;
+  PreparedScene prepared = prepare_scene(layers, limits, std::move(plan));
+  for (std::size_t i = 0; i < soups.size(); ++i)
+    add_debug_stores(*soups[i], prepared.plan.layers[i].faces, limits,
+                     prepared.layers[i].soup->appearance);
   return prepared;
 }
 
+PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
+                                  const DeviceLimits& device, const RenderOptions& options) {
+  const PlacedSoup layer{soup, at_origin(origin)};
+  return prepare_debug_views(std::span(&layer, 1), device, options);
+}
+
 struct DebugViews::State {
-  DebugViewSubject subject;
+  std::vector<DebugViewSubject> subjects;  // for each soup
   ShownDebugView shown = {};
   const FragmentCountPass* counts = nullptr;  // of the renderer's passes
   bool has_passes = false;                    // for shown.what
 };
 
-DebugViews::DebugViews(const TriangleSoup& soup) : state_(new State{DebugViewSubject(soup)}) {}
+DebugViews::DebugViews(std::span<const PlacedSoup> layers) : state_(new State) {
+  for (const PlacedSoup& layer : layers) state_->subjects.emplace_back(layer.soup);
+}
+DebugViews::DebugViews(const TriangleSoup& soup) : state_(new State) {
+  state_->subjects.emplace_back(soup);
+}
 DebugViews::~DebugViews() = default;
 DebugViews::DebugViews(DebugViews&&) noexcept = default;
 DebugViews& DebugViews::operator=(DebugViews&&) noexcept = default;
 
 void DebugViews::require(DebugView what, const FeatureChoice& features) const {
-  const DebugViewSubject& subject = state_->subject;
-  if (const auto& refusal = subject.refusals[std::size_t(what)]) throw UsageError(*refusal);
-  if (what == DebugView::features)
-    if (const auto refusal = why_not(features, subject.features)) throw UsageError(*refusal);
+  for (std::size_t i = 0; i < state_->subjects.size(); ++i) {
+    const DebugViewSubject& subject = state_->subjects[i];
+    std::optional<std::string> refusal = subject.refusals[std::size_t(what)];
+    if (!refusal && what == DebugView::features) refusal = why_not(features, subject.features);
+    if (!refusal) continue;
+    const bool several = state_->subjects.size() > 1;
+    throw UsageError(several ? "layer " + std::to_string(i + 1) + ": " + *refusal : *refusal);
+  }
 }
 
 void DebugViews::show(Renderer& renderer, DebugView what, const FeatureChoice& features) {
@@ -71,7 +88,7 @@ void DebugViews::show(Renderer& renderer, DebugView what, const FeatureChoice& f
   state.shown.what = what;
   state.shown.features = features;
   if (has_passes) return;
-  DebugViewPasses made = debug_view_passes(*renderer.soups().front(), state.subject, state.shown);
+  DebugViewPasses made = debug_view_passes(renderer.soups(), state.subjects, state.shown);
   state.counts = made.counts;
   renderer.set_passes(std::move(made.passes));
 }

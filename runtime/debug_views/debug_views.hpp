@@ -10,27 +10,30 @@
 
 namespace tureen {
 
-/// A soup with all its faces and all its stored values: no specialisation except those of the
-/// network's code, which are exact. Its Renderer also draws ordinary frames. Of the options'
+/// Soups with all their faces and all their stored values: no specialisation except those of the
+/// network's code, which are exact. Their Renderer also draws ordinary frames. Of the options'
 /// preferences, only reversed_depth has an effect. Otherwise as prepare_scene.
+PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const DeviceLimits& device,
+                                  const RenderOptions& options = {});
 PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
                                   const DeviceLimits& device, const RenderOptions& options = {});
 
-/// The debug views of one soup. It must live until its renderer is destroyed or shows ordinary
+/// The debug views of a scene. It must live until its renderer is destroyed or shows ordinary
 /// frames again.
 class DebugViews {
  public:
-  /// The soup is not needed afterwards.
+  /// The soups are not needed afterwards.
+  explicit DebugViews(std::span<const PlacedSoup> layers);
   explicit DebugViews(const TriangleSoup& soup);
   ~DebugViews();
   DebugViews(DebugViews&&) noexcept;
   DebugViews& operator=(DebugViews&&) noexcept;
 
-  /// Throws UsageError with the sentence of why_not() if the soup has no such debug view.
+  /// Throws UsageError with the sentence of why_not() if a soup has no such debug view.
   void require(DebugView what, const FeatureChoice& features = {}) const;
 
-  /// Selects the debug view of the next frames of a renderer from prepare_debug_views for this
-  /// soup; always the same renderer. Throws as require().
+  /// Selects the debug view of the next frames of a renderer from prepare_debug_views for these
+  /// soups; always the same renderer. Throws as require().
   ///
   /// A pixel shows the face or background of an ordinary frame, with three exceptions for fragments
   /// that the alpha test rejects. DebugView::alpha shows the nearest face even if it is rejected,

@@ -1,6 +1,7 @@
 // A linked shader program and its uniforms by name. Their locations are looked up once, at link.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -33,6 +34,7 @@ class Program {
   void set(const char* name, const glm::vec2& value) const;
   void set(const char* name, const glm::vec3& value) const;
   void set(const char* name, const glm::vec4& value) const;
+  void set(const char* name, const glm::mat3& value) const;
   void set(const char* name, const glm::mat4& value) const;
   void set(const char* name, std::span<const glm::mat4> values) const;
   void set(const char* name, std::span<const glm::vec4> values) const;

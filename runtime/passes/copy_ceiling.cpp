@@ -21,8 +21,8 @@ struct CopyCeiling::State {
     height = new_height;
     from = make_target(target_formats::rgba8, width, height);
     to = make_target(target_formats::rgba8, width, height);
-    from_framebuffer = make_framebuffer({from.id()}, 0);
-    to_framebuffer = make_framebuffer({to.id()}, 0);
+    from_framebuffer = make_framebuffer({from.id()});
+    to_framebuffer = make_framebuffer({to.id()});
     // Many colours, because GPUs compress a cleared target and would not read it.
     gl::use_plain_rasterisation(width, height);
     glEnable(GL_SCISSOR_TEST);

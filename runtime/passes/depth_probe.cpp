@@ -13,7 +13,7 @@ DepthProbe::DepthProbe(gl::Api api)
     : program_(assemble({.file = "full_screen.vert"}, api),
                assemble({.file = "depth_probe.frag"}, api)),
       bits_(make_target(target_formats::rg32ui, 1, 1)),
-      framebuffer_(make_framebuffer({bits_.id()}, 0)) {}
+      framebuffer_(make_framebuffer({bits_.id()})) {}
 
 float DepthProbe::read(GLuint depth_texture, glm::ivec2 pixel) {
   gl::use_plain_rasterisation(1, 1);

@@ -9,7 +9,7 @@ namespace tureen {
 
 DeviceSoup::DeviceSoup(const gl::Capabilities& device, AppearanceSource appearance,
                        const GeometrySource& geometry, const SoupPlan& plan)
-    : plan_(plan), device_(device), appearance_(std::move(appearance)), geometry_(geometry) {
+    : plan_(&plan), device_(device), appearance_(std::move(appearance)), geometry_(geometry) {
   if (plan.drops_small_triangles) {
     covered_.emplace(geometry);
     covered_vertices_ = gl::Buffer::create();
@@ -24,6 +24,7 @@ std::string DeviceSoup::source(const char* file, const Constants& constants,
                       .constants = appearance_.constants,
                       .generated = {{"appearance.glsl", appearance_.glsl}}};
   source.constants.insert(constants.begin(), constants.end());
+  if (place_.layered) source.constants["LAYERED"] = "1";
   source.generated.insert(generated.begin(), generated.end());
   return assemble(source, device_.api);
 }
@@ -32,13 +33,17 @@ gl::Program DeviceSoup::face_program(const char* fragment, const Constants& cons
   return gl::Program(assemble({.file = "geometry.vert"}, device_.api), source(fragment, constants));
 }
 
+void DeviceSoup::set_first_slot(const gl::Program& program) const {
+  program.set("first_slot", static_cast<int>(place_.first_slot));
+}
+
 void DeviceSoup::draw_faces(const gl::Program& opaque, const gl::Program& cut_out,
                             const FrameCamera& camera, const FrameTarget& target) {
   if (search_rests_ > 0) --search_rests_;
-  const auto& clusters = plan_.clusters;
+  const auto& clusters = plan_->clusters;
   std::size_t opaque_clusters = 0;
   while (opaque_clusters < clusters.size() &&
-         clusters[opaque_clusters].first_slot < plan_.opaque_count)
+         clusters[opaque_clusters].first_slot < plan_->opaque_count)
     ++opaque_clusters;
   const std::span all(clusters);
   if (opaque_clusters > 0) draw_clusters(opaque, all.first(opaque_clusters), camera, target);
@@ -53,6 +58,7 @@ void DeviceSoup::draw_clusters(const gl::Program& program, std::span<const Clust
   geometry_.bind();
   Geometry::set_camera(program, camera, target.clip_from_view(camera.camera, camera.range));
   set_rays(program, camera.camera);
+  set_first_slot(program);
   order_.sort(clusters, glm::vec3(camera.eye), glm::vec3(forward_of(camera.camera)));
   const auto first = order_.first_vertices(), count = order_.vertex_counts();
   if (covered_ && search_rests_ == 0 && covered_->begin_frame(camera, subpixel_bits_)) {

@@ -21,12 +21,28 @@ class DeviceSoup {
  public:
   using Constants = std::map<std::string, std::string>;
 
-  /// Uploads; the sources are not needed afterwards. `plan` must outlive this object. Throws
-  /// DeviceLimitError.
+  /// Uploads; the sources are not needed afterwards. Throws DeviceLimitError.
   DeviceSoup(const gl::Capabilities& device, AppearanceSource appearance,
              const GeometrySource& geometry, const SoupPlan& plan);
 
-  const SoupPlan& plan() const { return plan_; }
+  /// The soup's place among the layers of a frame.
+  struct Place {
+    std::size_t layer = 0;
+    /// Visible fragments number the slots of all layers in one sequence; this is the first.
+    std::uint32_t first_slot = 0;
+    bool layered = false;  // the frame has several layers
+  };
+  /// Must be called before each use after the plan or the place has changed; `plan` must outlive
+  /// its use. Programs that were made for another value of `layered` are invalid.
+  void set_place(const SoupPlan& plan, const Place& place) {
+    plan_ = &plan;
+    place_ = place;
+  }
+  const Place& place() const { return place_; }
+  /// Sets the first slot of `program`, which is in use and was made by this object.
+  void set_first_slot(const gl::Program& program) const;
+
+  const SoupPlan& plan() const { return *plan_; }
   const gl::Capabilities& device() const { return device_; }
   const DeviceAppearance& appearance() const { return appearance_; }
 
@@ -51,7 +67,8 @@ class DeviceSoup {
                      const FrameCamera& camera, const FrameTarget& target);
   void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count);
 
-  const SoupPlan& plan_;
+  const SoupPlan* plan_;
+  Place place_;
   gl::Capabilities device_;
   DeviceAppearance appearance_;
   Geometry geometry_;

@@ -34,7 +34,7 @@ FilterPass::FilterPass(const Quality& quality, gl::Api api)
 
 void FilterPass::resize(const FrameTarget&) {
   color_ = make_target(target_formats::rgba8, size_.x, size_.y);
-  framebuffer_ = make_framebuffer({color_.id()}, 0);
+  framebuffer_ = make_framebuffer({color_.id()});
 }
 
 void FilterPass::draw(const Frame&, FrameTarget& target) {

@@ -18,11 +18,16 @@ struct FrameFormat {
   bool visibility = false;      // a pass stores visible fragments
   bool reversed_depth = false;  // depth is a float, 1 near and 0 far; otherwise 24 bits, 0 near
   bool image_store = false;     // compute shaders write the colours
+  bool layered = false;         // several layers: the stencil stores the layer of each sample
+  bool operator==(const FrameFormat&) const = default;
 };
 
 class FrameTarget {
  public:
   explicit FrameTarget(const FrameFormat& format) : format_(format) {}
+
+  /// Other textures from the next resize() on.
+  void set_format(const FrameFormat& format) { format_ = format; }
 
   /// Creates the textures for this number of samples; their contents are undefined. Throws
   /// DeviceLimitError.
@@ -34,11 +39,17 @@ class FrameTarget {
   /// Starts a frame. `background`: what a cleared colour is.
   void begin(const glm::vec4& background);
   /// Binds the visible fragments and depth as targets: (slot, barycentrics) as RG32UI, see
-  /// shaders/visibility.frag. Nearer fragments win.
-  void draw_visibility();
+  /// shaders/visibility.frag. Nearer fragments win; the samples that they cover become those of
+  /// this layer.
+  void draw_visibility(std::size_t layer);
   /// Binds colour and depth as targets. Nearer fragments win.
   void draw_color();
-  /// The same for a pass that writes the colour of every sample: nothing is cleared.
+  /// Binds colour, so that a triangle over the whole target at far_depth() writes only the samples
+  /// of this layer. Depth is not written.
+  void draw_samples_of(std::size_t layer);
+  /// Ends a frame: clears the colour if no pass has drawn any.
+  void end();
+  /// As draw_color() for a pass that writes the colour of every sample: nothing is cleared.
   void overwrite_color();
   /// For a framebuffer of a pass's own that has the depth texture and is bound: clears depth if
   /// this is its first use in the frame. Nearer fragments win.
@@ -55,6 +66,7 @@ class FrameTarget {
   bool has_visibility() const { return visibility_drawn_; }
   bool has_depth() const { return depth_drawn_; }
   bool reversed_depth() const { return format_.reversed_depth; }
+  bool layered() const { return format_.layered; }
   /// The depth of samples that no pass has drawn.
   float far_depth() const { return format_.reversed_depth ? 0.0f : 1.0f; }
   /// The comparison that nearer fragments pass, and the one that also passes equal depth.
@@ -66,6 +78,8 @@ class FrameTarget {
   /// GL_TEXTURE_2D, nearest sampling; row 0 at the bottom.
   GLuint color_texture() const { return color_.id(); }
   GLuint depth_texture() const { return depth_.id(); }
+  /// The same for framebuffers.
+  DepthAttachment depth_attachment() const { return {depth_.id(), format_.layered}; }
 
   /// See Renderer::leave_context(). resize() must follow.
   void leave_context();

@@ -12,13 +12,21 @@
 
 namespace tureen {
 
-/// One frame's camera in the coordinates of a layer: lengths in the layer's unit, positions
-/// relative to its origin.
+/// One frame's camera in the coordinates of a layer. Depth in clip space equals that of the world.
 struct FrameCamera {
+  /// Its rotation includes that of the layer, with its mirror; its translation is not used.
   Camera camera;
   glm::dvec3 eye;
   ClipRange range;
+  glm::dmat3 world_from_layer{1.0};  // the rotation or reflection
+  double scale = 1;                  // world units per layer unit
+  bool visible = true;
 };
+
+/// The camera in the coordinates of a layer. `world_from_layer` is a similarity; `range` is in
+/// world units. For a translation, the camera is unchanged.
+FrameCamera camera_in_layer(const Camera& camera, const glm::dmat4& world_from_layer,
+                            const ClipRange& range);
 
 /// The data of a frame that its passes share.
 struct Frame {

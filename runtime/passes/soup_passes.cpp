@@ -11,8 +11,7 @@ namespace {
 /// Draws the planned faces with one fragment shader, with and without alpha test.
 class FaceDrawing {
  public:
-  FaceDrawing(DeviceSoup& soup, std::size_t layer, const char* fragment, AlphaTest test)
-      : soup_(soup), layer_(layer) {
+  FaceDrawing(DeviceSoup& soup, const char* fragment, AlphaTest test) : soup_(soup) {
     const char* tested = test == AlphaTest::as_planned ? "1" : "0";
     const SoupPlan& plan = soup.plan();
     if (plan.opaque_count > 0) opaque_ = soup.face_program(fragment, {{"ALPHA_TEST", "0"}});
@@ -20,26 +19,27 @@ class FaceDrawing {
       cut_out_ = soup.face_program(fragment, {{"ALPHA_TEST", tested}});
   }
   void draw(const Frame& frame, const FrameTarget& target) {
-    soup_.draw_faces(opaque_, cut_out_, frame.layers[layer_], target);
+    const FrameCamera& camera = frame.layers[soup_.place().layer];
+    if (camera.visible) soup_.draw_faces(opaque_, cut_out_, camera, target);
   }
 
  private:
   DeviceSoup& soup_;
-  std::size_t layer_;
   gl::Program opaque_, cut_out_;
 };
 
 class VisibilityPass final : public Pass {
  public:
-  VisibilityPass(DeviceSoup& soup, std::size_t layer, AlphaTest test)
-      : faces_(soup, layer, "visibility.frag", test) {}
+  VisibilityPass(DeviceSoup& soup, AlphaTest test)
+      : soup_(soup), faces_(soup, "visibility.frag", test) {}
   const char* name() const override { return "visibility"; }
   void draw(const Frame& frame, FrameTarget& target) override {
-    target.draw_visibility();
+    target.draw_visibility(soup_.place().layer);
     faces_.draw(frame, target);
   }
 
  private:
+  const DeviceSoup& soup_;
   FaceDrawing faces_;
 };
 
@@ -47,10 +47,9 @@ class VisibilityPass final : public Pass {
 /// colour.
 class ForwardPass final : public Pass {
  public:
-  ForwardPass(DeviceSoup& soup, std::size_t layer)
+  explicit ForwardPass(DeviceSoup& soup)
       : writes_color_(soup.plan().site == ShadingSite::forward),
-        faces_(soup, layer, writes_color_ ? "forward.frag" : "nothing.frag",
-               AlphaTest::as_planned) {}
+        faces_(soup, writes_color_ ? "forward.frag" : "nothing.frag", AlphaTest::as_planned) {}
   const char* name() const override { return "forward"; }
   void draw(const Frame& frame, FrameTarget& target) override {
     target.draw_color();
@@ -67,13 +66,15 @@ class ForwardPass final : public Pass {
 /// a compute shader.
 class ShadingPass final : public Pass {
  public:
-  ShadingPass(DeviceSoup& soup, std::size_t layer)
-      : soup_(soup), plan_(soup.plan()), layer_(layer) {
+  explicit ShadingPass(DeviceSoup& soup)
+      : soup_(soup),
+        stage_(soup.plan().shading_stage),
+        depth_rejects_background_(soup.plan().depth_rejects_background) {
     const DeviceSoup::Constants constants{
         {"NO_FACE", "0xffffffffu"},
-        {"DEPTH_REJECTS_BACKGROUND", plan_.depth_rejects_background ? "1" : "0"},
+        {"DEPTH_REJECTS_BACKGROUND", depth_rejects_background_ ? "1" : "0"},
         {"GROUP_SIDE", std::to_string(shading_group_side)}};
-    program_ = plan_.shading_stage == ShadingStage::compute
+    program_ = stage_ == ShadingStage::compute
                    ? gl::Program::compute(soup.source("shading.comp", constants))
                    : gl::Program(assemble({.file = "full_screen.vert"}, soup.device().api),
                                  soup.source("shading.frag", constants));
@@ -81,28 +82,28 @@ class ShadingPass final : public Pass {
   const char* name() const override { return "shading"; }
 
   void draw(const Frame& frame, FrameTarget& target) override {
-    plan_.depth_rejects_background ? target.draw_color() : target.overwrite_color();
-    if (plan_.shading_stage == ShadingStage::compute)
+    if (stage_ == ShadingStage::compute) {
+      depth_rejects_background_ ? target.draw_color() : target.overwrite_color();
       compute(frame, target);
-    else
-      draw_fragments(frame, target);
-  }
-
-  void leave_context() override { nothing_.forget(); }
-
- private:
-  void draw_fragments(const Frame& frame, const FrameTarget& target) {
-    glDepthMask(GL_FALSE);
-    // The triangle lies at the cleared depth: it passes exactly where something nearer was drawn.
-    glDepthFunc(!plan_.depth_rejects_background ? GL_ALWAYS
-                : target.reversed_depth()       ? GL_LESS
-                                                : GL_GREATER);
+      return;
+    }
+    const std::size_t layer = soup_.place().layer;
+    if (depth_rejects_background_) {
+      target.draw_samples_of(layer);
+    } else {
+      target.overwrite_color();
+      glDisable(GL_DEPTH_TEST);
+    }
+    if (!frame.layers[layer].visible && target.layered()) return;
     set_uniforms(frame, target);
     program_.set("background_depth", target.far_depth());
     nothing_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
+  void leave_context() override { nothing_.forget(); }
+
+ private:
   void compute(const Frame& frame, const FrameTarget& target) const {
 #ifdef __EMSCRIPTEN__
     (void)frame;
@@ -122,40 +123,39 @@ class ShadingPass final : public Pass {
   }
 
   void set_uniforms(const Frame& frame, const FrameTarget& target) const {
-    const FrameCamera& camera = frame.layers[layer_];
+    const FrameCamera& camera = frame.layers[soup_.place().layer];
     const DeviceAppearance& appearance = soup_.appearance();
     program_.use();
     appearance.bind(program_);
     set_rays(program_, camera.camera);
     set_eye(program_, camera.eye);
     program_.set("background", frame.background);
+    soup_.set_first_slot(program_);
     target.bind_visibility(program_, appearance.unit_count());
   }
 
   const DeviceSoup& soup_;
-  const SoupPlan& plan_;
-  std::size_t layer_;
+  ShadingStage stage_;
+  bool depth_rejects_background_;
   gl::Program program_;
   gl::LocalVertexArray nothing_;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> make_visibility_pass(DeviceSoup& soup, std::size_t layer, AlphaTest test) {
-  return std::make_unique<VisibilityPass>(soup, layer, test);
+std::unique_ptr<Pass> make_visibility_pass(DeviceSoup& soup, AlphaTest test) {
+  return std::make_unique<VisibilityPass>(soup, test);
 }
 
-Passes soup_passes(std::span<const std::unique_ptr<DeviceSoup>> soups) {
-  Passes passes;
-  for (std::size_t i = 0; i < soups.size(); ++i)
-    if (soups[i]->plan().site == ShadingSite::deferred)
-      passes.push_back(make_visibility_pass(*soups[i], i));
-    else
-      passes.push_back(std::make_unique<ForwardPass>(*soups[i], i));
-  for (std::size_t i = 0; i < soups.size(); ++i)
-    if (soups[i]->plan().site == ShadingSite::deferred)
-      passes.push_back(std::make_unique<ShadingPass>(*soups[i], i));
-  gl::check("soup_passes");
+SoupPasses make_soup_passes(DeviceSoup& soup) {
+  SoupPasses passes;
+  if (soup.plan().site == ShadingSite::deferred) {
+    passes.faces = make_visibility_pass(soup);
+    passes.shading = std::make_unique<ShadingPass>(soup);
+  } else {
+    passes.faces = std::make_unique<ForwardPass>(soup);
+  }
+  gl::check("make_soup_passes");
   return passes;
 }
 

@@ -2,8 +2,6 @@
 // pass that colours them; or one forward pass that writes colours.
 #pragma once
 
-#include <span>
-
 #include "runtime/passes/device_soup.hpp"
 #include "runtime/passes/pass.hpp"
 
@@ -19,10 +17,14 @@ enum class AlphaTest {
 };
 
 /// Stores the visible fragments of a soup, which must outlive the pass.
-std::unique_ptr<Pass> make_visibility_pass(DeviceSoup& soup, std::size_t layer,
+std::unique_ptr<Pass> make_visibility_pass(DeviceSoup& soup,
                                            AlphaTest test = AlphaTest::as_planned);
 
-/// The passes of a frame by the soups' plans; the soups must outlive them.
-Passes soup_passes(std::span<const std::unique_ptr<DeviceSoup>> soups);
+/// The passes of a soup by its plan and its place; the soup must outlive them.
+struct SoupPasses {
+  std::unique_ptr<Pass> faces;    // visibility or forward
+  std::unique_ptr<Pass> shading;  // of a deferred plan; after `faces` of all soups
+};
+SoupPasses make_soup_passes(DeviceSoup& soup);
 
 }  // namespace tureen

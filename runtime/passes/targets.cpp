@@ -39,7 +39,8 @@ gl::Texture make_image_target(const TargetFormat& format, int width, int height)
   return texture;
 }
 
-gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
+gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors,
+                                 const DepthAttachment& depth) {
   gl::Framebuffer framebuffer = gl::Framebuffer::create();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   std::vector<GLenum> attachments;
@@ -47,7 +48,10 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint de
     attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachments.back(), GL_TEXTURE_2D, color, 0);
   }
-  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+  if (depth.texture)
+    glFramebufferTexture2D(GL_FRAMEBUFFER,
+                           depth.has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                           GL_TEXTURE_2D, depth.texture, 0);
   glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
   require_complete_framebuffer();
   return framebuffer;
@@ -72,8 +76,7 @@ Image8 read_pixels(GLuint framebuffer, int width, int height) {
   return image;
 }
 
-std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
-                                              std::span<const std::uint32_t> faces) {
+std::vector<std::uint32_t> read_visible_slots(GLuint framebuffer, glm::ivec2 size) {
   const auto width = std::size_t(size.x), height = std::size_t(size.y);
   // Reading must wait for the pass that wrote this target. Mesa 22.3's llvmpipe waits only for a
   // running pass that writes it. The shading pass only reads it, so an older frame would be
@@ -88,10 +91,8 @@ std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 siz
   gl::throw_if_lost();
   std::vector<std::uint32_t> result(fragments.size());
   for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint32_t slot = fragments[(height - 1 - y) * width + x].x;
-      result[y * width + x] = slot == no_face ? no_face : faces[slot];
-    }
+    for (std::size_t x = 0; x < width; ++x)
+      result[y * width + x] = fragments[(height - 1 - y) * width + x].x;
   return result;
 }
 

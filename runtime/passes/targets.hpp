@@ -23,6 +23,11 @@ inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
 inline constexpr TargetFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
 inline constexpr TargetFormat depth24{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4};
 inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+// With 8 bits of stencil.
+inline constexpr TargetFormat depth24_stencil{GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL,
+                                              GL_UNSIGNED_INT_24_8, 4};
+inline constexpr TargetFormat depth32f_stencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL,
+                                               GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
 }  // namespace target_formats
 
 /// Bytes of a target of this size.
@@ -38,17 +43,23 @@ gl::Texture make_target(const TargetFormat& format, int width, int height);
 /// OpenGL 4.2.
 gl::Texture make_image_target(const TargetFormat& format, int width, int height);
 
+/// A depth texture of a framebuffer.
+struct DepthAttachment {
+  GLuint texture = 0;  // 0: none
+  bool has_stencil = false;
+};
+
 /// `colors` become attachments 0, 1, ..; all are draw buffers. The framebuffer stays bound. Throws
 /// as require_complete_framebuffer().
-gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors,
+                                 const DepthAttachment& depth = {});
 
 /// The RGBA8 pixels of a framebuffer's first color attachment, row 0 on top. Waits for the device.
 Image8 read_pixels(GLuint framebuffer, int width, int height);
 
-/// The faces that shaders/visibility.frag wrote to a framebuffer, row 0 on top. `faces` maps slots
-/// to faces. Waits for the device.
-std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
-                                              std::span<const std::uint32_t> faces);
+/// The slots that shaders/visibility.frag wrote to a framebuffer, row 0 on top; no_face for the
+/// background. Waits for the device.
+std::vector<std::uint32_t> read_visible_slots(GLuint framebuffer, glm::ivec2 size);
 
 /// Copies the colours of one framebuffer to another (0 is the window), its lower left corner to
 /// `corner`. The destination stays bound.

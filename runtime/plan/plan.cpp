@@ -86,15 +86,36 @@ SoupPlan make_soup_plan(const TriangleSoup& soup, const DeviceLimits& limits,
 
 }  // namespace
 
+void make_layered(SoupPlan& plan) {
+  if (plan.site == ShadingSite::forward) plan.site = ShadingSite::deferred;
+  plan.shading_stage = ShadingStage::fragment;
+  plan.depth_rejects_background = true;  // the stencil does
+  std::erase_if(plan.applied, [](const AppliedSpecialisation& each) {
+    return each.what == Specialisation::shading_pass;
+  });
+}
+
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
+  const TriangleSoup* const one = &soup;
+  return make_plan(std::span(&one, 1), limits, preferences);
+}
+
+RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLimits& limits,
+                     const PlanPreferences& preferences) {
+  if (soups.size() > max_plan_layers)
+    throw UsageError("the scene has " + std::to_string(soups.size()) + " layers; at most " +
+                     std::to_string(max_plan_layers) + " can be drawn together");
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   RenderPlan plan;
   plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
   plan.quality = preferences.quality;
   plan.specialise = preferences.specialise;
   plan.requested_stage = preferences.shading_stage;
-  plan.layers.push_back(make_soup_plan(soup, limits, preferences));
+  for (const TriangleSoup* soup : soups)
+    plan.layers.push_back(make_soup_plan(*soup, limits, preferences));
+  if (soups.size() > 1)
+    for (SoupPlan& layer : plan.layers) make_layered(layer);
   return plan;
 }
 

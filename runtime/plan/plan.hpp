@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -126,10 +127,22 @@ struct RenderPlan {
   std::vector<AppliedSpecialisation> applied() const;
 };
 
-/// The plan of a scene with one soup, which must have no defect(). Throws UsageError for a quality
-/// with a defect(). Throws DeviceLimitError if the compute stage is requested without compute
-/// shaders.
+/// The plan of a scene of soups, which must have no defect(). Several soups are all deferred, with
+/// shading in fragment shaders. Throws UsageError for a quality with a defect() and for more than
+/// max_plan_layers soups. Throws DeviceLimitError if the compute stage is requested without
+/// compute shaders.
+RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLimits& limits,
+                     const PlanPreferences& preferences = {});
+/// The same for one soup.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
+
+/// Changes the plan of a single soup to that of one of several layers, which draw other passes. The
+/// prepared data stays valid.
+void make_layered(SoupPlan& plan);
+
+/// Most layers of a frame: a stencil of 8 bits stores the layer of each sample, and 0 is the
+/// background.
+inline constexpr std::size_t max_plan_layers = 255;
 
 }  // namespace tureen

@@ -92,11 +92,17 @@ std::vector<std::string> describe_sampling(const Quality& quality) {
 std::vector<std::string> describe(const RenderPlan& common) {
   if (!common.description.empty()) return common.description;
   std::vector<std::string> sentences;
-  const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
+  const bool several = common.layers.size() > 1;
+  std::size_t layer = 0;
+  const auto add = [&](const std::string& sentence) {
+    sentences.push_back(several ? "layer " + std::to_string(layer) + ": " + sentence : sentence);
+  };
   for (const SoupPlan& plan : common.layers) {
+    ++layer;
     add(describe_frame(plan, common));
-    if (&plan == &common.layers.front())
-      for (std::string& sentence : describe_sampling(common.quality)) add(std::move(sentence));
+    if (layer == 1)
+      for (std::string& sentence : describe_sampling(common.quality))
+        sentences.push_back(std::move(sentence));
     if (plan.undrawable_faces > 0)
       add(std::to_string(plan.undrawable_faces) +
           " faces without area or with corners that are not finite are not drawn");
@@ -108,9 +114,9 @@ std::vector<std::string> describe(const RenderPlan& common) {
           fixed_decimal(double(plan.lattice.refused_alpha_cell_bytes) / 1e6, 1) +
           " MB, which is more than allowed");
     if (common.requested_stage == ShadingStage::compute)
-      add(plan.shading_stage == ShadingStage::compute
-              ? "shading runs as compute, as requested"
-              : "shading does not run as compute: colours are written in the only pass");
+      add(plan.shading_stage == ShadingStage::compute ? "shading runs as compute, as requested"
+          : several ? "shading does not run as compute: there are several layers"
+                    : "shading does not run as compute: colours are written in the only pass");
   }
   return sentences;
 }

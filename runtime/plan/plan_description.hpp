@@ -9,7 +9,8 @@
 namespace tureen {
 
 /// The method of drawing, then one sentence for each quality setting, and one for each
-/// specialisation with its count and margin. RenderPlan::description, if the plan has one.
+/// specialisation with its count and margin; for each of several layers, counted from 1.
+/// RenderPlan::description, if the plan has one.
 std::vector<std::string> describe(const RenderPlan& plan);
 
 /// A sentence on the resolution scale and one on the samples; none for one sample a pixel.

@@ -13,6 +13,8 @@ uniform usampler2DArray soup_faces;   // the soup's index of a slot
 uniform vec4 background;
 uniform vec2 depth_scale;             // ln(near), 1 / ln(far / near)
 uniform int first_feature, features_shown;
+uniform mat3 world_from_layer;        // rotation or reflection
+uniform int layer;
 
 layout(location = 0) out vec4 color;
 
@@ -28,9 +30,9 @@ vec3 shown(uint face, vec2 b) {
 #elif SHOWN == SHOW_NORMALS
   vec3 normal = face_normal(face);
   if (dot(normal, ray_through(gl_FragCoord.xy)) > 0.0) normal = -normal;
-  return 0.5 * normal + 0.5;
+  return 0.5 * (world_from_layer * normal) + 0.5;
 #elif SHOWN == SHOW_TRIANGLE_ID
-  return triangle_color(texelFetch(soup_faces, texel_position(face), 0).r);
+  return triangle_color(texelFetch(soup_faces, texel_position(face), 0).r, uint(layer));
 #elif SHOWN == SHOW_TEXELS
   return debug_view_texel(face, b);
 #elif SHOWN == SHOW_ALPHA
@@ -53,5 +55,5 @@ vec3 shown(uint face, vec2 b) {
 void main() {
   uvec2 fragment = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
   color = fragment.x == NO_FACE ? background
-                                : vec4(shown(fragment.x, stored_barycentrics(fragment)), 1.0);
+                                : vec4(shown(stored_slot(fragment), stored_barycentrics(fragment)), 1.0);
 }

@@ -6,7 +6,7 @@ uint mixed_bits(uint x) {
   return x ^ (x >> 16);
 }
 
-vec3 triangle_color(uint face) {
-  uint h = mixed_bits(face + 1u);
+vec3 triangle_color(uint face, uint layer) {
+  uint h = mixed_bits(face + 1u + layer * 0x9e3779b9u);
   return 0.25 + 0.75 / 255.0 * vec3(h & 255u, (h >> 8) & 255u, (h >> 16) & 255u);
 }

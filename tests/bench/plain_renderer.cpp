@@ -71,7 +71,7 @@ void PlainRenderer::resize(int width, int height) {
   height_ = height;
   color_ = make_target(target_formats::rgba8, width, height);
   depth_ = make_target(target_formats::depth24, width, height);
-  framebuffer_ = make_framebuffer({color_.id()}, depth_.id());
+  framebuffer_ = make_framebuffer({color_.id()}, {depth_.id()});
 }
 
 void PlainRenderer::draw(const Camera& camera) {

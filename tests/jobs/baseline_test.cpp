@@ -10,6 +10,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
 namespace baseline_test {
@@ -100,7 +101,7 @@ TEST(Baseline, HasPointsButNoFacesToRead) {
   const gl::Context context = gl::Context::create(osmesa);
   Renderer renderer = make_renderer(context, one_level(), {}, PipelineKind::baseline);
   renderer.draw({look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 160, 120)});
-  EXPECT_TRUE(renderer.read_faces().empty());
+  EXPECT_TRUE(faces_of(renderer).empty());
   EXPECT_NE(renderer.point_at({80, 60}), std::nullopt);
 }
 

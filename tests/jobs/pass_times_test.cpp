@@ -133,7 +133,7 @@ TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
   renderer.draw({scene.cameras[0]});
   const Image8 image = renderer.read_color();
   EXPECT_THAT(image.pixels, testing::Each(glm::u8vec4(51, 102, 153, 255)));
-  EXPECT_TRUE(renderer.read_faces().empty());
+  EXPECT_TRUE(faces_of(renderer).empty());
 }
 
 TEST_P(Ceilings, TheCopyIsAnImagesWorthOfPixels) {

@@ -61,7 +61,7 @@ std::vector<double> min_gaps(bool reversed) {
         Camera camera = straight_camera(side, side, side);
         camera.view_from_world[3] = glm::dvec4(0, 0, -from[i], 1);
         renderer.draw({camera});
-        for (const std::uint32_t face : renderer.read_faces())
+        for (const std::uint32_t face : faces_of(renderer))
           if ((face < 2) == rear_first) gaps[i] = std::exp2(double(k + 1) / steps_per_octave);
       }
     }

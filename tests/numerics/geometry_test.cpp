@@ -378,7 +378,7 @@ TEST(Numerics, G6_ADollyPastALargeFaceIsContinuous) {
     Camera camera = straight;
     camera.view_from_world[3] = glm::dvec4(0, 0, -eye, 1);
     renderer.draw({camera});
-    const Faces faces = renderer.read_faces();
+    const Faces faces = faces_of(renderer);
     ASSERT_EQ(faces.size(), std::size_t(side * side));
     std::vector<double> now, naive_now;
     for (const std::uint32_t face : faces) {
@@ -568,8 +568,7 @@ TEST(Numerics, G9_OfCoincidentFacesTheLowerOneShowsEveryTime) {
       of_all.draw({camera});
       for (std::size_t i = order.size(); i > 1; --i)
         std::swap(order[i - 1], order[random.below(std::uint32_t(i))]);
-      const Faces frame[4] = {renderer.read_faces(), of_all.read_faces(),
-                              faces_of_trainer(soup, camera),
+      const Faces frame[4] = {faces_of(renderer), faces_of(of_all), faces_of_trainer(soup, camera),
                               last_of_equals(corners, camera, order)};
       if (run == 0) std::copy(std::begin(frame), std::end(frame), first);
       for (std::size_t i = 0; i < 4; ++i)

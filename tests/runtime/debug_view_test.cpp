@@ -183,7 +183,7 @@ using Expected = std::function<std::optional<glm::dvec3>(int column, int row, co
 void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_renderer,
                   const Expected& expected, double steps, double max_off = 0.002) {
   const Image8 image = debug_renderer.renderer().read_color();
-  const std::vector<std::uint32_t> faces = debug_renderer.renderer().read_faces();
+  const std::vector<std::uint32_t> faces = faces_of(debug_renderer.renderer());
   const auto hits = all_hits(scenery);
   std::size_t compared = 0, off = 0;
   for (int row = 0; row < height; ++row)
@@ -231,12 +231,12 @@ TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
     Renderer renderer =
         renderer_of(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
     renderer.draw({scenery.camera});
-    const auto expected = renderer.read_faces();
+    const auto expected = faces_of(renderer);
     for (const DebugViewName& name : debug_view_names()) {
       const bool all_fragments = name.what == DebugView::alpha || name.what == DebugView::overdraw;
       if (why_not(name.what, scenery.soup) || all_fragments) continue;
       const DebugViewRenderer shown = debug_renderer(scenery, name.what, {0, 1});
-      EXPECT_EQ(shown.renderer().read_faces(), expected) << name.name << ", seed " << seed;
+      EXPECT_EQ(faces_of(shown.renderer()), expected) << name.name << ", seed " << seed;
       const Image8 image = shown.renderer().read_color();
       std::size_t off = 0;
       for (std::size_t i = 0; i < expected.size(); ++i)
@@ -333,7 +333,7 @@ TEST_P(DebugViews, AlphaShowsAlsoWhatIsCutOut) {
     const Scenery scenery(++seed, kind);
     const DebugViewRenderer shown = debug_renderer(scenery, DebugView::alpha);
     const auto hits = all_hits(scenery);
-    const auto faces = shown.renderer().read_faces();
+    const auto faces = faces_of(shown.renderer());
     std::size_t others = 0, cut_out = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
       others += faces[i] != (hits[i].empty() ? no_face : hits[i].front().face);
@@ -419,7 +419,7 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
   const Image8 image = shown.renderer().read_color();
   const Image8 colors = debug_renderer(scenery, DebugView::color).renderer().read_color();
   const glm::u8vec4 line(240, 240, 240, 255);
-  const auto faces = shown.renderer().read_faces();
+  const auto faces = faces_of(shown.renderer());
   std::size_t lines = 0, off = 0, compared = 0;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {

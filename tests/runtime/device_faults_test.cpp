@@ -111,7 +111,7 @@ TEST_P(DeviceFaults, AResetIsReportedAsAResetAndNotAsAnImage) {
     const Replaced status(glad_glGetGraphicsResetStatus,
                           PFNGLGETGRAPHICSRESETSTATUSPROC(tell_of_reset));
     EXPECT_THAT([&] { renderer.read_color(); }, is_reset);
-    EXPECT_THAT([&] { renderer.read_faces(); }, is_reset);
+    EXPECT_THAT([&] { faces_of(renderer); }, is_reset);
     // An allocation that a reset device rejects is not a lack of memory.
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
     const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));

@@ -124,7 +124,7 @@ TEST_P(ResolutionScale, SamplesAreTheOracles) {
     EXPECT_EQ(size, glm::ivec2(std::lround(331 * scale), std::lround(247 * scale)));
     EXPECT_EQ(renderer.read_color().width, camera.width);
     const OracleImage oracle = test::snapped_oracle(soup, {}, resampled(camera, size.x, size.y));
-    const auto faces = renderer.read_faces();
+    const auto faces = faces_of(renderer);
     ASSERT_EQ(faces.size(), oracle.face.size());
     std::size_t other = 0;
     for (std::size_t i = 0; i < faces.size(); ++i) other += faces[i] != oracle.face[i];

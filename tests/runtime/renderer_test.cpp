@@ -194,7 +194,7 @@ TEST(Renderer, NamesTheSameFacesOnEs) {
     const gl::Context context = gl::Context::create(i == 0 ? osmesa : egl_es30);
     Renderer renderer = renderer_of(context, soup, {});
     renderer.draw({camera});
-    faces[i] = renderer.read_faces();
+    faces[i] = faces_of(renderer);
   }
   EXPECT_EQ(faces[0], faces[1]);
   EXPECT_NE(std::count(faces[0].begin(), faces[0].end(), no_face), std::ptrdiff_t(64 * 48));
@@ -250,8 +250,7 @@ TEST(Renderer, AlphaByTheTexelIsAlphaByTheCell) {
       EXPECT_LT(by_texel.device_bytes(), by_cell.device_bytes());
       by_cell.draw({camera});
       by_texel.draw({camera});
-      EXPECT_EQ(by_texel.read_faces(), by_cell.read_faces())
-          << "the same arithmetic on the same bytes";
+      EXPECT_EQ(faces_of(by_texel), faces_of(by_cell)) << "the same arithmetic on the same bytes";
     }
 }
 
@@ -324,7 +323,7 @@ TEST(Renderer, TheTargetFollowsTheCamera) {
   for (const auto& [width, height] : {std::pair{64, 48}, {33, 77}, {64, 48}}) {
     renderer.draw({random_camera(random, width, height)});
     EXPECT_EQ(renderer.read_color().width, width);
-    EXPECT_EQ(renderer.read_faces().size(), std::size_t(width) * std::size_t(height));
+    EXPECT_EQ(faces_of(renderer).size(), std::size_t(width) * std::size_t(height));
   }
 }
 

@@ -133,14 +133,16 @@ TEST_P(ShaderMath, TriangleColorsAreThoseOfDebugViews) {
   std::vector<glm::vec4> inputs;
   Random random(6);
   for (int i = 0; i < 500; ++i) inputs.emplace_back(float(random.below(1u << 24)), 0, 0, 0);
-  const Probe probe(api(),
-                    "#include \"triangle_color.glsl\"\n"
-                    "vec4 probe(vec4 v) { return vec4(triangle_color(uint(v.x)), 0.0); }",
-                    {});
+  const Probe probe(
+      api(),
+      "#include \"triangle_color.glsl\"\n"
+      "vec4 probe(vec4 v) { return vec4(triangle_color(uint(v.x), uint(v.y)), 0.0); }",
+      {});
   const std::vector<glm::vec4> results = probe.run(inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(results[i][c], triangle_color(std::uint32_t(inputs[i].x))[c], 1e-6);
+      EXPECT_NEAR(results[i][c],
+                  triangle_color(std::uint32_t(inputs[i].x), std::uint32_t(inputs[i].y))[c], 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Contexts, ShaderMath, testing::ValuesIn(every_context),

@@ -90,7 +90,7 @@ TEST_P(ShadingStages, TakeTurnsWithoutATrace) {
       compute.draw({camera});
       const Image8 computed = compute.read_color();
       EXPECT_EQ(computed.pixels, fragment.read_color().pixels);
-      EXPECT_EQ(compute.read_faces(), fragment.read_faces());
+      EXPECT_EQ(faces_of(compute), faces_of(fragment));
     }
 }
 

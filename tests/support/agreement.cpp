@@ -64,7 +64,7 @@ Drawn draw(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, co
   context.make_current();
   Renderer renderer = renderer_of(context, soup, origin, {.plan = plan, .limits = {}});
   renderer.draw({camera});
-  return {renderer.read_color(), renderer.read_faces()};
+  return {renderer.read_color(), faces_of(renderer)};
 }
 
 Drawn draw_baseline(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
@@ -89,6 +89,7 @@ Agreement agreement(const OracleImage& oracle, const Drawn& drawn) {
   }
   std::size_t coverage = 0, other = 0, same = 0;
   double squares = 0;
+  std::vector<double> differences;
   Agreement result;
   for (std::size_t i = 0; i < drawn.faces.size(); ++i) {
     const Pixel found = pixel(oracle.face[i], drawn.faces[i]);
@@ -99,8 +100,13 @@ Agreement agreement(const OracleImage& oracle, const Drawn& drawn) {
     for (int c = 0; c < 3; ++c) {
       const double d = double(oracle.color.pixels[i][c]) - drawn.color.pixels[i][c] / 255.0;
       squares += d * d;
-      result.worst = std::max(result.worst, std::abs(d));
+      differences.push_back(std::abs(d));
     }
+  }
+  if (!differences.empty()) {
+    std::sort(differences.begin(), differences.end());
+    result.worst = differences.back();
+    result.percentile_999 = differences[(differences.size() - 1) * 999 / 1000];
   }
   const auto pixels = double(drawn.faces.size());
   result.coverage_mismatch = double(coverage) / pixels;

@@ -42,6 +42,7 @@ struct Agreement {
   double face_mismatch = 0;      // fraction of pixels that both cover, with different faces
   double psnr = 0;               // dB, over the pixels where both name the same face
   double worst = 0;              // largest difference of a channel there
+  double percentile_999 = 0;     // and the 99.9th percentile
   double compared = 0;           // fraction of pixels where both name the same face
 };
 

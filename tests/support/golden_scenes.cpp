@@ -1,5 +1,6 @@
 #include "tests/support/golden_scenes.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 namespace tureen::test {
@@ -20,6 +21,28 @@ Scene golden_debug_view_scene(Scene example) {
   example.cameras = {std::move(camera)};
   example.info.background = glm::vec3(0.0f);
   return example;
+}
+
+Scene layered_scene(std::uint64_t seed) {
+  Random random(seed + 100);
+  const auto soup = [&](Kind kind, int level) {
+    return random_soup(seed * 10 + std::uint64_t(level),
+                       {.kind = kind, .faces = 60, .size = 0.5, .level = level});
+  };
+  const glm::dmat4 turned = glm::translate(glm::dmat4(1.0), {0.3, -0.2, 0.1}) *
+                            glm::rotate(glm::dmat4(1.0), 1.1, glm::dvec3(0.6, 0.0, 0.8)) *
+                            glm::scale(glm::dmat4(1.0), glm::dvec3(-0.7, 0.7, 0.7));
+  Scene scene;
+  scene.layers.push_back({.name = "first", .primitives = soup(Kind::lattice_mlp, 3)});
+  scene.layers.push_back({.name = "mesh",
+                          .world_from_layer = at_origin({-0.2, 0.1, 0.3}),
+                          .primitives = soup(Kind::uv_textures, 0)});
+  scene.layers.push_back(
+      {.name = "turned", .world_from_layer = turned, .primitives = soup(Kind::lattice_mlp, 1)});
+  scene.cameras.push_back(random_camera(random, 320, 240));
+  scene.info.name = "layers";
+  scene.info.background = {0.95f, 0.95f, 0.9f};
+  return scene;
 }
 
 }  // namespace tureen::test

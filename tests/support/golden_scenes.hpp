@@ -17,4 +17,8 @@ Scene golden_debug_view_scene(Scene example);
 /// Index of the example's camera for its golden image, at 320 x 240.
 inline constexpr std::size_t golden_example_camera = 40;
 
+/// Two soups with different networks at different lattice levels, and a textured mesh between them.
+/// The last layer is rotated, mirrored and scaled. One camera.
+Scene layered_scene(std::uint64_t seed);
+
 }  // namespace tureen::test

@@ -12,4 +12,11 @@ inline Renderer renderer_of(const gl::Context& context, const TriangleSoup& soup
                   options);
 }
 
+/// The visible faces of the last frame of a scene with one layer.
+inline std::vector<std::uint32_t> faces_of(const Renderer& renderer) {
+  std::vector<std::uint32_t> faces;
+  for (const VisibleFace& visible : renderer.read_faces()) faces.push_back(visible.face);
+  return faces;
+}
+
 }  // namespace tureen

@@ -70,7 +70,7 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
     Renderer there(context(), unpack(head, read), options);
     there.draw({camera});
     EXPECT_EQ(there.read_color().pixels, expected.pixels);
-    EXPECT_EQ(there.read_faces(), here.read_faces());
+    EXPECT_EQ(faces_of(there), faces_of(here));
     EXPECT_EQ(describe(there.plan()), describe(here.plan()));
     EXPECT_EQ(there.device_bytes(), here.device_bytes());
   }

@@ -57,11 +57,10 @@ void write_image(const ImageJob& job, const StageRequest& request) {
   };
   if (job.debug_view.what != DebugView::color) {
     const gl::Capabilities& device = request.context.capabilities();
-    DebugViews debug_views(job.scene.soup());
-    Renderer renderer(
-        request.context,
-        prepare_debug_views(job.scene.soup(), job.scene.origin(), device_limits(device)),
-        {.background = background});
+    const std::vector<PlacedSoup> layers = placed_soups(*job.scene.scene);
+    DebugViews debug_views(layers);
+    Renderer renderer(request.context, prepare_debug_views(layers, device_limits(device)),
+                      {.background = background});
     debug_views.show(renderer, job.debug_view.what, job.debug_view.features);
     ImageTiles tiles = tiles_of(renderer, device);
     tiles.progress = progress;

@@ -59,7 +59,7 @@ void PageView::show(DebugView what, const FeatureChoice& features) {
   if (!stage_ && !shows_debug_view) return;
   if (!stage_) throw UsageError("there is no scene for a debug view");
   Stage& stage = *stage_;
-  if (shows_debug_view) DebugViews(read_scene_.value().soup).require(what, features);
+  if (shows_debug_view) DebugViews(placed_soups(read_scene_.value().scene)).require(what, features);
   if (const bool had_debug_views = stage.debug_views.has_value();
       shows_debug_view != had_debug_views) {
     try {
@@ -80,11 +80,11 @@ void PageView::prepare_renderer(bool for_debug_views) {
   stage.renderer.reset();
   stage.debug_views.reset();
   const DeviceLimits limits = device_limits(capabilities());
-  stage.renderer.emplace(context_,
-                         for_debug_views
-                             ? prepare_debug_views(scene.soup, scene.origin, limits, scene.options)
-                             : prepare_scene(scene.soup, scene.origin, limits, scene.options));
-  if (for_debug_views) stage.debug_views.emplace(scene.soup);
+  const std::vector<PlacedSoup> layers = placed_soups(scene.scene);
+  stage.renderer.emplace(context_, for_debug_views
+                                       ? prepare_debug_views(layers, limits, scene.options)
+                                       : prepare_scene(layers, limits, scene.options));
+  if (for_debug_views) stage.debug_views.emplace(layers);
   stage.renderer->set_background(glm::vec4(background_, 1.0f));
 }
 

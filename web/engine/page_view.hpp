@@ -40,8 +40,7 @@ class PageView {
   /// The shown scene, read again in this instance: debug views need more data than its renderer
   /// has.
   struct ReadScene {
-    TriangleSoup soup;
-    glm::dvec3 origin;
+    Scene scene;
     RenderOptions options;  // of ordinary frames
   };
   void keep_read_scene(ReadScene scene) { read_scene_.emplace(std::move(scene)); }

@@ -73,8 +73,8 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  auto& [bounds, origin, soup] = value;
-  archive(bounds, origin);
+  auto& [name, bounds, world_from_layer, visible, soup] = value;
+  archive(name, bounds, world_from_layer, visible);
   if constexpr (!std::is_const_v<Value>) soup.emplace();
   assert(soup && "the page's instance makes no passes from outside runtime/");
   archive_soup(archive, *soup);

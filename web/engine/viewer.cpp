@@ -221,10 +221,12 @@ Json background(const Json& color) {
 Json read_for_debug_views(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
   make_opaque(scene);
-  TriangleSoup& soup = only_soup(scene);
-  if (const auto level = arguments.find("level"); level != arguments.end())
-    soup = edited(soup, {.lattice_level = level->get<int>()}, {});
-  view().keep_read_scene({std::move(soup), origin_of(only_layer(scene)), page_options(scene)});
+  if (const auto level = arguments.find("level"); level != arguments.end()) {
+    TriangleSoup& soup = only_soup(scene);
+    soup = edited(std::move(soup), {.lattice_level = level->get<int>()}, {});
+  }
+  const RenderOptions options = page_options(scene);
+  view().keep_read_scene({std::move(scene), options});
   return nullptr;
 }
 
