@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <tuple>
 
 #include "oracle/clipped_polygon.hpp"
@@ -92,12 +93,22 @@ struct Rays::Face {
   }
 };
 
-Rays::Rays(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera, RayOptions options)
-    : soup_(soup), camera_(camera), options_(options), view_from_world_(camera.view_from_world) {
-  const glm::dvec3 eye = camera.eye();
-  eye_to_origin_ = origin - eye;
-  range_ =
-      clip_range(bounds(soup), -eye_to_origin_, forward_of(camera), DepthStorage::reversed_float);
+Rays::Rays(const TriangleSoup& soup, const glm::dmat4& world_from_layer, const Camera& camera,
+           RayOptions options, const std::optional<ClipRange>& range)
+    : soup_(soup),
+      camera_(camera),
+      options_(options),
+      view_from_world_(camera.view_from_world),
+      world_from_layer_(world_from_layer),
+      layer_from_world_(glm::inverse(world_from_layer_)),
+      eye_to_origin_(glm::dvec3(world_from_layer[3]) - camera.eye()) {
+  assert(glm::determinant(world_from_layer_) != 0);
+  if (range) {
+    range_ = *range;
+  } else {
+    const PlacedBounds placed{bounds(soup), world_from_layer};
+    range_ = clip_range({&placed, 1}, camera, DepthStorage::reversed_float);
+  }
   rows_.resize(soup.triangles.size());
   Face face;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
@@ -115,8 +126,11 @@ bool Rays::project(std::uint32_t index, Face& face) const {
                                glm::dvec3(soup_.positions[triangle[2]]) - corner)) > 0))
     return false;
   for (int k = 0; k < 3; ++k) {
+    // Relative to the eye, because the product of the two matrices cancels digits far from the
+    // world's origin.
     const glm::dvec3 view =
-        view_from_world_ * (glm::dvec3(soup_.positions[triangle[k]]) + eye_to_origin_);
+        view_from_world_ *
+        (world_from_layer_ * glm::dvec3(soup_.positions[triangle[k]]) + eye_to_origin_);
     const double w = -view.z;
     face.points[k] = {camera_.fx * view.x + camera_.cx * w, camera_.cy * w - camera_.fy * view.y,
                       w};
@@ -244,7 +258,9 @@ void Rays::visit_pixels(const PixelVisitor& visit) const {
 glm::dvec3 Rays::to_eye(int column, int row) const {
   const glm::dvec3 view((column + 0.5 - camera_.cx) / camera_.fx,
                         (camera_.cy - row - 0.5) / camera_.fy, -1.0);
-  return glm::normalize(camera_.world_from_view_rotation() * -view);
+  return glm::normalize(layer_from_world_ * (camera_.world_from_view_rotation() * -view));
 }
+
+glm::dvec3 Rays::eye() const { return layer_from_world_ * -eye_to_origin_; }
 
 }  // namespace tureen::oracle

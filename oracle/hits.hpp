@@ -10,7 +10,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,12 +62,16 @@ struct Hit {
   double depth = 0;       // along the viewing axis, world units, at least the near distance
 };
 
-/// The rays of one camera through one soup. Both must outlive this object; the soup has no
-/// defect(). Triangles with a non-finite vertex, without area or seen edge-on have no hits. Back
-/// faces are not culled.
+/// The rays of one camera through one soup at its place in the world. Both must outlive this
+/// object; the soup has no defect(), and `world_from_layer` is a similarity that may mirror. Depths
+/// are in world units; eye() and to_eye() are in layer coordinates. Triangles with a non-finite
+/// vertex, without area or seen edge-on have no hits. Back faces are not culled.
 class Rays {
  public:
-  Rays(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera, RayOptions options = {});
+  /// `range`: that of the frame, default that of this soup alone for reversed depth. Only `near`
+  /// clips.
+  Rays(const TriangleSoup& soup, const glm::dmat4& world_from_layer, const Camera& camera,
+       RayOptions options = {}, const std::optional<ClipRange>& range = std::nullopt);
 
   using HitVisitor = std::function<void(int column, int row, const Hit&)>;
   using PixelVisitor = std::function<void(int column, int row, std::span<const Hit>)>;
@@ -76,9 +83,14 @@ class Rays {
   /// Works in bands of rows, so memory holds only the hits in one band.
   void visit_pixels(const PixelVisitor& visit) const;
 
-  /// The unit direction from a pixel's surface to the eye. It is computed from the camera's basis
-  /// alone, so it loses no digits far from the world's origin (docs/numerics.md, V1).
+  /// The unit direction from a pixel's surface to the eye, in layer coordinates: harmonics and
+  /// color MLPs are functions of it, so a layer keeps its look when it is moved, and a mirror
+  /// mirrors the direction. It is computed from the axes of camera and layer alone, so it loses no
+  /// digits far from the world's origin (docs/numerics.md, V1).
   glm::dvec3 to_eye(int column, int row) const;
+
+  /// The eye in layer coordinates.
+  glm::dvec3 eye() const;
 
   const ClipRange& range() const { return range_; }
 
@@ -94,7 +106,11 @@ class Rays {
   RayOptions options_;
   ClipRange range_;
   glm::dmat3 view_from_world_;
-  glm::dvec3 eye_to_origin_;               // the soup's origin as seen from the eye, in world axes
+  /// Without the translation. Where it is the identity, its products are exact, so a layer that is
+  /// only moved has the hits of its vertices plus the translation, bit for bit.
+  glm::dmat3 world_from_layer_;
+  glm::dmat3 layer_from_world_;            // the inverse of world_from_layer_
+  glm::dvec3 eye_to_origin_;               // the layer's origin as seen from the eye, in world axes
   std::vector<std::pair<int, int>> rows_;  // for every face, [first, end); empty if not visible
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "oracle/shade.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -24,7 +25,7 @@ OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Fra
   const int n = options.supersampling;
   assert(n >= 1);
   const Camera fine = n == 1 ? camera : resized(camera, camera.width * n, camera.height * n);
-  const oracle::Rays rays(soup, origin, fine, options.rays);
+  const oracle::Rays rays(soup, at_origin(origin), fine, options.rays);
   const glm::dvec3 eye = camera.eye() - origin;
   const std::size_t stride = fine.width;
 

@@ -9,6 +9,7 @@
 #include "runtime/renderer.hpp"
 #include "scene/edit/keep_faces.hpp"
 #include "scene/lattice.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -68,7 +69,7 @@ std::vector<float> count_visible_texels(const gl::Context& context, const Triang
   visit_images(context, soup, origin, views, progress,
                [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
                  assert(faces.size() == std::size_t(view.width) * std::size_t(view.height));
-                 const oracle::Rays rays(soup, origin, view);
+                 const oracle::Rays rays(soup, at_origin(origin), view);
                  rays.visit_faces(0, view.height, [&](int column, int row, const oracle::Hit& hit) {
                    const std::size_t pixel =
                        std::size_t(row) * std::size_t(view.width) + std::size_t(column);

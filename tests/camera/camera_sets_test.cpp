@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "oracle/hits.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 namespace camera_sets_test {
@@ -48,7 +49,7 @@ glm::dvec3 towards_eye(const Subject& subject, const Camera& camera) {
 /// Fragments a pixel by the oracle: every face on every pixel's ray.
 double true_overdraw(const TriangleSoup& soup, const Camera& camera) {
   std::size_t count = 0;
-  oracle::Rays(soup, origin, camera)
+  oracle::Rays(soup, at_origin(origin), camera)
       .visit_faces(0, camera.height, [&](int, int, const oracle::Hit&) { ++count; });
   return double(count) / (camera.width * camera.height);
 }

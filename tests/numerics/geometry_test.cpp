@@ -157,7 +157,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
     for (const auto coverage : {oracle::Coverage::exact, oracle::Coverage::snapped}) {
       auto& count = counts[coverage == oracle::Coverage::snapped];
       count.resize(side * side);
-      const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = coverage});
+      const oracle::Rays rays(soup, glm::dmat4(1.0), camera, {.coverage = coverage});
       rays.visit_faces(
           0, side, [&](int x, int y, const oracle::Hit&) { ++count[std::size_t(y) * side + x]; });
     }
@@ -341,7 +341,7 @@ TEST(Numerics, G5_CornersInTheEyesPlaneKeepTheirPixels) {
           high[axis] = std::max(high[axis], at);
         }
       const TriangleSoup soup = soup_of(corners);
-      oracle::Rays(soup, glm::dvec3(0), camera)
+      oracle::Rays(soup, glm::dmat4(1.0), camera)
           .visit_faces(0, side, [&](int x, int y, const oracle::Hit& hit) {
             if (hit.depth < near) return;
             ++covered;

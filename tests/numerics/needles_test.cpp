@@ -92,7 +92,7 @@ struct Expected {
 Expected expected_of(const TriangleSoup& soup, const Camera& camera) {
   Expected result{snapped_oracle(soup, glm::dvec3(0), camera).face,
                   std::vector<glm::dvec3>(std::size_t(side) * side)};
-  const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = oracle::Coverage::snapped});
+  const oracle::Rays rays(soup, glm::dmat4(1.0), camera, {.coverage = oracle::Coverage::snapped});
   rays.visit_faces(0, side, [&](int x, int y, const oracle::Hit& hit) {
     const std::size_t i = std::size_t(y) * side + std::size_t(x);
     if (hit.face != result.faces[i]) return;
@@ -114,7 +114,7 @@ double beyond_all_texels(double channel) {
 double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera) {
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
   double most = 0;
-  const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = oracle::Coverage::snapped});
+  const oracle::Rays rays(soup, glm::dmat4(1.0), camera, {.coverage = oracle::Coverage::snapped});
   rays.visit_faces(0, camera.height, [&](int column, int row, const oracle::Hit& hit) {
     // A face has a constant depth, so barycentrics are affine in pixels.
     const auto pixel = [&](std::size_t k) {

@@ -9,6 +9,7 @@
 
 #include "oracle/oracle.hpp"
 #include "oracle/shade.hpp"
+#include "scene/scene.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/trainer/stages.hpp"
 
@@ -166,7 +167,7 @@ ColorError color_error(const TriangleSoup& soup, const glm::dvec3& origin, const
   // many terms with two roundings. Colours are about 1; terms may be a few times larger.
   constexpr double of_colors = 16 * 5 * 4 * epsilon;
   const double half_step = 0.5 / 255;
-  const oracle::Rays rays(soup, origin, camera);
+  const oracle::Rays rays(soup, at_origin(origin), camera);
   ColorError result{.allowed = of_colors};
   std::size_t same = 0;
   for (int y = 0; y < camera.height; ++y)

@@ -93,7 +93,7 @@ DirectionErrors direction_errors(const Camera& camera, double near, double far) 
   const std::vector<glm::vec4> windows = window_positions(camera),
                                results = of_shader("direction_to_eye", camera, windows);
   const TriangleSoup nothing = soup_of({});
-  const oracle::Rays rays(nothing, glm::dvec3(0), camera);
+  const oracle::Rays rays(nothing, glm::dmat4(1.0), camera);
   DirectionErrors errors;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const glm::dvec3 truth = rays.to_eye(int(windows[i].x), camera.height - 1 - int(windows[i].y));
@@ -165,7 +165,7 @@ TEST(Numerics, V1d_DirectionsKnowThePrincipalPoint) {
     const std::vector<glm::vec4> windows = window_positions(camera),
                                  taken = of_shader("direction_to_eye", centred, windows);
     const TriangleSoup nothing = soup_of({});
-    const oracle::Rays rays(nothing, glm::dvec3(0), camera);
+    const oracle::Rays rays(nothing, glm::dmat4(1.0), camera);
     double naive = 0;
     for (std::size_t i = 0; i < windows.size(); ++i)
       naive = worse(naive, angle(taken[i], rays.to_eye(int(windows[i].x),
@@ -225,7 +225,7 @@ TEST(Numerics, V2_UpIsUpForTheNetwork) {
     const Camera camera =
         straight_camera(side, side, side / 2.0 / std::tan(glm::radians(degrees) / 2));
     const Drawn drawn = draw(shared_context(), soup, glm::dvec3(0), camera);
-    const oracle::Rays rays(soup, glm::dvec3(0), camera);
+    const oracle::Rays rays(soup, glm::dmat4(1.0), camera);
     double ours = 0, naive = 0;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {

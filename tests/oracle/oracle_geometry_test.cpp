@@ -50,7 +50,7 @@ TriangleSoup soup_of(std::vector<glm::vec3> positions) {
 
 std::vector<int> hit_counts(const TriangleSoup& soup, const Camera& camera, Coverage coverage) {
   std::vector<int> counts(std::size_t(camera.width) * camera.height);
-  const Rays rays(soup, glm::dvec3(0), camera, {.coverage = coverage});
+  const Rays rays(soup, glm::dmat4(1.0), camera, {.coverage = coverage});
   rays.visit_faces(0, camera.height, [&](int column, int row, const Hit& hit) {
     EXPECT_TRUE(std::isfinite(hit.b0) && std::isfinite(hit.b1) && std::isfinite(hit.depth));
     ++counts[std::size_t(row) * camera.width + column];
@@ -105,7 +105,7 @@ TEST(OracleRays, SnapsToTheGridOfTheDevice) {
       soup_of({at_pixel(camera, left, 1), at_pixel(camera, left, 7), at_pixel(camera, 14, 7)});
   const auto covers_column_2 = [&](int bits) {
     bool covered = false;
-    const Rays rays(soup, glm::dvec3(0), camera,
+    const Rays rays(soup, glm::dmat4(1.0), camera,
                     {.coverage = Coverage::snapped, .subpixel_bits = bits});
     rays.visit_faces(0, 8, [&](int column, int, const Hit&) { covered = covered || column == 2; });
     return covered;
@@ -121,7 +121,7 @@ TEST(OracleRays, BarycentricsAndDepthArePerspectiveCorrect) {
   // Vertices are at depths 1, 2 and 4. The test recomputes the hit from its barycentrics.
   const TriangleSoup soup = soup_of({{-0.4f, -0.3f, -1}, {0.9f, -0.5f, -2}, {0.3f, 1.7f, -4}});
   for (const Attributes attributes : {Attributes::unsnapped, Attributes::snapped}) {
-    const Rays rays(soup, glm::dvec3(0), camera,
+    const Rays rays(soup, glm::dmat4(1.0), camera,
                     {.coverage = Coverage::snapped, .attributes = attributes});
     int hits = 0;
     rays.visit_faces(0, 64, [&](int column, int row, const Hit& hit) {
@@ -160,7 +160,7 @@ std::optional<Hit> moeller_trumbore(const TriangleSoup& soup, std::uint32_t face
 /// Every hit by the oracle is a hit by the reference, and vice versa. Within 1e-9 of an edge, in
 /// barycentrics, either result is correct.
 void expect_brute_force_agrees(const TriangleSoup& soup, const Camera& camera) {
-  const Rays rays(soup, glm::dvec3(0), camera);
+  const Rays rays(soup, glm::dmat4(1.0), camera);
   std::vector<std::vector<Hit>> found(std::size_t(camera.width) * camera.height);
   rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
     found[std::size_t(row) * camera.width + column].assign(hits.begin(), hits.end());
@@ -267,7 +267,7 @@ TEST(OracleRays, AFloorThroughTheCameraIsSeenBelowTheHorizonOnly) {
   const TriangleSoup soup = soup_of({a, b, c, a, c, d});
   for (const Coverage coverage : both_coverages) {
     const auto counts = hit_counts(soup, camera, coverage);
-    const Rays rays(soup, glm::dvec3(0), camera, {.coverage = coverage});
+    const Rays rays(soup, glm::dmat4(1.0), camera, {.coverage = coverage});
     for (int row = 0; row < 64; ++row) {
       const double depth = 64 / (row + 0.5 - 32);
       const bool floor = depth > rays.range().near && depth < 100;
@@ -336,7 +336,7 @@ TEST(OracleRays, ViewDirectionsAreUnitAndPointBackToTheEye) {
   test::Random random(3);
   const Camera camera = test::random_camera(random, 40, 30);
   const TriangleSoup soup = test::random_soup(3, {.faces = 40, .size = 0.4});
-  const Rays rays(soup, glm::dvec3(0), camera);
+  const Rays rays(soup, glm::dmat4(1.0), camera);
   int hits = 0;
   rays.visit_faces(0, 30, [&](int column, int row, const Hit& hit) {
     const glm::uvec3 t = soup.triangles[hit.face];

@@ -54,7 +54,7 @@ class OracleImages : public testing::TestWithParam<test::Kind> {
 // The definition: the first visible hit along the ray.
 TEST_P(OracleImages, ShowTheFirstVisibleHitOfEveryRay) {
   const OracleImage image = render_oracle(soup_, no_origin, {camera_});
-  const oracle::Rays rays(soup_, no_origin, camera_);
+  const oracle::Rays rays(soup_, at_origin(no_origin), camera_);
   std::vector<std::uint32_t> expected(image.face.size(), OracleImage::no_face);
   std::size_t skipped = 0;
   rays.visit_pixels([&](int column, int row, std::span<const oracle::Hit> hits) {
@@ -190,7 +190,7 @@ TEST(OracleImage, CoincidentFacesAreWonByTheLowerIndex) {
     for (const std::uint32_t face : image.face)
       ASSERT_TRUE(face < 40 || face == OracleImage::no_face);
     EXPECT_GT(covered(image), 500u);
-    oracle::Rays(soup, no_origin, camera, {.coverage = coverage})
+    oracle::Rays(soup, at_origin(no_origin), camera, {.coverage = coverage})
         .visit_pixels([](int, int, std::span<const oracle::Hit> hits) {
           for (std::size_t i = 0; i + 1 < hits.size(); i += 2)
             ASSERT_EQ(hits[i].face + 40, hits[i + 1].face);

@@ -167,7 +167,7 @@ struct Scenery {
 /// All hits of every pixel, nearest first, rasterised as in GL.
 std::vector<std::vector<Hit>> all_hits(const Scenery& scenery) {
   std::vector<std::vector<Hit>> result(std::size_t(width) * height);
-  const oracle::Rays rays(scenery.soup, {}, scenery.camera,
+  const oracle::Rays rays(scenery.soup, glm::dmat4(1.0), scenery.camera,
                           {.coverage = oracle::Coverage::snapped});
   rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
     result[pixel_index(column, row)].assign(hits.begin(), hits.end());
@@ -278,7 +278,7 @@ TEST_P(DebugViews, DepthIsTheOraclesOnItsScale) {
 
 TEST_P(DebugViews, NormalsAreTurnedTowardsTheEye) {
   const Scenery scenery(4, Kind::vertex_colors);
-  const oracle::Rays rays(scenery.soup, {}, scenery.camera);
+  const oracle::Rays rays(scenery.soup, glm::dmat4(1.0), scenery.camera);
   expect_shown(
       scenery, debug_renderer(scenery, DebugView::normals),
       [&](int column, int row, const Hit& hit) {
