@@ -4,9 +4,10 @@
 #include <cassert>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <span>
+#include <variant>
 
 #include "oracle/shade.hpp"
-#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -17,34 +18,57 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rays in one band: their hits are kept until the band is shaded (about 32 MiB).
 constexpr int rays_in_a_band = 1 << 20;
 
-}  // namespace
+struct PlacedSoup {
+  const TriangleSoup* soup;
+  glm::dmat4 world_from_layer;
+  std::uint32_t layer;  // its index in the scene
+};
 
-OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
-                          const OracleOptions& options) {
+struct NearestHit {
+  std::uint32_t face = OracleImage::no_face;
+  std::uint32_t soup = 0;  // index in the list of placed soups
+  double b0 = 0, b1 = 0;
+  double depth = infinity;
+
+  oracle::SurfacePoint point() const { return {face, b0, b1}; }
+};
+
+OracleImage render_soups(std::span<const PlacedSoup> soups, const FrameInput& input,
+                         const OracleOptions& options) {
   const Camera& camera = input.camera;
   const int n = options.supersampling;
   assert(n >= 1);
   const Camera fine = n == 1 ? camera : resized(camera, camera.width * n, camera.height * n);
-  const oracle::Rays rays(soup, at_origin(origin), fine, options.rays);
-  const glm::dvec3 eye = camera.eye() - origin;
   const std::size_t stride = fine.width;
+
+  std::vector<PlacedBounds> placed;
+  for (const PlacedSoup& each : soups)
+    placed.push_back({bounds(*each.soup), each.world_from_layer});
+  const ClipRange range = clip_range(placed, fine, DepthStorage::reversed_float);
+  std::vector<oracle::Rays> rays;
+  for (const PlacedSoup& each : soups)
+    rays.emplace_back(*each.soup, each.world_from_layer, fine, options.rays, range);
 
   OracleImage result;
   result.color = ImageF(camera.width, camera.height);
   result.face.assign(stride * fine.height, OracleImage::no_face);
+  result.layer.assign(stride * fine.height, 0);
   result.depth.assign(stride * fine.height, infinity);
 
   const int band_rows = n * std::max(1, rays_in_a_band / (fine.width * n));
-  std::vector<oracle::Hit> nearest;
+  std::vector<NearestHit> nearest;
   for (int first = 0; first < fine.height; first += band_rows) {
     const int end = std::min(first + band_rows, fine.height);
-    nearest.assign(stride * (end - first), {OracleImage::no_face, 0, 0, infinity});
-    // Faces come in increasing order, so the strict comparison resolves ties to the lower index.
-    rays.visit_faces(first, end, [&](int column, int row, const oracle::Hit& hit) {
-      oracle::Hit& best = nearest[(row - first) * stride + column];
-      if (hit.depth < best.depth && oracle::is_visible(soup, {hit.face, hit.b0, hit.b1}))
-        best = hit;
-    });
+    nearest.assign(stride * (end - first), {});
+    // Layers come in order, and the faces of each by increasing index, so the strict comparison
+    // resolves ties to the earlier layer and to the lower index.
+    for (std::uint32_t i = 0; i < soups.size(); ++i)
+      rays[i].visit_faces(first, end, [&](int column, int row, const oracle::Hit& hit) {
+        NearestHit& best = nearest[(row - first) * stride + column];
+        if (hit.depth < best.depth &&
+            oracle::is_visible(*soups[i].soup, {hit.face, hit.b0, hit.b1}))
+          best = {hit.face, i, hit.b0, hit.b1, hit.depth};
+      });
 
     for (int row = first / n; row < end / n; ++row)
       for (int column = 0; column < camera.width; ++column) {
@@ -52,11 +76,14 @@ OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Fra
         int covered = 0;
         for (int i = 0; i < n * n; ++i) {
           const int x = column * n + i % n, y = row * n + i / n;
-          const oracle::Hit& hit = nearest[(y - first) * stride + x];
-          result.face[y * stride + x] = hit.face;
-          result.depth[y * stride + x] = hit.depth;
+          const NearestHit& hit = nearest[(y - first) * stride + x];
           if (hit.face == OracleImage::no_face) continue;
-          sum += oracle::color(soup, {hit.face, hit.b0, hit.b1}, rays.to_eye(x, y), eye);
+          const PlacedSoup& shown = soups[hit.soup];
+          const oracle::Rays& its_rays = rays[hit.soup];
+          result.face[y * stride + x] = hit.face;
+          result.layer[y * stride + x] = shown.layer;
+          result.depth[y * stride + x] = hit.depth;
+          sum += oracle::color(*shown.soup, hit.point(), its_rays.to_eye(x, y), its_rays.eye());
           ++covered;
         }
         const double coverage = double(covered) / (n * n);
@@ -70,6 +97,26 @@ OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Fra
     if (options.progress) options.progress(double(end) / fine.height);
   }
   return result;
+}
+
+}  // namespace
+
+OracleImage render_oracle(const Scene& scene, const FrameInput& input,
+                          const OracleOptions& options) {
+  std::vector<PlacedSoup> soups;
+  for (std::uint32_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = scene.layers[i];
+    if (!layer.visible) continue;
+    assert(std::holds_alternative<TriangleSoup>(layer.primitives));
+    soups.push_back({&std::get<TriangleSoup>(layer.primitives), layer.world_from_layer, i});
+  }
+  return render_soups(soups, input, options);
+}
+
+OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
+                          const OracleOptions& options) {
+  const PlacedSoup only{&soup, at_origin(origin), 0};
+  return render_soups({&only, 1}, input, options);
 }
 
 }  // namespace tureen

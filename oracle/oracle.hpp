@@ -1,6 +1,7 @@
 // The oracle: the slow, simple reference renderer for all other paths, in double precision, without
-// GL. It draws the nearest visible hit along each pixel's ray. At equal depth, the face with the
-// lower index wins, as with GL_LESS and faces drawn in order of their index.
+// GL. It draws the nearest visible hit along each pixel's ray. At equal depth, the earlier layer
+// and then the face with the lower index wins, as with GL_LESS and faces drawn in order of their
+// index.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include "image/image.hpp"
 #include "oracle/hits.hpp"
 #include "scene/frame_input.hpp"
+#include "scene/scene.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
@@ -36,11 +38,17 @@ struct OracleImage {
   /// The visible face and its depth along each ray, row by row from the top. A row has width *
   /// supersampling rays.
   std::vector<std::uint32_t> face;
-  std::vector<double> depth;  // infinity without a face
+  std::vector<std::uint32_t> layer;  // of the face: index in Scene::layers; 0 without a face
+  std::vector<double> depth;         // in world units; infinity without a face
 };
 
-/// `soup` has no defect(); `origin` is Scene::origin. The near plane is that of clip_range() for
-/// reversed depth.
+/// All visible layers of `scene`. Each holds a TriangleSoup (see make_opaque); neither layers nor
+/// soups have a defect(). Each soup's appearance is evaluated in its layer's coordinates. The near
+/// plane is that of clip_range() for these layers and reversed depth.
+OracleImage render_oracle(const Scene& scene, const FrameInput& input,
+                          const OracleOptions& options = {});
+
+/// A scene of this soup alone, at `origin` in world coordinates.
 OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
                           const OracleOptions& options = {});
 
