@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "formats/scene_file.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/debug_view_renderer.hpp"
@@ -56,12 +57,13 @@ TEST_P(Layers, AgreeWithTheOracle) {
     const Camera& camera = scene.cameras.front();
     for (const bool reversed : {false, true}) {
       Renderer renderer = renderer_of_scene(context, scene, {.plan = {.reversed_depth = reversed}});
-      // Two steps above the limits of single soups: 57 dB, and one step for all but 1 in 1000.
       const OracleImage oracle = expected(scene, camera);
       const Drawn image = drawn(scene, renderer, camera);
       const std::string what =
           "seed " + std::to_string(seed) + (reversed ? " reversed" : " ordinary");
-      expect_agreement(oracle, image, what, {.min_psnr = 57.0});
+      // Rounding to 8 bits gives 58.9 dB. Faces of different layers cross each other: near the
+      // crossings their depths are indistinguishable in 24 bits.
+      expect_agreement(oracle, image, what, {.max_face_mismatch = 2e-4, .min_psnr = 57.0});
       EXPECT_LE(agreement(oracle, image).percentile_999, 1.0 / 255) << what;
     }
   }
@@ -193,17 +195,20 @@ TEST_P(Layers, AreFilteredAndLeaveTheContext) {
 }
 
 TEST_P(Layers, HaveDebugViewsInWorldCoordinates) {
-  // A rotated, mirrored and scaled layer, and the same triangles moved by the transform.
-  Scene placed;
-  placed.layers.push_back(layered_scene(9).layers.back());
-  Scene moved = placed;
-  TriangleSoup& soup = std::get<TriangleSoup>(moved.layers[0].primitives);
-  for (glm::vec3& p : soup.positions)
-    p = glm::vec3(moved.layers[0].world_from_layer * glm::dvec4(glm::dvec3(p), 1.0));
-  moved.layers[0].world_from_layer = glm::dmat4(1.0);
   const FrameInput input{layered_scene(9).cameras.front()};
   for (const DebugView what : {DebugView::depth, DebugView::normals, DebugView::triangle_id,
                                DebugView::overdraw, DebugView::wireframe}) {
+    // A rotated, mirrored and scaled layer, and the same triangles moved by the transform.
+    Scene placed;
+    placed.layers.push_back(layered_scene(9).layers.back());
+    glm::dmat4& place = placed.layers[0].world_from_layer;
+    // The scale of depth depends on a box along the axes of the layer.
+    if (what == DebugView::depth)
+      place = glm::scale(at_origin({0.3, -0.2, 0.1}), glm::dvec3(-0.7, 0.7, 0.7));
+    Scene moved = placed;
+    for (glm::vec3& p : std::get<TriangleSoup>(moved.layers[0].primitives).positions)
+      p = glm::vec3(place * glm::dvec4(glm::dvec3(p), 1.0));
+    moved.layers[0].world_from_layer = glm::dmat4(1.0);
     Image8 images[2];
     for (int i = 0; i < 2; ++i) {
       const std::vector<PlacedSoup> layers = placed_soups(i == 0 ? placed : moved);
@@ -228,8 +233,28 @@ TEST_P(Layers, HaveDebugViewsInWorldCoordinates) {
 INSTANTIATE_TEST_SUITE_P(All, Layers, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(LayersGolden, OneRotatedMirroredAndScaled) {
-  const Scene scene = layered_scene(1);
+/// The example, a textured mesh beside it, and the example again: turned, mirrored and smaller.
+Scene golden_layers() {
+  Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
+  const glm::dvec3 above(-0.9, 0.9, 2.0);
+  const glm::dmat4 turned = glm::translate(glm::dmat4(1.0), above) *
+                            glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0.6, 0.0, 0.8)) *
+                            glm::scale(glm::dmat4(1.0), glm::dvec3(-0.6, 0.6, 0.6)) *
+                            scene.layers[0].world_from_layer;
+  const glm::dmat4 beside =
+      glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1.2, -1.2, 1.0)), glm::dvec3(0.5));
+  scene.layers.push_back({.name = "mesh",
+                          .world_from_layer = beside,
+                          .primitives = random_soup(3, {.kind = Kind::uv_textures, .faces = 40})});
+  Layer copy = scene.layers[0];
+  copy.world_from_layer = turned;
+  scene.layers.push_back(std::move(copy));
+  scene.cameras = {resized(scene.cameras.at(golden_example_camera), 320, 240)};
+  return scene;
+}
+
+TEST(LayersGolden, OneTurnedMirroredAndSmaller) {
+  const Scene scene = golden_layers();
   for (const NamedContext& named : every_context) {
     const gl::Context context = gl::Context::create(named.request);
     Renderer renderer = renderer_of_scene(

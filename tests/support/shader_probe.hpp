@@ -37,7 +37,7 @@ class Probe {
     gl::Texture source = make_target(rgba32f, count, 1);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, count, 1, GL_RGBA, GL_FLOAT, inputs.data());
     const gl::Texture target = make_target(rgba32f, count, 1);
-    const gl::Framebuffer framebuffer = make_framebuffer({target.id()}, 0);
+    const gl::Framebuffer framebuffer = make_framebuffer({target.id()});
     const gl::VertexArray nothing = gl::VertexArray::create();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glViewport(0, 0, count, 1);
