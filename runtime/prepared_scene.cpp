@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/error.hpp"
+
 namespace tureen {
 
 std::vector<PlacedSoup> placed_soups(const Scene& scene) {
@@ -12,6 +14,15 @@ std::vector<PlacedSoup> placed_soups(const Scene& scene) {
   return soups;
 }
 
+void name_layer_in_errors(const std::string& name, bool several, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const DeviceLimitError& error) {
+    if (!several) throw;
+    throw DeviceLimitError("layer " + name + ": " + error.reason());
+  }
+}
+
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan) {
   PreparedScene prepared;
@@ -20,13 +31,16 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const PlacedSoup& layer = layers[i];
     const SoupPlan& soup_plan = prepared.plan.layers[i];
-    prepared.layers.push_back(
-        {.name = layer.name,
-         .bounds = bounds(layer.soup),
-         .world_from_layer = layer.world_from_layer,
-         .visible = layer.visible,
-         .soup = PreparedSoup{.appearance = prepare_appearance(layer.soup, soup_plan, layout),
-                              .geometry = prepare_geometry(layer.soup, soup_plan.faces)}});
+    PreparedSoup soup;
+    name_layer_in_errors(layer.name, layers.size() > 1, [&] {
+      soup = {.appearance = prepare_appearance(layer.soup, soup_plan, layout),
+              .geometry = prepare_geometry(layer.soup, soup_plan.faces)};
+    });
+    prepared.layers.push_back({.name = layer.name,
+                               .bounds = bounds(layer.soup),
+                               .world_from_layer = layer.world_from_layer,
+                               .visible = layer.visible,
+                               .soup = std::move(soup)});
   }
   return prepared;
 }

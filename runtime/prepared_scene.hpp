@@ -62,6 +62,9 @@ struct PlacedSoup {
 /// The layers of a scene, all of them soups.
 std::vector<PlacedSoup> placed_soups(const Scene& scene);
 
+/// Calls act(), and adds the layer's name to a DeviceLimitError if the scene has several layers.
+void name_layer_in_errors(const std::string& name, bool several, const std::function<void()>& act);
+
 /// Plans for the device's limits, or for options.limits. The sources read the soups, which must not
 /// move until they have been used. Soups and layers must have no defect(). Throws UsageError as
 /// make_plan does, and DeviceLimitError with the memory that a soup needs if it does not fit.

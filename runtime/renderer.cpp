@@ -82,8 +82,10 @@ void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const
   for (std::size_t i = 0; i < layers.size(); ++i) {
     PreparedLayer& layer = layers[i];
     if (layer.soup)
-      soups.push_back(std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
-                                                   layer.soup->geometry, plans[i]));
+      name_layer_in_errors(layer.name, places.size() + layers.size() - i > 1, [&] {
+        soups.push_back(std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
+                                                     layer.soup->geometry, plans[i]));
+      });
     places.push_back({{layer.bounds, layer.world_from_layer}, layer.visible});
   }
 }
