@@ -162,8 +162,8 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
       .add_flag("--keep-unseen", arguments.keep_unseen,
-                "with --compress: keep unseen faces; a face is unseen if no test view shows it. "
-                "Test views: at most 200 recorded cameras, and views from above and around")
+                "with --compress: keep unseen faces; a face is unseen if none of the checked views "
+                "shows it: at most 200 recorded cameras, and 64 views from above and around")
       .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,

@@ -84,8 +84,9 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
                     {.background = background});
   debug_views.show(renderer, options.show.what, options.show.features);
   WrittenImages images = draw_views(drawer_of(renderer, device), device, views, options.output);
-  const std::string sentence = std::string("debug view: ") + name_of(options.show.what) +
-                               " without specialisations, one sample a pixel";
+  const std::string sentence =
+      std::string("debug view: ") + name_of(options.show.what) +
+      " with one sample a pixel, without specialisations that can change a colour";
   return {std::move(images),
           {sentence},
           {},

@@ -37,7 +37,8 @@ struct Arguments {
 };
 
 void add_arguments(CLI::App& program, Arguments& arguments) {
-  program.add_option("SCENE", arguments.scene, "scene: .glb, .off, .ply, .obj, .pt, or a folder");
+  program.add_option("SCENE", arguments.scene,
+                     "scene: .glb, .gltf, .off, .coff, .ply, .obj, .pt, or a folder");
   program.add_option("DATASET", arguments.dataset,
                      "photographs for comparison: a COLMAP or NeRF folder");
   program.add_option("--size", arguments.size, "window size in screen coordinates")
@@ -65,8 +66,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(
       "--report", arguments.report,
-      "at the end, print the time to the first image, and the longest frame time while "
-      "loading (drawing excluded)");
+      "at the end, print the time to the first image, and the longest frame while a scene "
+      "loads; that frame time excludes the drawing");
   program.add_option("--record", arguments.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
 
 Examples:
   tureen view soup.glb
-  tureen view soup.glb photographs/          [ and ] select the photographs' cameras
+  tureen view soup.glb photographs/          the keys [ and ] select the photographs' cameras
 
 Exit codes: 0 done, 1 the window showed an error at the end of a replay, 2 wrong usage, 3 the
 session or the settings cannot be read, 4 no display or no OpenGL, 5 any other error.)");
