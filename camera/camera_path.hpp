@@ -7,13 +7,14 @@
 //
 // Positions, rotations and lenses are C1 curves through the keyframes (camera/camera_spline.hpp).
 // Each rotation takes the short way to the next keyframe. Focal lengths and distances are
-// interpolated as logarithms, the principal point in image heights. If every keyframe has a
-// target_distance, the curve passes through the targets, and the eye turns about them. Keyframes
-// around one target then give arcs, and keyframes on a circle give that circle. Otherwise the curve
-// passes through the eyes.
+// interpolated by their logarithms. The principal point is interpolated in units of the image
+// height. If every keyframe has a target_distance, the curve passes through the targets, and the
+// eye turns about them. Keyframes around one target then give arcs, and keyframes on a circle give
+// that circle. Otherwise the curve passes through the eyes.
 //
 // Keyframes less than shortest_span apart are a cut: one curve ends at the first of them, the next
-// begins at the last. Equal consecutive cameras are a pause. A single keyframe is a fixed camera.
+// begins at the last. Equal consecutive cameras give a pause. A single keyframe gives a fixed
+// camera.
 #pragma once
 
 #include <array>
@@ -38,7 +39,8 @@ class CameraPath {
   bool is_loop() const { return data_.loop_seconds > 0; }
 
   /// Duration in seconds: from the first keyframe to the last, or one period of a loop. 0 without
-  /// keyframes. A loop with a period no longer than its keyframes ends with a cut.
+  /// keyframes. If the period of a loop is not longer than the time from its first to its last
+  /// keyframe, the loop ends with a cut.
   double duration() const;
   /// The time of the first keyframe; 0 if there is none.
   double begin() const;
@@ -58,7 +60,7 @@ class CameraPath {
   /// Period of the loop in seconds; 0 ends the loop.
   void set_loop_seconds(double seconds);
 
-  /// Shortest time between keyframes in seconds, far below the time of a frame.
+  /// Keyframes closer than this time in seconds are a cut. It is far below the duration of a frame.
   static constexpr double shortest_span = 1e-4;
 
  private:

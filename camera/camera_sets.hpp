@@ -35,7 +35,7 @@ std::vector<Camera> hemisphere(const Subject& subject, int count, const Lens& le
 /// Approximate overdraw of a view: the sum of the projected areas of all triangles in front of the
 /// eye, clipped to the image, in units of the image area. 1 means that the image is covered once.
 /// Small triangles count at their centre; large ones by the covered centres of a grid of 64 x 36
-/// cells. `origin` is the soup's (Scene::origin).
+/// cells. `origin` is the soup's origin in world coordinates.
 double estimated_overdraw(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera);
 
 /// Mean orientation of the faces towards the eye: |cos| between normal and line of sight, weighted

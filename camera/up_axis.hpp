@@ -26,11 +26,11 @@ UpEvidence evidence_of(const Scene& scene, const Subject& subject);
 struct UpGuess {
   enum class Reason {
     stored,             // stored in the file
-    cameras_near_axis,  // the mean of the cameras' up axes lies near it
-    cameras,            // equal to that mean
-    flat,               // along the short side of the box, whose sign is a guess
-    assumed,            // by the reader
-    nothing             // y
+    cameras_near_axis,  // a coordinate axis; the mean of the cameras' up axes lies near it
+    cameras,            // that mean
+    flat,               // along the short side of the box; the sign of the direction is a guess
+    assumed,            // the reader's assumption
+    nothing             // no evidence: y
   };
   glm::dvec3 axis{0, 1, 0};  // of unit length
   Reason reason = Reason::nothing;
@@ -43,12 +43,13 @@ std::string describe(const UpGuess& guess);
 
 /// The rules, in this order:
 /// - The axis stored in the file.
-/// - The mean of the cameras' up axes, if there are at least three cameras and the mean has at
-///   least half of unit length: people hold cameras upright. A partial walk around a scene with the
-///   camera pointing down tilts the mean, and aligned scenes have an axis up. A mean within 25
-///   degrees of an axis is therefore replaced by that axis.
-/// - The side of the box that is less than a third of both others: places are flat.
-/// - The reader's assumption, or y without one.
+/// - The mean of the cameras' up axes, if there are at least three cameras and the mean is longer
+///   than half of unit length: people hold cameras upright. If the cameras point down and see only
+///   a part of the circle, the mean is tilted. In aligned scenes, the up axis is a coordinate axis.
+///   A mean within 25 degrees of a coordinate axis is therefore replaced by that axis.
+/// - The side of the box that is less than a third of both others: places are flat. If the reader
+///   assumed an axis along this side, its sign is kept.
+/// - The reader's assumption; without one, y.
 /// Non-finite values count as missing.
 UpGuess guess_up(const UpEvidence& evidence);
 

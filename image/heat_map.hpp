@@ -27,7 +27,7 @@ glm::u8vec4 heat(float difference);
 /// heat() of the largest channel difference of each pixel. Throws UsageError if the sizes differ.
 Image8 difference(const ImageF& a, const ImageF& b);
 
-/// Legend of heat(): steps of 8 bits from 0 to 255.
+/// Legend of heat(): differences from 0/255 to 255/255, mostly doubling from entry to entry.
 Legend difference_legend();
 
 /// Left, middle and right: a, b and their difference. Throws UsageError if the sizes differ.

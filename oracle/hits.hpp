@@ -68,8 +68,8 @@ struct Hit {
 /// vertex, without area or seen edge-on have no hits. Back faces are not culled.
 class Rays {
  public:
-  /// `range`: that of the frame, default that of this soup alone for reversed depth. Only `near`
-  /// clips.
+  /// `range` is the frame's range. By default, it is the range of this soup alone with reversed
+  /// depth. Only `near` clips.
   Rays(const TriangleSoup& soup, const glm::dmat4& world_from_layer, const Camera& camera,
        RayOptions options = {}, const std::optional<ClipRange>& range = std::nullopt);
 
@@ -106,8 +106,9 @@ class Rays {
   RayOptions options_;
   ClipRange range_;
   glm::dmat3 view_from_world_;
-  /// Without the translation. Where it is the identity, its products are exact, so a layer that is
-  /// only moved has the hits of its vertices plus the translation, bit for bit.
+  /// The linear part of world_from_layer. If it is the identity, products with it are exact. A
+  /// layer that is only translated then has bit for bit the hits of a soup with translated
+  /// vertices.
   glm::dmat3 world_from_layer_;
   glm::dmat3 layer_from_world_;            // the inverse of world_from_layer_
   glm::dvec3 eye_to_origin_;               // the layer's origin as seen from the eye, in world axes

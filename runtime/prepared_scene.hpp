@@ -65,9 +65,10 @@ std::vector<PlacedSoup> placed_soups(const Scene& scene);
 /// Calls act(), and adds the layer's name to a DeviceLimitError if the scene has several layers.
 void name_layer_in_errors(const std::string& name, bool several, const std::function<void()>& act);
 
-/// Plans for the device's limits, or for options.limits. The sources read the soups, which must not
-/// move until they have been used. Soups and layers must have no defect(). Throws UsageError as
-/// make_plan does, and DeviceLimitError with the memory that a soup needs if it does not fit.
+/// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
+/// soups. The soups must not move until the sources have been used. Soups and layers must have no
+/// defect(). Throws UsageError as make_plan does. Throws DeviceLimitError with the needed memory if
+/// a soup does not fit.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& device,
                             const RenderOptions& options = {});
 /// The same for a scene, whose layers are soups, and for a single soup.

@@ -17,8 +17,8 @@ struct Camera {
   int height = 0;
   double fx = 0, fy = 0;
   double cx = 0, cy = 0;
-  /// Rigid: a rotation and a translation. World coordinates are absolute: the scene's origin plus a
-  /// position in the soup.
+  /// Rigid: a rotation and a translation. World coordinates are absolute; Layer::world_from_layer
+  /// maps the positions of a soup to them.
   glm::dmat4 view_from_world{1.0};
 
   /// The camera's centre in world coordinates.

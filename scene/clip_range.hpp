@@ -17,7 +17,7 @@ struct ClipRange {
   double far = 0;
 };
 
-/// The storage of depth limits how close the near plane may be to an eye inside the scene.
+/// The storage of depth determines the smallest distance from the eye to the near plane.
 enum class DepthStorage {
   /// Precision falls in proportion to far / near; near is at least a thousandth of the scene's
   /// radius.
@@ -26,10 +26,11 @@ enum class DepthStorage {
   reversed_float,
 };
 
-/// `eye` is relative to the soup's origin. `forward` is the viewing axis, of unit length; depth is
-/// measured along it, so off-axis points have a depth below their distance. The result satisfies 0
-/// < near < far for every finite input. Geometry nearer than `near` is clipped. If the bounds lie
-/// entirely in front of the eye, nothing is clipped.
+/// `eye` is in the coordinates of the bounds. `forward` is the viewing axis, of unit length; depth
+/// is measured along it, so off-axis points have a depth below their distance. The result satisfies
+/// 0 < near < far for every finite input. Geometry nearer than `near` is clipped. Nothing is
+/// clipped if the bounds lie entirely in front of the eye and beyond the smallest `near` of the
+/// storage.
 ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
                      DepthStorage storage);
 

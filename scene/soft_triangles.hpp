@@ -20,8 +20,8 @@ struct SoftTriangles {
   std::vector<glm::vec3> coefficients;
 };
 
-/// Mean coverage of a soft triangle over its area: opacity * 2 / ((sigma+1)(sigma+2)), the integral
-/// of rho^sigma over the triangle divided by its area.
+/// Mean coverage of a soft triangle: opacity * 2 / ((sigma+1)(sigma+2)). The factor after opacity
+/// is the mean of rho^sigma over the triangle.
 double solidity(double opacity, double sigma);
 
 struct OpaqueResult {

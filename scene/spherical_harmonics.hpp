@@ -17,7 +17,8 @@ constexpr int count(int degree) { return (degree + 1) * (degree + 1); }
 inline constexpr double y00 = 0.28209479177387814;
 
 /// All 25 basis values at the unit direction `d`; entry l*l + l + m is Y_lm. `d` must be
-/// normalised: for other lengths bands 0 and 1 scale by |d|^l and higher bands are wrong.
+/// normalised. For other lengths, bands 0 to 3 scale by |d|^l, and some functions of band 4 are
+/// wrong.
 template <class Real>
 std::array<Real, 25> basis(const glm::vec<3, Real>& d) {
   const Real x = d.x, y = d.y, z = d.z;

@@ -104,7 +104,7 @@ using Appearance = std::variant<FaceColors, VertexColors, Harmonics, LatticeText
 inline constexpr std::uint32_t no_face = 0xffffffffu;
 
 struct TriangleSoup {
-  std::vector<glm::vec3> positions;   // relative to Scene::origin
+  std::vector<glm::vec3> positions;   // in layer coordinates (Layer::world_from_layer)
   std::vector<glm::uvec3> triangles;  // indices into positions
   Appearance appearance;
 };

@@ -37,7 +37,7 @@ struct ApplicationOptions {
 /// Measurements of a run.
 struct RunReport {
   double first_image_seconds = -1;  // since before the window opened; -1: no image
-  /// Longest time of a frame on the main thread while loading, drawing excluded.
+  /// Longest time of a frame on the main thread while a scene loads, without the drawing.
   double longest_busy_ms = 0;
 };
 

@@ -14,8 +14,8 @@
 //   { "tureen_cameras": 1, "loop": true, "loop_seconds": 8.0,
 //     "cameras": [ { "seconds": 0.0, "target_distance": 2.5, and the fields of a camera }, .. ] }
 // Times are at least 0 and do not decrease. "target_distance", "loop" (default false) and
-// "loop_seconds" are optional. A loop without "loop_seconds" closes in the mean time between its
-// keyframes.
+// "loop_seconds" are optional. Without "loop_seconds", the time from the last keyframe of a loop
+// back to the first is the average time between consecutive keyframes.
 #pragma once
 
 #include <filesystem>

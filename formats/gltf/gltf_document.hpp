@@ -28,12 +28,13 @@ class GltfDocument {
 
   const tinygltf::Model& model() const { return model_; }
 
-  /// `count` elements of a buffer view, `stride` bytes apart (0: the view's own, or tight), each
-  /// `each` bytes long, from `offset` within the view. `where` begins the reason of an error.
   struct Elements {
     const std::byte* first = nullptr;
     std::size_t stride = 0;
   };
+  /// Checks `count` elements in a buffer view, from byte `offset`. An element has `each` bytes.
+  /// Returns the first element and the distance between elements: the view's stride, or `each` if
+  /// the view has none. The reason of an error begins with `where`.
   Elements elements(int view, std::uint64_t offset, std::uint64_t count, std::size_t each,
                     const std::string& where);
 
@@ -50,9 +51,10 @@ class GltfDocument {
   }
   MemoryBudget budget() const { return input_.budget(); }
 
-  /// Largest number of vertices, and of elements without bytes, for this file: 2^24, or the number
-  /// of loaded bytes if larger. A vertex takes at least three bytes, so only instances and
-  /// accessors without a buffer view can reach it.
+  /// The largest number of vertices in this file: 2^24, or the number of loaded bytes if that is
+  /// larger. It also limits the elements of accessors without a buffer view. A stored vertex takes
+  /// at least three bytes. Only vertices that are used several times, and such accessors, can
+  /// therefore exceed the limit.
   std::uint64_t vertex_budget() const;
 
   [[noreturn]] void fail(const std::string& where, const std::string& reason,

@@ -79,8 +79,8 @@ struct BenchMeasurement {
   double aa_spread = 0;  // of the first configuration against itself, with these cameras
   bool stable = true;    // whether the warm-up became stable
 
-  /// (pass, milliseconds by the device's clock) in frame order, mean over the views. Empty or a
-  /// part of the frame for the reason in `passes_gap`.
+  /// (pass, milliseconds by the device's clock) in frame order, mean over the views. If times are
+  /// missing or cover only a part of the frame, `passes_gap` has the reason.
   std::vector<std::pair<std::string, double>> passes_ms;
   PassTimesGap passes_gap = PassTimesGap::none;
   std::string passes_reason;

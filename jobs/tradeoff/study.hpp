@@ -63,8 +63,10 @@ struct StudyScene {
   const gl::Context& context;
   const TriangleSoup& soup;
   glm::dvec3 origin;
-  std::span<const Camera> cameras;   // at least one
-  std::span<const Camera> counting;  // cameras for the triangle budget
+  std::span<const Camera> cameras;  // at least one
+  /// Views in which the visible pixels of each triangle are counted. The edit that removes
+  /// triangles uses these counts.
+  std::span<const Camera> counting;
 };
 
 /// If the defaults cannot be drawn, throws the Renderer's error. Another configuration that cannot

@@ -23,16 +23,18 @@ std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress = {});
 
-/// Pixels covered by the soup in each view, one count a view; otherwise as above.
+/// Pixels covered by the soup in each view, one count a view. The conditions are those of
+/// count_visible_pixels.
 std::vector<std::uint64_t> count_covered_pixels(const gl::Context& context,
                                                 const TriangleSoup& soup, glm::dvec3 origin,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress = {});
 
 /// Visibility of each texel over all views: the sum of its interpolation weights at pixel centres
-/// (lattice::footprint). The sum over a face's texels is approximately its pixels. Pixels that the
-/// device assigns to a face but exact edges do not are not counted. The soup has a lattice texture;
-/// otherwise as above.
+/// (lattice::footprint). The sum over a face's texels is approximately its number of pixels. A
+/// pixel is not counted if the device assigns it to a face but its centre lies outside the face's
+/// exact edges. The soup must have a lattice texture. The other conditions are those of
+/// count_visible_pixels.
 std::vector<float> count_visible_texels(const gl::Context& context, const TriangleSoup& soup,
                                         glm::dvec3 origin, std::span<const Camera> views,
                                         const std::function<void(double)>& progress = {});

@@ -10,16 +10,16 @@
 
 namespace tureen {
 
-/// Soups with all their faces and all their stored values: no specialisation except those of the
-/// network's code, which are exact. Their Renderer also draws ordinary frames. Of the options'
-/// preferences, only reversed_depth has an effect. Otherwise as prepare_scene.
+/// Prepares soups with all their faces and all their stored values. Only the specialisations of the
+/// network's code are applied; they are exact. The Renderer also draws ordinary frames. Of the
+/// options' preferences, only reversed_depth has an effect. Otherwise as prepare_scene.
 PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const DeviceLimits& device,
                                   const RenderOptions& options = {});
 PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
                                   const DeviceLimits& device, const RenderOptions& options = {});
 
-/// The debug views of a scene. It must live until its renderer is destroyed or shows ordinary
-/// frames again.
+/// The debug views of a scene. This object must live until the renderer is destroyed or shows
+/// ordinary frames again.
 class DebugViews {
  public:
   /// The soups are not needed afterwards.
@@ -32,8 +32,9 @@ class DebugViews {
   /// Throws UsageError with the sentence of why_not() if a soup has no such debug view.
   void require(DebugView what, const FeatureChoice& features = {}) const;
 
-  /// Selects the debug view of the next frames of a renderer from prepare_debug_views for these
-  /// soups; always the same renderer. Throws as require().
+  /// Selects the debug view that the renderer draws in the next frames. The renderer must come from
+  /// prepare_debug_views for these soups. All calls must pass the same renderer. Throws as
+  /// require().
   ///
   /// A pixel shows the face or background of an ordinary frame, with three exceptions for fragments
   /// that the alpha test rejects. DebugView::alpha shows the nearest face even if it is rejected,

@@ -28,12 +28,13 @@ class DeviceSoup {
   /// The soup's place among the layers of a frame.
   struct Place {
     std::size_t layer = 0;
-    /// Visible fragments number the slots of all layers in one sequence; this is the first.
+    /// The visibility texture numbers the slots of all layers consecutively. This is the number of
+    /// this layer's first slot.
     std::uint32_t first_slot = 0;
     bool layered = false;  // the frame has several layers
   };
-  /// Must be called before each use after the plan or the place has changed; `plan` must outlive
-  /// its use. Programs that were made for another value of `layered` are invalid.
+  /// Call this once after the plan or the place has changed, before the next use. `plan` must live
+  /// as long as this object uses it. Programs made for another value of `layered` are invalid.
   void set_place(const SoupPlan& plan, const Place& place) {
     plan_ = &plan;
     place_ = place;
@@ -52,9 +53,9 @@ class DeviceSoup {
   /// The program that draws faces with this fragment shader.
   gl::Program face_program(const char* fragment, const Constants& constants) const;
 
-  /// Draws the planned faces into a part of `target` that is bound, those without alpha test first,
-  /// each part from near to far. A program may be empty if its part is. Sets the uniforms of
-  /// geometry.vert, of the appearance and of view_direction.glsl.
+  /// Draws the planned faces into the bound framebuffer of `target`. Faces without alpha test come
+  /// first; each group is drawn from near to far. A program may be empty if its group has no faces.
+  /// Sets the uniforms of geometry.vert, of the appearance and of view_direction.glsl.
   void draw_faces(const gl::Program& opaque, const gl::Program& cut_out, const FrameCamera& camera,
                   const FrameTarget& target);
 
@@ -80,7 +81,7 @@ class DeviceSoup {
   /// Culling costs time for every face. If more than this fraction of the faces remains, the next
   /// frames draw all faces; the image is the same.
   static constexpr double worthwhile = 0.7;
-  static constexpr int rested_frames = 30;  // the cost falls to a thirtieth
+  static constexpr int rested_frames = 30;  // the search then runs only once in 30 frames
   int search_rests_ = 0;                    // frames
 };
 

@@ -1,5 +1,6 @@
 // The textures that the passes of a frame draw into: for each sample the visible fragment, depth
-// and colour. The first use of a texture in a frame clears it, so no pass depends on another one.
+// and colour. The first use of a texture in a frame clears it, except in overwrite_color(). No pass
+// therefore relies on an earlier pass to clear a texture.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -26,7 +27,7 @@ class FrameTarget {
  public:
   explicit FrameTarget(const FrameFormat& format) : format_(format) {}
 
-  /// Other textures from the next resize() on.
+  /// Takes effect at the next resize().
   void set_format(const FrameFormat& format) { format_ = format; }
 
   /// Creates the textures for this number of samples; their contents are undefined. Throws
@@ -36,7 +37,7 @@ class FrameTarget {
   /// Bytes of the textures, by their formats; a driver may use more.
   std::size_t bytes() const;
 
-  /// Starts a frame. `background`: what a cleared colour is.
+  /// Starts a frame. Cleared colours get the value `background`.
   void begin(const glm::vec4& background);
   /// Binds the visible fragments and depth as targets: (slot, barycentrics) as RG32UI, see
   /// shaders/visibility.frag. Nearer fragments win; the samples that they cover become those of
@@ -49,10 +50,10 @@ class FrameTarget {
   void draw_samples_of(std::size_t layer);
   /// Ends a frame: clears the colour if no pass has drawn any.
   void end();
-  /// As draw_color() for a pass that writes the colour of every sample: nothing is cleared.
+  /// Binds colour for a pass that writes the colour of every sample. Clears nothing.
   void overwrite_color();
-  /// For a framebuffer of a pass's own that has the depth texture and is bound: clears depth if
-  /// this is its first use in the frame. Nearer fragments win.
+  /// Prepares depth for a pass that has bound its own framebuffer with the depth texture. Clears
+  /// depth at the first use of depth in the frame. Nearer fragments win.
   void use_depth();
 
   /// Binds the visible fragments to a texture unit, and sets the sampler `visible` of `program`,
@@ -78,7 +79,7 @@ class FrameTarget {
   /// GL_TEXTURE_2D, nearest sampling; row 0 at the bottom.
   GLuint color_texture() const { return color_.id(); }
   GLuint depth_texture() const { return depth_.id(); }
-  /// The same for framebuffers.
+  /// The depth texture as an attachment for a pass's own framebuffer.
   DepthAttachment depth_attachment() const { return {depth_.id(), format_.layered}; }
 
   /// See Renderer::leave_context(). resize() must follow.

@@ -12,9 +12,11 @@
 
 namespace tureen {
 
-/// One frame's camera in the coordinates of a layer. Depth in clip space equals that of the world.
+/// One frame's camera in the coordinates of a layer. A point has the same clip-space depth as with
+/// the world's camera.
 struct FrameCamera {
-  /// Its rotation includes that of the layer, with its mirror; its translation is not used.
+  /// The camera's rotation includes the layer's rotation and mirror. The camera's translation is
+  /// not used; `eye` replaces it.
   Camera camera;
   glm::dvec3 eye;
   ClipRange range;

@@ -12,16 +12,17 @@
 
 namespace tureen {
 
-/// A run of slots drawn together; spatially compact.
+/// A run of consecutive slots that are drawn together. A slot is a position in the plan's list of
+/// faces. The faces of a cluster lie close together.
 struct Cluster {
   std::uint32_t first_slot = 0;
   std::uint32_t slot_count = 0;
   glm::vec3 centre{0.0f};
 };
 
-/// Faces per cluster in a soup with `faces` faces. Sizes from 1 to 256 made little difference. It
-/// is small enough to order well. It limits a frame to a few thousand clusters, whose sorting time
-/// is negligible.
+/// Faces per cluster in a soup with `faces` faces. Sizes from 1 to 256 made little difference. The
+/// chosen size is small enough for a good order. It limits a frame to a few thousand clusters, and
+/// their sorting time is negligible.
 constexpr std::uint32_t cluster_size(std::size_t faces) {
   return static_cast<std::uint32_t>(std::max<std::size_t>(64, faces / 4096));
 }

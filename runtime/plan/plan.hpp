@@ -137,8 +137,8 @@ RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLim
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 
-/// Changes the plan of a single soup to that of one of several layers, which draw other passes. The
-/// prepared data stays valid.
+/// Changes a plan made for a single soup into the plan of one layer among several. Such layers are
+/// drawn with other passes. The prepared data stays valid.
 void make_layered(SoupPlan& plan);
 
 /// Most layers of a frame: a stencil of 8 bits stores the layer of each sample, and 0 is the

@@ -19,17 +19,18 @@ struct LintFinding {
     non_finite_vertices,
     /// No area: the cross product of two edges is below 1e-12 of the longest edge squared.
     degenerate_faces,
-    /// Faces with the same three corners, bit by bit and in any order, as an earlier face. One of
-    /// the two never shows (in the same order the lower index wins every pixel). Degenerate faces
-    /// are not counted here.
+    /// Faces with the same three corners, bit by bit and in any order, as an earlier face. Where
+    /// both are opaque, only one is visible. If the corners have the same order, it is the face
+    /// with the lower index. Degenerate faces are not counted here.
     duplicate_faces,
     /// Faces with alpha below alpha_threshold (or the material's own threshold) everywhere. For UV
     /// textures the bound uses the whole image, so some invisible faces are not found.
     never_visible_faces,
     /// Vertices without a face.
     unused_vertices,
-    /// Lint::extent_over_offset is below 2e-4, where steps of 32-bit floats become visible. The
-    /// remedy is Scene::origin.
+    /// Lint::extent_over_offset is below 2e-4, where steps of 32-bit floats become visible. To
+    /// avoid this, store coordinates relative to a near point, and put that point into
+    /// Layer::world_from_layer.
     far_from_origin
   };
   /// The ids that count faces or vertices.
@@ -60,7 +61,7 @@ struct Lint {
   const LintFinding* find(LintFinding::Id id) const;
 };
 
-/// The soup has no defect().
+/// Finds the suspicious properties of a soup. The soup must have no defect().
 Lint lint(const TriangleSoup& soup);
 
 }  // namespace tureen

@@ -137,7 +137,7 @@ TEST(Numerics, H1c_AnEyeBetweenFloatsSeesTheSame) {
 }
 
 TEST(Numerics, H1b_AnOriginMovesNothing) {
-  Recorder recorder({.stressed = "Scene::origin and camera moved together: whole images",
+  Recorder recorder({.stressed = "the layer's origin and the camera moved together: whole images",
                      .parameter = "offset / units",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const TriangleSoup soup = on_a_grid(Kind::lattice_mlp);

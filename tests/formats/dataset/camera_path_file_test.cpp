@@ -90,7 +90,7 @@ TEST(CameraPathFile, AFileWrittenByHandNeedsLittle) {
   EXPECT_EQ(path.keyframes.size(), 2u);
   EXPECT_EQ(path.loop_seconds, 0);
   EXPECT_EQ(path.keyframes[1].target_distance, 0);
-  // A loop without a time closes after the mean time between keyframes.
+  // Without "loop_seconds", a loop returns after the average time between keyframes.
   const std::string three =
       camera("\"seconds\": 1,") + "," + camera("\"seconds\": 2,") + "," + camera("\"seconds\": 5,");
   EXPECT_EQ(read(file("\"loop\": true, ", three)).loop_seconds, 6);
