@@ -44,9 +44,10 @@ std::string describe(const UpGuess& guess);
 /// The rules, in this order:
 /// - The axis stored in the file.
 /// - The mean of the cameras' up axes, if there are at least three cameras and the mean is longer
-///   than half of unit length: people hold cameras upright. If the cameras point down and see only
-///   a part of the circle, the mean is tilted. In aligned scenes, the up axis is a coordinate axis.
-///   A mean within 25 degrees of a coordinate axis is therefore replaced by that axis.
+///   than half of unit length: people hold cameras upright. If the cameras point down and stand on
+///   only one side of the scene, their tilts do not cancel, and the mean is tilted. In aligned
+///   scenes, the up axis is a coordinate axis. A mean within 25 degrees of a coordinate axis is
+///   therefore replaced by that axis.
 /// - The side of the box that is less than a third of both others: places are flat. If the reader
 ///   assumed an axis along this side, its sign is kept.
 /// - The reader's assumption; without one, y.

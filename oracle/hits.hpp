@@ -106,9 +106,8 @@ class Rays {
   RayOptions options_;
   ClipRange range_;
   glm::dmat3 view_from_world_;
-  /// The linear part of world_from_layer. If it is the identity, products with it are exact. A
-  /// layer that is only translated then has bit for bit the hits of a soup with translated
-  /// vertices.
+  /// The linear part of world_from_layer. If it is the identity, products with it are exact: a
+  /// vertex relative to the eye is then the sum of the vertex and eye_to_origin_, rounded once.
   glm::dmat3 world_from_layer_;
   glm::dmat3 layer_from_world_;            // the inverse of world_from_layer_
   glm::dvec3 eye_to_origin_;               // the layer's origin as seen from the eye, in world axes

@@ -2,25 +2,16 @@
 
 #include <utility>
 
-#include "base/error.hpp"
+#include "runtime/layer_errors.hpp"
 
 namespace tureen {
 
 std::vector<PlacedSoup> placed_soups(const Scene& scene) {
   std::vector<PlacedSoup> soups;
   for (const Layer& layer : scene.layers)
-    soups.push_back({std::get<TriangleSoup>(layer.primitives), layer.world_from_layer, layer.name,
-                     layer.visible});
+    soups.push_back({std::get<TriangleSoup>(layer.primitives), layer.world_from_layer,
+                     label(layer, soups.size()), layer.visible});
   return soups;
-}
-
-void name_layer_in_errors(const std::string& name, bool several, const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const DeviceLimitError& error) {
-    if (!several) throw;
-    throw DeviceLimitError("layer " + name + ": " + error.reason());
-  }
 }
 
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
@@ -32,7 +23,7 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
     const PlacedSoup& layer = layers[i];
     const SoupPlan& soup_plan = prepared.plan.layers[i];
     PreparedSoup soup;
-    name_layer_in_errors(layer.name, layers.size() > 1, [&] {
+    with_layer_in_errors(layers.size() > 1 ? layer.name : "", [&] {
       soup = {.appearance = prepare_appearance(layer.soup, soup_plan, layout),
               .geometry = prepare_geometry(layer.soup, soup_plan.faces)};
     });

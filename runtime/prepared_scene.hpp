@@ -62,9 +62,6 @@ struct PlacedSoup {
 /// The layers of a scene, all of them soups.
 std::vector<PlacedSoup> placed_soups(const Scene& scene);
 
-/// Calls act(), and adds the layer's name to a DeviceLimitError if the scene has several layers.
-void name_layer_in_errors(const std::string& name, bool several, const std::function<void()>& act);
-
 /// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
 /// soups. The soups must not move until the sources have been used. Soups and layers must have no
 /// defect(). Throws UsageError as make_plan does. Throws DeviceLimitError with the needed memory if

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/gl/timer_query.hpp"
+#include "runtime/layer_errors.hpp"
 #include "runtime/passes/depth_probe.hpp"
 #include "runtime/passes/filter_pass.hpp"
 #include "runtime/passes/soup_passes.hpp"
@@ -37,7 +38,7 @@ struct Renderer::State {
   void remove(std::size_t layer);
   FrameFormat format() const;
 
-  /// Calls act(pass) for each pass in order, the filter last.
+  /// Calls act(pass) for each pass in order, without the filter.
   template <class Act>
   void for_each_pass(const Act& act) {
     if (draws_soups) {
@@ -46,6 +47,10 @@ struct Renderer::State {
         if (each.shading) act(*each.shading);
     }
     for (const std::unique_ptr<Pass>& pass : passes) act(*pass);
+  }
+  template <class Act>
+  void for_each_pass_and_filter(const Act& act) {
+    for_each_pass(act);
     if (filter) act(*filter);
   }
 
@@ -79,10 +84,11 @@ struct Renderer::State {
 
 /// Appends the layers' places and soups.
 void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const SoupPlan> plans) {
+  assert(layers.size() == plans.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
     PreparedLayer& layer = layers[i];
     if (layer.soup)
-      name_layer_in_errors(layer.name, places.size() + layers.size() - i > 1, [&] {
+      with_layer_in_errors(places.size() + layers.size() - i > 1 ? layer.name : "", [&] {
         soups.push_back(std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
                                                      layer.soup->geometry, plans[i]));
       });
@@ -95,19 +101,23 @@ void Renderer::State::arrange() {
   const bool now_layered = soups.size() > 1;
   // A change of the kind of plan needs other programs. One soup that remains of several keeps its
   // plan and programs, which draw it correctly.
-  if (now_layered && !layered) {
+  if (now_layered && !layered) soup_passes.clear();
+  layered |= now_layered;
+  if (layered)
     for (SoupPlan& each : plan.layers) make_layered(each);
-    soup_passes.clear();
-    layered = true;
-  }
   std::uint32_t first_slot = 0;
   for (std::size_t i = 0; i < soups.size(); ++i) {
     soups[i]->set_place(plan.layers[i], {i, first_slot, layered});
     first_slot += static_cast<std::uint32_t>(plan.layers[i].faces.size());
   }
-  if (draws_soups)
+  const bool all_made = !draws_soups || soup_passes.size() == soups.size();
+  if (!all_made)
     for (std::size_t i = soup_passes.size(); i < soups.size(); ++i)
       soup_passes.push_back(make_soup_passes(*soups[i]));
+  if (all_made && target.format() == format()) {
+    target.begin(background);  // the last frame no longer belongs to the layers
+    return;
+  }
   target.set_format(format());
   size = glm::ivec2(0);  // the next frame calls resize() of all passes
 }
@@ -142,7 +152,7 @@ void Renderer::State::resize(glm::ivec2 new_size) {
   }
   target.resize(samples);
   if (filter) filter->set_image_size(new_size);
-  for_each_pass([&](Pass& pass) { pass.resize(target); });
+  for_each_pass_and_filter([&](Pass& pass) { pass.resize(target); });
   size = new_size;
 }
 
@@ -185,10 +195,12 @@ void Renderer::set_background(glm::vec4 background) { state_->background = backg
 std::size_t Renderer::layer_count() const { return state_->places.size(); }
 
 void Renderer::place_layer(std::size_t layer, const glm::dmat4& world_from_layer) {
+  assert(layer < layer_count());
   state_->places[layer].box.world_from_layer = world_from_layer;
 }
 
 void Renderer::show_layer(std::size_t layer, bool visible) {
+  assert(layer < layer_count());
   state_->places[layer].visible = visible;
 }
 
@@ -206,10 +218,7 @@ void Renderer::add_layers(PreparedScene prepared) {
     state.places.resize(before);
     throw;
   }
-  for (SoupPlan& each : prepared.plan.layers) {
-    make_layered(each);
-    state.plan.layers.push_back(std::move(each));
-  }
+  for (SoupPlan& each : prepared.plan.layers) state.plan.layers.push_back(std::move(each));
   state.arrange();
 }
 
@@ -222,19 +231,20 @@ void Renderer::add_layers(Renderer other) {
   for (std::size_t i = 0; i < from.soups.size(); ++i) {
     state.soups.push_back(std::move(from.soups[i]));
     state.places.push_back(from.places[i]);
-    make_layered(from.plan.layers[i]);
     state.plan.layers.push_back(std::move(from.plan.layers[i]));
   }
   state.arrange();
 }
 
 void Renderer::remove_layer(std::size_t layer) {
+  assert(state_->draws_soups && layer < layer_count());
   state_->remove(layer);
   state_->arrange();
 }
 
 void Renderer::swap_layers(std::size_t a, std::size_t b) {
   State& state = *state_;
+  assert(state.draws_soups && a < layer_count() && b < layer_count());
   std::swap(state.soups[a], state.soups[b]);
   std::swap(state.places[a], state.places[b]);
   std::swap(state.plan.layers[a], state.plan.layers[b]);
@@ -265,12 +275,15 @@ void Renderer::draw(const FrameInput& input) {
   state.set_frame(input);
   state.target.begin(state.background);
   if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, true);
-  state.for_each_pass([&](Pass& pass) {
+  const auto draw_pass = [&](Pass& pass) {
     const gl::TimedPass timed(state.timer, pass.name());
     gl::use_plain_rasterisation(state.target.size().x, state.target.size().y);
     pass.draw(state.frame, state.target);
-  });
+  };
+  state.for_each_pass(draw_pass);
+  gl::use_plain_rasterisation(state.target.size().x, state.target.size().y);
   state.target.end();
+  if (state.filter) draw_pass(*state.filter);
   if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, false);
   gl::check("draw");
 }
@@ -291,7 +304,7 @@ glm::ivec2 Renderer::sample_size() const { return state_->target.size(); }
 
 std::vector<VisibleFace> Renderer::read_faces() const {
   const State& state = *state_;
-  if (!state.target.has_visibility()) return {};
+  if (state.size.x == 0 || !state.target.has_visibility()) return {};
   const std::vector<std::uint32_t> slots =
       read_visible_slots(state.target.visibility_framebuffer(), sample_size());
   std::vector<VisibleFace> result(slots.size());
@@ -328,7 +341,7 @@ void Renderer::blit_to(unsigned framebuffer, glm::ivec2 corner) const {
 
 void Renderer::leave_context() {
   for (const std::unique_ptr<DeviceSoup>& soup : state_->soups) soup->leave_context();
-  state_->for_each_pass([](Pass& pass) { pass.leave_context(); });
+  state_->for_each_pass_and_filter([](Pass& pass) { pass.leave_context(); });
   state_->target.leave_context();
   state_->probe.reset();
   state_->size = glm::ivec2(0);
@@ -338,13 +351,13 @@ void Renderer::leave_context() {
 std::size_t Renderer::device_bytes() const {
   std::size_t bytes = 0;
   for (const std::unique_ptr<DeviceSoup>& soup : state_->soups) bytes += soup->device_bytes();
-  state_->for_each_pass([&](Pass& pass) { bytes += pass.device_bytes(); });
+  state_->for_each_pass_and_filter([&](Pass& pass) { bytes += pass.device_bytes(); });
   return bytes;
 }
 
 std::size_t Renderer::target_bytes() const {
   std::size_t bytes = state_->target.bytes();
-  state_->for_each_pass([&](Pass& pass) { bytes += pass.target_bytes(); });
+  state_->for_each_pass_and_filter([&](Pass& pass) { bytes += pass.target_bytes(); });
   return bytes;
 }
 

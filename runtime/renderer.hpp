@@ -51,16 +51,23 @@ class Renderer {
 
   const RenderPlan& plan() const;
 
+  /// Display-referred colour and alpha of pixels without a face, for later frames.
   void set_background(glm::vec4 background);
 
+  /// The number of layers. Functions below take an index, from 0.
   std::size_t layer_count() const;
   /// Moves a layer. `world_from_layer` is a similarity: Layer's defect() accepts it.
   void place_layer(std::size_t layer, const glm::dmat4& world_from_layer);
+  /// Shows or hides a layer. Hidden layers stay on the device.
   void show_layer(std::size_t layer, bool visible);
-  /// Adds the layers of a scene after the present ones, which stay on the device. Their plans
-  /// become those of several layers. Requires a scene without make_passes, the same choice of
-  /// reversed depth, and at most max_plan_layers layers. Throws DeviceLimitError; then nothing has
-  /// changed.
+
+  // The next functions change the layers. They end the last frame: draw() must follow before other
+  // reading functions. They require that the layers are drawn by their own passes: no set_passes().
+
+  /// Adds the layers of a scene after the present ones, which stay on the device. Several layers
+  /// are all drawn deferred. The quality stays that of the first scene. Requires a scene without
+  /// make_passes, the same choice of reversed depth, and at most max_plan_layers layers. Throws
+  /// DeviceLimitError; then nothing has changed.
   void add_layers(PreparedScene prepared);
   /// The same with layers that another renderer of the same device has uploaded, for example in
   /// another thread. It must have left its context, if that is another one.
@@ -73,7 +80,8 @@ class Renderer {
   /// Adds a pass after those of the layers. Its result is filtered like theirs if the plan has
   /// another number of samples than one a pixel.
   void add_pass(std::unique_ptr<Pass> pass);
-  /// Replaces all passes of later frames, also those of the layers.
+  /// Replaces all passes of later frames, also those of the layers. Passes that draw soups must not
+  /// outlive them.
   void set_passes(Passes passes);
   /// The soups on the device, for passes that draw them; they live as long as their layer.
   std::span<const std::unique_ptr<DeviceSoup>> soups() const;
@@ -103,7 +111,7 @@ class Renderer {
 
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
   /// left corner. Returns nullopt for the background, and if no pass stores
-  /// depth, as in some debug views. Its precision is that of the depth buffer.
+  /// depth, as in DebugView::overdraw. Its precision is that of the depth buffer.
   /// Waits for the device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 

@@ -15,9 +15,8 @@ namespace {
 std::string layer_names(const Scene& scene) {
   std::string names;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    const std::string& name = scene.layers[i].name;
     if (i > 0) names += ", ";
-    names += name.empty() ? "layer " + std::to_string(i) : name;
+    names += label(scene.layers[i], i);
   }
   return names;
 }
@@ -30,6 +29,10 @@ bool all_finite(const glm::dmat4& matrix) {
 }
 
 }  // namespace
+
+std::string label(const Layer& layer, std::size_t index) {
+  return layer.name.empty() ? "layer " + std::to_string(index + 1) : layer.name;
+}
 
 std::vector<std::string> all_notes(const SceneInfo& info) {
   std::vector<std::string> notes = info.notes;

@@ -51,10 +51,13 @@ glm::dvec3 origin_of(const Layer& layer);
 /// The box around the layer's triangles, in layer coordinates; zeros if there are none.
 Bounds bounds(const Layer& layer);
 
-/// The reason why world_from_layer is no similarity (a number that is not finite, a perspective
+/// The reason why world_from_layer is not a similarity (a number that is not finite, a perspective
 /// row, a scale of zero, a stretch or shear beyond rounding), or nullopt. A mirror is no defect.
 /// The primitives are not checked.
 std::optional<std::string> defect(const Layer& layer);
+
+/// The layer's name, or "layer 2" for the second of the scene without a name. `index` is from 0.
+std::string label(const Layer& layer, std::size_t index);
 
 struct Scene {
   std::vector<Layer> layers;  // at equal depth the earlier layer wins

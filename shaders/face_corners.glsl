@@ -4,7 +4,7 @@
 #include "texel_store.glsl"
 
 uniform sampler2DArray corners;  // three texels a face, relative to the soup's origin
-uniform vec3 view_axis;          // world direction, of unit length
+uniform vec3 view_axis;          // in layer coordinates, of unit length
 // Window x and y (y up) of a point at c from the eye, times its depth: their dot products with c.
 uniform vec3 window_x, window_y;
 

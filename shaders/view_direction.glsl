@@ -1,6 +1,6 @@
 // The direction from a pixel's surface to the eye, from the camera's axes: no inverse matrix, no
 // dependence on the depth range or on the camera's position (docs/numerics.md, V1).
-uniform vec3 ray_at_corner;   // world direction, eye to surface, through window position (0, 0)
+uniform vec3 ray_at_corner;   // in layer coordinates, eye to surface, through window position (0, 0)
 uniform vec3 ray_per_column;  // its change a pixel to the right
 uniform vec3 ray_per_row;     // its change a pixel up
 

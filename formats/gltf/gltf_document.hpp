@@ -51,10 +51,10 @@ class GltfDocument {
   }
   MemoryBudget budget() const { return input_.budget(); }
 
-  /// The largest number of vertices in this file: 2^24, or the number of loaded bytes if that is
-  /// larger. It also limits the elements of accessors without a buffer view. A stored vertex takes
-  /// at least three bytes. Only vertices that are used several times, and such accessors, can
-  /// therefore exceed the limit.
+  /// The limit on the vertices of the loaded scene: 2^24, or the number of loaded bytes if that is
+  /// larger. It also limits the elements of an accessor without a buffer view. A stored vertex
+  /// takes at least three bytes. A scene therefore exceeds the limit only if several nodes or
+  /// primitives repeat the same stored vertices, or if accessors have no buffer view.
   std::uint64_t vertex_budget() const;
 
   [[noreturn]] void fail(const std::string& where, const std::string& reason,

@@ -23,7 +23,7 @@ enum class PipelineKind {
 };
 
 /// Plans without GL. Of the preferences, only the quality has an effect. The plan's description
-/// (describe() in runtime/plan/plan_description.hpp) is of the baseline; it reports kept
+/// (describe() in runtime/plan/plan_description.hpp) describes the baseline; it reports kept
 /// specialisations as without effect. The soup must have no defect(). Throws UsageError for a soup
 /// that the baseline cannot draw, for ShadingStage::compute, and for a quality with a defect().
 RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences = {});

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "jobs/baseline/baseline.hpp"
 #include "runtime/gl/state.hpp"
+#include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/geometry.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/passes/shader_source.hpp"
@@ -160,7 +161,6 @@ class NetworkPass final : public Pass {
 
   void draw(const Frame& frame, FrameTarget& target) override {
     target.overwrite_color();
-    glDisable(GL_DEPTH_TEST);
     const FrameCamera& view = frame.layers.front();
     program_.use();
     bind_texture(0, features_.features(0));
@@ -173,20 +173,18 @@ class NetworkPass final : public Pass {
     program_.set("world_from_clip", glm::mat4(glm::inverse(projection * view_from_layer)));
     program_.set("window_size", glm::vec2(target.size()));
     program_.set("background", frame.background);
-    program_.set("background_depth", 0.0f);
     program_.set("mlp_weights", std::span<const glm::mat4>(network_.weights));
     program_.set("mlp_biases", std::span<const glm::vec4>(network_.biases));
-    nothing_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    full_screen_.draw(program_);
   }
 
-  void leave_context() override { nothing_.forget(); }
+  void leave_context() override { full_screen_.leave_context(); }
 
  private:
   const FeaturesPass& features_;
   ColorMlpSource network_;
   gl::Program program_;
-  gl::LocalVertexArray nothing_;
+  FullScreen full_screen_;
 };
 
 }  // namespace
@@ -207,25 +205,6 @@ PreparedScene prepare_baseline(const TriangleSoup& soup, glm::dvec3 origin,
     return passes;
   };
   return prepared;
-}
-
-Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                       PipelineKind kind, const RenderOptions& options) {
-  const DeviceLimits limits = options.limits.value_or(device_limits(context.capabilities()));
-  return Renderer(
-      context,
-      kind == PipelineKind::tureen
-          ? prepare_scene(soup, origin, limits, options)
-          : prepare_baseline(soup, origin, limits, make_baseline_plan(soup, options.plan)),
-      options);
-}
-
-Renderer make_renderer(const gl::Context& context, const Scene& scene, PipelineKind kind,
-                       const RenderOptions& options) {
-  if (kind == PipelineKind::baseline)
-    return make_renderer(context, only_soup(scene), origin_of(only_layer(scene)), kind, options);
-  const DeviceLimits limits = options.limits.value_or(device_limits(context.capabilities()));
-  return Renderer(context, prepare_scene(scene, limits, options), options);
 }
 
 }  // namespace tureen

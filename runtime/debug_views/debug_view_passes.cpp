@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/gl/state.hpp"
+#include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/soup_passes.hpp"
 
@@ -50,20 +51,6 @@ void set_corners(const gl::Program& program, const Camera& camera) {
   program.set("window_y", glm::vec3(camera.fy * axes[1] - (camera.height - camera.cy) * axes[2]));
 }
 
-/// One triangle over the whole target at a depth. The program is in use.
-class FullScreen {
- public:
-  void draw(const gl::Program& program, float depth) {
-    program.set("background_depth", depth);
-    nothing_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-  }
-  void leave_context() { nothing_.forget(); }
-
- private:
-  gl::LocalVertexArray nothing_;
-};
-
 /// Colours the visible fragments by a stored or geometric value.
 class ValuePass final : public Pass {
  public:
@@ -84,7 +71,6 @@ class ValuePass final : public Pass {
       target.draw_samples_of(layer);
     } else {
       target.overwrite_color();
-      glDisable(GL_DEPTH_TEST);
     }
     program_.use();
     soup_.appearance().bind(program_);
@@ -107,15 +93,18 @@ class ValuePass final : public Pass {
   void leave_context() override { full_screen_.leave_context(); }
 
  private:
-  /// In world units, for all layers.
+  /// In world units, for all visible layers.
   DepthScale depth_scale_of(const Frame& frame) const {
     DepthScale all;
+    bool first = true;
     for (std::size_t i = 0; i < subjects_.size(); ++i) {
       const FrameCamera& view = frame.layers[i];
+      if (!view.visible) continue;
       const DepthScale one = depth_scale(subjects_[i].middle, view.eye);
       const double near = one.near * view.scale, far = one.far * view.scale;
-      all = i == 0 ? DepthScale{near, far}
-                   : DepthScale{std::min(all.near, near), std::max(all.far, far)};
+      all = first ? DepthScale{near, far}
+                  : DepthScale{std::min(all.near, near), std::max(all.far, far)};
+      first = false;
     }
     return all;
   }
@@ -165,8 +154,7 @@ class OverdrawPass final : public Pass {
     gl::use_texture_sampling(0);
     program_.set("counts", 0);
     program_.set("background", frame.background);
-    glDisable(GL_DEPTH_TEST);
-    full_screen_.draw(program_, 0.0f);
+    full_screen_.draw(program_);
   }
   void leave_context() override { full_screen_.leave_context(); }
 

@@ -84,13 +84,15 @@ void DebugViews::require(DebugView what, const FeatureChoice& features) const {
 void DebugViews::show(Renderer& renderer, DebugView what, const FeatureChoice& features) {
   require(what, features);
   State& state = *state_;
-  const bool has_passes = std::exchange(state.has_passes, true) && what == state.shown.what;
+  const bool has_passes = std::exchange(state.has_passes, false) && what == state.shown.what;
   state.shown.what = what;
   state.shown.features = features;
+  state.has_passes = has_passes;
   if (has_passes) return;
   DebugViewPasses made = debug_view_passes(renderer.soups(), state.subjects, state.shown);
   state.counts = made.counts;
   renderer.set_passes(std::move(made.passes));
+  state.has_passes = true;  // not if making them threw
 }
 
 std::vector<std::uint8_t> DebugViews::read_fragment_counts() const {

@@ -1,4 +1,4 @@
-// Shows the debug views of runtime/debug_views/debug_view.hpp: prepares a soup for them, and gives
+// Shows the debug views of runtime/debug_views/debug_view.hpp: prepares soups for them, and gives
 // its Renderer the passes of one of them.
 #pragma once
 
@@ -10,16 +10,17 @@
 
 namespace tureen {
 
-/// Prepares soups with all their faces and all their stored values. Only the specialisations of the
-/// network's code are applied; they are exact. The Renderer also draws ordinary frames. Of the
-/// options' preferences, only reversed_depth has an effect. Otherwise as prepare_scene.
+/// Prepares soups with all their faces and all their stored values. Of the specialisations, only
+/// weight_uniforms and dead_neurons are applied; they are exact. The Renderer also draws ordinary
+/// frames. Of the options' preferences, only reversed_depth has an effect. Otherwise as
+/// prepare_scene.
 PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const DeviceLimits& device,
                                   const RenderOptions& options = {});
 PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
                                   const DeviceLimits& device, const RenderOptions& options = {});
 
-/// The debug views of a scene. This object must live until the renderer is destroyed or shows
-/// ordinary frames again.
+/// The debug views of a scene. After show(), the renderer's passes refer to this object, also for
+/// DebugView::color. It must live until the renderer is destroyed or gets other passes.
 class DebugViews {
  public:
   /// The soups are not needed afterwards.

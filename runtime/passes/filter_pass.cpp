@@ -46,16 +46,14 @@ void FilterPass::draw(const Frame&, FrameTarget& target) {
   glBindTexture(GL_TEXTURE_2D, target.color_texture());
   gl::use_texture_sampling(0);
   program_.set("samples", 0);
-  program_.set("background_depth", 0.0f);
   program_.set("samples_per_pixel", glm::vec2(target.size()) / glm::vec2(size_));
-  nothing_.bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  full_screen_.draw(program_);
 }
 
 std::size_t FilterPass::target_bytes() const { return bytes_of(target_formats::rgba8, size_); }
 
 void FilterPass::leave_context() {
-  nothing_.forget();
+  full_screen_.leave_context();
   framebuffer_ = {};
 }
 

@@ -7,6 +7,7 @@
 
 #include "runtime/gl/context.hpp"
 #include "runtime/gl/program.hpp"
+#include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/pass.hpp"
 #include "scene/quality.hpp"
 
@@ -39,7 +40,7 @@ class FilterPass final : public Pass {
 
  private:
   gl::Program program_;
-  gl::LocalVertexArray nothing_;
+  FullScreen full_screen_;
   glm::ivec2 size_{0};
   gl::Texture color_;
   gl::Framebuffer framebuffer_;

@@ -1,5 +1,7 @@
 #include "runtime/passes/frame_target.hpp"
 
+#include <cassert>
+
 #include "runtime/gl/state.hpp"
 #include "scene/triangle_soup.hpp"
 
@@ -27,6 +29,9 @@ void FrameTarget::resize(glm::ivec2 size) {
   if (format_.visibility) {
     visible_ = make_target(target_formats::rg32ui, size.x, size.y);
     visibility_framebuffer_ = make_framebuffer({visible_.id()}, depth_attachment());
+  } else {
+    visible_ = {};
+    visibility_framebuffer_ = {};
   }
   size_ = size;
   gl::check("FrameTarget");
@@ -43,6 +48,7 @@ void FrameTarget::begin(const glm::vec4& background) {
 }
 
 void FrameTarget::draw_visibility(std::size_t layer) {
+  assert(format_.visibility);
   glBindFramebuffer(GL_FRAMEBUFFER, visibility_framebuffer_.id());
   if (!visibility_drawn_) {
     const GLuint empty[4] = {no_face, 0, 0, 0};
@@ -84,6 +90,7 @@ void FrameTarget::draw_samples_of(std::size_t layer) {
 
 void FrameTarget::overwrite_color() {
   glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
+  glDisable(GL_DEPTH_TEST);
   color_drawn_ = true;
 }
 

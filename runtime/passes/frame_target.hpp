@@ -29,6 +29,7 @@ class FrameTarget {
 
   /// Takes effect at the next resize().
   void set_format(const FrameFormat& format) { format_ = format; }
+  const FrameFormat& format() const { return format_; }
 
   /// Creates the textures for this number of samples; their contents are undefined. Throws
   /// DeviceLimitError.
@@ -41,7 +42,7 @@ class FrameTarget {
   void begin(const glm::vec4& background);
   /// Binds the visible fragments and depth as targets: (slot, barycentrics) as RG32UI, see
   /// shaders/visibility.frag. Nearer fragments win; the samples that they cover become those of
-  /// this layer.
+  /// this layer. Requires FrameFormat::visibility.
   void draw_visibility(std::size_t layer);
   /// Binds colour and depth as targets. Nearer fragments win.
   void draw_color();
@@ -50,7 +51,8 @@ class FrameTarget {
   void draw_samples_of(std::size_t layer);
   /// Ends a frame: clears the colour if no pass has drawn any.
   void end();
-  /// Binds colour for a pass that writes the colour of every sample. Clears nothing.
+  /// Binds colour for a pass that writes every sample: nothing is cleared, and depth is neither
+  /// tested nor written.
   void overwrite_color();
   /// Prepares depth for a pass that has bound its own framebuffer with the depth texture. Clears
   /// depth at the first use of depth in the frame. Nearer fragments win.

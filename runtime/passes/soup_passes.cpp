@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/shader_source.hpp"
 
 namespace tureen {
@@ -92,16 +93,13 @@ class ShadingPass final : public Pass {
       target.draw_samples_of(layer);
     } else {
       target.overwrite_color();
-      glDisable(GL_DEPTH_TEST);
     }
     if (!frame.layers[layer].visible && target.layered()) return;
     set_uniforms(frame, target);
-    program_.set("background_depth", target.far_depth());
-    nothing_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    full_screen_.draw(program_, target.far_depth());
   }
 
-  void leave_context() override { nothing_.forget(); }
+  void leave_context() override { full_screen_.leave_context(); }
 
  private:
   void compute(const Frame& frame, const FrameTarget& target) const {
@@ -138,7 +136,7 @@ class ShadingPass final : public Pass {
   ShadingStage stage_;
   bool depth_rejects_background_;
   gl::Program program_;
-  gl::LocalVertexArray nothing_;
+  FullScreen full_screen_;
 };
 
 }  // namespace

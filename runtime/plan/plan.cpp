@@ -87,7 +87,8 @@ SoupPlan make_soup_plan(const TriangleSoup& soup, const DeviceLimits& limits,
 }  // namespace
 
 void make_layered(SoupPlan& plan) {
-  if (plan.site == ShadingSite::forward) plan.site = ShadingSite::deferred;
+  if (plan.site == ShadingSite::nowhere) return;  // triangles only, for all layers
+  plan.site = ShadingSite::deferred;
   plan.shading_stage = ShadingStage::fragment;
   plan.depth_rejects_background = true;  // the stencil does
   std::erase_if(plan.applied, [](const AppliedSpecialisation& each) {

@@ -74,7 +74,7 @@ struct LatticePlan {
 /// The method of drawing one soup.
 struct SoupPlan {
   ShadingSite site = ShadingSite::deferred;
-  /// `fragment` if there is no choice.
+  /// `fragment` for plans without a shading pass.
   ShadingStage shading_stage = ShadingStage::fragment;
 
   /// faces[slot] is the face of the soup that this slot of the device draws. Opaque faces come

@@ -36,7 +36,7 @@ class NamedByDevice {
     camera.view_from_world[3] = glm::dvec4(0, 0, -1, 1);
     gl::use_plain_rasterisation(1, 1);
     target_.begin(glm::vec4(0.0f));
-    target_.draw_visibility();
+    target_.draw_visibility(0);
     glDisable(GL_DEPTH_TEST);
     program_.use();
     Geometry::set_camera(program_, {camera, camera.eye(), {0.01, 100}},

@@ -100,10 +100,11 @@ bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   Stage& stage = *current();
   const glm::ivec2 size(viewport);
   // Not every debug view draws depth.
-  if (stage.debug_views) stage.debug_views->show(*stage.renderer, DebugView::color);
+  const bool lacks_depth = stage.debug_views && debug_view_ == DebugView::overdraw;
+  if (lacks_depth) stage.debug_views->show(*stage.renderer, DebugView::color);
   stage.renderer->draw({stage.controls.camera(size.x, size.y)});
   const std::optional<glm::dvec3> point = stage.renderer->point_at(place);
-  if (stage.debug_views) stage.debug_views->show(*stage.renderer, debug_view_, features_);
+  if (lacks_depth) stage.debug_views->show(*stage.renderer, debug_view_, features_);
   if (point) stage.controls.focus(*point);
   return point.has_value();
 }

@@ -1,0 +1,25 @@
+// One triangle over the whole target, for passes that compute every sample.
+#pragma once
+
+#include "runtime/gl/objects.hpp"
+#include "runtime/gl/program.hpp"
+
+namespace tureen {
+
+class FullScreen {
+ public:
+  /// Draws at a depth from -1 or 0 to 1, by the clip control. `program` is in use; its vertex
+  /// shader is full_screen.vert.
+  void draw(const gl::Program& program, float depth = 0) {
+    program.set("background_depth", depth);
+    nothing_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  /// See Renderer::leave_context().
+  void leave_context() { nothing_.forget(); }
+
+ private:
+  gl::LocalVertexArray nothing_;
+};
+
+}  // namespace tureen
