@@ -30,7 +30,7 @@ namespace tureen::cli {
 namespace {
 
 struct RenderOptions {
-  SceneArgument scene;
+  SceneArguments scene;
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
@@ -108,7 +108,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     require_png_name(options.output);
     const int count = std::max(options.views.orbit, 1);
     for (int i = 0; i < count; ++i)
-      require_not_input(image_name(options.output, i, count), options.scene.path);
+      require_not_inputs(image_name(options.output, i, count), options.scene);
     const std::filesystem::path first = image_name(options.output, 0, count);
     // The number of views in a camera file or an animation, and so the names of the images, are not
     // known yet.
@@ -124,7 +124,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     throw UsageError("videos do not support transparency",
                      "remove --background transparent, or write images with -o frame_%04d.png");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
-  require_not_input(options.output, options.scene.path);
+  require_not_inputs(options.output, options.scene);
   require_writable_file(options.output);
 }
 
@@ -152,7 +152,7 @@ ExitCode render(RenderOptions options) {
   Scene scene = read(options.scene);
   make_opaque(scene);
   const TriangleSoup& soup = only_soup(scene);
-  const Views views = resolve_views(options.views, scene, options.scene.path);
+  const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, soup);
 
@@ -165,7 +165,7 @@ ExitCode render(RenderOptions options) {
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
-  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);
@@ -201,6 +201,7 @@ scene from the front, slightly from the right and from above.
 
 Examples:
   tureen render soup.glb -o image.png
+  tureen render house.glb fox.glb -o both.png             several scenes in one image
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
@@ -216,7 +217,7 @@ Examples:
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 the scene does not fit on the device, or an image cannot be written.)");
-  add_scene_argument(command, options->scene);
+  add_scene_arguments(command, options->scene);
   add_memory_option(command);
   command
       .add_option(

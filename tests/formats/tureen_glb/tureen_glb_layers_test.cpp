@@ -6,10 +6,13 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <set>
 
 #include "base/memory_budget.hpp"
+#include "formats/gltf/gltf.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_preview.hpp"
 #include "tests/formats/truncation.hpp"
@@ -107,6 +110,37 @@ TEST(TureenGlbLayers, AreNodesWithTheirMatricesForOtherViewers) {
   EXPECT_EQ(meshes.size(), 3u);
   EXPECT_THAT(json["extensionsUsed"], ::testing::Contains("KHR_node_visibility"));
   EXPECT_FALSE(json.contains("extensionsRequired"));
+}
+
+// Our reader of foreign glTF is another viewer, if the file does not name our extension.
+TEST(TureenGlbLayers, AreAtTheirPlacesInOtherViewers) {
+  Scene scene =
+      test::layered_scene(test::glb_kinds_named({"face_bytes", "face_bytes_shared"}), 23, 4);
+  scene.info.up = {0, 1, 0};  // no rotation of the root
+  for (Layer& layer : scene.layers) layer.world_from_layer[3] = {10, -20, 30, 1};
+  const auto bytes = test::glb_bytes(scene, "foreign");
+  auto json = test::glb_json(bytes);
+  json.erase("extensions");
+  const auto foreign = test::with_glb_json(bytes, json);
+  Input input = Input::memory("memory.glb", foreign);
+  const Scene seen = read_gltf_or_glb(input, "", {});
+  const TriangleSoup& soup = only_soup(seen);
+  std::size_t face = 0;
+  for (const Layer& layer : scene.layers) {
+    const auto& own = std::get<TriangleSoup>(layer.primitives);
+    for (const glm::uvec3& triangle : own.triangles) {
+      ASSERT_LT(face, soup.triangles.size());
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec4 expected =
+            layer.world_from_layer * glm::dvec4(own.positions[triangle[k]], 1.0);
+        const glm::dvec3 at(soup.positions[soup.triangles[face][k]]);
+        // Coordinates below 64 are rounded to float: half a step is 2^-19.
+        EXPECT_LT(glm::distance(at, glm::dvec3(expected)), 4e-6);
+      }
+      ++face;
+    }
+  }
+  EXPECT_EQ(face, soup.triangles.size());
 }
 
 TEST(TureenGlbLayers, HaveNoPreview) {
