@@ -8,6 +8,7 @@
 #include "cli/options/output_argument.hpp"
 #include "cli/options/values.hpp"
 #include "cli/progress.hpp"
+#include "scene/edit/baked_transform.hpp"
 
 namespace tureen::cli {
 
@@ -65,6 +66,12 @@ Scene read(const SceneArgument& argument) {
     scene.info.up = glm::vec3(glm::normalize(up));
     scene.info.up_is_assumed = false;
   }
+  return scene;
+}
+
+Scene read_one_layer(const SceneArgument& argument) {
+  Scene scene = read(argument);
+  bake_transform(only_layer(scene));
   return scene;
 }
 

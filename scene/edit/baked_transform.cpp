@@ -45,8 +45,7 @@ void bake_transform(Layer& layer) {
   if (depends_on_view(layer))
     throw UsageError(
         "the layer is rotated, scaled or mirrored, and its colours depend on the view: they cannot "
-        "be moved into world coordinates",
-        "a .glb file keeps the layer's transform");
+        "be moved into world coordinates");
   auto& positions = std::holds_alternative<TriangleSoup>(layer.primitives)
                         ? std::get<TriangleSoup>(layer.primitives).positions
                         : std::get<SoftTriangles>(layer.primitives).positions;

@@ -133,6 +133,13 @@ TEST_F(LayersProgram, InfoOfOneTurnedLayerNamesItsPlace) {
 TEST_F(LayersProgram, CommandsForOneLayerNameTheLayers) {
   ASSERT_EQ(run({"convert", "scene.off", "fox.off", "-o", "all.glb"}).exit_code, 0);
   expect_usage_error({"bench", "all.glb", "--rounds", "1"}, "has 2: scene, fox");
+  // Without support for its rotation, a layer whose colours depend on the view is refused.
+  Scene scene = read_scene(std::filesystem::path(TUREEN_SOURCE_DIR) / "examples/soup.glb");
+  scene.layers[0].world_from_layer[0][0] = -1;
+  write_scene_file("mirrored.glb", scene);
+  expect_usage_error({"bench", "mirrored.glb", "--rounds", "1"}, "mirrored");
+  expect_usage_error({"convert", "mirrored.glb", "export/"}, "mirrored");
+  expect_usage_error({"convert", "mirrored.glb", "c.glb", "--compress"}, "mirrored");
 }
 
 }  // namespace layers_program_test
