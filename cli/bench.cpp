@@ -72,7 +72,7 @@ BenchResult run(const BenchOptions& options) {
   result.protocol.rounds = options.rounds;
 
   const auto start = std::chrono::steady_clock::now();
-  Scene scene = read(options.scene);
+  Scene scene = read_one_layer(options.scene);
   const std::chrono::duration<double, std::milli> read_ms =
       std::chrono::steady_clock::now() - start;
   make_opaque(scene);

@@ -24,7 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ConvertOptions {
-  SceneArgument scene;
+  /// IN OUT, or with -o scenes only: positional arguments in the order of the command line.
+  std::string first, second;
+  std::vector<std::string> further;
+  SceneArguments scene;  // its paths are empty until sort_arguments()
   std::string output;
   bool force = false;
   bool json = false;
@@ -32,6 +35,22 @@ struct ConvertOptions {
   std::optional<Quality> quality;  // empty: the scene's own
   CompressArguments compressed;
 };
+
+/// Sets the paths of the scenes and the output.
+void sort_arguments(ConvertOptions& options) {
+  std::vector<std::string>& paths = options.scene.paths;
+  paths = {options.first};
+  if (options.output.empty()) {
+    if (options.second.empty()) throw UsageError("OUT is required");
+    if (!options.further.empty())
+      throw UsageError("several scenes need -o OUT",
+                       "tureen convert A.glb B.glb -o OUT.glb makes them the layers of one scene");
+    options.output = options.second;
+    return;
+  }
+  if (!options.second.empty()) paths.push_back(options.second);
+  paths.insert(paths.end(), options.further.begin(), options.further.end());
+}
 
 /// An output without an extension is a folder.
 bool is_export(const fs::path& output) { return output.extension().empty(); }
@@ -65,7 +84,7 @@ void check_output(const ConvertOptions& options) {
   require_known_extension(output);
   if (options.quality && extension_of(output) != ".glb" && !is_scene_page(output))
     throw UsageError("only .glb and .html store --supersample and --resolution-scale");
-  require_not_input(output, options.scene.path);
+  require_not_inputs(output, options.scene);
   // These checks do not depend on --force.
   if (is_export(output))
     require_writable_export(output);
@@ -107,14 +126,15 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 /// Whether the page can contain the scene's file unchanged.
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.up.empty() && options.edits == Edits{} &&
-         !options.quality && is_our_glb(options.scene.path);
+         !options.quality && options.scene.paths.size() == 1 &&
+         is_our_glb(options.scene.paths.front());
 }
 
 Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions& options) {
   const fs::path output = options.output;
   const std::string name = scene.info.name.empty() ? output.stem().string() : scene.info.name;
   if (is_page_of_file(options)) {
-    page.write(options.scene.path, name, output);
+    page.write(options.scene.paths.front(), name, output);
     return {{"notes", all_notes(scene.info)},
             {"remarks", remarks_json(scene.info.remarks)},
             {"lost", Json::array()}};
@@ -130,12 +150,13 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions
   return figures;
 }
 
-ExitCode convert_scene(const ConvertOptions& options) {
+ExitCode convert_scene(ConvertOptions options) {
+  sort_arguments(options);
   check_output(options);
   std::optional<ScenePageTemplate> page;
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
   Scene scene = read(options.scene);
-  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
   apply(options.edits, scene);
   if (options.quality) scene.quality = *options.quality;
   const Json figures = page ? write_page(*page, std::move(scene), options)
@@ -175,6 +196,9 @@ void add_convert(Command& program) {
   command.footer("The extension of OUT determines the format:\n" + written_formats() +
                  R"(The command omits data that the format cannot store, and prints these losses.
 
+With -o OUT, all other arguments are scenes, and each becomes a layer of one scene. Only .glb and
+.html store several layers.
+
 Examples:
   tureen convert trained.pt soup.glb          Tureen's own format
   tureen convert soup.glb soup.off --force    replaces soup.off
@@ -184,10 +208,19 @@ Examples:
                                               coarser textures; tradeoff measures the error
   tureen convert soup.glb smooth.glb --supersample 2
                                               2 x 2 samples a pixel by default
+  tureen convert house.glb fox.glb tree.ply -o garden.glb
+                                              one scene with three layers
   tureen convert soup.glb soup.html           a page to share
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
-  add_scene_argument(command, options->scene, "IN");
-  command.add_option("OUT", options->output, "file or folder to write").required();
+  command
+      .add_option("IN", options->first,
+                  "scene: a file or a folder; its content determines the format")
+      .required();
+  command.add_option("OUT", options->second, "file or folder to write; with -o, a second scene");
+  command.add_option("FURTHER", options->further, "with -o: further scenes");
+  command.add_option("-o,--output", options->output, "file or folder to write, instead of OUT")
+      .value_name("OUT");
+  add_reading_options(command, options->scene.vertex_colors, options->scene.up);
   add_memory_option(command);
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json,

@@ -16,6 +16,7 @@
 #include "cli/progress.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "jobs/compress/compress.hpp"
+#include "scene/edit/baked_transform.hpp"
 
 namespace tureen::cli {
 
@@ -182,6 +183,11 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   const bool with_photographs = !arguments.photographs.path.empty();
   const bool compressed_before = scene.info.compressed;
   std::vector<std::string> lost = doubts_about(scene, with_photographs);
+  if (!is_translation(only_layer(scene))) {
+    bake_transform(only_layer(scene));
+    lost.push_back(
+        "Compression: the layer's rotation, scale or mirror is applied to the positions.");
+  }
   if (with_photographs) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())

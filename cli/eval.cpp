@@ -88,7 +88,7 @@ ExitCode evaluate_scene(EvalOptions options) {
       require_not_input(file, options.scene.path);
     }
 
-  Scene scene = read(options.scene);
+  Scene scene = read_one_layer(options.scene);
   make_opaque(scene);
   const TriangleSoup& soup = only_soup(scene);
   if (options.background.empty()) evaluation.background = scene.info.background;

@@ -1,6 +1,10 @@
 // `tureen info`: a scene's contents, memory use and lint findings.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
 
@@ -15,6 +19,7 @@
 #include "jobs/results/plan_json.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
+#include "scene/edit/baked_transform.hpp"
 #include "scene/edit/lint.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -23,7 +28,7 @@ namespace tureen::cli {
 namespace {
 
 struct InfoOptions {
-  SceneArgument scene;
+  SceneArguments scene;
   bool strict = false;
   bool json = false;
 };
@@ -147,95 +152,244 @@ const std::vector<NamedDevice>& named_devices() {
   return devices;
 }
 
-ExitCode inform(const InfoOptions& options) {
-  Scene scene = read(options.scene);
-  const Layer& layer = only_layer(scene);
-  const bool soft = std::holds_alternative<SoftTriangles>(layer.primitives);
-  make_opaque(scene);
-  const TriangleSoup& soup = only_soup(scene);
-  const Subject subject = subject_of(scene);
-  const std::uint64_t on_disk = bytes_on_disk(options.scene.path);
-  const RenderPlan plan = make_plan(soup, named_devices().back().limits);
-  const DeviceForecast forecast = device_forecast(soup, plan.layers.front());
-  const Lint findings = lint(soup);
+/// What is printed about one layer.
+struct LayerFacts {
+  const Layer* layer;
+  const TriangleSoup* soup;
+  bool soft;  // soft triangles in the file; `soup` is their opaque form
   Described appearance;
-  std::visit(appearance, soup.appearance);
+  RenderPlan plan;
+  DeviceForecast forecast;
+  Lint lint;
+};
 
-  Json devices = Json::array();
-  std::vector<std::string> device_lines;
-  bool fits_everywhere = true;
-  for (const NamedDevice& device : named_devices()) {
-    const std::uint64_t capacity = texel_capacity(device.limits);
-    const bool fits = forecast.largest_store_texels <= capacity;
-    fits_everywhere = fits_everywhere && fits;
-    devices.push_back({{"name", device.name},
-                       {"max_texture_size", device.limits.max_texture_size},
-                       {"max_array_layers", device.limits.max_array_layers},
-                       {"fits", fits}});
-    device_lines.push_back(
-        fmt::format("{} ({} x {}, {} layers): {}", device.name, device.limits.max_texture_size,
-                    device.limits.max_texture_size, device.limits.max_array_layers,
-                    fits ? "fits"
-                         : fmt::format("does not fit: {} has {} texels, but a texture holds at "
-                                       "most {}",
-                                       forecast.largest_store,
-                                       counted(forecast.largest_store_texels), counted(capacity))));
+/// `several`: the scene has several layers, which are all drawn deferred.
+LayerFacts facts_of(const Layer& layer, bool soft, bool several) {
+  const TriangleSoup& soup = std::get<TriangleSoup>(layer.primitives);
+  LayerFacts facts{.layer = &layer,
+                   .soup = &soup,
+                   .soft = soft,
+                   .appearance = {},
+                   .plan = make_plan(soup, named_devices().back().limits),
+                   .forecast = {},
+                   .lint = lint(soup)};
+  if (several) make_layered(facts.plan.layers.front());
+  facts.forecast = device_forecast(soup, facts.plan.layers.front());
+  std::visit(facts.appearance, soup.appearance);
+  return facts;
+}
+
+/// "at (1, 2, 3), turned by 30 degrees, 2 times as large, mirrored".
+std::string place_text(const Layer& layer) {
+  std::string text = "at " + vector_text(origin_of(layer));
+  const glm::dmat3 linear(layer.world_from_layer);
+  const double determinant = glm::determinant(linear);
+  const double scale = std::cbrt(std::abs(determinant));
+  const double sign = determinant < 0 ? -1.0 : 1.0;
+  const double trace = sign / scale * (linear[0][0] + linear[1][1] + linear[2][2]);
+  const double degrees = glm::degrees(std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0)));
+  // Six digits are printed; smaller differences come from rounding.
+  if (degrees > 1e-4) text += fmt::format(", turned by {:.6g} degrees", degrees);
+  if (std::abs(scale - 1.0) > 1e-6) text += fmt::format(", {:.6g} times as large", scale);
+  if (determinant < 0) text += ", mirrored";
+  return text;
+}
+
+void add_appearance(Table& table, const LayerFacts& facts) {
+  table.row({"appearance", appearance_name(facts.soup->appearance)});
+  for (const std::string& line : facts.appearance.lines) table.row({"", line});
+}
+
+std::string triangles_text(std::size_t triangles, std::size_t vertices, bool soft) {
+  return fmt::format("{} with {} vertices{}", counted(triangles), counted(vertices),
+                     soft ? ", soft triangles, drawn as opaque" : "");
+}
+
+std::vector<std::string> lint_lines(const Lint& lint) {
+  std::vector<std::string> lines;
+  for (const LintFinding& finding : lint.findings) lines.push_back(describe(finding));
+  if (lines.empty()) lines.emplace_back("nothing found");
+  return lines;
+}
+
+/// One of several layers: contents, place, plan and lint findings.
+void say_layer(const LayerFacts& facts) {
+  Table table({"", "<"});
+  table.row({"triangles", triangles_text(facts.soup->triangles.size(), facts.soup->positions.size(),
+                                         facts.soft)});
+  add_appearance(table, facts);
+  table.row({"place", place_text(*facts.layer) + (facts.layer->visible ? "" : "; hidden")});
+  say_list("Layer " + facts.layer->name + ":", table.lines());
+  say_list("Plan of " + facts.layer->name + ":", describe(facts.plan));
+  say_list("Lint of " + facts.layer->name + ":", lint_lines(facts.lint));
+}
+
+Json matrix_json(const glm::dmat4& matrix) {
+  Json json = Json::array();
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) json.push_back(matrix[column][row]);
+  return json;
+}
+
+/// The keys that a scene of one layer has at its top level.
+Json contents_json(const LayerFacts& facts) {
+  Json json = {{"triangles", facts.soup->triangles.size()},
+               {"vertices", facts.soup->positions.size()},
+               {"soft_triangles", facts.soft},
+               {"appearance", appearance_name(facts.soup->appearance)}};
+  json.update(facts.appearance.json);
+  return json;
+}
+
+Json plan_json(const RenderPlan& plan) {
+  return {{"plan", describe(plan)},
+          {"specialisations", results::specialisations_json(plan.applied())}};
+}
+
+Json to_json(const LayerFacts& facts) {
+  Json json = {{"name", facts.layer->name},
+               {"visible", facts.layer->visible},
+               {"world_from_layer", matrix_json(facts.layer->world_from_layer)}};
+  json.update(contents_json(facts));
+  json.update(
+      {{"bytes_in_memory", byte_size(*facts.soup)}, {"bytes_on_device", facts.forecast.bytes}});
+  json.update(plan_json(facts.plan));
+  json["lint"] = to_json(facts.lint);
+  return json;
+}
+
+/// Sums over all layers.
+struct Totals {
+  std::size_t triangles = 0, vertices = 0;
+  std::uint64_t bytes_in_memory = 0, bytes_on_device = 0;
+
+  explicit Totals(const std::vector<LayerFacts>& layers) {
+    for (const LayerFacts& facts : layers) {
+      triangles += facts.soup->triangles.size();
+      vertices += facts.soup->positions.size();
+      bytes_in_memory += byte_size(*facts.soup);
+      bytes_on_device += facts.forecast.bytes;
+    }
   }
+};
 
+/// Whether the scene fits on common devices. Each layer has stores of its own.
+struct DeviceFit {
+  Json json = Json::array();
+  std::vector<std::string> lines;
+  bool everywhere = true;
+
+  explicit DeviceFit(const std::vector<LayerFacts>& layers) {
+    const DeviceForecast& largest =
+        std::max_element(layers.begin(), layers.end(), [](const auto& a, const auto& b) {
+          return a.forecast.largest_store_texels < b.forecast.largest_store_texels;
+        })->forecast;
+    for (const NamedDevice& device : named_devices()) {
+      const std::uint64_t capacity = texel_capacity(device.limits);
+      const bool fits = largest.largest_store_texels <= capacity;
+      everywhere = everywhere && fits;
+      json.push_back({{"name", device.name},
+                      {"max_texture_size", device.limits.max_texture_size},
+                      {"max_array_layers", device.limits.max_array_layers},
+                      {"fits", fits}});
+      lines.push_back(fmt::format(
+          "{} ({} x {}, {} layers): {}", device.name, device.limits.max_texture_size,
+          device.limits.max_texture_size, device.limits.max_array_layers,
+          fits ? "fits"
+               : fmt::format("does not fit: {} has {} texels, but a texture holds at "
+                             "most {}",
+                             largest.largest_store, counted(largest.largest_store_texels),
+                             counted(capacity))));
+    }
+  }
+};
+
+void say_scene(const InfoOptions& options, const Scene& scene, const Subject& subject,
+               const std::vector<LayerFacts>& layers, const DeviceFit& devices) {
+  const LayerFacts* only = layers.size() == 1 ? &layers.front() : nullptr;
+  const Totals totals(layers);
   Table table({"", "<"});
   if (!scene.info.name.empty()) table.row({"name", scene.info.name});
-  table.row({"triangles", fmt::format("{} with {} vertices{}", counted(soup.triangles.size()),
-                                      counted(soup.positions.size()),
-                                      soft ? ", soft triangles, drawn as opaque" : "")});
-  table.row({"appearance", appearance_name(soup.appearance)});
-  for (const std::string& line : appearance.lines) table.row({"", line});
-  table.row({"bytes", fmt::format("{} on disk, {} in memory, {} on the device", bytes_text(on_disk),
-                                  bytes_text(byte_size(soup)), bytes_text(forecast.bytes))});
+  if (!only) table.row({"layers", std::to_string(layers.size())});
+  table.row({"triangles", triangles_text(totals.triangles, totals.vertices, only && only->soft)});
+  if (only) add_appearance(table, *only);
+  table.row({"bytes",
+             fmt::format("{} on disk, {} in memory, {} on the device",
+                         bytes_text(bytes_on_disk(options.scene)),
+                         bytes_text(totals.bytes_in_memory), bytes_text(totals.bytes_on_device))});
   table.row({"bounds", vector_text(subject.low) + " to " + vector_text(subject.high)});
+  if (only && !is_translation(*only->layer)) table.row({"place", place_text(*only->layer)});
   table.row({"up", vector_text(scene.info.up)});
   table.row({"cameras", std::to_string(scene.cameras.size())});
   if (scene.quality != Quality{}) table.row({"quality", describe(scene.quality)});
-  say_list(fmt::format("{}: {}", options.scene.path,
+  say_list(fmt::format("{}: {}", listed(options.scene),
                        scene.info.source.empty() ? "a scene" : scene.info.source),
            table.lines());
   say_list("Notes:", all_notes(scene.info));
-  say_list("Plan:", describe(plan));
-  say_list("Devices:", device_lines);
-  std::vector<std::string> lint_lines;
-  for (const LintFinding& finding : findings.findings) lint_lines.push_back(describe(finding));
-  if (lint_lines.empty()) lint_lines.emplace_back("nothing found");
-  say_list("Lint:", lint_lines);
+  if (only) say_list("Plan:", describe(only->plan));
+  say_list("Devices:", devices.lines);
+  if (only) say_list("Lint:", lint_lines(only->lint));
+  if (!only)
+    for (const LayerFacts& facts : layers) say_layer(facts);
+}
 
-  if (options.json) {
-    Json json = {{"file", options.scene.path},
-                 {"name", scene.info.name},
-                 {"source", scene.info.source},
-                 {"triangles", soup.triangles.size()},
-                 {"vertices", soup.positions.size()},
-                 {"soft_triangles", soft},
-                 {"appearance", appearance_name(soup.appearance)}};
-    json.update(appearance.json);
-    json.update({{"bytes_on_disk", on_disk},
-                 {"bytes_in_memory", byte_size(soup)},
-                 {"bytes_on_device", forecast.bytes},
-                 {"bounds", {{"low", to_json(subject.low)}, {"high", to_json(subject.high)}}},
-                 {"origin", to_json(origin_of(layer))},
-                 {"up", to_json(glm::dvec3(scene.info.up))},
-                 {"background", to_json(glm::dvec3(scene.info.background))},
-                 {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
-                 {"notes", all_notes(scene.info)},
-                 {"remarks", remarks_json(scene.info.remarks)},
-                 {"preset", scene.quality != Quality{} ? Json(describe(scene.quality)) : Json()},
-                 {"quality",
-                  {{"resolution_scale", scene.quality.resolution_scale},
-                   {"supersampling", scene.quality.supersampling}}},
-                 {"plan", describe(plan)},
-                 {"specialisations", results::specialisations_json(plan.applied())},
-                 {"devices", devices},
-                 {"lint", to_json(findings)}});
-    print_json(json);
+/// With one layer, its properties are at the top level; with several, in "layers".
+Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subject,
+             const std::vector<LayerFacts>& layers, const DeviceFit& devices) {
+  const LayerFacts* only = layers.size() == 1 ? &layers.front() : nullptr;
+  const Totals totals(layers);
+  Json json = Json::object();
+  if (options.scene.paths.size() == 1)
+    json["file"] = options.scene.paths.front();
+  else
+    json["files"] = options.scene.paths;
+  json.update({{"name", scene.info.name}, {"source", scene.info.source}});
+  if (only) {
+    json.update(contents_json(*only));
+  } else {
+    json.update({{"triangles", totals.triangles}, {"vertices", totals.vertices}});
+    json["layers"] = Json::array();
+    for (const LayerFacts& facts : layers) json["layers"].push_back(to_json(facts));
   }
-  const bool clean = findings.findings.empty() && fits_everywhere;
+  json.update({{"bytes_on_disk", bytes_on_disk(options.scene)},
+               {"bytes_in_memory", totals.bytes_in_memory},
+               {"bytes_on_device", totals.bytes_on_device},
+               {"bounds", {{"low", to_json(subject.low)}, {"high", to_json(subject.high)}}}});
+  if (only) json["origin"] = to_json(origin_of(*only->layer));
+  if (only && !is_translation(*only->layer))
+    json["world_from_layer"] = matrix_json(only->layer->world_from_layer);
+  json.update({{"up", to_json(glm::dvec3(scene.info.up))},
+               {"background", to_json(glm::dvec3(scene.info.background))},
+               {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
+               {"notes", all_notes(scene.info)},
+               {"remarks", remarks_json(scene.info.remarks)},
+               {"preset", scene.quality != Quality{} ? Json(describe(scene.quality)) : Json()},
+               {"quality",
+                {{"resolution_scale", scene.quality.resolution_scale},
+                 {"supersampling", scene.quality.supersampling}}}});
+  if (only) json.update(plan_json(only->plan));
+  json["devices"] = devices.json;
+  if (only) json["lint"] = to_json(only->lint);
+  return json;
+}
+
+ExitCode inform(const InfoOptions& options) {
+  Scene scene = read(options.scene);
+  std::vector<bool> soft;
+  for (const Layer& layer : scene.layers)
+    soft.push_back(std::holds_alternative<SoftTriangles>(layer.primitives));
+  make_opaque(scene);
+  std::vector<LayerFacts> layers;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    layers.push_back(facts_of(scene.layers[i], soft[i], scene.layers.size() > 1));
+  const Subject subject = subject_of(scene);
+  const DeviceFit devices(layers);
+  say_scene(options, scene, subject, layers, devices);
+  if (options.json) print_json(to_json(options, scene, subject, layers, devices));
+  const bool clean =
+      devices.everywhere && std::all_of(layers.begin(), layers.end(), [](const LayerFacts& facts) {
+        return facts.lint.findings.empty();
+      });
   return options.strict && !clean ? ExitCode::check_failed : ExitCode::done;
 }
 
@@ -249,12 +403,14 @@ void add_info(Command& program) {
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
 faces, unused vertices, and coordinates so large that floats round them visibly. Scenes with
 findings can still be drawn. render --camera can read the cameras from the JSON of --json.
+Plan and lint are printed for each layer.
 
 Examples:
   tureen info soup.glb
+  tureen info house.glb fox.glb               the layers of a scene from two files
   tureen info soup.glb --json | jq .triangles
   tureen info soup.glb --strict               a check for scripts)");
-  add_scene_argument(command, options->scene);
+  add_scene_arguments(command, options->scene);
   add_memory_option(command);
   command.add_flag("--json", options->json, "print all properties as JSON to standard output");
   command.add_flag("--strict", options->strict,

@@ -30,7 +30,7 @@ namespace tureen::cli {
 namespace {
 
 struct RenderOptions {
-  SceneArgument scene;
+  SceneArguments scene;
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
@@ -95,12 +95,19 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
 }
 
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.
-void require_shown(const DebugViewOption& show, const TriangleSoup& soup) {
-  std::optional<std::string> refusal = why_not(show.what, soup);
-  if (!refusal && show.what == DebugView::features)
-    refusal = why_not(show.features, feature_count(soup));
-  if (refusal)
-    throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + *refusal);
+void require_shown(const DebugViewOption& show, const Scene& scene) {
+  if (show.what == DebugView::color) return;
+  try {
+    DebugViews(placed_soups(scene)).require(show.what, show.features);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + error.reason());
+  }
+}
+
+std::size_t triangle_count(const Scene& scene) {
+  std::size_t count = 0;
+  for (const PlacedSoup& layer : placed_soups(scene)) count += layer.soup.triangles.size();
+  return count;
 }
 
 /// Throws UsageError and OutputError.
@@ -109,7 +116,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     require_png_name(options.output);
     const int count = std::max(options.views.orbit, 1);
     for (int i = 0; i < count; ++i)
-      require_not_input(image_name(options.output, i, count), options.scene.path);
+      require_not_inputs(image_name(options.output, i, count), options.scene);
     const std::filesystem::path first = image_name(options.output, 0, count);
     // The number of views in a camera file or an animation, and so the names of the images, are not
     // known yet.
@@ -125,7 +132,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     throw UsageError("videos do not support transparency",
                      "remove --background transparent, or write images with -o frame_%04d.png");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
-  require_not_input(options.output, options.scene.path);
+  require_not_inputs(options.output, options.scene);
   require_writable_file(options.output);
 }
 
@@ -152,10 +159,9 @@ ExitCode render(RenderOptions options) {
 
   Scene scene = read(options.scene);
   make_opaque(scene);
-  const TriangleSoup& soup = only_soup(scene);
-  const Views views = resolve_views(options.views, scene, options.scene.path);
+  const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
-  require_shown(options.show, soup);
+  require_shown(options.show, scene);
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
@@ -166,12 +172,12 @@ ExitCode render(RenderOptions options) {
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
-  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);
   say(fmt::format("{} triangles, {} on the device; {} x {} on {} ({})",
-                  counted(soup.triangles.size()), bytes_text(drawn.device_bytes), first.width,
+                  counted(triangle_count(scene)), bytes_text(drawn.device_bytes), first.width,
                   first.height, device.renderer, context.description()));
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
                   times.ms.size(), times.p95()));
@@ -183,7 +189,7 @@ ExitCode render(RenderOptions options) {
          {"context", context.description()},
          {"renderer", device.renderer},
          {"software", device.software},
-         {"triangles", soup.triangles.size()},
+         {"triangles", triangle_count(scene)},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
          {"plan", drawn.plan},
          {"specialisations", results::specialisations_json(drawn.specialisations)},
@@ -202,6 +208,7 @@ scene from the front, slightly from the right and from above.
 
 Examples:
   tureen render soup.glb -o image.png
+  tureen render house.glb fox.glb -o both.png             several scenes in one image
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
@@ -217,7 +224,7 @@ Examples:
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 the scene does not fit on the device, or an image cannot be written.)");
-  add_scene_argument(command, options->scene);
+  add_scene_arguments(command, options->scene);
   add_memory_option(command);
   command
       .add_option(

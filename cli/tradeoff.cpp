@@ -47,7 +47,7 @@ ExitCode tradeoff(const TradeoffArguments& options) {
   if (!options.written_scene.empty())
     require_writable_scene(options.written_scene, options.scene.path, options.force);
 
-  Scene scene = read(options.scene);
+  Scene scene = read_one_layer(options.scene);
   make_opaque(scene);
   TradeoffReport report = measure_tradeoff(options, scene);
   // If the scene cannot be written, the report is still written: measuring takes minutes.

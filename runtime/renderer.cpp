@@ -208,7 +208,7 @@ void Renderer::add_layers(PreparedScene prepared) {
   State& state = *state_;
   assert(state.draws_soups && !prepared.make_passes);
   assert(prepared.plan.reversed_depth == state.plan.reversed_depth);
-  assert(state.places.size() + prepared.layers.size() <= max_plan_layers);
+  assert(state.places.size() + prepared.layers.size() <= max_layers);
   const std::size_t before = state.places.size();
   gl::use_plain_pixel_transfer();
   try {
@@ -226,7 +226,7 @@ void Renderer::add_layers(Renderer other) {
   State &state = *state_, &from = *other.state_;
   assert(state.draws_soups && from.draws_soups);
   assert(from.plan.reversed_depth == state.plan.reversed_depth);
-  assert(state.places.size() + from.places.size() <= max_plan_layers);
+  assert(state.places.size() + from.places.size() <= max_layers);
   from.soup_passes.clear();  // they refer to the soups
   for (std::size_t i = 0; i < from.soups.size(); ++i) {
     state.soups.push_back(std::move(from.soups[i]));

@@ -1,30 +1,52 @@
 #include "cli/options/scene_argument.hpp"
 
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
+#include "cli/options/output_argument.hpp"
 #include "cli/options/values.hpp"
 #include "cli/progress.hpp"
+#include "scene/edit/baked_transform.hpp"
 
 namespace tureen::cli {
 
-void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
-  command
-      .add_option(name, argument.path,
-                  "scene: a file or a folder; its content determines the format")
-      .required();
-  add_choice<VertexColorSpace>(command, "--vertex-colors", argument.vertex_colors,
+namespace {
+
+constexpr char scene_help[] = "scene: a file or a folder; its content determines the format";
+
+/// The name of the file without its extension, or of the folder.
+std::string stem_of(const std::string& path) {
+  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+  return (normal.has_filename() ? normal : normal.parent_path()).stem().string();
+}
+
+}  // namespace
+
+void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std::string& up) {
+  add_choice<VertexColorSpace>(command, "--vertex-colors", vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
                                "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
                                "on its generator), srgb or linear")
       .value_name("SPACE");
-  command
-      .add_option("--up", argument.up,
-                  "up direction in world coordinates; the scene's own by default")
+  command.add_option("--up", up, "up direction in world coordinates; the scene's own by default")
       .value_name("X,Y,Z");
+}
+
+void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
+  command.add_option(name, argument.path, scene_help).required();
+  add_reading_options(command, argument.vertex_colors, argument.up);
+}
+
+void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name) {
+  command
+      .add_option(name, arguments.paths,
+                  std::string(scene_help) + ". Several scenes become the layers of one")
+      .required();
+  add_reading_options(command, arguments.vertex_colors, arguments.up);
 }
 
 Scene read(const SceneArgument& argument) {
@@ -47,6 +69,32 @@ Scene read(const SceneArgument& argument) {
   return scene;
 }
 
+Scene read_one_layer(const SceneArgument& argument) {
+  Scene scene = read(argument);
+  bake_transform(only_layer(scene));
+  return scene;
+}
+
+Scene read(const SceneArguments& arguments) {
+  std::vector<Scene> scenes;
+  for (const std::string& path : arguments.paths) {
+    Scene& scene = scenes.emplace_back(read(
+        SceneArgument{.path = path, .vertex_colors = arguments.vertex_colors, .up = arguments.up}));
+    if (arguments.paths.size() > 1 && scene.info.name.empty()) scene.info.name = stem_of(path);
+  }
+  return merged(std::move(scenes));
+}
+
+void require_not_inputs(const std::filesystem::path& output, const SceneArguments& arguments) {
+  for (const std::string& path : arguments.paths) require_not_input(output, path);
+}
+
+std::string listed(const SceneArguments& arguments) {
+  std::string text;
+  for (const std::string& path : arguments.paths) text += (text.empty() ? "" : ", ") + path;
+  return text;
+}
+
 std::uint64_t bytes_on_disk(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) {
@@ -61,6 +109,12 @@ std::uint64_t bytes_on_disk(const std::filesystem::path& path) {
     const std::uintmax_t size = it->file_size(ignored);
     if (!ignored) total += size;
   }
+  return total;
+}
+
+std::uint64_t bytes_on_disk(const SceneArguments& arguments) {
+  std::uint64_t total = 0;
+  for (const std::string& path : arguments.paths) total += bytes_on_disk(path);
   return total;
 }
 

@@ -1,8 +1,9 @@
-// A scene named on the command line, read with progress.
+// One or several scenes named on the command line, read with progress.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/options/arguments.hpp"
 #include "formats/scene_file.hpp"
@@ -19,10 +20,40 @@ struct SceneArgument {
 /// arguments are parsed.
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
 
+/// Several scenes, which become the layers of one. The options apply to each of them.
+struct SceneArguments {
+  std::vector<std::string> paths;  // at least one
+  VertexColorSpace vertex_colors = VertexColorSpace::automatic;
+  std::string up;  // empty: the first scene's own
+};
+
+/// Adds the required list of arguments `name`, and --vertex-colors and --up.
+void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name = "SCENE");
+
+/// Adds only --vertex-colors and --up, for a command with its own positional arguments.
+void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std::string& up);
+
 /// Throws InputError, with a suggestion if the path does not exist.
 Scene read(const SceneArgument& argument);
 
+/// The same for a command that knows one layer at an origin: applies the layer's rotation, scale or
+/// mirror to the vertices (scene/edit/baked_transform.hpp). Throws UsageError for several layers,
+/// and for a transform that would change colours.
+Scene read_one_layer(const SceneArgument& argument);
+
+/// The same as read() for all scenes, merged (scene/scene.hpp). Of several scenes, one without a
+/// name is named after its file. Throws UsageError for more than max_layers layers.
+Scene read(const SceneArguments& arguments);
+
+/// require_not_input() for each scene (cli/options/output_argument.hpp).
+void require_not_inputs(const std::filesystem::path& output, const SceneArguments& arguments);
+
+/// "a.glb", "a.glb, b.glb".
+std::string listed(const SceneArguments& arguments);
+
 /// Size in bytes of a file, or of all files in a folder; files that cannot be read count as 0.
 std::uint64_t bytes_on_disk(const std::filesystem::path& path);
+/// The sum over all scenes.
+std::uint64_t bytes_on_disk(const SceneArguments& arguments);
 
 }  // namespace tureen::cli

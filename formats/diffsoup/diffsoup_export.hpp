@@ -38,10 +38,11 @@ Scene read_diffsoup_export(const std::filesystem::path& folder, const ReadOption
 /// Writes the complete folder or nothing. An existing folder is replaced only if it is empty or an
 /// export without other entries. Bytes are written unchanged; floats are rounded, with alpha on its
 /// side of 1/2 (image/quantise.hpp). Face and vertex colours become level 0. Faces of lower levels
-/// are refined to the highest level. Without a color MLP an inert one is written (f3 = 0). Returns
-/// one sentence for each loss or addition. Throws UsageError for other appearances, networks other
-/// than 16-16-16-3 with seven features, scenes without triangles, or more texels than an image can
-/// have; throws OutputError.
+/// are refined to the highest level. Without a color MLP an inert one is written (f3 = 0). A
+/// rotation, scale or mirror of the layer is applied to the vertices. Returns one sentence for each
+/// loss or addition. Throws UsageError for several layers, for a layer with such a transform whose
+/// colours depend on the view, for other appearances, networks other than 16-16-16-3 with seven
+/// features, scenes without triangles, or more texels than an image can have; throws OutputError.
 std::vector<std::string> write_diffsoup_export(const Scene& scene,
                                                const std::filesystem::path& folder);
 

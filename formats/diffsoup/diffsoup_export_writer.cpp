@@ -12,6 +12,7 @@
 #include "formats/diffsoup/diffsoup_mesh.hpp"
 #include "image/png.hpp"
 #include "image/quantise.hpp"
+#include "scene/edit/baked_transform.hpp"
 #include "scene/edit/lattice_refine.hpp"
 #include "scene/lattice.hpp"
 
@@ -263,6 +264,11 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
   if (!soup)
     throw UsageError("a DiffSoup export cannot hold soft triangles: make them opaque first");
   assert(!defect(*soup));
+  if (!is_translation(layer) && depends_on_view(layer))
+    throw UsageError(
+        "a DiffSoup export cannot hold a layer that is rotated, scaled or mirrored and whose "
+        "colours depend on the view",
+        "write a .glb");
   std::vector<std::string> notes;
   const Luts luts = std::visit(FillLuts{*soup, notes}, soup->appearance);
   const ColorMlp mlp = exported_mlp(*soup, notes);
@@ -277,6 +283,11 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
                     "browsers often stop at " +
                     std::to_string(viewer_rows));
   std::vector<glm::vec3> positions = soup->positions;
+  if (!is_translation(layer)) {
+    positions = baked_positions(positions, layer);
+    notes.emplace_back(
+        "the layer's rotation, scale or mirror was applied to its vertices, which rounds them");
+  }
   if (const glm::dvec3 origin = origin_of(layer); origin != glm::dvec3(0.0)) {
     for (glm::vec3& p : positions) p = glm::vec3(origin + glm::dvec3(p));
     notes.emplace_back("the scene's origin was added to its vertices, which rounds them");

@@ -1,5 +1,7 @@
 #include "formats/gltf/glb_arrays.hpp"
 
+#include <algorithm>
+
 namespace tureen {
 
 namespace {
@@ -28,6 +30,11 @@ GlbArrays::Location GlbArrays::in_binary_chunk(const JsonView& view) const {
   if (offset > glb_.binary_size || size > glb_.binary_size - offset)
     view.fail("bytes " + std::to_string(offset) + " + " + std::to_string(size) +
               " lie outside of the binary chunk of " + std::to_string(glb_.binary_size));
+  if (offset < first_byte_)
+    view.fail("byte " + std::to_string(offset) +
+              " lies before the end of the previous layer's arrays, " +
+              std::to_string(first_byte_));
+  end_ = std::max(end_, offset + size);
   return {glb_.binary_offset + offset, size};
 }
 

@@ -72,6 +72,10 @@ class GlbArrays {
     return values;
   }
 
+  /// From now on, every array must begin at or after the end of all arrays located so far.
+  /// Otherwise a small file could fill the memory with many layers from the same bytes.
+  void begin_layer() { first_byte_ = end_; }
+
   void tell_progress() const;
 
   /// Counts memory before its allocation (base/input.hpp).
@@ -90,6 +94,9 @@ class GlbArrays {
   const GlbContainer& glb_;
   std::function<void(double)> progress_;
   JsonView root_;
+  // Offsets in the binary chunk.
+  std::uint64_t first_byte_ = 0;
+  mutable std::uint64_t end_ = 0;  // mutable: a note of what was located, not part of the result
 };
 
 /// The formats in the extension.

@@ -1,9 +1,11 @@
 #include "formats/mesh/plain_mesh.hpp"
 
 #include <algorithm>
+#include <glm/mat3x3.hpp>
 #include <utility>
 
 #include "image/quantise.hpp"
+#include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
 
 namespace tureen {
@@ -125,6 +127,7 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
     soup_ = &std::get<TriangleSoup>(layer.primitives);
   }
   if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
+  if (!is_translation(layer)) use_baked_positions(layer, format);
   if (scene.info.up != assumed_up)
     lost.push_back(format + " stores no up axis; readers assume (0, 0, 1).");
   if (scene.info.background != glm::vec3(0.0f))
@@ -146,6 +149,19 @@ void PlainMesh::use_mean_colors(const std::string& format) {
     own_ = TriangleSoup{soup_->positions, soup_->triangles, std::move(colors)};
     soup_ = &*own_;
   }
+}
+
+void PlainMesh::use_baked_positions(const Layer& layer, const std::string& format) {
+  // The colours are means over directions by now, so the transform does not change them.
+  if (!own_) own_ = *soup_;
+  soup_ = &*own_;
+  own_->positions = baked_positions(own_->positions, layer);
+  // Other programs take the side of a triangle from the order of its corners; a mirror swaps it.
+  if (glm::determinant(glm::dmat3(layer.world_from_layer)) < 0)
+    for (glm::uvec3& triangle : own_->triangles) std::swap(triangle.y, triangle.z);
+  lost.push_back(format +
+                 " holds no transform: the layer's rotation, scale or mirror is applied to the "
+                 "positions, which rounds them.");
 }
 
 const std::vector<glm::vec4>* PlainMesh::face_rgba() const {

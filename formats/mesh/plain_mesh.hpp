@@ -88,10 +88,12 @@ class ProgressMeter {
 
 /// A scene as coloured triangles: its own soup if that has FaceColors or VertexColors. Otherwise a
 /// copy of its triangles with the mean colour of each face (scene/edit/mean_color.hpp), and a
-/// sentence in `lost`.
+/// sentence in `lost`. A rotation, scale or mirror of the layer is applied to the positions, also
+/// with a sentence.
 class PlainMesh {
  public:
   /// `format` is the format's name in the sentences. Keeps a reference to the scene if possible.
+  /// Throws UsageError for any number of layers other than one.
   PlainMesh(const Scene& scene, const std::string& format);
   PlainMesh(Scene&&, const std::string&) = delete;
   PlainMesh(const PlainMesh&) = delete;
@@ -106,6 +108,7 @@ class PlainMesh {
 
  private:
   void use_mean_colors(const std::string& format);
+  void use_baked_positions(const Layer& layer, const std::string& format);
 
   std::optional<TriangleSoup> own_;
   const TriangleSoup* soup_ = nullptr;  // the scene's, or own_

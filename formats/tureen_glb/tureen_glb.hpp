@@ -23,10 +23,13 @@ inline constexpr int tureen_extension_version = 1;
 /// Version of compressed files (formats/tureen_glb/tureen_glb_compressed.hpp). Version 2 used
 /// another coding and was never released.
 inline constexpr int tureen_compressed_version = 3;
+/// Version of files with several layers, or with a layer that is more than a visible, unnamed soup
+/// at an origin.
+inline constexpr int tureen_layers_version = 4;
 
 /// Reads the binary chunk in file order, directly into the scene's vectors. Additional memory: one
 /// strip of texels. Every count is checked against the available bytes before any allocation. The
-/// scene equals the written one bit by bit and has no defect(). Throws InputError.
+/// scene equals the written one bit by bit; no layer and no soup has a defect(). Throws InputError.
 Scene read_tureen_glb(Input& input, const ReadOptions& options = {});
 
 /// The same for a container that has already been read.
@@ -36,9 +39,10 @@ bool is_tureen_glb(const GlbContainer& glb);
 
 /// Writes every kind of scene, including soft triangles, and its quality. Returns one sentence for
 /// each loss; the only possible loss is a text that is not UTF-8. Throws UsageError for a scene
-/// that has a defect(), no up axis, or a quality with a defect(). It also throws UsageError for a
-/// camera without pixels or with a side above 65,536, for non-finite numbers in a camera or
-/// material, and above 4 GiB. Throws OutputError if the file cannot be written.
+/// that has no layer, more than max_layers, a layer or soup with a defect(), no up axis, or a
+/// quality with a defect(). It also throws UsageError for a camera without pixels or with a side
+/// above 65,536, for non-finite numbers in a camera or material, and above 4 GiB. Throws
+/// OutputError if the file cannot be written.
 ///
 /// Memory in addition to the scene: the vertex colours for other glTF viewers (8 bytes a vertex of
 /// the glTF mesh) and the encoded images. The scene's arrays are written without a copy.

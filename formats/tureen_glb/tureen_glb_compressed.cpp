@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_writing.hpp"
+#include "scene/edit/baked_transform.hpp"
 
 namespace tureen {
 
@@ -32,10 +33,16 @@ std::vector<std::string> write_compressed_glb(const Scene& scene, const Compress
   if (!texture) throw UsageError("a compressed file holds lattice textures only");
   if (const auto reason = defect(*soup))
     throw UsageError("the scene cannot be written: " + *reason);
+  const Layer& layer = only_layer(scene);
+  if (!is_translation(layer))
+    throw UsageError("a compressed file holds no layer that is rotated, scaled or mirrored");
   std::vector<std::string> losses;
   BinaryPlan plan;
   json extension = info_json(scene, losses);
   extension["version"] = tureen_compressed_version;
+  add_origin(extension, layer);
+  if (!layer.name.empty()) losses.push_back("a compressed file holds no name of a layer");
+  if (!layer.visible) losses.push_back("the hidden layer is visible in a compressed file");
   extension["vertex_count"] = used_vertices(soup->triangles);
   extension["face_count"] = soup->triangles.size();
   const auto put = [&](json& holder, const std::string& key, std::span<const std::byte> bytes) {

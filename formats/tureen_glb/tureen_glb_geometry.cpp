@@ -36,12 +36,18 @@ JsonView tureen_extension_of(const GlbArrays& arrays) {
   JsonView extension = arrays.root()["extensions"][tureen_extension];
   const std::uint64_t version = extension["version"].natural();
   if (version != std::uint64_t(tureen_extension_version) &&
-      version != std::uint64_t(tureen_compressed_version))
+      version != std::uint64_t(tureen_compressed_version) &&
+      version != std::uint64_t(tureen_layers_version))
     extension["version"].fail("this file has version " + std::to_string(version) + " of " +
                               tureen_extension + "; only versions " +
-                              std::to_string(tureen_extension_version) + " and " +
-                              std::to_string(tureen_compressed_version) + " are supported");
+                              std::to_string(tureen_extension_version) + ", " +
+                              std::to_string(tureen_compressed_version) + " and " +
+                              std::to_string(tureen_layers_version) + " are supported");
   return extension;
+}
+
+bool has_layers(const JsonView& extension) {
+  return extension["version"].natural() == std::uint64_t(tureen_layers_version);
 }
 
 void read_info(const JsonView& extension, Scene& scene) {
@@ -53,10 +59,12 @@ void read_info(const JsonView& extension, Scene& scene) {
   info.up = json_vector<3, float>(extension["up"]);
   if (info.up == glm::vec3(0.0f)) extension["up"].fail("has no direction");
   info.background = json_vector<3, float>(extension["background"]);
-  scene.layers.push_back(
-      {.world_from_layer = at_origin(json_vector<3, double>(extension["origin"]))});
   const JsonView cameras = extension["cameras"];
   for (std::size_t i = 0; i < cameras.size(); ++i) scene.cameras.push_back(camera(cameras.at(i)));
+}
+
+Layer read_layer_at_origin(const JsonView& extension) {
+  return {.world_from_layer = at_origin(json_vector<3, double>(extension["origin"]))};
 }
 
 GeometryLayout geometry_layout(const GlbArrays& arrays, const JsonView& extension) {

@@ -11,11 +11,17 @@ namespace tureen {
 /// version.
 JsonView tureen_extension_of(const GlbArrays& arrays);
 
-/// Name, source, notes, up, background and cameras. Appends the file's layer, at its origin and
-/// without primitives.
+/// Whether the file has the layers of version 4. Otherwise the extension itself is the only layer.
+bool has_layers(const JsonView& extension);
+
+/// Name, source, notes, up, background and cameras.
 void read_info(const JsonView& extension, Scene& scene);
 
-/// Locations of the soup's vertices and triangles in an uncompressed file.
+/// The layer of a file without has_layers(), at its origin and without primitives.
+Layer read_layer_at_origin(const JsonView& extension);
+
+/// Locations of a soup's vertices and triangles in an uncompressed file. `extension` is that of the
+/// root or of a layer.
 struct GeometryLayout {
   std::uint64_t vertices = 0, faces = 0;
   GlbArrays::Location positions;

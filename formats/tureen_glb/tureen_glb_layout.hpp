@@ -12,6 +12,9 @@ inline constexpr int unsigned_short = 5123;
 inline constexpr int unsigned_int = 5125;
 inline constexpr int float32 = 5126;
 
+/// The glTF extension by which a node, and so a layer, is hidden. Ratified by Khronos.
+inline constexpr const char visibility_extension[] = "KHR_node_visibility";
+
 // A strip of lattice texels is two images of the same size, filled row by row. Its maximum size is
 // 8 MiB decoded; a streaming reader holds at most one strip.
 inline constexpr std::uint32_t strip_width = 1024;

@@ -39,7 +39,7 @@ struct PreviewLayout {
 /// Returns nullopt if the file has no mesh with colours.
 std::optional<PreviewLayout> preview_layout(const GlbArrays& arrays, const JsonView& extension) {
   const auto meshes = arrays.root().find("meshes");
-  if (!meshes || extension.find("slim_geometry")) return std::nullopt;
+  if (!meshes || has_layers(extension) || extension.find("slim_geometry")) return std::nullopt;
   const JsonView attributes = meshes->at(0)["primitives"].at(0)["attributes"];
   if (!attributes.find("COLOR_0")) return std::nullopt;
   PreviewLayout layout;
@@ -77,6 +77,7 @@ Scene read_preview(GlbArrays& arrays, const JsonView& extension, const PreviewLa
   else
     soup.appearance = FaceColors{display_colors(colors, soup.triangles.size(), 3)};
   if (const auto reason = defect(soup)) extension.fail(*reason);
+  scene.layers.push_back(read_layer_at_origin(extension));
   only_layer(scene).primitives = std::move(soup);
   return scene;
 }

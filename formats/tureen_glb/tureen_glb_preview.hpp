@@ -2,7 +2,8 @@
 // colours. Our writer stores them before network and texels (docs/format.md). A page thus shows a
 // first image while the rest loads.
 //
-// Not supported: other formats, and compressed files, which have no mesh. No state is kept between
+// Not supported: other formats, files with several layers, whose colours are not at the start, and
+// compressed files, which have no mesh. No state is kept between
 // calls: call for the size until it is known, and for the scene once as many bytes are available.
 #pragma once
 
@@ -18,9 +19,9 @@ namespace tureen {
 
 /// Number of leading bytes that a preview needs, from the available first bytes `prefix`. Returns
 /// nullopt until they contain the JSON chunk and the next chunk's header, a few kilobytes in most
-/// files. Returns 0 if there is no preview: another format, a compressed file, a soup without
-/// faces. Errors print `name` as the file. Throws InputError if the available bytes are invalid.
-/// Safe for untrusted bytes.
+/// files. Returns 0 if there is no preview: another format, a compressed file, several layers, a
+/// soup without faces. Errors print `name` as the file. Throws InputError if the available bytes
+/// are invalid. Safe for untrusted bytes.
 std::optional<std::uint64_t> tureen_glb_preview_size(std::span<const std::byte> prefix,
                                                      const std::string& name);
 

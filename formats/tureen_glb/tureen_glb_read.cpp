@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <variant>
 
 #include "base/crc32.hpp"
 #include "base/json/json_vector.hpp"
@@ -32,23 +33,79 @@ class Reader {
   Scene scene() {
     Scene scene;
     read_info(extension_, scene);
-    scene.info.compressed = extension_.find("slim_geometry").has_value();
-    const JsonView appearance = extension_["appearance"];
-    TriangleSoup soup;
-    read_geometry(soup);
-    const Edits edits = read_preset(scene, soup);
-    if (appearance["type"].text() == "soft_triangles") {
-      only_layer(scene).primitives = soft_triangles(appearance, std::move(soup));
-      if (edits != Edits{}) scene.info.remarks.push_back({Remark::Kind::preset_dropped});
-    } else {
-      soup.appearance = read_appearance(appearance, soup);
-      if (const auto reason = defect(soup)) extension_.fail(*reason);
-      only_layer(scene).primitives = with_edits(std::move(soup), edits, scene.info.remarks);
-    }
+    if (has_layers(extension_))
+      read_layers(scene);
+    else
+      read_only_layer(scene);
     return scene;
   }
 
  private:
+  /// Versions 1 and 3: the root's extension is the layer.
+  void read_only_layer(Scene& scene) {
+    Layer& layer = scene.layers.emplace_back(read_layer_at_origin(extension_));
+    scene.info.compressed = extension_.find("slim_geometry").has_value();
+    TriangleSoup soup;
+    read_geometry(soup);
+    const Edits edits = read_preset(scene, soup);
+    layer.primitives = primitives(extension_, std::move(soup));
+    if (edits == Edits{}) return;
+    if (auto* edited_soup = std::get_if<TriangleSoup>(&layer.primitives))
+      *edited_soup = with_edits(std::move(*edited_soup), edits, scene.info.remarks);
+    else
+      scene.info.remarks.push_back({Remark::Kind::preset_dropped});
+  }
+
+  /// Version 4: each layer is a node with an extension.
+  void read_layers(Scene& scene) {
+    if (const auto preset = extension_.find("preset"))
+      scene.quality = tureen::read_preset(*preset).quality;
+    const JsonView layers = extension_["layers"];
+    if (layers.size() == 0) layers.fail("the file has no layer");
+    if (layers.size() > max_layers)
+      layers.fail("the file has " + std::to_string(layers.size()) + " layers; at most " +
+                  std::to_string(max_layers) + " are supported");
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      arrays_.begin_layer();
+      scene.layers.push_back(layer(arrays_.root()["nodes"].at(GlbArrays::index(layers.at(i)))));
+    }
+  }
+
+  Layer layer(const JsonView& node) {
+    Layer result;
+    if (const auto name = node.find("name")) result.name = name->text();
+    const JsonView matrix = node["matrix"];
+    if (matrix.size() != 16) matrix.fail("expected 16 numbers");
+    for (int i = 0; i < 16; ++i)
+      result.world_from_layer[i / 4][i % 4] = matrix.at(std::size_t(i)).number();
+    if (const auto reason = defect(result)) matrix.fail(*reason);
+    result.visible = is_visible(node);
+    const JsonView extension = node["extensions"][tureen_extension];
+    TriangleSoup soup;
+    tureen::read_geometry(arrays_, geometry_layout(arrays_, extension), soup);
+    result.primitives = primitives(extension, std::move(soup));
+    return result;
+  }
+
+  static bool is_visible(const JsonView& node) {
+    const auto extension = node["extensions"].find(layout::visibility_extension);
+    const auto visible = extension ? extension->find("visible") : std::nullopt;
+    if (!visible) return true;
+    if (!visible->value().is_boolean()) visible->fail("expected true or false");
+    return visible->value().get<bool>();
+  }
+
+  /// The appearance in `extension`, of the root or of a layer, for the given geometry.
+  std::variant<TriangleSoup, SoftTriangles> primitives(const JsonView& extension,
+                                                       TriangleSoup soup) {
+    const JsonView appearance = extension["appearance"];
+    if (appearance["type"].text() == "soft_triangles")
+      return soft_triangles(extension, std::move(soup));
+    soup.appearance = read_appearance(appearance, soup);
+    if (const auto reason = defect(soup)) extension.fail(*reason);
+    return soup;
+  }
+
   std::vector<glm::vec4> colors(const JsonView& holder, std::uint64_t count) {
     const auto reference = holder.find("rgba");
     if (!reference ||
@@ -175,9 +232,10 @@ class Reader {
     return sh;
   }
 
-  SoftTriangles soft_triangles(const JsonView& view, TriangleSoup soup) {
+  SoftTriangles soft_triangles(const JsonView& extension, TriangleSoup soup) {
+    const JsonView view = extension["appearance"];
     const std::size_t faces = soup.triangles.size();
-    if (extension_.find("triangles")) extension_.fail("soft triangles share no vertices");
+    if (extension.find("triangles")) extension.fail("soft triangles share no vertices");
     SoftTriangles soft;
     soft.positions = std::move(soup.positions);
     soft.degree = degree(view);

@@ -15,6 +15,7 @@
 #include "formats/tureen_glb/tureen_glb_writing.hpp"
 #include "image/png.hpp"
 #include "image/srgb.hpp"
+#include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -322,13 +323,11 @@ json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
 json info_json(const Scene& scene, std::vector<std::string>& losses) {
   const SceneInfo& info = scene.info;
   if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of length 0");
-  json extension = {{"version", tureen_extension_version},
-                    {"name", utf8(info.name, losses)},
+  json extension = {{"name", utf8(info.name, losses)},
                     {"source", utf8(info.source, losses)},
                     {"notes", json::array()},
                     {"up", array_of(info.up, "the up axis")},
                     {"background", array_of(info.background, "the background")},
-                    {"origin", array_of(origin_of(only_layer(scene)), "the origin")},
                     {"cameras", json::array()}};
   for (const std::string& note : all_notes(info)) extension["notes"].push_back(utf8(note, losses));
   for (const Camera& camera : scene.cameras) {
@@ -357,6 +356,10 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
     extension["preset"] = quality_json(scene.quality);
   }
   return extension;
+}
+
+void add_origin(json& extension, const Layer& layer) {
+  extension["origin"] = array_of(origin_of(layer), "the origin");
 }
 
 void write_glb(json document, const BinaryPlan& plan, const std::filesystem::path& path) {
@@ -392,53 +395,125 @@ void write_glb(json document, const BinaryPlan& plan, const std::filesystem::pat
 
 }  // namespace glb_writing
 
-std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path) {
-  std::vector<std::string> losses;
-  BinaryPlan plan;
-  json extension = info_json(scene, losses);
+namespace {
 
-  const Layer& layer = only_layer(scene);
-  const auto* soft = std::get_if<SoftTriangles>(&layer.primitives);
-  TriangleSoup shapes;
-  if (soft) {
-    if (soft->opacity.size() != soft->sigma.size())
+/// Whether versions 1 and 3 can store everything about the layer except its primitives.
+bool is_plain(const Layer& layer) {
+  return layer.name.empty() && layer.visible && is_translation(layer);
+}
+
+/// The document of one file: its arrays, its meshes for other glTF viewers, and its nodes.
+class Document {
+ public:
+  /// Adds the layer's geometry and appearance to `extension`, and its mesh. Returns the mesh's
+  /// index, or null for a layer without faces: glTF does not allow an empty mesh.
+  json add_primitives(json& extension, const Layer& layer) {
+    const auto* soft = std::get_if<SoftTriangles>(&layer.primitives);
+    const TriangleSoup& soup = soft ? shapes_.emplace_back(checked_shapes(*soft))
+                                    : std::get<TriangleSoup>(layer.primitives);
+    if (const auto reason = defect(soup))
+      throw UsageError("the scene cannot be written: " + *reason);
+    extension["vertex_count"] = soup.positions.size();
+    extension["face_count"] = soup.triangles.size();
+    json primitive = add_mesh(plan_, extension, soup);
+    extension["appearance"] =
+        soft ? soft_json(plan_, *soft) : std::visit(AddAppearance{plan_}, soup.appearance);
+    if (primitive.is_null()) return nullptr;
+    meshes_.push_back({{"primitives", json::array({std::move(primitive)})}});
+    return meshes_.size() - 1;
+  }
+
+  /// Adds the layer as a node, and its index to `indices`.
+  void add_node(json& indices, const Layer& layer, std::vector<std::string>& losses) {
+    if (const auto reason = defect(layer))
+      throw UsageError("the scene cannot be written: " + *reason);
+    json node = {{"name", utf8(layer.name, losses)}, {"matrix", json::array()}};
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row)
+        node["matrix"].push_back(layer.world_from_layer[column][row]);
+    json extension = json::object();
+    if (json mesh = add_primitives(extension, layer); !mesh.is_null()) node["mesh"] = mesh;
+    node["extensions"][tureen_extension] = std::move(extension);
+    if (!layer.visible) {
+      node["extensions"][layout::visibility_extension] = {{"visible", false}};
+      any_hidden_ = true;
+    }
+    indices.push_back(nodes.size());
+    nodes.push_back(std::move(node));
+  }
+
+  /// Writes the file. `extension` is that of the root.
+  void write(json extension, const std::filesystem::path& path) {
+    json document = {{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
+                     {"scene", 0},
+                     {"scenes", json::array({json::object()})},
+                     {"extensionsUsed", json::array()},
+                     {"extensions", {{tureen_extension, std::move(extension)}}}};
+    if (!nodes.empty()) {
+      document["scenes"][0]["nodes"] = json::array({0});
+      document["nodes"] = std::move(nodes);
+    }
+    if (!meshes_.empty()) {
+      document["meshes"] = std::move(meshes_);
+      document["materials"] = json::array({unlit_material()});
+      document["extensionsUsed"].push_back("KHR_materials_unlit");
+    }
+    if (any_hidden_) document["extensionsUsed"].push_back(layout::visibility_extension);
+    document["extensionsUsed"].push_back(tureen_extension);
+    write_glb(std::move(document), plan_, path);
+  }
+
+  json nodes = json::array();  // the first is the root of the scene
+
+ private:
+  static TriangleSoup checked_shapes(const SoftTriangles& soft) {
+    if (soft.opacity.size() != soft.sigma.size())
       throw UsageError("the scene cannot be written: it has " +
-                       std::to_string(soft->opacity.size()) + " opacities for " +
-                       std::to_string(soft->sigma.size()) + " soft triangles");
-    shapes = hard_shapes(*soft);
+                       std::to_string(soft.opacity.size()) + " opacities for " +
+                       std::to_string(soft.sigma.size()) + " soft triangles");
+    TriangleSoup shapes = hard_shapes(soft);
     if (shapes.positions.size() != 3 * shapes.triangles.size())
       throw UsageError("the scene cannot be written: soft triangles share vertices");
+    return shapes;
   }
-  const TriangleSoup& soup = soft ? shapes : std::get<TriangleSoup>(layer.primitives);
-  if (const auto reason = defect(soup)) throw UsageError("the scene cannot be written: " + *reason);
-  extension["vertex_count"] = soup.positions.size();
-  extension["face_count"] = soup.triangles.size();
-  json primitive = add_mesh(plan, extension, soup);
-  extension["appearance"] =
-      soft ? soft_json(plan, *soft) : std::visit(AddAppearance{plan}, soup.appearance);
 
-  json document = {{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
-                   {"extensionsUsed", {"KHR_materials_unlit", tureen_extension}},
-                   {"scene", 0},
-                   {"materials",
-                    {{{"doubleSided", true},
-                      {"alphaMode", "OPAQUE"},
-                      // For viewers without KHR_materials_unlit: neither metallic nor glossy.
-                      {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
-                      {"extensions", {{"KHR_materials_unlit", json::object()}}}}}},
-                   {"extensions", {{tureen_extension, std::move(extension)}}}};
-  if (primitive.is_null()) {
-    // glTF does not allow an empty mesh.
-    document["scenes"] = json::array({json::object()});
-    document.erase("materials");
-    document["extensionsUsed"] = json::array({tureen_extension});
-  } else {
-    json node = {{"mesh", 0}, {"rotation", upright(scene.info.up)}};
-    document["scenes"] = json::array({{{"nodes", json::array({0})}}});
-    document["nodes"] = json::array({std::move(node)});
-    document["meshes"] = json::array({{{"primitives", json::array({std::move(primitive)})}}});
+  static json unlit_material() {
+    return {{"doubleSided", true},
+            {"alphaMode", "OPAQUE"},
+            // For viewers without KHR_materials_unlit: neither metallic nor glossy.
+            {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
+            {"extensions", {{"KHR_materials_unlit", json::object()}}}};
   }
-  write_glb(std::move(document), plan, path);
+
+  BinaryPlan plan_;
+  std::deque<TriangleSoup> shapes_;  // the plan refers to them; a deque never moves its elements
+  json meshes_ = json::array();
+  bool any_hidden_ = false;
+};
+
+}  // namespace
+
+std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path) {
+  if (scene.layers.size() > max_layers)
+    throw UsageError("a GLB holds at most " + std::to_string(max_layers) +
+                     " layers; this scene has " + std::to_string(scene.layers.size()));
+  std::vector<std::string> losses;
+  json extension = info_json(scene, losses);
+  Document document;
+  if (scene.layers.size() <= 1 && is_plain(only_layer(scene))) {
+    extension["version"] = tureen_extension_version;
+    add_origin(extension, only_layer(scene));
+    const json mesh = document.add_primitives(extension, only_layer(scene));
+    if (!mesh.is_null())
+      document.nodes.push_back({{"mesh", mesh}, {"rotation", upright(scene.info.up)}});
+  } else {
+    extension["version"] = tureen_layers_version;
+    extension["layers"] = json::array();
+    document.nodes.push_back({{"rotation", upright(scene.info.up)}});
+    for (const Layer& layer : scene.layers) document.add_node(extension["layers"], layer, losses);
+    document.nodes[0]["children"] = extension["layers"];
+  }
+  document.write(std::move(extension), path);
   return losses;
 }
 

@@ -99,9 +99,12 @@ class BinaryPlan {
   std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
 };
 
-/// The JSON of everything except geometry and appearance. Appends one sentence to `losses` for each
-/// text that JSON cannot store. Throws UsageError as write_tureen_glb does.
+/// The JSON of everything except the version and the layers. Appends one sentence to `losses` for
+/// each text that JSON cannot store. Throws UsageError as write_tureen_glb does.
 json info_json(const Scene& scene, std::vector<std::string>& losses);
+
+/// The layer's place in versions 1 and 3. Throws UsageError if a number is not finite.
+void add_origin(json& extension, const Layer& layer);
 
 /// The JSON of a color MLP; its weights are added to the plan.
 json mlp_json(BinaryPlan& plan, const ColorMlp& mlp);

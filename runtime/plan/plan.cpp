@@ -104,9 +104,9 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
 
 RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
-  if (soups.size() > max_plan_layers)
+  if (soups.size() > max_layers)
     throw UsageError("the scene has " + std::to_string(soups.size()) + " layers; at most " +
-                     std::to_string(max_plan_layers) + " can be drawn together");
+                     std::to_string(max_layers) + " can be drawn together");
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   RenderPlan plan;
   plan.reversed_depth = limits.clip_control && preferences.reversed_depth;

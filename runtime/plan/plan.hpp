@@ -12,8 +12,7 @@
 #include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/plan/draw_order.hpp"
 #include "runtime/plan/specialisation.hpp"
-#include "scene/quality.hpp"
-#include "scene/triangle_soup.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -129,7 +128,7 @@ struct RenderPlan {
 
 /// The plan of a scene of soups, which must have no defect(). Several soups are all deferred, with
 /// shading in fragment shaders. Throws UsageError for a quality with a defect() and for more than
-/// max_plan_layers soups. Throws DeviceLimitError if the compute stage is requested without
+/// max_layers soups. Throws DeviceLimitError if the compute stage is requested without
 /// compute shaders.
 RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
@@ -140,9 +139,5 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
 /// Changes a plan made for a single soup into the plan of one layer among several. Such layers are
 /// drawn with other passes. The prepared data stays valid.
 void make_layered(SoupPlan& plan);
-
-/// Most layers of a frame: a stencil of 8 bits stores the layer of each sample, and 0 is the
-/// background.
-inline constexpr std::size_t max_plan_layers = 255;
 
 }  // namespace tureen

@@ -70,7 +70,7 @@ TEST_F(Program, WrongUsageIsTwoAndAHint) {
   expect({"zebra"}, "zebra");
   expect({"render", "scene.off", "--sise", "8x8"}, "--sise", "--size");
   expect({"render"}, "SCENE");
-  expect({"render", "scene.off", "other.off"}, "other.off");
+  expect({"compare", "a.png", "b.png", "other.png"}, "other.png");
   expect({"render", "scene.off", "--size", "80"}, 80, "1280x720");
   expect({"render", "scene.off", "--context", "elg"}, "elg", "--context");
   expect({"render", "scene.off", "--eye", "1,2"}, "1,2");

@@ -307,6 +307,18 @@ TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
   }
 }
 
+TEST(DiffSoupExport, TheTransformOfALayerIsAppliedIfColoursDoNotDependOnTheView) {
+  const TemporaryFolder folder;
+  Scene scene = random_scene(7, 2, 0);
+  scene.layers[0].world_from_layer[2][2] = -1;
+  EXPECT_THAT(error_of<UsageError>([&] { write_diffsoup_export(scene, folder / "a"); }),
+              ErrorAt("", "mirrored", "view"));
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  std::get<LatticeTexture>(only_soup(scene).appearance).mlp.reset();
+  EXPECT_THAT(write_diffsoup_export(scene, folder / "a"), Contains(Names("mirror")));
+  EXPECT_EQ(only_soup(read_diffsoup_export(folder / "a")).positions[0].z, -2.0f);
+}
+
 TEST(DiffSoupExport, WhatItCannotHoldIsRefusedAndLeavesNothing) {
   const TemporaryFolder folder;
   const auto usage_error = [&](const Scene& scene) {

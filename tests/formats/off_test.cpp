@@ -244,6 +244,40 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
               ElementsAre(glm::vec4(128 / 255.0f, 0, 0, 128 / 255.0f)));
 }
 
+TEST(Off, AppliesTheTransformOfALayerToItsPositions) {
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  soup.triangles.emplace_back(0, 1, 2);
+  soup.appearance = FaceColors{{glm::vec4(1)}};
+  Scene scene = scene_of(soup, {1, 0, 0});
+  scene.info.up = {0, 0, 1};
+  // Twice as large, mirrored in x, y and z exchanged: a rotation and two mirrors.
+  scene.layers[0].world_from_layer[0] = {-2, 0, 0, 0};
+  scene.layers[0].world_from_layer[1] = {0, 0, 2, 0};
+  scene.layers[0].world_from_layer[2] = {0, 2, 0, 0};
+  const TemporaryFolder folder;
+  EXPECT_THAT(write_off(scene, folder / "a.off"),
+              ElementsAre(Names("OFF", "transform"), Names("OFF", "origin")));
+  Scene again = read_off(folder / "a.off");
+  EXPECT_THAT(only_soup(again).positions,
+              ElementsAre(glm::vec3(0), glm::vec3(-2, 0, 0), glm::vec3(0, 0, 2)));
+  EXPECT_THAT(only_soup(again).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
+
+  // A mirror alone exchanges two corners, so that the same side faces outwards.
+  scene.layers[0].world_from_layer = glm::dmat4(-1.0);
+  scene.layers[0].world_from_layer[3] = {0, 0, 0, 1};
+  write_off(scene, folder / "b.off");
+  again = read_off(folder / "b.off");
+  EXPECT_EQ(only_soup(again).positions[1], glm::vec3(-1, 0, 0));
+  EXPECT_THAT(only_soup(again).triangles, ElementsAre(glm::uvec3(0, 2, 1)));
+  // The scene itself is unchanged.
+  EXPECT_EQ(only_soup(scene).positions, soup.positions);
+
+  scene.layers.resize(2);
+  EXPECT_THROW(write_off(scene, folder / "c.off"), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.off"));
+}
+
 TEST(Off, WritesMeanColoursOfOtherAppearances) {
   // Harmonics of degree 0 have the same colour in every direction: 1/2 + Y_00 c.
   TriangleSoup soup;

@@ -92,6 +92,9 @@ void add_glb(Collection& all) {
     all.add("gltf", name + ".glb", bytes);
     if (name == "face_bytes" || name == "vertex_floats") all.add("preview", name + ".glb", bytes);
   }
+  const Scene layers = test::layered_scene(
+      test::glb_kinds_named({"face_bytes_shared", "lattice_bytes_mlp", "soft_triangles"}), 4, 2);
+  all.add("gltf", "layers.glb", test::glb_bytes(layers, "layers"));
   const Scene scene = compressed_scene();
   const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   all.add_file("gltf", "compressed.glb",

@@ -270,7 +270,7 @@ TEST(LayersGolden, OneTurnedMirroredAndSmaller) {
 
 TEST(LayerCount, HasALimit) {
   const TriangleSoup soup = wall(glm::vec4(1));
-  const std::vector<const TriangleSoup*> most(max_plan_layers, &soup), more(256, &soup);
+  const std::vector<const TriangleSoup*> most(max_layers, &soup), more(256, &soup);
   EXPECT_EQ(make_plan(most, {}).layers.size(), 255u);
   EXPECT_THROW(make_plan(more, {}), UsageError);
 }

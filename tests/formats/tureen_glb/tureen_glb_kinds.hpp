@@ -9,6 +9,8 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -94,6 +96,41 @@ inline Scene random_scene(const GlbKind& kind, unsigned seed, std::size_t faces)
   Scene scene = random.scene();
   kind.fill(random, scene, faces);
   return scene;
+}
+
+/// A rotation, a scale and, if `mirrored`, a mirror.
+inline glm::dmat4 random_similarity(RandomScene& random, bool mirrored) {
+  const glm::dvec3 axis(random.real(-1, 1), random.real(-1, 1), random.real(0.1f, 1));
+  const double scale = double(random.real(0.1f, 5));
+  const glm::dvec3 scales(mirrored ? -scale : scale, scale, scale);
+  const glm::dvec3 origin(1e6 * double(random.real(-1, 1)), 1.0 / 3.0, 1e-300);
+  return at_origin(origin) *
+         glm::scale(glm::rotate(glm::dmat4(1.0), 3.0 * double(random.real()), axis), scales);
+}
+
+/// A layer of each kind, all at different places. Every second one is hidden, every third mirrored.
+inline Scene layered_scene(std::span<const GlbKind> kinds, unsigned seed, std::size_t faces) {
+  RandomScene random(seed);
+  Scene scene = random.scene();
+  scene.layers.clear();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    Scene one = random.scene();
+    kinds[i].fill(random, one, faces);
+    scene.layers.push_back({.name = kinds[i].name,
+                            .world_from_layer = random_similarity(random, i % 3 == 1),
+                            .visible = i % 2 == 0,
+                            .primitives = std::move(one.layers.front().primitives)});
+  }
+  return scene;
+}
+
+/// The kinds with these names.
+inline std::vector<GlbKind> glb_kinds_named(std::initializer_list<const char*> names) {
+  std::vector<GlbKind> found;
+  for (const GlbKind& kind : glb_kinds())
+    for (const std::string name : names)
+      if (name == kind.name) found.push_back(kind);
+  return found;
 }
 
 /// A path that only this process uses.
