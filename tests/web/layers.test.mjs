@@ -2,12 +2,13 @@
 // the page's instance; and what a device or the limit refuses.
 
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { drawingRoutes } from './drawing.mjs';
 import { readPng } from './png.mjs';
-import { errorShown, image, middle, noticeShown, often, pick, sceneShown, scratch, stage, still, view } from './support.mjs';
+import { errorShown, image, middle, noticeShown, often, pick, programs, sceneShown, scratch, stage, still, view } from './support.mjs';
 
 /** A square in the plane z = 0 with its centre at the origin, of one colour. */
 const square = (side, color) => `ply
@@ -51,7 +52,9 @@ const embedder = `<!doctype html><html lang="en"><title>Embedder</title><link re
 </script>`;
 const { visit, server } = await stage({
   routes: {
-    ...drawingRoutes, ...plies,
+    ...drawingRoutes,
+    ...Object.fromEntries(['/red.ply', '/green.ply', '/blue.ply', '/several.glb'].map((path) =>
+      [path, (request, response) => plies[path](request, response)])),
     '/embedder.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(embedder),
   },
 });
@@ -310,6 +313,49 @@ test('the device is lost and comes back, with all layers', viewing(async (page) 
   });
   assert.equal(await page.evaluate(() => JSON.stringify(viewer.layers)), before);
   assert.deepEqual(await middleColor(page), colors.blue);
+}));
+
+const several = join(folder, 'several.glb');
+const writes = spawnSync(join(programs, 'tureen'), ['convert', ...['red', 'green', 'blue'].map((name) => join(folder, `${name}.ply`)),
+                                                    '-o', several]).status === 0;
+const needsFile = { skip: writes ? false : 'the program writes no file of several layers' };
+if (writes) plies['/several.glb'] = (request, response) => response.writeHead(200).end(readFileSync(several));
+
+test('a file of several layers, loaded and added', needsFile, viewing(async (page) => {
+  const list = await page.evaluate(async () => {
+    await viewer.load({ url: 'several.glb' });
+    await viewer.addLayers({ url: 'several.glb' });
+    return viewer.layers.map(({ name, sourceLayer }) => [name, sourceLayer]);
+  });
+  assert.deepEqual(list, [['red', 0], ['green', 1], ['blue', 2], ['red 2', 0], ['green 2', 1], ['blue 2', 2]]);
+  assert.deepEqual(await middleColor(page), colors.red);
+  await page.evaluate(() => viewer.show('triangle-id'));
+  await page.evaluate(() => viewer.show('color'));
+  await page.evaluate(async () => {
+    await viewer.removeLayer(0);
+    await viewer.removeLayer(0);
+  });
+  assert.deepEqual(await middleColor(page), colors.blue);
+}));
+
+test('of a file that does not fit, the layers that fit are drawn', needsFile, () => visit('drawing.html', async (page, profile) => {
+  await profile.addInitScript(shortOfMemory);
+  await page.reload();
+  await page.waitForFunction(() => window.viewer);
+  const { names, notices } = await page.evaluate(async () => {
+    const notices = [];
+    viewer.on('notice', (sentence) => notices.push(sentence));
+    // Refuses everything until the file is read again, layer by layer; then the second layer.
+    window.noMore = true;
+    let layers = 0;
+    viewer.on('progress', ({ stage, deviceBytes }) => {
+      if (deviceBytes !== null && stage === 'upload') window.noMore = ++layers === 2;
+    });
+    await viewer.load({ url: 'several.glb' });
+    return { names: viewer.layers.map(({ name }) => name), notices };
+  });
+  assert.deepEqual(names, ['red', 'blue']);
+  assert.match(notices.join(), /“green”.*MB/);
 }));
 
 // -- the page -------------------------------------------------------------------------------------

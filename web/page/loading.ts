@@ -96,7 +96,8 @@ export class Loading {
     const { stage, fraction, loadedBytes, totalBytes, deviceBytes } = progress;
     const bytes = stage !== 'download' || loadedBytes === 0 ? '' :
       totalBytes ? `, ${bytesText(loadedBytes)} of ${bytesText(totalBytes)}` : `, ${bytesText(loadedBytes)}`;
-    const forecast = deviceBytes === null ? '' : `, ${bytesText(deviceBytes)} of its memory`;
+    const together = deviceBytes === null ? 0 : deviceBytes + (this.viewer.scene?.deviceBytes ?? 0);
+    const forecast = deviceBytes === null ? '' : `, ${bytesText(deviceBytes)} of its memory, ${bytesText(together)} with the other layers`;
     const text = `${stageText[stage]}${bytes}${stage === 'upload' ? forecast : ''}${this.preview}`;
     this.what.textContent = text;
     this.progress.setAttribute('aria-valuetext', text);

@@ -194,7 +194,8 @@ export interface Viewer {
 
   /** Replaces the scene when the new one is complete; a preview may come earlier. The next load and the
    *  signal cancel a running load: its promise rejects with 'cancelled', and the old scene stays. A
-   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left.
+   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left. Of a
+   *  source with several layers, those are drawn that fit the device's memory; notices name the others.
    *  Rejects with ViewerError. */
   load(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<SceneSummary>;
   /** Removes the scene. */

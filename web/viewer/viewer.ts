@@ -195,15 +195,20 @@ class CanvasViewer implements Viewer {
     this.loading?.cancel();
     this.dropPreview();
     const loading = this.begin(source);
+    let layers = 1;
     try {
       await this.run(loading, options.signal, {
         progress: (progress) => this.emit('progress', progress),
         preview: (scene) => this.showPreview(scene),
-        scene: (scene) => this.showScene(scene, source),
+        scene: (scene) => {
+          layers = scene.description.layer_names.length;
+          return this.showScene(scene, source);
+        },
       });
     } catch (error) {
       if (this.loading === null) this.dropPreview();  // no later load has begun
-      throw error;
+      if (layers === 1 || !isShortage(error)) throw error;
+      await this.add(source, options.signal);  // layer by layer: draws those that fit
     }
     return this.shown!;
   }
@@ -331,7 +336,7 @@ class CanvasViewer implements Viewer {
     }
   }
 
-  private unpack({ description, parcel }: PreparedScene, role: 'preview' | 'scene'): ShownFacts {
+  private unpack({ description, parcel }: Pick<PreparedScene, 'description' | 'parcel'>, role: 'preview' | 'scene'): ShownFacts {
     if (role === 'preview' || !this.previewed) this.background = description.background;
     try {
       return this.give(parcel, 'show', { scene: description, role });
@@ -373,6 +378,7 @@ class CanvasViewer implements Viewer {
     return added;
   }
 
+  /** Adds the layers of a source; the first is the scene if there is none. */
   private async add(source: SceneSource, signal: AbortSignal | undefined): Promise<readonly SceneLayer[]> {
     if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
     this.requireRoom(1);
@@ -386,7 +392,7 @@ class CanvasViewer implements Viewer {
         const name = freeName(ownName(description, index), this.records);
         let facts;
         try {
-          facts = this.give(parcel, 'add_layers', {});
+          facts = this.shown ? this.give(parcel, 'add_layers', {}) : this.unpack({ description, parcel }, 'scene');
         } catch (error) {
           if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');
           if (!isShortage(error)) throw error;
@@ -394,7 +400,7 @@ class CanvasViewer implements Viewer {
           return;
         }
         const parts = part ? this.parts : [...this.parts, part = { source, description, level: null }];
-        this.setScene(this.first, parts, [...this.records, { part, index, name, placement: null }]);
+        this.setScene(this.first ?? description, parts, [...this.records, { part, index, name, placement: null }]);
         this.showFacts(facts);
       },
     });
