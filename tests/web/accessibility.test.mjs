@@ -47,6 +47,17 @@ for (const colorScheme of ['light', 'dark']) {
   test(`${colorScheme}, on a phone`, () => visit('', walk, { colorScheme, ...phone }));
 }
 
+for (const how of [{ viewport: { width: 1100, height: 1200 } }, { ...phone, colorScheme: 'dark' }]) {
+  test(`a list of layers${how.isMobile ? ', on a phone' : ''}`, () => visit('?scene=soup.glb&scene=soup.glb', async (page) => {
+    await page.waitForFunction(() => document.querySelectorAll('#layers li').length === 2 && document.getElementById('loading').hidden);
+    if (await page.isHidden('#panel')) await page.click('#toggle-panel');
+    await page.click('#layers .go:has-text("soup 2")');
+    await assertAccessible(page, 'layers');
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'the panel fits');
+    await page.screenshot({ path: process.env.LAYERS_SHOT ? `${process.env.LAYERS_SHOT}${how.isMobile ? 'phone' : 'wide'}.png` : undefined });
+  }, how));
+}
+
 test('in a frame', () => visit('?embed', async (page) => {
   await assertAccessible(page, 'embedded');
 }));

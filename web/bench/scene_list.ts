@@ -2,7 +2,7 @@
 // were picked or dropped.
 
 import { block, button, input, make } from '../page/dom.js';
-import { sourceOfDropped, sourceOfPicked } from '../page/files.js';
+import { sourcesOfDropped, sourcesOfPicked } from '../page/files.js';
 import { readModels } from '../page/gallery.js';
 import { nameOf } from '../viewer/addresses.js';
 import type { Messages } from '../page/messages.js';
@@ -59,7 +59,7 @@ export class SceneList {
     button(buttonId).addEventListener('click', () => picker.click());
     picker.addEventListener('change', () => {
       const picked = picker.files;
-      if (picked?.length) void this.take(async () => sourceOfPicked(picked));
+      if (picked?.length) void this.take(async () => sourcesOfPicked(picked));
       picker.value = '';  // so that the same file can be picked again
     });
   }
@@ -77,14 +77,14 @@ export class SceneList {
       sign.hidden = true;
       if (!carriesFiles(event)) return;
       event.preventDefault();
-      const dropped = sourceOfDropped(event.dataTransfer!);  // dataTransfer is empty after the event
+      const dropped = sourcesOfDropped(event.dataTransfer!);  // dataTransfer is empty after the event
       void this.take(() => dropped);
     });
   }
 
-  private async take(read: () => Promise<SceneSource>): Promise<void> {
+  private async take(read: () => Promise<readonly SceneSource[]>): Promise<void> {
     try {
-      this.add(await read());
+      for (const source of await read()) this.add(source);
     } catch (error) {
       this.messages.thrown(error);
     }

@@ -81,7 +81,7 @@ Json clear(const Json&) {
 Json add_scene(const Json& arguments) {
   const Json& scene = arguments.at("scene");
   const double start = milliseconds();
-  Renderer renderer = unpacked(page_view().context());
+  Renderer renderer(page_view().context(), unpacked());
   renderer.set_background(glm::vec4(vector_of(scene.at("background")), 1.0f));
   const Json result = facts(renderer, start);
   auto added = std::make_unique<BenchScene>(

@@ -1,11 +1,15 @@
 // Reads a scene and prepares it for the device of another instance.
 #include <algorithm>
+#include <deque>
+#include <limits>
 #include <optional>
+#include <span>
 
 #include "camera/up_axis.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb_preview.hpp"
 #include "runtime/debug_views/debug_view.hpp"
+#include "runtime/device_forecast.hpp"
 #include "runtime/render_options.hpp"
 #include "scene/edit/edits.hpp"
 #include "web/engine/commands.hpp"
@@ -19,10 +23,9 @@ namespace {
 
 struct Loader {
   std::optional<Scene> scene;
-  std::optional<TriangleSoup> reduced;    // at a lower lattice level, to save memory
-  std::optional<PreparedScene> prepared;  // reads the scene's soup, or the reduced one
-
-  const TriangleSoup& soup() const { return only_soup(*scene); }
+  std::deque<TriangleSoup> reduced;       // lower lattice levels, to save memory; stays in place
+  std::vector<PlacedSoup> placed;         // the scene's soups, or their reductions
+  std::optional<PreparedScene> prepared;  // reads the placed soups
 };
 
 Loader& loader() {
@@ -30,10 +33,17 @@ Loader& loader() {
   return one;
 }
 
-Json debug_views_of(const TriangleSoup& soup) {
+/// The reason of the first layer without this debug view, or nullopt.
+std::optional<std::string> why_not_all(DebugView what, std::span<const PlacedSoup> layers) {
+  for (const PlacedSoup& layer : layers)
+    if (auto reason = why_not(what, layer.soup)) return reason;
+  return {};
+}
+
+Json debug_views_of(std::span<const PlacedSoup> layers) {
   Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
-    const auto reason = why_not(name.what, soup);
+    const auto reason = why_not_all(name.what, layers);
     list.push_back({{"name", name.name},
                     {"title", name.title},
                     {"meaning", name.meaning},
@@ -49,29 +59,52 @@ Json notes_of(const Scene& scene) {
   return notes;
 }
 
+/// The appearances of all layers, each once: "lattice texture, face colours".
+std::string appearances_of(std::span<const PlacedSoup> layers) {
+  std::vector<std::string> known;
+  std::string names;
+  for (const PlacedSoup& layer : layers) {
+    const std::string name = appearance_name(layer.soup.appearance);
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    known.push_back(name);
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
 Json describe(const Scene& scene) {
-  const auto& soup = only_soup(scene);
+  const std::vector<PlacedSoup> layers = placed_soups(scene);
+  std::size_t triangles = 0;
+  int features = layers.empty() ? 0 : std::numeric_limits<int>::max();
+  for (const PlacedSoup& layer : layers) {
+    triangles += layer.soup.triangles.size();
+    features = std::min(features, feature_count(layer.soup));
+  }
   Subject subject = tureen::subject_of(scene);
   const UpGuess up = guess_up(evidence_of(scene, subject));
   subject.up = up.axis;
+  Json names = Json::array();
+  for (const PlacedSoup& layer : layers) names.push_back(layer.name);
   Json cameras = Json::array();
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
   return {{"name", scene.info.name},
           {"source", scene.info.source},
           {"notes", notes_of(scene)},
-          {"triangles", soup.triangles.size()},
-          {"appearance", appearance_name(soup.appearance)},
+          {"layer_names", names},
+          {"triangles", triangles},
+          {"appearance", appearances_of(layers)},
           {"cameras", cameras},
           {"background", to_json(glm::dvec3(scene.info.background))},
           {"subject", to_json(subject)},
           {"up_reason", describe(up)},
-          {"debug_views", debug_views_of(soup)},
-          {"feature_count", feature_count(soup)}};
+          {"debug_views", debug_views_of(layers)},
+          {"feature_count", features}};
 }
 
 Json take(Scene scene) {
   loader().prepared.reset();
-  loader().reduced.reset();
+  loader().placed.clear();
+  loader().reduced.clear();
   loader().scene = std::move(scene);
   make_opaque(*loader().scene);
   return describe(*loader().scene);
@@ -97,24 +130,49 @@ Json preview(const Json& arguments) {
   return scene ? take(std::move(*scene)) : Json();
 }
 
-/// {"limits", "level"?: maximum lattice level}. Writes the head to the buffer and returns the
-/// blobs.
-Json prepare(const Json& arguments) {
+/// The scene's soups, with lattices of at most this level.
+void place_soups(std::optional<int> level) {
   const Scene& scene = loader().scene.value();
+  loader().placed.clear();
+  loader().reduced.clear();
+  for (const PlacedSoup& layer : placed_soups(scene)) {
+    const TriangleSoup* soup = &layer.soup;
+    if (level && std::holds_alternative<LatticeTexture>(soup->appearance))
+      soup =
+          &loader().reduced.emplace_back(edited(*soup, {.lattice_level = *level}, report_progress));
+    loader().placed.push_back({*soup, layer.world_from_layer, layer.name, layer.visible});
+  }
+}
+
+/// {"limits", "level"?: maximum lattice level, "layer"?: only this layer}. Writes the head to the
+/// buffer and returns the blobs.
+Json prepare(const Json& arguments) {
   loader().prepared.reset();
-  loader().reduced.reset();
-  if (const auto level = arguments.find("level"); level != arguments.end())
-    loader().reduced =
-        edited(loader().soup(), {.lattice_level = level->get<int>()}, report_progress);
-  loader().prepared = prepare_scene(loader().reduced ? *loader().reduced : loader().soup(),
-                                    origin_of(only_layer(scene)), limits_of(arguments.at("limits")),
-                                    page_options(scene));
+  const auto level = arguments.find("level"), layer = arguments.find("layer");
+  place_soups(level == arguments.end() ? std::nullopt : std::optional(level->get<int>()));
+  std::span<const PlacedSoup> chosen = loader().placed;
+  if (layer != arguments.end()) chosen = chosen.subspan(layer->get<std::size_t>(), 1);
+  loader().prepared =
+      prepare_scene(chosen, limits_of(arguments.at("limits")), page_options(*loader().scene));
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)
     blobs.push_back(
         {{"size", blob_size(*loader().prepared, i)}, {"grain", blob_grain(*loader().prepared, i)}});
   return blobs;
+}
+
+/// {"limits"}: the bytes that each layer will need on that device. Layers are planned alone,
+/// because they are uploaded one after the other.
+Json forecast(const Json& arguments) {
+  const Scene& scene = loader().scene.value();
+  Json layers = Json::array();
+  for (const PlacedSoup& layer : placed_soups(scene)) {
+    const RenderPlan plan =
+        make_plan(layer.soup, limits_of(arguments.at("limits")), page_options(scene).plan);
+    layers.push_back(device_forecast(layer.soup, plan.layers[0]).bytes);
+  }
+  return layers;
 }
 
 /// {"blob", "offset", "size"}: writes the bytes to the buffer.
@@ -124,20 +182,29 @@ Json read_block(const Json& arguments) {
   return nullptr;
 }
 
-/// The highest level of the scene's lattice, or null.
+/// The highest level of the scene's lattices, or null.
 Json lattice_level(const Json&) {
-  const auto* texture = std::get_if<LatticeTexture>(&loader().soup().appearance);
-  if (!texture) return nullptr;
-  std::uint32_t level = 0;
-  for (const LatticePatch& patch : texture->patches) level = std::max(level, patch.level);
-  return level;
+  Json highest;
+  for (const PlacedSoup& layer : placed_soups(loader().scene.value())) {
+    const auto* texture = std::get_if<LatticeTexture>(&layer.soup.appearance);
+    if (!texture) continue;
+    std::uint32_t level = highest.is_null() ? 0 : highest.get<std::uint32_t>();
+    for (const LatticePatch& patch : texture->patches) level = std::max(level, patch.level);
+    highest = level;
+  }
+  return highest;
 }
 
 }  // namespace
 
 Commands loader_commands() {
-  return {{"read", read},       {"preview_size", preview_size}, {"preview", preview},
-          {"prepare", prepare}, {"read_block", read_block},     {"lattice_level", lattice_level}};
+  return {{"read", read},
+          {"preview_size", preview_size},
+          {"preview", preview},
+          {"prepare", prepare},
+          {"forecast", forecast},
+          {"read_block", read_block},
+          {"lattice_level", lattice_level}};
 }
 
 }  // namespace tureen::web

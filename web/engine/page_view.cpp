@@ -1,6 +1,10 @@
 #include "web/engine/page_view.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <string>
 
 #include "base/error.hpp"
 #include "runtime/gl/api.hpp"
@@ -14,6 +18,23 @@ std::unique_ptr<PageView>& slot() {
   return one;
 }
 
+std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
+  std::vector<ShownLayer> layers;
+  for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
+    const PreparedLayer& layer = prepared.layers[i];
+    layers.push_back({.box = {layer.bounds, layer.world_from_layer},
+                      .visible = layer.visible,
+                      .triangles = prepared.plan.layers[i].soup_faces});
+  }
+  return layers;
+}
+
+/// Notes the memory of the layers of an ordinary frame's renderer.
+void weigh(std::vector<ShownLayer>& layers, const Renderer& renderer) {
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    layers[i].device_bytes = renderer.soups()[i]->device_bytes();
+}
+
 }  // namespace
 
 void start_page_view() { slot() = std::make_unique<PageView>(); }
@@ -22,22 +43,25 @@ PageView& page_view() { return *slot(); }
 
 PageView::PageView() : context_(gl::Context::external(nullptr, gl::Api::es)) {}
 
-PageView::Stage PageView::make_stage(Renderer renderer, ShownScene scene) const {
+PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene) const {
+  std::vector<ShownLayer> layers = layers_of(prepared);
+  Renderer renderer(context_, std::move(prepared));
+  weigh(layers, renderer);
   renderer.set_background(glm::vec4(background_, 1.0f));
   CameraControls controls(scene.subject);
   if (viewport_) controls.set_viewport(viewport_->x, viewport_->y);
   if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
   controls.reset();
   controls.arrive();
-  return {{}, std::move(renderer), std::move(scene), controls};
+  return {{}, std::move(renderer), std::move(scene), controls, std::move(layers)};
 }
 
-void PageView::show_preview(Renderer renderer, ShownScene scene) {
-  preview_.emplace(make_stage(std::move(renderer), std::move(scene)));
+void PageView::show_preview(PreparedScene prepared, ShownScene scene) {
+  preview_.emplace(make_stage(std::move(prepared), std::move(scene)));
 }
 
-void PageView::show(Renderer renderer, ShownScene scene) {
-  Stage stage = make_stage(std::move(renderer), std::move(scene));
+void PageView::show(PreparedScene prepared, ShownScene scene) {
+  Stage stage = make_stage(std::move(prepared), std::move(scene));
   if (preview_) stage.controls = preview_->controls;
   drop_preview();
   drop_scene();
@@ -54,12 +78,116 @@ void PageView::drop_scene() {
   read_scene_.reset();
 }
 
+const std::vector<ShownLayer>& PageView::layers() const {
+  static const std::vector<ShownLayer> none;
+  return stage_ ? stage_->layers : none;
+}
+
+PageView::Stage& PageView::stage_with(std::size_t layer) {
+  if (!stage_ || layer >= stage_->layers.size())
+    throw UsageError("there is no layer " + std::to_string(layer) + ", counted from 0");
+  return *stage_;
+}
+
+PageView::Stage& PageView::colors_with(std::size_t layer) {
+  Stage& stage = stage_with(layer);
+  if (stage.debug_views) throw UsageError("a debug view is shown: show the colours first");
+  return stage;
+}
+
+/// Gives the controls the box around the visible layers; around all if none is visible.
+void PageView::follow_layers(Stage& stage) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool any = std::any_of(stage.layers.begin(), stage.layers.end(),
+                               [](const ShownLayer& layer) { return layer.visible; });
+  glm::dvec3 low(infinity), high(-infinity);
+  for (const auto& [box, visible, triangles, device_bytes] : stage.layers) {
+    if (any && !visible) continue;
+    const auto& [bounds, world_from_layer] = box;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 position(corner & 1 ? bounds.high.x : bounds.low.x,
+                                corner & 2 ? bounds.high.y : bounds.low.y,
+                                corner & 4 ? bounds.high.z : bounds.low.z, 1.0);
+      const glm::dvec3 world(world_from_layer * position);
+      low = glm::min(low, world);
+      high = glm::max(high, world);
+    }
+  }
+  stage.scene.subject.low = low;
+  stage.scene.subject.high = high;
+  stage.controls.set_box(low, high);
+}
+
+void PageView::add_layers(PreparedScene prepared) {
+  Stage& stage = colors_with(0);
+  if (stage.layers.size() + prepared.layers.size() > max_plan_layers)
+    throw UsageError("at most " + std::to_string(max_plan_layers) +
+                     " layers can be drawn together: remove layers first");
+  if (prepared.plan.reversed_depth != stage.renderer->plan().reversed_depth)
+    throw UsageError("the layer was prepared for another device");
+  std::vector<ShownLayer> added = layers_of(prepared);
+  stage.renderer->add_layers(std::move(prepared));
+  read_scene_.reset();
+  stage.layers.insert(stage.layers.end(), added.begin(), added.end());
+  weigh(stage.layers, *stage.renderer);
+  follow_layers(stage);
+}
+
+void PageView::place_layer(std::size_t layer, const glm::dmat4& world_from_layer) {
+  Stage& stage = stage_with(layer);
+  if (const auto reason = defect(Layer{.world_from_layer = world_from_layer}))
+    throw UsageError("the layer cannot be placed: " + *reason);
+  stage.renderer->place_layer(layer, world_from_layer);
+  stage.layers[layer].box.world_from_layer = world_from_layer;
+  follow_layers(stage);
+}
+
+void PageView::show_layer(std::size_t layer, bool visible) {
+  Stage& stage = stage_with(layer);
+  stage.renderer->show_layer(layer, visible);
+  stage.layers[layer].visible = visible;
+  follow_layers(stage);
+}
+
+void PageView::remove_layer(std::size_t layer) {
+  Stage& stage = colors_with(layer);
+  if (stage.layers.size() == 1)
+    throw UsageError("the only layer cannot be removed: remove the scene");
+  const auto at = static_cast<std::ptrdiff_t>(layer);
+  stage.renderer->remove_layer(layer);
+  stage.layers.erase(stage.layers.begin() + at);
+  if (read_scene_) read_scene_->soups.erase(read_scene_->soups.begin() + at);
+  follow_layers(stage);
+}
+
+void PageView::move_layer(std::size_t from, std::size_t to) {
+  colors_with(to);
+  Stage& stage = colors_with(from);
+  for (std::size_t at = from; at != to;) {
+    const std::size_t next = from < to ? at + 1 : at - 1;
+    stage.renderer->swap_layers(at, next);
+    std::swap(stage.layers[at], stage.layers[next]);
+    if (read_scene_) std::swap(read_scene_->soups[at], read_scene_->soups[next]);
+    at = next;
+  }
+}
+
+std::vector<PlacedSoup> PageView::read_soups() const {
+  const ReadScene& read = read_scene_.value();
+  std::vector<PlacedSoup> soups;
+  for (std::size_t i = 0; i < read.soups.size(); ++i) {
+    const ShownLayer& layer = stage_->layers[i];
+    soups.push_back({*read.soups[i], layer.box.world_from_layer, {}, layer.visible});
+  }
+  return soups;
+}
+
 void PageView::show(DebugView what, const FeatureChoice& features) {
   const bool shows_debug_view = what != DebugView::color;
   if (!stage_ && !shows_debug_view) return;
   if (!stage_) throw UsageError("there is no scene for a debug view");
   Stage& stage = *stage_;
-  if (shows_debug_view) DebugViews(placed_soups(read_scene_.value().scene)).require(what, features);
+  if (shows_debug_view) DebugViews(read_soups()).require(what, features);
   if (const bool had_debug_views = stage.debug_views.has_value();
       shows_debug_view != had_debug_views) {
     try {
@@ -75,15 +203,14 @@ void PageView::show(DebugView what, const FeatureChoice& features) {
 }
 
 void PageView::prepare_renderer(bool for_debug_views) {
-  const ReadScene& scene = read_scene_.value();
   Stage& stage = *stage_;
+  const std::vector<PlacedSoup> layers = read_soups();
+  const RenderOptions& options = read_scene_->options;
   stage.renderer.reset();
   stage.debug_views.reset();
   const DeviceLimits limits = device_limits(capabilities());
-  const std::vector<PlacedSoup> layers = placed_soups(scene.scene);
-  stage.renderer.emplace(context_, for_debug_views
-                                       ? prepare_debug_views(layers, limits, scene.options)
-                                       : prepare_scene(layers, limits, scene.options));
+  stage.renderer.emplace(context_, for_debug_views ? prepare_debug_views(layers, limits, options)
+                                                   : prepare_scene(layers, limits, options));
   if (for_debug_views) stage.debug_views.emplace(layers);
   stage.renderer->set_background(glm::vec4(background_, 1.0f));
 }

@@ -10,8 +10,17 @@
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/renderer.hpp"
+#include "scene/clip_range.hpp"
 
 namespace tureen::web {
+
+/// A layer on the device, in the renderer's order.
+struct ShownLayer {
+  PlacedBounds box;
+  bool visible = true;
+  std::size_t triangles = 0;
+  std::size_t device_bytes = 0;  // of ordinary frames
+};
 
 /// The data of a scene that its renderer does not have.
 struct ShownScene {
@@ -29,19 +38,34 @@ class PageView {
 
   /// Shows a preview instead of the scene, until it is dropped or the next scene arrives. The next
   /// scene keeps the preview's view.
-  void show_preview(Renderer renderer, ShownScene scene);
+  void show_preview(PreparedScene prepared, ShownScene scene);
   void drop_preview() { preview_.reset(); }
-  void show(Renderer renderer, ShownScene scene);
+  void show(PreparedScene prepared, ShownScene scene);
   /// Frees the scene's memory on the device, but not the preview's.
   void drop_scene();
   bool shows_scene() const { return stage_ || preview_; }
   const Renderer& renderer() const { return *current()->renderer; }
 
+  // Layers of the scene, not of a preview. The subject of the controls becomes the box around the
+  // visible layers; the view stays. Without a scene or such a layer they throw UsageError.
+
+  const std::vector<ShownLayer>& layers() const;
+  /// Adds layers after the present ones. Only while the colours are shown; the scene must then be
+  /// read again for debug views. Throws DeviceLimitError, then nothing has changed.
+  void add_layers(PreparedScene prepared);
+  void place_layer(std::size_t layer, const glm::dmat4& world_from_layer);
+  void show_layer(std::size_t layer, bool visible);
+  /// Not the only layer. Only while the colours are shown.
+  void remove_layer(std::size_t layer);
+  /// Moves a layer to another place in the order. Only while the colours are shown.
+  void move_layer(std::size_t from, std::size_t to);
+
   /// The shown scene, read again in this instance: debug views need more data than its renderer
   /// has.
   struct ReadScene {
-    Scene scene;
-    RenderOptions options;  // of ordinary frames
+    std::vector<Scene> scenes;               // the sources of the page
+    std::vector<const TriangleSoup*> soups;  // of the shown layers, in their order
+    RenderOptions options;                   // of ordinary frames
   };
   void keep_read_scene(ReadScene scene) { read_scene_.emplace(std::move(scene)); }
   bool has_read_scene() const { return read_scene_.has_value(); }
@@ -85,9 +109,16 @@ class PageView {
     std::optional<Renderer> renderer;       // always, except while another one is made
     ShownScene scene;
     CameraControls controls;
+    std::vector<ShownLayer> layers;
   };
   void prepare_renderer(bool for_debug_views);
-  Stage make_stage(Renderer renderer, ShownScene scene) const;
+  Stage make_stage(PreparedScene prepared, ShownScene scene) const;
+  /// The scene, if it has this layer.
+  Stage& stage_with(std::size_t layer);
+  /// The same, but the colours must be shown.
+  Stage& colors_with(std::size_t layer);
+  static void follow_layers(Stage& stage);
+  std::vector<PlacedSoup> read_soups() const;
   const Stage* current() const { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
 

@@ -20,8 +20,9 @@ Json take_head(const Json&) {
   return nullptr;
 }
 
-Renderer unpacked(const gl::Context& context) {
-  return Renderer(context, unpack(std::exchange(taken_head(), {}), pull_block));
+PreparedScene unpacked() {
+  static const BlobReader read = pull_block;  // the sources refer to it
+  return unpack(std::exchange(taken_head(), {}), read);
 }
 
 }  // namespace tureen::web

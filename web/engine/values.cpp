@@ -8,13 +8,24 @@ glm::dvec3 vector_of(const Json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
-Json to_json(const Camera& camera) {
-  Json matrix = Json::array();
+Json to_json(const glm::dmat4& matrix) {
+  Json numbers = Json::array();
   for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) matrix.push_back(camera.view_from_world[column][row]);
-  return {{"name", camera.name}, {"width", camera.width},    {"height", camera.height},
-          {"fx", camera.fx},     {"fy", camera.fy},          {"cx", camera.cx},
-          {"cy", camera.cy},     {"view_from_world", matrix}};
+    for (int row = 0; row < 4; ++row) numbers.push_back(matrix[column][row]);
+  return numbers;
+}
+
+glm::dmat4 matrix_of(const Json& value) {
+  glm::dmat4 matrix;
+  for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = value.at(std::size_t(i)).get<double>();
+  return matrix;
+}
+
+Json to_json(const Camera& camera) {
+  return {{"name", camera.name},     {"width", camera.width},
+          {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},         {"cx", camera.cx},
+          {"cy", camera.cy},         {"view_from_world", to_json(camera.view_from_world)}};
 }
 
 Camera camera_of(const Json& value) {
@@ -26,8 +37,7 @@ Camera camera_of(const Json& value) {
   camera.fy = value.at("fy").get<double>();
   camera.cx = value.at("cx").get<double>();
   camera.cy = value.at("cy").get<double>();
-  for (int i = 0; i < 16; ++i)
-    camera.view_from_world[i / 4][i % 4] = value.at("view_from_world").at(std::size_t(i));
+  camera.view_from_world = matrix_of(value.at("view_from_world"));
   return camera;
 }
 

@@ -3,6 +3,7 @@
 // developers.
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,10 @@ using Json = nlohmann::json;
 
 Json to_json(const glm::dvec3& value);
 glm::dvec3 vector_of(const Json& value);
+
+/// 16 numbers, column by column.
+Json to_json(const glm::dmat4& matrix);
+glm::dmat4 matrix_of(const Json& value);
 
 Json to_json(const Camera& camera);
 Camera camera_of(const Json& value);

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "camera/view_state.hpp"
@@ -40,21 +42,34 @@ ShownScene scene_of(const Json& scene) {
   return shown;
 }
 
+Json layers() {
+  Json list = Json::array();
+  for (const auto& [box, visible, triangles, device_bytes] : view().layers())
+    list.push_back({{"triangles", triangles},
+                    {"visible", visible},
+                    {"transform", to_json(box.world_from_layer)},
+                    {"device_bytes", device_bytes}});
+  return list;
+}
+
 Json facts() {
+  std::size_t drawn = 0;
+  for (const SoupPlan& layer : view().renderer().plan().layers) drawn += layer.faces.size();
   return {{"plan", describe(view().renderer().plan())},
-          {"drawn", view().renderer().plan().layers[0].faces.size()},
-          {"device_bytes", view().renderer().device_bytes()}};
+          {"drawn", drawn},
+          {"device_bytes", view().renderer().device_bytes()},
+          {"layers", layers()}};
 }
 
 /// {"scene": result of "read", "role": "preview" or "scene"}
 Json show(const Json& arguments) {
   const ShownScene scene = scene_of(arguments.at("scene"));
   if (arguments.at("role") == "preview") {
-    view().show_preview(unpacked(view().context()), scene);
+    view().show_preview(unpacked(), scene);
     return facts();
   }
   view().drop_scene();  // before unpacking: the device's memory may not hold both scenes
-  view().show(unpacked(view().context()), scene);
+  view().show(unpacked(), scene);
   return facts();
 }
 
@@ -67,6 +82,36 @@ Json clear(const Json&) {
 Json drop_preview(const Json&) {
   view().drop_preview();
   return nullptr;
+}
+
+// -- layers: each command returns facts(), except those that only place or show a layer, which
+// return layers() --------------------------------------------------------------------------------
+
+/// The head and the blobs are those of the layers.
+Json add_layers(const Json&) {
+  view().add_layers(unpacked());
+  return facts();
+}
+
+/// {"layer", "transform"?: 16 numbers, column by column, "visible"?}
+Json set_layer(const Json& arguments) {
+  const std::size_t layer = arguments.at("layer");
+  if (const auto matrix = arguments.find("transform"); matrix != arguments.end())
+    view().place_layer(layer, matrix_of(*matrix));
+  if (const auto visible = arguments.find("visible"); visible != arguments.end())
+    view().show_layer(layer, visible->get<bool>());
+  return layers();
+}
+
+Json remove_layer(const Json& layer) {
+  view().remove_layer(layer);
+  return facts();
+}
+
+/// {"from", "to"}
+Json move_layer(const Json& arguments) {
+  view().move_layer(arguments.at("from"), arguments.at("to"));
+  return facts();
 }
 
 // -- looking around -----------------------------------------------------------------------------
@@ -216,17 +261,39 @@ Json background(const Json& color) {
   return nullptr;
 }
 
-/// {"folder", "paths", "level"?: maximum lattice level}: reads the scene again, for debug views
-/// that need more data than the renderer has.
+/// The scenes that "read_for_debug_views" has read, one for each source of the page.
+std::vector<Scene>& reread() {
+  static std::vector<Scene> scenes;
+  return scenes;
+}
+
+/// {"folder", "paths", "level"?: maximum lattice level, "source": number of the source}: reads a
+/// source again, for debug views that need more data than the renderer has. Source 0 is the first.
 Json read_for_debug_views(const Json& arguments) {
+  if (arguments.at("source") == 0) reread().clear();
   Scene scene = read_scene(scene_path(arguments));
   make_opaque(scene);
   if (const auto level = arguments.find("level"); level != arguments.end()) {
-    TriangleSoup& soup = only_soup(scene);
-    soup = edited(std::move(soup), {.lattice_level = level->get<int>()}, {});
+    for (Layer& layer : scene.layers) {
+      auto& soup = std::get<TriangleSoup>(layer.primitives);
+      if (std::holds_alternative<LatticeTexture>(soup.appearance))
+        soup = edited(std::move(soup), {.lattice_level = level->get<int>()}, {});
+    }
   }
-  const RenderOptions options = page_options(scene);
-  view().keep_read_scene({std::move(scene), options});
+  reread().push_back(std::move(scene));
+  return nullptr;
+}
+
+/// [[source, layer of the source], ..]: the shown layers. Keeps what was read for them.
+Json keep_read_layers(const Json& shown) {
+  PageView::ReadScene read{.scenes = std::exchange(reread(), {}), .soups = {}, .options = {}};
+  read.options = page_options(read.scenes.at(0));
+  for (const Json& place : shown) {
+    const Scene& scene = read.scenes.at(place.at(0).get<std::size_t>());
+    const Layer& layer = scene.layers.at(place.at(1).get<std::size_t>());
+    read.soups.push_back(&std::get<TriangleSoup>(layer.primitives));
+  }
+  view().keep_read_scene(std::move(read));
   return nullptr;
 }
 
@@ -256,11 +323,16 @@ Commands viewer_commands() {
        {"show", show},
        {"clear", clear},
        {"drop_preview", drop_preview},
+       {"add_layers", add_layers},
+       {"set_layer", set_layer},
+       {"remove_layer", remove_layer},
+       {"move_layer", move_layer},
        {"draw", draw},
        {"picture", image},
        {"background", background},
        {"is_read_for_debug_views", [](const Json&) { return Json(view().has_read_scene()); }},
        {"read_for_debug_views", read_for_debug_views},
+       {"keep_read_layers", keep_read_layers},
        {"debug_view", show_debug_view},
        {"legend", legend}});
   return commands;

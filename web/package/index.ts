@@ -2,6 +2,7 @@
 
 export { createViewer } from '../viewer/viewer.js';
 export { attachControls } from '../viewer/controls.js';
-export { namedViews, ViewerError } from '../viewer/types.js';
+export { matrixOf, placementOf } from '../viewer/placement.js';
+export { maxLayers, namedViews, ViewerError } from '../viewer/types.js';
 export type { Assets } from '../viewer/assets.js';
 export type * from '../viewer/types.js';

@@ -1,4 +1,4 @@
-// The part of a link after '#': a camera and a debug view, in readable numbers.
+// The part of a link after '#': a camera, a debug view and layers (layer_link.ts), in readable numbers.
 //
 //   #eye=4.269,-5.968,3.39&target=0,0,0.7&up=0,0,1&fov=35&look=depth
 //
@@ -6,6 +6,7 @@
 // angle) and `roll` are in degrees; only recorded cameras have a roll.
 
 import type { Vec3, ViewPose } from '../viewer/types.js';
+import { readLayers, type LinkedLayer } from './layer_link.js';
 import { degreesPerRadian, plainNumber } from './numbers.js';
 
 /** `up`: null for the scene's own up axis. */
@@ -15,7 +16,9 @@ export interface LinkedView {
   readonly pose: LinkedPose | null;
   /** The debug view; null for the final colours. */
   readonly debugView: string | null;
-  /** The error in the link's camera, as a sentence; null without an error or a camera. */
+  /** The layers in their order; null if they are as in the files. */
+  readonly layers: readonly LinkedLayer[] | null;
+  /** The error in the link's camera or layers, as a sentence; null without one. */
   readonly defect: string | null;
 }
 
@@ -25,7 +28,7 @@ function decimalsFor(pose: ViewPose): number {
   return distance > 0 ? Math.ceil(5 - Math.log10(distance)) : 6;
 }
 
-export function writeFragment(pose: ViewPose | null, debugView: string | null): string {
+export function writeFragment(pose: ViewPose | null, debugView: string | null, layers: string | null): string {
   const parts: string[] = [];
   if (pose) {
     const decimals = decimalsFor(pose);
@@ -36,6 +39,7 @@ export function writeFragment(pose: ViewPose | null, debugView: string | null): 
     if (roll !== '0') parts.push(`roll=${roll}`);
   }
   if (debugView && debugView !== 'color') parts.push(`look=${encodeURIComponent(debugView)}`);
+  if (layers) parts.push(`layers=${layers}`);
   return parts.length ? '#' + parts.join('&') : '';
 }
 
@@ -47,10 +51,13 @@ function readVector(text: string | null): Vec3 | null {
 
 export function readFragment(fragment: string): LinkedView {
   const parts = new URLSearchParams(fragment.replace(/^#/, ''));
-  const debugView = parts.get('look') || null;
-  if (!parts.has('eye') && !parts.has('target')) return { pose: null, debugView, defect: null };
+  const debugView = parts.get('look') || null, layers = readLayers(parts.get('layers'));
+  const layersDefect = layers === 'defect' ?
+    'The link\'s layers cannot be read: each needs a number and its place, layers=1;2,at:3:0:0.' : null;
+  const rest = { debugView, layers: layers === 'defect' ? null : layers };
+  if (!parts.has('eye') && !parts.has('target')) return { pose: null, ...rest, defect: layersDefect };
 
-  const without = (defect: string): LinkedView => ({ pose: null, debugView, defect });
+  const without = (defect: string): LinkedView => ({ pose: null, ...rest, defect });
   const eye = readVector(parts.get('eye')), target = readVector(parts.get('target'));
   if (!eye || !target)
     return without('The link\'s camera needs eye and target, three numbers each: #eye=4,-6,3&target=0,0,0.');
@@ -61,5 +68,5 @@ export function readFragment(fragment: string): LinkedView {
   const fov = Number(parts.get('fov') ?? 40), roll = Number(parts.get('roll') ?? 0);
   if (!(fov > 0 && fov < 180)) return without('The link\'s fov is not an angle between 0 and 180 degrees.');
   if (!Number.isFinite(roll)) return without('The link\'s roll is not a number of degrees.');
-  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, debugView, defect: null };
+  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, ...rest, defect: layersDefect };
 }

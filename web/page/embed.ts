@@ -10,7 +10,7 @@
 // must have one of these origins. All data is checked like a file.
 
 import { ViewerError, type Viewer, type ViewerEvents } from '../viewer/types.js';
-import { embedCalls } from './embed_calls.js';
+import { embedCalls, withoutSources } from './embed_calls.js';
 import type { Loading } from './loading.js';
 
 interface Call {
@@ -45,7 +45,8 @@ export function answerEmbedder(viewer: Viewer, loading: Loading): void {
   const subscribed = new Map<keyof ViewerEvents, () => void>();
   const subscribe = (event: keyof ViewerEvents, origin: string) => {
     subscribed.get(event)?.();
-    subscribed.set(event, viewer.on(event, (data) => post(origin, { event, data })));
+    subscribed.set(event, viewer.on(event, (data) =>
+      post(origin, { event, data: event === 'layers' ? withoutSources(viewer.layers) : data })));
   };
   const unsubscribe = (event: keyof ViewerEvents) => {
     subscribed.get(event)?.();

@@ -3,14 +3,14 @@
 
 import { urlOf } from '../viewer/addresses.js';
 import {
-  namedViews, ViewerError, type NamedView, type Resolution, type SceneFile, type SceneSource, type Vec3, type Viewer,
-  type ViewerEvents, type ViewPose,
+  namedViews, ViewerError, type Matrix, type NamedView, type Placement, type Resolution, type SceneFile, type SceneLayer,
+  type SceneSource, type Vec3, type Viewer, type ViewerEvents, type ViewPose,
 } from '../viewer/types.js';
 import type { Loading } from './loading.js';
 import { isPose, isVector } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =
-  ['progress', 'preview', 'scene', 'notice', 'frame', 'view', 'context'];
+  ['progress', 'preview', 'scene', 'layers', 'notice', 'frame', 'view', 'context'];
 
 function refuse(what: string): never { throw new ViewerError(what, 'usage'); }
 
@@ -61,6 +61,25 @@ function resolution(value: unknown): Resolution {
   return { targetFps: number(object(value).targetFps, 'targetFps') };
 }
 
+/** Layers for the outer page. Their sources may be large files. */
+export const withoutSources = (layers: readonly SceneLayer[]) => layers.map(({ source, sourceLayer, ...layer }) => layer);
+
+function transform(value: unknown): Matrix | Placement {
+  if (Array.isArray(value) && value.length === 16 && value.every(Number.isFinite)) return value as Matrix;
+  const { position, rotation, scale, mirror } = object(value);
+  if (!isVector(position) || !isVector(rotation))
+    return refuse('A transform must be 16 numbers, or {position, rotation, scale, mirror}.');
+  return { position, rotation, scale: number(scale ?? 1, 'scale'), mirror: mirror === true };
+}
+
+function layerChange(value: unknown): { visible?: boolean; transform?: Matrix | Placement } {
+  const given = object(value);
+  return {
+    ...(given.visible !== undefined && { visible: given.visible === true }),
+    ...(given.transform !== undefined && { transform: transform(given.transform) }),
+  };
+}
+
 type Answer = (given: readonly unknown[]) => unknown;
 
 export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: keyof ViewerEvents) => void,
@@ -69,6 +88,11 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
     ['load', ([what]) => loading.attempt(source(what))],
     ['cancel', () => loading.cancel()],
     ['clear', () => viewer.clear()],
+    ['addLayers', async ([what]) => withoutSources(await loading.attemptToAdd(source(what)))],
+    ['layers', () => withoutSources(viewer.layers)],
+    ['setLayer', ([index, change]) => viewer.setLayer(whole(index, 'The layer'), layerChange(change))],
+    ['removeLayer', ([index]) => viewer.removeLayer(whole(index, 'The layer'))],
+    ['moveLayer', ([from, to]) => viewer.moveLayer(whole(from, 'from'), whole(to, 'to'))],
     ['scene', () => viewer.scene],
     ['stats', () => viewer.stats],
     ['legend', () => viewer.legend],

@@ -1,4 +1,6 @@
-// Dropped or picked files as one scene. Paths are relative to the scene's folder, without its name.
+// Dropped or picked files as scenes. Paths are relative to the scene's folder, without its name. Several
+// files or a folder are one scene, with two exceptions: several files of kinds that need no other file, and
+// several folders, are a scene each.
 
 import { ViewerError, type SceneFile, type SceneSource } from '../viewer/types.js';
 
@@ -17,13 +19,23 @@ function sourceOf(files: readonly SceneFile[], folder: string | null): SceneSour
   return { files, name: folder ?? files[0]!.path };
 }
 
-/** The scene of an <input type=file>, with or without webkitdirectory. */
-export function sourceOfPicked(list: FileList): SceneSource {
+/** Whether a file of this name is a scene without other files. */
+const isAlone = (name: string) => /\.(?:glb|ply|off)$/i.test(name);
+
+/** One scene, or one for each file if all of them are scenes alone. */
+function sourcesOf(files: readonly SceneFile[], folder: string | null): readonly SceneSource[] {
+  if (folder === null && files.length > 1 && files.every(({ path }) => isAlone(path)))
+    return files.map((file) => sourceOf([file], null));
+  return [sourceOf(files, folder)];
+}
+
+/** The scenes of an <input type=file>, with or without webkitdirectory. */
+export function sourcesOfPicked(list: FileList): readonly SceneSource[] {
   if (list.length > maxFiles) throw tooMany();
   const first = list[0]?.webkitRelativePath ?? '';
   const folder = first.includes('/') ? first.slice(0, first.indexOf('/')) : null;
   const path = (file: File) => folder === null ? file.name : file.webkitRelativePath.slice(folder.length + 1);
-  return sourceOf([...list].map((file) => ({ path: path(file), data: file })), folder);
+  return sourcesOf([...list].map((file) => ({ path: path(file), data: file })), folder);
 }
 
 const fileOf = (entry: FileSystemFileEntry) =>
@@ -49,24 +61,32 @@ async function collect(folder: FileSystemDirectoryEntry, path: string, files: Sc
   }
 }
 
-/** The scene of a drop. Call it within the event: `transfer` is empty afterwards. */
-export function sourceOfDropped(transfer: DataTransfer): Promise<SceneSource> {
+/** The scenes of a drop. Call it within the event: `transfer` is empty afterwards. */
+export function sourcesOfDropped(transfer: DataTransfer): Promise<readonly SceneSource[]> {
   // A page from the disk gets the dropped files, but the browser may refuse to read their entries.
   const items = [...transfer.items].filter((item) => item.kind === 'file')
     .map((item) => ({ entry: item.webkitGetAsEntry?.() ?? null, file: item.getAsFile() }));
   return (async () => {
-    const files: SceneFile[] = [];
-    const alone = items.length === 1 && items[0]!.entry?.isDirectory ? items[0]!.entry.name : null;
+    const folders = items.flatMap(({ entry }) => (entry?.isDirectory ? [entry as FileSystemDirectoryEntry] : []));
     try {
+      if (folders.length > 0 && folders.length === items.length) {
+        const sources: SceneSource[] = [];
+        for (const folder of folders) {
+          const files: SceneFile[] = [];
+          await collect(folder, '', files);
+          sources.push(sourceOf(files, folder.name));
+        }
+        return sources;
+      }
+      const files: SceneFile[] = [];
       for (const { entry, file } of items)
-        if (entry?.isDirectory)
-          await collect(entry as FileSystemDirectoryEntry, alone === null ? `${entry.name}/` : '', files);
+        if (entry?.isDirectory) await collect(entry as FileSystemDirectoryEntry, `${entry.name}/`, files);
         else if (file) files.push({ path: file.name, data: file });
+      return folders.length ? [sourceOf(files, null)] : sourcesOf(files, null);
     } catch (error) {
       if (error instanceof ViewerError) throw error;
       throw new ViewerError(
         'The browser could not read the dropped folder: choose it with the button instead.', 'input');
     }
-    return sourceOf(files, alone);
   })();
 }

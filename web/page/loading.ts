@@ -2,7 +2,7 @@
 // cancels the previous one.
 
 import { nameOf } from '../viewer/addresses.js';
-import type { LoadProgress, LoadStage, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
+import type { LoadProgress, LoadStage, SceneLayer, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import { block, button } from './dom.js';
 import type { Messages } from './messages.js';
 import { bytesText, trianglesText } from './numbers.js';
@@ -19,7 +19,7 @@ export class Loading {
   private readonly bar = block('progress-bar');
   private current: AbortController | null = null;
   private preview = '';
-  private progressNow: LoadProgress = { stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null };
+  private progressNow: LoadProgress = { stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null, deviceBytes: null };
   private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly viewer: Viewer, private readonly messages: Messages) {
@@ -31,7 +31,7 @@ export class Loading {
     });
   }
 
-  /** Calls `listener` when a load begins. */
+  /** Calls `listener` when a load begins that replaces the scene. */
   onBegin(listener: () => void): void { this.listeners.push(listener); }
 
   get busy(): boolean { return this.current !== null; }
@@ -49,10 +49,31 @@ export class Loading {
   }
 
   /** The same, but rejects with the error for the caller. */
-  async attempt(source: SceneSource): Promise<SceneSummary> {
+  attempt(source: SceneSource): Promise<SceneSummary> {
+    this.messages.clearErrors();
+    for (const listener of this.listeners) listener();
+    return this.run(source, (signal) => this.viewer.load(source, { signal }));
+  }
+
+  /** The added layers; null if that failed (the page then shows the error) or was cancelled. */
+  async add(source: SceneSource): Promise<readonly SceneLayer[] | null> {
+    try {
+      return await this.attemptToAdd(source);
+    } catch (error) {
+      this.messages.thrown(error);
+      return null;
+    }
+  }
+
+  /** The same, but rejects with the error for the caller. */
+  attemptToAdd(source: SceneSource): Promise<readonly SceneLayer[]> {
+    return this.run(source, (signal) => this.viewer.addLayers(source, { signal }));
+  }
+
+  private async run<T>(source: SceneSource, start: (signal: AbortSignal) => Promise<T>): Promise<T> {
     const mine = this.begin(nameOf(source));
     try {
-      return await this.viewer.load(source, { signal: mine.signal });
+      return await start(mine.signal);
     } finally {
       if (this.current === mine) {
         this.current = null;
@@ -64,20 +85,20 @@ export class Loading {
   private begin(name: string): AbortController {
     this.current = new AbortController();
     this.preview = '';
-    this.messages.clearErrors();
-    for (const listener of this.listeners) listener();
     this.name.textContent = name;
-    this.show({ stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null });
+    this.show({ stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null, deviceBytes: null });
     this.card.hidden = false;
     return this.current;
   }
 
   private show(progress: LoadProgress): void {
     this.progressNow = progress;
-    const { stage, fraction, loadedBytes, totalBytes } = progress;
+    const { stage, fraction, loadedBytes, totalBytes, deviceBytes } = progress;
     const bytes = stage !== 'download' || loadedBytes === 0 ? '' :
       totalBytes ? `, ${bytesText(loadedBytes)} of ${bytesText(totalBytes)}` : `, ${bytesText(loadedBytes)}`;
-    const text = `${stageText[stage]}${bytes}${this.preview}`;
+    const together = deviceBytes === null ? 0 : deviceBytes + (this.viewer.scene?.deviceBytes ?? 0);
+    const forecast = deviceBytes === null ? '' : `, ${bytesText(deviceBytes)} of its memory, ${bytesText(together)} with the other layers`;
+    const text = `${stageText[stage]}${bytes}${stage === 'upload' ? forecast : ''}${this.preview}`;
     this.what.textContent = text;
     this.progress.setAttribute('aria-valuetext', text);
     this.progress.classList.toggle('unknown', fraction === null);

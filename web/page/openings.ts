@@ -1,63 +1,117 @@
-// Opens scenes from all sources. Sets the page's address, if it can contain the scene, and the first
-// view.
+// Opens scenes from all sources, and adds further ones as layers. Sets the page's address, if it can contain
+// the scenes, and the first view.
 
 import { urlOf } from '../viewer/addresses.js';
-import type { SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
+import type { SceneLayer, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import type { AddressBar } from './address_bar.js';
 import type { LinkedView } from './camera_link.js';
+import { writeLayers } from './layer_link.js';
 import type { Loading } from './loading.js';
 import type { Messages } from './messages.js';
 
-/** The origin of the current scene. */
+/** The origin of a scene. */
 export type Origin =
   | { readonly kind: 'address'; readonly address: string }
   | { readonly kind: 'files'; readonly name: string }
   /** The scene is part of the page. */
   | { readonly kind: 'page' };
 
-const noView: LinkedView = { pose: null, debugView: null, defect: null };
+const noView: LinkedView = { pose: null, debugView: null, layers: null, defect: null };
+
+/** A scene that was opened or added. */
+interface Opened {
+  readonly origin: Origin;
+  /** Its layers at that time. */
+  readonly layers: readonly SceneLayer[];
+}
 
 export class Openings {
   private origin_: Origin | null = null;
+  private readonly opened = new Map<SceneSource, Opened>();
+  /** Whether the scenes of a link are being opened: then the address is theirs. */
+  private opening = false;
   private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly viewer: Viewer, private readonly loading: Loading,
               private readonly messages: Messages, private readonly bar: AddressBar) {}
 
-  /** The origin of the current scene; null without one. */
+  /** The origin of the first scene; null without one. */
   get origin(): Origin | null { return this.viewer.scene ? this.origin_ : null; }
 
-  /** Calls `listener` after a scene is open and its first view is set. */
+  /** The scenes with an address, in the order of their first layers. */
+  private get linked(): readonly SceneSource[] {
+    const sources = new Set(this.viewer.layers.map(({ source }) => source));
+    return [...sources].filter((source) => this.opened.get(source)?.origin.kind === 'address');
+  }
+
+  /** The addresses of these scenes. */
+  get addresses(): readonly string[] {
+    return this.linked.map((source) => {
+      const { origin } = this.opened.get(source)!;
+      return origin.kind === 'address' ? origin.address : '';
+    });
+  }
+
+  /** Whether a link lacks a shown scene, because it is a local file. */
+  get lacksScenes(): boolean {
+    return this.viewer.layers.some(({ source }) => this.opened.get(source)?.origin.kind === 'files');
+  }
+
+  /** Changes of the layers, for a link; null without changes. */
+  get layersText(): string | null {
+    return writeLayers(this.linked, this.viewer.layers, (source) => this.opened.get(source)!.layers);
+  }
+
+  /** Calls `listener` after scenes are open and their first view is set, and after layers were added. */
   onOpened(listener: () => void): void { this.listeners.push(listener); }
 
-  /** Opens an address, relative to the page's. */
-  async openAddress(address: string, view: LinkedView = noView): Promise<boolean> {
-    let source;
+  /** Shows scenes, camera and layers in the address, unless it belongs to scenes that are being opened. */
+  updateAddress(): void {
+    const { viewer, bar } = this;
+    if (!viewer.scene || this.opening || this.loading.busy) return;
+    bar.showView(this.addresses, viewer.getView(), viewer.debugView, this.layersText);
+  }
+
+  /** Opens addresses, relative to the page's: the first replaces the scene, the others are added. */
+  async openAddresses(addresses: readonly string[], view: LinkedView = noView): Promise<boolean> {
+    const scenes: { source: SceneSource; origin: Origin }[] = [];
     try {
-      source = { url: urlOf({ url: address }) };
+      for (const address of addresses)
+        scenes.push({ source: { url: urlOf({ url: address }) }, origin: { kind: 'address', address } });
     } catch (error) {
       this.messages.thrown(error);
       return false;
     }
-    return this.open(source, { kind: 'address', address }, view);
+    return this.open(scenes, view);
   }
 
   /** Opens files. A link to a view of a file contains no scene, so its view applies to the first opened
    *  files. */
-  openFiles(source: SceneSource): Promise<boolean> {
-    const linked = !this.origin_ && this.bar.scene() === null;
-    return this.open(source, { kind: 'files', name: source.name ?? '' }, linked ? this.bar.view() : noView);
+  openFiles(sources: readonly SceneSource[]): Promise<boolean> {
+    const linked = !this.origin_ && this.bar.scenes().length === 0;
+    return this.open(sources.map((source) => ({ source, origin: { kind: 'files', name: source.name ?? '' } })),
+                     linked ? this.bar.view() : noView);
   }
 
   openPart(source: SceneSource, view: LinkedView): Promise<boolean> {
-    return this.open(source, { kind: 'page' }, view);
+    return this.open([{ source, origin: { kind: 'page' } }], view);
   }
 
-  /** Applies the camera and the debug view of a link. */
+  /** Adds files to the scene. */
+  async addFiles(sources: readonly SceneSource[]): Promise<boolean> {
+    this.messages.clearErrors();
+    let all = true;
+    for (const source of sources) all = await this.add(source, { kind: 'files', name: source.name ?? '' }) && all;
+    this.tellOpened();
+    return all;
+  }
+
+  /** Applies the camera, the layers and the debug view of a link. */
   async look(view: LinkedView): Promise<void> {
     if (view.defect) this.messages.notice(view.defect);
-    this.lookFrom(view);
     try {
+      await this.arrange(view);
+      this.lookFrom(view);
       if ((view.debugView ?? 'color') !== this.viewer.debugView) await this.viewer.show(view.debugView ?? 'color');
     } catch (error) {
       this.messages.thrown(error);
@@ -68,20 +122,59 @@ export class Openings {
     if (pose) this.viewer.setView({ ...pose, up: pose.up ?? this.viewer.getView().up });
   }
 
-  private async open(source: SceneSource, origin: Origin, view: LinkedView): Promise<boolean> {
+  /** Gives the layers the order and the places of a link. Entries without a layer are ignored. */
+  private async arrange({ layers: entries }: LinkedView): Promise<void> {
+    if (!entries) return;
+    const { viewer } = this, scenes = this.linked;
+    let next = 0;
+    for (const { scene, layer, visible, placement } of entries) {
+      const at = viewer.layers.findIndex(({ source, sourceLayer }, index) =>
+        index >= next && source === scenes[scene] && sourceLayer === layer);
+      if (at < 0) continue;
+      await viewer.moveLayer(at, next);
+      viewer.setLayer(next++, { visible, ...(placement && { transform: placement }) });
+    }
+    while (next > 0 && viewer.layers.length > next) await viewer.removeLayer(next);
+  }
+
+  private async open(scenes: readonly { readonly source: SceneSource; readonly origin: Origin }[],
+                     view: LinkedView): Promise<boolean> {
+    const [first, ...others] = scenes;
+    if (!first) return false;
     // The preview already has this view, and the user may move it before the whole scene arrives.
     let looked = false;
     const forget = this.viewer.on('preview', () => {
       this.lookFrom(view);
       looked = true;
     });
-    const scene: SceneSummary | null = await this.loading.load(source);
+    const scene: SceneSummary | null = await this.loading.load(first.source);
     forget();
     if (!scene) return false;
-    this.origin_ = origin;
-    this.bar.showScene(origin.kind === 'address' ? origin.address : null);
-    await this.look(looked ? { ...view, pose: null } : view);
-    for (const listener of this.listeners) listener();
+    this.origin_ = first.origin;
+    this.opened.clear();
+    this.opened.set(first.source, { origin: first.origin, layers: this.viewer.layers });
+    this.bar.showScenes(scenes.flatMap(({ origin }) => (origin.kind === 'address' ? [origin.address] : [])));
+    // With further scenes the view is set before and after them: they take time.
+    if (others.length > 0 && !looked) this.lookFrom(view);
+    this.opening = true;
+    for (const { source, origin } of others)
+      if (this.opened.has(first.source)) await this.add(source, origin);  // otherwise another scene is open now
+    if (!this.opened.has(first.source)) return true;
+    this.opening = false;
+    await this.look(looked || others.length > 0 ? { ...view, pose: null } : view);
+    this.tellOpened();
     return true;
+  }
+
+  private async add(source: SceneSource, origin: Origin): Promise<boolean> {
+    const layers = await this.loading.add(source);
+    if (!layers) return false;
+    this.opened.set(source, { origin, layers });
+    this.updateAddress();
+    return true;
+  }
+
+  private tellOpened(): void {
+    for (const listener of this.listeners) listener();
   }
 }

@@ -3,7 +3,7 @@
 
 import type { Viewer } from '../viewer/types.js';
 import { block, byId, button, input } from './dom.js';
-import { sourceOfDropped, sourceOfPicked } from './files.js';
+import { sourcesOfDropped, sourcesOfPicked } from './files.js';
 import { fillGallery } from './gallery.js';
 import type { Loading } from './loading.js';
 import type { Messages } from './messages.js';
@@ -27,9 +27,9 @@ export class Start {
     byId('address-form', HTMLFormElement).addEventListener('submit', (event) => {
       event.preventDefault();
       const address = input('address').value.trim();
-      if (address) void this.leaveFor(this.openings.openAddress(address));
+      if (address) void this.leaveFor(this.openings.openAddresses([address]));
     });
-    void fillGallery((address) => void this.leaveFor(this.openings.openAddress(address)));
+    void fillGallery((address) => void this.leaveFor(this.openings.openAddresses([address])));
     viewer.on('preview', () => this.show(false));
     viewer.on('scene', () => this.update());
   }
@@ -69,7 +69,7 @@ export class Start {
 
   private async pick(list: FileList): Promise<boolean> {
     try {
-      return await this.openings.openFiles(sourceOfPicked(list));
+      return await this.openings.openFiles(sourcesOfPicked(list));
     } catch (error) {
       this.messages.thrown(error);
       return false;
@@ -85,14 +85,15 @@ export class Start {
     else if (held && document.activeElement === document.body) this.viewer.canvas.focus();  // the canvas was invisible before
   }
 
-  /** Opens files that are dropped anywhere on the page. */
+  /** Opens files that are dropped anywhere on the page; adds them to the scene if there is one. */
   attachDrop(): void {
-    const sign = block('drop-here');
+    const sign = block('drop-here'), text = sign.firstElementChild!;
     const carriesFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
     let depth = 0;  // number of elements that the pointer has entered and not left
     const over = (change: number) => {
       depth = Math.max(depth + change, 0);
       sign.hidden = depth === 0;
+      text.textContent = this.viewer.scene ? 'Drop to add' : 'Drop to open';
     };
     window.addEventListener('dragenter', (event) => { if (carriesFiles(event)) over(1); });
     window.addEventListener('dragleave', (event) => { if (carriesFiles(event)) over(-1); });
@@ -107,7 +108,8 @@ export class Start {
 
   private async drop(transfer: DataTransfer): Promise<boolean> {
     try {
-      return await this.openings.openFiles(await sourceOfDropped(transfer));
+      const adds = this.viewer.scene !== null, sources = await sourcesOfDropped(transfer);
+      return await (adds ? this.openings.addFiles(sources) : this.openings.openFiles(sources));
     } catch (error) {
       this.messages.thrown(error);
       return false;

@@ -17,6 +17,7 @@ import { DrawingSection } from './sections/drawing.js';
 import { LinkSection } from './sections/link.js';
 import { DebugViewSection } from './sections/debug_view.js';
 import { ImageSection } from './sections/image.js';
+import { LayersSection } from './sections/layers.js';
 import { SavedSection } from './sections/saved.js';
 import { SceneSection } from './sections/scene.js';
 import { TimesSection } from './sections/times.js';
@@ -92,21 +93,20 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
 
   const panel = new Panel(), fullScreen = new FullScreen();
   new SceneSection(viewer, loading);
+  new LayersSection(viewer, tell, failed);
   const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
   const saved = new SavedSection(viewer, tell);
   new DrawingSection(viewer);
   const image = new ImageSection(viewer, tell, failed);
   const link = new LinkSection(viewer, bar, openings, tell);
   const follow = () => {
-    // During another load, or after it failed, the address belongs to that scene.
-    const origin = openings.origin;
-    if (origin && bar.scene() === (origin.kind === 'address' ? origin.address : null))
-      bar.showView(viewer.getView(), viewer.debugView);
+    openings.updateAddress();
     link.update();
   };
   const debugViews = new DebugViewSection(viewer, failed, follow);
   new TimesSection(viewer);
   viewer.on('view', follow);
+  viewer.on('layers', follow);
   viewer.on('context', () => debugViews.update());
   openings.onOpened(() => {
     saved.follow(sceneKey());
@@ -137,15 +137,13 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
 /** Opens the scene and view of the page's address when the user goes back or forward. */
 function followAddress(viewer: Viewer, openings: Openings, bar: AddressBar, start: Start): void {
   bar.onChange(() => {
-    const wanted = bar.scene();
-    const shown = openings.origin;
-    const same = shown?.kind === 'address' ? shown.address === wanted : wanted === null;
-    if (same) return void openings.look(bar.view());
-    if (wanted === null) {
+    const wanted = bar.scenes();
+    if (bar.has(openings.addresses)) return void openings.look(bar.view());
+    if (wanted.length === 0) {
       viewer.clear();
       start.update();
     } else {
-      void openings.openAddress(wanted, bar.view());
+      void openings.openAddresses(wanted, bar.view());
     }
   });
 }
@@ -164,10 +162,10 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
     window.addEventListener(event, (drag) => drag.preventDefault(), { signal: starting.signal });
 
   const bar = new AddressBar(embedded);
-  const wanted = bar.scene();
+  const wanted = bar.scenes();
   let viewer: Viewer;
   try {
-    const expected = wanted ? fetchable(wanted) : options.scene;
+    const expected = wanted[0] ? fetchable(wanted[0]) : options.scene;
     viewer = await createViewer(byId('canvas', HTMLCanvasElement),
                                 { ...(options.assets && { assets: options.assets }), ...(expected && { expected }) });
   } catch (error) {
@@ -190,7 +188,7 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
     followAddress(viewer, openings, bar, start);
     block('actions').inert = false;
   }
-  if (wanted) await openings.openAddress(wanted, bar.view());
+  if (wanted.length > 0) await openings.openAddresses(wanted, bar.view());
   else if (options.scene) await openings.openPart(options.scene, bar.view());
   start?.update();
 }

@@ -15,6 +15,8 @@ export interface SceneDescription {
   readonly name: string;
   readonly source: string;
   readonly notes: readonly string[];
+  /** The names of the layers in the file, which may be empty. */
+  readonly layer_names: readonly string[];
   readonly triangles: number;
   readonly appearance: string;
   readonly cameras: readonly { readonly name: string; readonly width: number; readonly height: number }[];
@@ -35,15 +37,31 @@ export interface PreparedScene {
   readonly prepareMs: number;
 }
 
+/** One layer of a source, prepared alone. */
+export interface PreparedLayer {
+  readonly description: SceneDescription;
+  readonly parcel: Parcel;
+  /** Number of the layer in its source, from 0. */
+  readonly index: number;
+  /** Forecast of the bytes on the device, for each layer of the source. */
+  readonly forecasts: readonly number[];
+}
+
+/** scene: the scene that the page shows; layers: added to the shown scene, one after the other. */
+export type LoadRole = 'scene' | 'layers';
+
 export type ToLoader =
-  | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad }
+  | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad; readonly role: LoadRole }
   /** Sent when the device is available; preparing depends on its limits. */
   | { readonly kind: 'limits'; readonly limits: unknown }
   /** The device's memory is too small: prepare the scene with a lower lattice level. */
-  | { readonly kind: 'lower'; readonly why: string };
+  | { readonly kind: 'lower'; readonly why: string }
+  /** Prepare the next layer: the page holds no more than one at a time. */
+  | { readonly kind: 'next' };
 
 export type FromLoader =
   | { readonly kind: 'progress'; readonly progress: LoadProgress }
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
+  | { readonly kind: 'layer'; readonly layer: PreparedLayer }
   | { readonly kind: 'error'; readonly error: { readonly kind: ViewerError['kind']; readonly message: string } };

@@ -3,7 +3,9 @@
 
 import { download } from './download.js';
 import { Engine, type Parcel } from './engine.js';
-import type { FilesToLoad, FromLoader, PreparedScene, SceneDescription, SourceToLoad, ToLoader } from './loader_messages.js';
+import type {
+  FilesToLoad, FromLoader, LoadRole, PreparedScene, SceneDescription, SourceToLoad, ToLoader,
+} from './loader_messages.js';
 import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
 import { ViewerError, type LoadStage } from './types.js';
@@ -24,8 +26,11 @@ class Loader {
   private loaded = 0;
   private total: number | null = null;
   private told = { stage: '', permille: -1 };
+  private forecasts: readonly number[] = [];  // of added layers
+  private nextLayer = 0;
 
-  constructor(private readonly engine: Engine, private readonly limits: Promise<unknown>, private readonly from: 'files' | 'url') {}
+  constructor(private readonly engine: Engine, private readonly limits: Promise<unknown>, private readonly from: 'files' | 'url',
+              private readonly role: LoadRole) {}
 
   async load(source: SourceToLoad): Promise<void> {
     const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
@@ -33,7 +38,18 @@ class Loader {
     const begin = performance.now();
     this.description = readWith<SceneDescription>(this.engine, 'read', files);
     this.readMs = performance.now() - begin;
-    await this.send();
+    if (this.role === 'scene') return this.send();
+    this.forecasts = this.engine.call<number[]>('forecast', { limits: await this.limits });
+    await this.sendLayer();
+  }
+
+  /** Sends the next layer. */
+  async sendLayer(): Promise<void> {
+    const index = this.nextLayer++, { forecasts } = this;
+    this.engine.onProgress = (fraction) => this.tell('prepare', (index + fraction) / forecasts.length);
+    const parcel = this.packed(await this.limits, index);
+    this.tell('upload', index / forecasts.length);
+    post({ kind: 'layer', layer: { description: this.description!, parcel, index, forecasts } });
   }
 
   /** Sends the scene again with the next lower lattice level. `why`: the device's message. */
@@ -52,7 +68,8 @@ class Loader {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
-      if (prefix.length === total) return;  // the whole scene follows immediately
+      // Added layers have none: the scene stays visible. Otherwise, the whole scene follows immediately.
+      if (this.role === 'layers' || prefix.length === total) return;
       const description = preview.read(prefix);
       if (description) post({ kind: 'preview', scene: await this.prepared(description) });
     });
@@ -78,9 +95,9 @@ class Loader {
   }
 
   /** Prepares the scene. The engine's memory grows meanwhile, so its buffer is fetched again for each block. */
-  private packed(limits: unknown): Parcel {
-    const level = this.level === null ? {} : { level: this.level };
-    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, ...level });
+  private packed(limits: unknown, layer: number | null = null): Parcel {
+    const level = this.level === null ? {} : { level: this.level }, only = layer === null ? {} : { layer };
+    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, ...level, ...only });
     const head = this.engine.buffer().slice().buffer;
     return { head, blobs: blobs.map(({ size, grain }, blob) => this.blob(blob, size, grain)) };
   }
@@ -101,7 +118,8 @@ class Loader {
     const permille = fraction === null ? Math.floor(this.loaded / 1e5) : Math.floor(1000 * fraction);
     if (this.told.stage === stage && this.told.permille === permille) return;
     this.told = { stage, permille };
-    post({ kind: 'progress', progress: { stage, fraction, loadedBytes: this.loaded, totalBytes: this.total } });
+    const deviceBytes = this.forecasts.length ? this.forecasts.reduce((sum, bytes) => sum + bytes, 0) : null;
+    post({ kind: 'progress', progress: { stage, fraction, loadedBytes: this.loaded, totalBytes: this.total, deviceBytes } });
   }
 }
 
@@ -109,6 +127,9 @@ function post(message: FromLoader): void {
   const transferred: Transferable[] = [];
   if (message.kind === 'scene' || message.kind === 'preview') {
     const { head, blobs } = message.scene.parcel;
+    transferred.push(head, ...blobs);
+  } else if (message.kind === 'layer') {
+    const { head, blobs } = message.layer.parcel;
     transferred.push(head, ...blobs);
   }
   self.postMessage(message, { transfer: transferred });
@@ -121,10 +142,12 @@ const limits = new Promise<unknown>((resolve) => { giveLimits = resolve; });
 async function obey(message: ToLoader): Promise<void> {
   switch (message.kind) {
     case 'load':
-      loader = new Loader(await Engine.create(message.program), limits, 'url' in message.source ? 'url' : 'files');
+      loader = new Loader(await Engine.create(message.program), limits, 'url' in message.source ? 'url' : 'files',
+                          message.role);
       return loader.load(message.source);
     case 'limits': return giveLimits(message.limits);
     case 'lower': return loader!.lower(message.why);
+    case 'next': return loader!.sendLayer();
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { fileNameOf, urlOf } from './addresses.js';
 import type { Assets } from './assets.js';
-import type { FromLoader, PreparedScene, SourceToLoad, ToLoader } from './loader_messages.js';
+import type { FromLoader, LoadRole, PreparedLayer, PreparedScene, SourceToLoad, ToLoader } from './loader_messages.js';
 import { ViewerError, type LoadProgress, type SceneSource } from './types.js';
 
 export interface LoadingEvents {
@@ -11,6 +11,12 @@ export interface LoadingEvents {
   /** Uploads the scene to the device. Returns null, or the reason if the device's memory is too small; the
    *  scene then arrives again with a lower lattice level. */
   scene(scene: PreparedScene): string | null;
+}
+
+/** The events of a load that adds layers: no preview, and layer after layer instead of a scene. */
+export interface AddingEvents {
+  progress(progress: LoadProgress): void;
+  layer(layer: PreparedLayer): void;
 }
 
 function sourceToLoad(source: SceneSource): SourceToLoad {
@@ -32,20 +38,21 @@ export const isShortage = (error: unknown): error is ViewerError => error instan
 export class Loading {
   private readonly shown: Promise<void>;
   private settle!: { resolve(): void; reject(why: unknown): void };
-  private events: LoadingEvents | null = null;
+  private events: LoadingEvents | AddingEvents | null = null;
   private worker: Worker | null = null;
   private readonly unheard: FromLoader[] = [];
   private over = false;
 
-  /** `limits`: limits of the device; preparing waits for them. */
-  constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource) {
+  /** `limits`: limits of the device; preparing waits for them. `role` decides which events run() needs. */
+  constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource,
+              private readonly role: LoadRole = 'scene') {
     this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
     this.shown.catch(() => {});  // run() returns the error
     this.begin(assets, program, limits, source).catch((error: unknown) => this.end(error));
   }
 
   /** Resolves when the scene is shown. Rejects with ViewerError. Call it only once. */
-  run(events: LoadingEvents): Promise<void> {
+  run(events: LoadingEvents | AddingEvents): Promise<void> {
     this.events = events;
     for (const message of this.unheard) this.hear(message);
     return this.shown;
@@ -67,7 +74,7 @@ export class Loading {
       if (this.events) this.hear(data);
       else this.unheard.push(data);
     };
-    tell({ kind: 'load', program: await program, source: toLoad });
+    tell({ kind: 'load', program: await program, source: toLoad, role: this.role });
     tell({ kind: 'limits', limits: await limits });
   }
 
@@ -85,12 +92,19 @@ export class Loading {
     try {
       switch (message.kind) {
         case 'progress': return events.progress(message.progress);
-        case 'preview': return events.preview(message.scene);
+        case 'preview': return (events as LoadingEvents).preview(message.scene);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));
         case 'scene': {
-          const why = events.scene(message.scene);
+          const why = (events as LoadingEvents).scene(message.scene);
           if (why === null) this.end();
           else this.worker!.postMessage({ kind: 'lower', why } satisfies ToLoader);
+          return;
+        }
+        case 'layer': {
+          const { layer } = message;
+          (events as AddingEvents).layer(layer);
+          if (layer.index + 1 === layer.forecasts.length) this.end();
+          else this.worker!.postMessage({ kind: 'next' } satisfies ToLoader);
         }
       }
     } catch (error) {

@@ -1,14 +1,23 @@
 // The summary of a scene for the page, from the loader's description and the device's facts.
 
-import type { PreparedScene } from './loader_messages.js';
-import type { SceneSummary } from './types.js';
+import type { SceneDescription } from './loader_messages.js';
+import type { DebugViewChoice, SceneSummary } from './types.js';
 
-/** The result of the command "show": web/engine/viewer.cpp. */
+/** A layer on the device: web/engine/viewer.cpp. */
+export interface ShownLayer {
+  readonly triangles: number;
+  readonly visible: boolean;
+  readonly transform: readonly number[];
+  readonly device_bytes: number;
+}
+
+/** The result of the commands "show", "add_layers", "remove_layer" and "move_layer": web/engine/viewer.cpp. */
 export interface ShownFacts {
   readonly plan: readonly string[];
   /** Number of drawn triangles. */
   readonly drawn: number;
   readonly device_bytes: number;
+  readonly layers: readonly ShownLayer[];
 }
 
 export const lowerLevelSentence = (level: number) =>
@@ -16,17 +25,35 @@ export const lowerLevelSentence = (level: number) =>
 
 export const nothingDrawn = 'The scene cannot be drawn: it has no triangles with finite corners and an area.';
 
-export function sceneSummary({ description }: PreparedScene, facts: ShownFacts): SceneSummary {
-  const { name, source, notes, triangles, appearance, cameras, background, subject, debug_views } = description;
+/** "76 MB" */
+const megabytes = (bytes: number) => `${(bytes / 1e6).toFixed(bytes < 9.95e6 ? 1 : 0)}\u00a0MB`;
+
+export const tooLargeSentence = (layer: string, bytes: number) =>
+  `This device has not enough memory for the layer “${layer}”, which needs ${megabytes(bytes)}. The other layers are drawn.`;
+
+/** The debug views that all sources support. */
+function debugViewsOf(sources: readonly SceneDescription[]): readonly DebugViewChoice[] {
+  return sources[0]!.debug_views.map((choice, index) =>
+    sources.map(({ debug_views }) => debug_views[index]!).find(({ missing }) => missing !== null) ?? choice);
+}
+
+/** `sources`: descriptions of the sources with layers; `first`: that of the loaded scene. */
+export function sceneSummary(first: SceneDescription, sources: readonly SceneDescription[], facts: ShownFacts): SceneSummary {
+  const { background, cameras, subject, up_reason } = first;
+  const distinct = (texts: readonly string[]) => [...new Set(texts.filter(Boolean))];
   return {
-    name, source, triangles, appearance, background,
-    notes: [...notes, ...(facts.drawn ? [] : [nothingDrawn])],
+    name: sources[0]!.name,
+    source: distinct(sources.map(({ source }) => source)).join('; '),
+    notes: distinct([...sources.flatMap(({ notes }) => notes), facts.drawn ? '' : nothingDrawn]),
+    triangles: facts.layers.reduce((sum, layer) => sum + layer.triangles, 0),
+    appearance: distinct(sources.map(({ appearance }) => appearance)).join(', '),
+    background,
     plan: facts.plan,
     cameras: cameras.map(({ name, width, height }) => ({ name, width, height })),
     up: subject.up,
-    upReason: description.up_reason,
-    debugViews: debug_views,
-    featureCount: description.feature_count,
+    upReason: up_reason,
+    debugViews: debugViewsOf(sources),
+    featureCount: Math.min(...sources.map(({ feature_count }) => feature_count)),
     deviceBytes: facts.device_bytes,
   };
 }

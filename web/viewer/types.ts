@@ -50,6 +50,40 @@ export interface SceneSummary {
   readonly deviceBytes: number;
 }
 
+/** 16 numbers, column by column, as in glTF: a similarity (rotation, translation, one scale, optionally a
+ *  mirror). */
+export type Matrix = readonly number[];
+
+/** The parts of a layer's transform, applied in the order mirror, scale, rotation, position. */
+export interface Placement {
+  readonly position: Vec3;
+  /** Angles about the world's axes: first about x, then about y, then about z. */
+  readonly rotation: Vec3;
+  /** Above 0. */
+  readonly scale: number;
+  /** Whether x is negated. */
+  readonly mirror: boolean;
+}
+
+/** A set of triangles of the current scene. At equal depth the earlier layer is visible. */
+export interface SceneLayer {
+  /** Unique among the layers: "fox", "fox 2". */
+  readonly name: string;
+  readonly triangles: number;
+  readonly visible: boolean;
+  /** From the layer's coordinates to the world's. */
+  readonly transform: Matrix;
+  readonly placement: Placement;
+  /** Size of its buffers and textures on the device, in bytes. */
+  readonly deviceBytes: number;
+  /** The argument of `load` or `addLayers`, and the layer's number in it, from 0. */
+  readonly source: SceneSource;
+  readonly sourceLayer: number;
+}
+
+/** Largest number of layers of a scene: the device stores a layer's number in 8 bits. */
+export const maxLayers = 255;
+
 /** A debug view, or the final colours. */
 export interface DebugViewChoice {
   /** "color", "depth", "normals", "triangle-id", .. */
@@ -76,6 +110,8 @@ export interface LoadProgress {
   readonly loadedBytes: number;
   /** null if the server does not report it. */
   readonly totalBytes: number | null;
+  /** Forecast of the bytes on the device, for added layers before their upload; otherwise null. */
+  readonly deviceBytes: number | null;
 }
 
 export type NavigationMode = 'orbit' | 'fly';
@@ -123,8 +159,10 @@ export interface ViewerEvents {
   progress: LoadProgress;
   /** A first image with mean colours is shown, while the load continues. */
   preview: { readonly triangles: number };
-  /** The current scene changed; null for none. */
+  /** The current scene changed, or layers were added or removed; null for none. */
   scene: SceneSummary | null;
+  /** The list of layers, or a member of it, changed. */
+  layers: readonly SceneLayer[];
   /** A message for the user, for example about a lower lattice level because of too little memory. */
   notice: string;
   /** A frame was drawn. Use it sparingly. */
@@ -156,11 +194,28 @@ export interface Viewer {
 
   /** Replaces the scene when the new one is complete; a preview may come earlier. The next load and the
    *  signal cancel a running load: its promise rejects with 'cancelled', and the old scene stays. A
-   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left.
+   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left. Of a
+   *  source with several layers, those are drawn that fit the device's memory; notices name the others.
    *  Rejects with ViewerError. */
   load(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<SceneSummary>;
   /** Removes the scene. */
   clear(): void;
+
+  // Layers. A loaded scene has at least one. Background, up axis and cameras stay those of the loaded scene.
+
+  readonly layers: readonly SceneLayer[];
+  /** Adds the layers of another source after the present ones, and resolves to them; the view stays. Without
+   *  a scene it loads the source. Several calls run one after the other; `load`, `clear` and the signal
+   *  cancel them. A layer that the device's memory cannot hold is not added: a notice names it and its
+   *  bytes, and the others are drawn. Rejects with ViewerError, also if no layer was added, or if there would
+   *  be more than `maxLayers`. */
+  addLayers(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<readonly SceneLayer[]>;
+  /** Changes the members that are given. Throws ViewerError if the transform is not a similarity. */
+  setLayer(index: number, change: { readonly visible?: boolean; readonly transform?: Matrix | Placement }): void;
+  /** Frees the layer's memory. Without its only layer, there is no scene. Resolves when it is removed. */
+  removeLayer(index: number): Promise<void>;
+  /** Moves a layer to another place in the list. */
+  moveLayer(from: number, to: number): Promise<void>;
 
   on<E extends keyof ViewerEvents>(event: E, listener: (what: ViewerEvents[E]) => void): () => void;
 
@@ -181,7 +236,7 @@ export interface Viewer {
   fly(direction: Vec3, factor: number): void;
   /** Moves the point under the pointer to the centre. Returns false for the background. */
   focus(x: number, y: number): boolean;
-  /** Frames the whole scene from the current direction. */
+  /** Frames all visible layers from the current direction. */
   frame(): void;
   /** Returns to the first view. */
   home(): void;

@@ -4,17 +4,20 @@
 import { urlOf } from './addresses.js';
 import { assetsAt, type Assets } from './assets.js';
 import { attachControls } from './controls.js';
-import { compile, Engine } from './engine.js';
+import { compile, Engine, type Parcel } from './engine.js';
 import { FrameTimes } from './frame_times.js';
-import type { PreparedScene } from './loader_messages.js';
+import type { PreparedScene, SceneDescription } from './loader_messages.js';
 import { isShortage, Loading } from './loading.js';
+import { matrixOf, placementOf } from './placement.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
-import { lowerLevelSentence, nothingDrawn, sceneSummary, type ShownFacts } from './scene_summary.js';
 import {
-  ViewerError, type FrameStats, type LegendEntry, type NamedView, type NavigationMode, type Resolution,
-  type SceneSource, type SceneSummary, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
+  lowerLevelSentence, nothingDrawn, sceneSummary, tooLargeSentence, type ShownFacts, type ShownLayer,
+} from './scene_summary.js';
+import {
+  maxLayers, ViewerError, type FrameStats, type LegendEntry, type Matrix, type NamedView, type NavigationMode,
+  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
 } from './types.js';
 
 /** Starts the engine on this canvas. Rejects with ViewerError. */
@@ -39,6 +42,38 @@ interface Device {
 const isSame = (a: SceneSource, b: SceneSource) =>
   a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name);
 
+/** A source with layers in the scene. */
+interface Part {
+  readonly source: SceneSource;
+  readonly description: SceneDescription;
+  /** The reduced lattice level; null if it is not reduced. */
+  readonly level: number | null;
+}
+
+/** The origin of a layer; its other facts are the engine's. */
+interface LayerRecord {
+  readonly part: Part;
+  /** The layer's number in its source. */
+  readonly index: number;
+  readonly name: string;
+  /** As it was given to setLayer(): the angles of a transform are not unique. Null: computed from the transform. */
+  readonly placement: Placement | null;
+}
+
+/** `wanted`, or with the first free number: "fox 2". */
+function freeName(wanted: string, taken: readonly LayerRecord[]): string {
+  const isFree = (name: string) => taken.every((layer) => layer.name !== name);
+  if (isFree(wanted)) return wanted;
+  for (let number = 2; ; ++number)
+    if (isFree(`${wanted} ${number}`)) return `${wanted} ${number}`;
+}
+
+/** The file's name for a layer if there are several, otherwise the scene's. */
+const ownName = ({ name, layer_names }: SceneDescription, index: number) =>
+  (layer_names.length > 1 && layer_names[index]) || name;
+
+const cancelled = () => new ViewerError('Loading was cancelled.', 'cancelled');
+
 /** Listeners of each event. */
 type Listeners = { [E in keyof ViewerEvents]?: Set<(what: ViewerEvents[E]) => void> };
 
@@ -57,13 +92,20 @@ class CanvasViewer implements Viewer {
   private readonly observer: ResizeObserver;
   private readonly ending = new AbortController();
   private loading: Loading | null = null;
-  private source: SceneSource | null = null;
-  private level: number | null = null;  // the reduced lattice level of the scene
+  /** Resolves when no load runs and no layers are being added. */
+  private turn: Promise<unknown> = Promise.resolve();
+  /** Number of calls that cancel earlier loads and additions. */
+  private cancellations = 0;
+  /** The description of the loaded scene; background, up axis and cameras are its. */
+  private first: SceneDescription | null = null;
+  private parts: readonly Part[] = [];  // another list after each change
+  private records: readonly LayerRecord[] = [];
+  private layers_: readonly SceneLayer[] = [];
   private shown: SceneSummary | null = null;
   private previewed = false;
   private debugView_ = { name: 'color', features: { first: 0, count: 3 } };
   private debugViewsAsked = 0;
-  private opening: { readonly source: SceneSource | null; readonly done: Promise<void> } | null = null;
+  private opening: { readonly parts: readonly Part[]; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
   private backgroundBefore: Vec3 = [0, 0, 0];
@@ -114,12 +156,15 @@ class CanvasViewer implements Viewer {
 
   /** Starts a new engine and loads the scene again: the old context and the old engine's memory are lost. */
   private async restore(): Promise<void> {
-    const view = this.shown ? this.getView() : null, source = this.source, shown = this.debugView_;
+    const view = this.shown ? this.getView() : null, shown = this.debugView_;
+    const { parts, layers_: layers } = this;
     try {
       await (this.started = this.startEngine());
       if (this.ending.signal.aborted) return;
-      if (source) {
-        await this.load(source);
+      if (parts.length > 0) {
+        await this.load(parts[0]!.source);
+        for (const { source } of parts.slice(1)) await this.addLayers(source);
+        await this.arrange(layers);
         if (view) this.setView(view);
         if (shown.name !== 'color') await this.show(shown.name, shown.features);
       }
@@ -138,29 +183,48 @@ class CanvasViewer implements Viewer {
 
   get scene(): SceneSummary | null { return this.shown; }
 
-  async load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
+  load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
+    ++this.cancellations;
+    const loaded = this.replace(source, options);
+    this.turn = loaded.catch(() => {});
+    return loaded;
+  }
+
+  private async replace(source: SceneSource, options: { readonly signal?: AbortSignal }): Promise<SceneSummary> {
     if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
     this.loading?.cancel();
     this.dropPreview();
-    const loading = this.loading = this.begin(source);
-    const cancel = () => loading.cancel();
-    if (options.signal?.aborted) cancel();
-    options.signal?.addEventListener('abort', cancel);
+    const loading = this.begin(source);
+    let layers = 1;
     try {
-      await loading.run({
+      await this.run(loading, options.signal, {
         progress: (progress) => this.emit('progress', progress),
         preview: (scene) => this.showPreview(scene),
-        scene: (scene) => this.showScene(scene, source),
+        scene: (scene) => {
+          layers = scene.description.layer_names.length;
+          return this.showScene(scene, source);
+        },
       });
     } catch (error) {
-      if (this.loading === loading) this.dropPreview();
-      throw error;
+      if (this.loading === null) this.dropPreview();  // no later load has begun
+      if (layers === 1 || !isShortage(error)) throw error;
+      await this.add(source, options.signal);  // layer by layer: draws those that fit
+    }
+    return this.shown!;
+  }
+
+  private async run(loading: Loading, signal: AbortSignal | undefined, events: Parameters<Loading['run']>[0]): Promise<void> {
+    this.loading = loading;
+    const cancel = () => loading.cancel();
+    if (signal?.aborted) cancel();
+    signal?.addEventListener('abort', cancel);
+    try {
+      await loading.run(events);
     } finally {
-      options.signal?.removeEventListener('abort', cancel);
+      signal?.removeEventListener('abort', cancel);
       if (this.loading === loading) this.loading = null;
       this.ask();
     }
-    return this.shown!;
   }
 
   private begin(source: SceneSource): Loading {
@@ -201,8 +265,17 @@ class CanvasViewer implements Viewer {
 
   private forgetScene(): void {
     if (!this.shown) return;
-    this.source = this.shown = null;
+    this.setScene(null, [], []);
+    this.setLayers([]);
     this.emit('scene', null);
+    this.emit('layers', []);
+  }
+
+  private setScene(first: SceneDescription | null, parts: readonly Part[], records: readonly LayerRecord[]): void {
+    this.first = first;
+    this.parts = parts;
+    this.records = records;
+    if (!first) this.shown = null;
   }
 
   /** Shows a scene. Returns null, or the reason if the device's memory is too small. */
@@ -217,27 +290,57 @@ class CanvasViewer implements Viewer {
       throw error;
     }
     this.previewed = false;
-    this.source = source;
-    this.level = scene.level;
     this.debugView_ = { ...this.debugView_, name: 'color' };
-    this.shown = sceneSummary(scene, facts);
-    this.emit('scene', this.shown);
+    const { description, level } = scene, part = { source, description, level };
+    const records: LayerRecord[] = [];
+    for (let index = 0; index < facts.layers.length; ++index)
+      records.push({ part, index, name: freeName(ownName(description, index), records), placement: null });
+    this.setScene(description, [part], records);
+    this.showFacts(facts);
     if (facts.drawn === 0) this.emit('notice', nothingDrawn);
     if (scene.level !== null)
       this.emit('notice', lowerLevelSentence(scene.level));
     return null;
   }
 
-  private unpack(scene: PreparedScene, role: 'preview' | 'scene'): ShownFacts {
-    const { description, parcel } = scene;
-    this.engine.setBuffer(new Uint8Array(parcel.head));
+  /** Reports a change of the scene's layers. */
+  private showFacts(facts: ShownFacts): void {
+    this.shown = sceneSummary(this.first!, this.parts.map(({ description }) => description), facts);
+    this.setLayers(facts.layers);
+    this.emit('scene', this.shown);
+    this.emit('layers', this.layers_);
+    this.ask();
+  }
+
+  /** `shown`: the engine's layers, one for each record. */
+  private setLayers(shown: readonly ShownLayer[]): void {
+    this.layers_ = this.records.map(({ part, index, name, placement }, at) => {
+      const { triangles, visible, transform, device_bytes } = shown[at]!;
+      return {
+        name, triangles, visible, transform, placement: placement ?? placementOf(transform), deviceBytes: device_bytes,
+        source: part.source, sourceLayer: index,
+      };
+    });
+  }
+
+  /** Runs a command that takes a prepared scene. */
+  private give({ head, blobs }: Parcel, command: string, given: object): ShownFacts {
+    this.engine.setBuffer(new Uint8Array(head));
     this.engine.call('take_head');
-    this.engine.setBlobs(parcel.blobs);
-    if (role === 'preview' || !this.previewed) this.background = description.background;
+    this.engine.setBlobs(blobs);
     try {
-      return this.engine.call<ShownFacts>('show', { scene: description, role });
+      return this.engine.call<ShownFacts>(command, given);
     } finally {
       this.engine.setBlobs([]);
+      this.ask();
+    }
+  }
+
+  private unpack({ description, parcel }: Pick<PreparedScene, 'description' | 'parcel'>, role: 'preview' | 'scene'): ShownFacts {
+    if (role === 'preview' || !this.previewed) this.background = description.background;
+    try {
+      return this.give(parcel, 'show', { scene: description, role });
+    } finally {
       this.engine.call('gliding', this.gliding_);
       this.engine.call('mode', this.navigation);
       this.lay();
@@ -246,13 +349,153 @@ class CanvasViewer implements Viewer {
   }
 
   clear(): void {
+    ++this.cancellations;
     this.loading?.cancel();
     if (!this.lost) this.engine.call('clear');
     this.previewed = false;
-    this.source = this.shown = null;
+    this.setScene(null, [], []);
     this.debugView_ = { ...this.debugView_, name: 'color' };
+    this.setLayers([]);
     this.emit('scene', null);
+    this.emit('layers', []);
     this.ask();
+  }
+
+  // -- layers -----------------------------------------------------------------------------------
+
+  get layers(): readonly SceneLayer[] { return this.layers_; }
+
+  addLayers(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<readonly SceneLayer[]> {
+    const { turn, cancellations } = this;
+    const added = (async () => {
+      await turn;
+      if (this.cancellations !== cancellations || options.signal?.aborted) throw cancelled();
+      if (this.shown) return this.inColors(() => this.add(source, options.signal));
+      await this.replace(source, options);
+      return this.layers_;
+    })();
+    this.turn = added.catch(() => {});
+    return added;
+  }
+
+  /** Adds the layers of a source; the first is the scene if there is none. */
+  private async add(source: SceneSource, signal: AbortSignal | undefined): Promise<readonly SceneLayer[]> {
+    if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
+    this.requireRoom(1);
+    const before = this.layers_.length, refused: string[] = [];
+    const loading = new Loading(this.assets, this.program, Promise.resolve(this.device.limits), source, 'layers');
+    let part: Part | null = null;
+    await this.run(loading, signal, {
+      progress: (progress) => this.emit('progress', progress),
+      layer: ({ description, parcel, index, forecasts }) => {
+        if (index === 0) this.requireRoom(forecasts.length);
+        const name = freeName(ownName(description, index), this.records);
+        let facts;
+        try {
+          facts = this.shown ? this.give(parcel, 'add_layers', {}) : this.unpack({ description, parcel }, 'scene');
+        } catch (error) {
+          if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');
+          if (!isShortage(error)) throw error;
+          refused.push(tooLargeSentence(name, forecasts[index]!));
+          return;
+        }
+        const parts = part ? this.parts : [...this.parts, part = { source, description, level: null }];
+        this.setScene(this.first ?? description, parts, [...this.records, { part, index, name, placement: null }]);
+        this.showFacts(facts);
+      },
+    });
+    const added = this.layers_.slice(before);
+    if (added.length === 0) throw new ViewerError(refused.join(' '), 'memory');
+    for (const sentence of refused) this.emit('notice', sentence);
+    return added;
+  }
+
+  private requireRoom(more: number): void {
+    if (this.layers_.length + more <= maxLayers) return;
+    throw new ViewerError(`A scene has at most ${maxLayers} layers, and this one would have ` +
+                          `${this.layers_.length + more}: remove layers first.`, 'usage');
+  }
+
+  private requireLayer(index: number): void {
+    if (!(Number.isInteger(index) && index >= 0 && index < this.layers_.length))
+      throw new ViewerError(`There is no layer ${index}: the scene has ${this.layers_.length}, counted from 0.`, 'usage');
+  }
+
+  setLayer(index: number, change: { readonly visible?: boolean; readonly transform?: Matrix | Placement }): void {
+    this.requireLayer(index);
+    const { visible, transform } = change;
+    const placement = transform && 'position' in transform ? transform : null;
+    const matrix = placement ? matrixOf(placement) : transform as Matrix | undefined;
+    if (matrix && !(matrix.length === 16 && matrix.every(Number.isFinite)))
+      throw new ViewerError('A transform needs 16 numbers, column by column.', 'usage');
+    if (this.lost) return;
+    const shown = this.engine.call<ShownLayer[]>('set_layer', {
+      layer: index, ...(matrix && { transform: matrix }), ...(visible !== undefined && { visible }),
+    });
+    if (matrix) this.records = this.records.map((record, at) => (at === index ? { ...record, placement } : record));
+    this.setLayers(shown);
+    this.emit('layers', this.layers_);
+    this.ask();
+  }
+
+  async removeLayer(index: number): Promise<void> {
+    this.requireLayer(index);
+    if (this.layers_.length === 1) return this.clear();
+    const leaving = this.records[index]!;
+    await this.inColors(() => {
+      const at = this.records.indexOf(leaving);
+      if (this.lost || at < 0) return;
+      const facts = this.engine.call<ShownFacts>('remove_layer', at);
+      const records = this.records.filter((record) => record !== leaving);
+      this.setScene(this.first, this.parts.filter((part) => records.some((record) => record.part === part)), records);
+      this.showFacts(facts);
+    });
+  }
+
+  async moveLayer(from: number, to: number): Promise<void> {
+    this.requireLayer(from);
+    this.requireLayer(to);
+    if (from === to) return;
+    await this.inColors(() => {
+      if (this.lost) return;
+      this.requireLayer(Math.max(from, to));
+      const facts = this.engine.call<ShownFacts>('move_layer', { from, to });
+      const records = [...this.records];
+      records.splice(to, 0, ...records.splice(from, 1));
+      this.setScene(this.first, this.parts, records);
+      this.showFacts(facts);
+    });
+  }
+
+  /** Runs a change of the layers, which needs the colours, and returns to the debug view. */
+  private async inColors<T>(change: () => T | Promise<T>): Promise<T> {
+    const { name, features } = this.debugView_, { cancellations } = this;
+    if (name === 'color') return change();
+    await this.show('color');
+    try {
+      return await change();
+    } finally {
+      if (this.shown && !this.lost && this.cancellations === cancellations)
+        await this.show(name, features).catch((error: unknown) => {
+          this.emit('notice', error instanceof Error ? error.message : String(error));
+        });
+    }
+  }
+
+  /** Gives the layers the order, places, visibility and names that `wanted` had; removes the others. */
+  private async arrange(wanted: readonly SceneLayer[]): Promise<void> {
+    let next = 0;
+    for (const { source, sourceLayer, name, transform, placement, visible } of wanted) {
+      const at = this.layers_.findIndex((layer, index) =>
+        index >= next && layer.source === source && layer.sourceLayer === sourceLayer);
+      if (at < 0) continue;  // refused by the device
+      await this.moveLayer(at, next);
+      this.setLayer(next, { transform, visible });
+      this.records = this.records.map((record, index) => (index === next ? { ...record, name, placement } : record));
+      ++next;
+    }
+    while (next > 0 && this.layers_.length > next) await this.removeLayer(next);
+    if (next > 0) this.setLayer(0, {});  // reports the names
   }
 
   // -- events -----------------------------------------------------------------------------------
@@ -334,8 +577,8 @@ class CanvasViewer implements Viewer {
   async show(name: string, features = { first: 0, count: 3 }): Promise<void> {
     const mine = ++this.debugViewsAsked;
     if (name !== 'color' && !this.engine.call<boolean>('is_read_for_debug_views')) {
-      if (!this.opening || this.opening.source !== this.source)
-        this.opening = { source: this.source, done: this.readForDebugViews() };
+      if (!this.opening || this.opening.parts !== this.parts)
+        this.opening = { parts: this.parts, done: this.readForDebugViews() };
       const { opening } = this;
       try {
         await opening.done;
@@ -349,15 +592,17 @@ class CanvasViewer implements Viewer {
     this.drawFrame(performance.now());
   }
 
-  /** Reads the scene again: the renderer holds too little data for debug views. */
+  /** Reads all sources again: the renderer holds too little data for debug views. */
   private async readForDebugViews(): Promise<void> {
-    const source = this.source;
-    if (!source) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
-    const name = this.shown!.name;
-    const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
-                                  : await openFiles(source.files, source.name ?? name);
-    if (this.source !== source) throw new ViewerError('Another scene is open now.', 'cancelled');
-    readWith(this.engine, 'read_for_debug_views', files, this.level === null ? {} : { level: this.level });
+    const { parts } = this;
+    if (parts.length === 0) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
+    for (const [index, { source, description: { name }, level }] of parts.entries()) {
+      const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
+                                    : await openFiles(source.files, source.name ?? name);
+      if (this.parts !== parts) throw new ViewerError('Another scene is open now.', 'cancelled');
+      readWith(this.engine, 'read_for_debug_views', files, { source: index, ...(level !== null && { level }) });
+    }
+    this.engine.call('keep_read_layers', this.records.map(({ part, index }) => [parts.indexOf(part), index]));
   }
 
   get stats(): FrameStats {

@@ -17,14 +17,14 @@ export class LinkSection {
       this.field.select();
     });
     viewer.on('view', () => this.update());
+    viewer.on('layers', () => this.update());
     this.update();
   }
 
   update(): void {
     const { viewer, bar, openings } = this;
-    const origin = openings.origin;
-    const scene = origin?.kind === 'address' ? origin.address : null;
-    this.field.value = bar.link(scene, viewer.scene ? viewer.getView() : null, viewer.debugView);
+    this.field.value = bar.link(openings.addresses, viewer.scene ? viewer.getView() : null, viewer.debugView,
+                                openings.layersText);
     block('link-hint').textContent = this.hint();
   }
 
@@ -45,11 +45,14 @@ export class LinkSection {
   /** The contents and limits of the link. */
   private hint(): string {
     const origin = this.openings.origin;
-    if (origin?.kind === 'files')
+    if (this.openings.lacksScenes && this.openings.addresses.length > 0)
+      return 'The link lacks the layers from local files.';
+    if (origin?.kind === 'files' || this.openings.lacksScenes)
       return 'The link contains only the camera, because the scene is a local file. Open the same file to use ' +
         'the link.';
     if (origin?.kind === 'page' && location.protocol === 'file:')
       return 'The link points to this file on this computer: send the file together with the link.';
+    if (this.openings.addresses.length > 1) return 'The link opens these scenes with this view.';
     return origin ? 'The link opens this scene with this view.' : '';
   }
 }

@@ -22,8 +22,8 @@ export class SceneSection {
   }
 
   private show(scene: SceneSummary | null): void {
-    block('scene-title').textContent = scene?.name ?? '';
-    document.title = scene ? `${scene.name} · Tureen` : 'Tureen';
+    block('scene-title').textContent = scene ? this.title(scene) : '';
+    document.title = scene ? `${this.title(scene)} · Tureen` : 'Tureen';
     fillFacts(block('facts'), scene ? [
       ['Name', scene.name],
       ['Source', scene.source || null],
@@ -32,6 +32,12 @@ export class SceneSection {
       ['GPU memory', bytesText(scene.deviceBytes)],
     ] : [['Name', 'no scene is open']]);
     this.showNotes();
+  }
+
+  /** "soup", "soup and 2 more" */
+  private title({ name }: SceneSummary): string {
+    const more = this.viewer.layers.length - 1;
+    return more > 0 ? `${name} and ${more} more` : name;
   }
 
   private showNotes(): void {
