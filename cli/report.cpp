@@ -59,6 +59,7 @@ Json remarks_json(const std::vector<Remark>& remarks) {
     if (!remark.counts.empty()) json["counts"] = remark.counts;
     if (!remark.values.empty()) json["values"] = remark.values;
     if (!remark.names.empty()) json["names"] = remark.names;
+    if (!remark.scene.empty()) json["scene"] = remark.scene;
   }
   return list;
 }

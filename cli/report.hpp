@@ -33,7 +33,7 @@ void print_json(const Json& document);
 /// The same in one line, for programs that read output line by line.
 void print_json_line(const Json& document);
 
-/// The kinds and values of the remarks, {"kind", "counts", "values", "names"}; empty lists are
+/// The kinds and values of the remarks, {"kind", "counts", "values", "names", "scene"}; empty values are
 /// omitted.
 Json remarks_json(const std::vector<Remark>& remarks);
 

@@ -57,6 +57,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "text_ignored",
     "bytes_ignored",
     "content_misnamed",
+    "settings_dropped",
     "meta_missing",
     "level_missing",
     "image_size_missing",
@@ -84,12 +85,9 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace
-
-const char* name_of(Kind kind) { return kind_names[std::size_t(kind)]; }
-
-std::string describe(const Remark& remark) {
-  const auto& [kind, counts, values, names] = remark;
+/// The sentence, without the scene's name.
+std::string sentence_of(const Remark& remark) {
+  const auto& [kind, counts, values, names, scene] = remark;
   switch (kind) {
     case Kind::up_unknown_to_format:
       return names[0] + " stores no up axis: z is assumed";
@@ -198,6 +196,9 @@ std::string describe(const Remark& remark) {
       return std::to_string(counts[0]) + " bytes after the last element ignored.";
     case Kind::content_misnamed:
       return "The name ends in " + names[0] + ", but the content is " + names[1] + ".";
+    case Kind::settings_dropped:
+      return "these settings differ from those of the first scene and are ignored: " +
+             listed(names);
     case Kind::meta_missing:
       return "meta.json is missing: level 5, up -y and a black background are assumed";
     case Kind::level_missing:
@@ -216,6 +217,14 @@ std::string describe(const Remark& remark) {
              ".";
   }
   return "";
+}
+
+}  // namespace
+
+const char* name_of(Kind kind) { return kind_names[std::size_t(kind)]; }
+
+std::string describe(const Remark& remark) {
+  return (remark.scene.empty() ? "" : remark.scene + ": ") + sentence_of(remark);
 }
 
 std::string hint_of(const Remark& remark) {

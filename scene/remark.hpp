@@ -63,6 +63,7 @@ struct Remark {
     text_ignored,        // counts: its first line
     bytes_ignored,       // counts: bytes after the last element
     content_misnamed,    // names: the extension, the format of the content
+    settings_dropped,    // of a further scene in merged(). names: "cameras", "up axis", ..
     meta_missing,        // level 5, up -y and a black background are assumed
     level_missing,       // level 5 is assumed
     image_size_missing,  // counts: the assumed width and height
@@ -75,12 +76,14 @@ struct Remark {
   std::vector<std::uint64_t> counts = {};
   std::vector<double> values = {};
   std::vector<std::string> names = {};
+  /// Name of the scene, if several scenes were merged.
+  std::string scene = {};
 
   bool operator==(const Remark&) const = default;
   /// An arbitrary total order, for sets. Browser toolchains lack <=> for vectors.
   friend bool operator<(const Remark& a, const Remark& b) {
-    return std::tie(a.kind, a.counts, a.values, a.names) <
-           std::tie(b.kind, b.counts, b.values, b.names);
+    return std::tie(a.kind, a.counts, a.values, a.names, a.scene) <
+           std::tie(b.kind, b.counts, b.values, b.names, b.scene);
   }
 };
 

@@ -1,6 +1,7 @@
 // A scene: layers of primitives, cameras and metadata.
 #pragma once
 
+#include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -56,6 +57,10 @@ Bounds bounds(const Layer& layer);
 /// The primitives are not checked.
 std::optional<std::string> defect(const Layer& layer);
 
+/// The runtime marks the pixels of each layer in the stencil buffer, which has 8 bits; 0 is the
+/// background.
+inline constexpr std::size_t max_layers = 255;
+
 struct Scene {
   std::vector<Layer> layers;  // at equal depth the earlier layer wins
   std::vector<Camera> cameras;
@@ -76,6 +81,15 @@ const Layer& only_layer(const Scene& scene);
 /// layer are a programming error: call make_opaque before.
 TriangleSoup& only_soup(Scene& scene);
 const TriangleSoup& only_soup(const Scene& scene);
+
+/// One scene with all layers, in order. Needs at least one scene; a single scene stays as it is.
+/// Cameras, quality and info are those of the first scene, except:
+/// - Layers without a name get the name of their scene. Equal names get numbers: "fox", "fox 2".
+/// - Remarks and notes are those of all scenes, with the scene's name. A remark lists the settings
+///   of a further scene that differ from the first scene's and are dropped.
+/// - `compressed` is true if one scene is.
+/// Throws UsageError for more than max_layers layers.
+Scene merged(std::vector<Scene> scenes);
 
 /// Converts the soft triangles of every layer by to_opaque. The losses of the conversions are added
 /// to info.remarks. Afterwards every layer holds a TriangleSoup.

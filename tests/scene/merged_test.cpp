@@ -1,0 +1,112 @@
+// Several scenes as one: layers, names, remarks, and the settings of the first.
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+#include "scene/scene.hpp"
+
+namespace tureen {
+namespace merged_test {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TriangleSoup one_triangle(float x) {
+  return {.positions = {{x, 0, 0}, {1, 0, 0}, {0, 2, 3}},
+          .triangles = {{0, 1, 2}},
+          .appearance = FaceColors{{glm::vec4(1)}}};
+}
+
+Scene scene_named(const std::string& name, float x = 0) {
+  Scene scene = scene_of(one_triangle(x), {x, 0, 0});
+  scene.info.name = name;
+  return scene;
+}
+
+std::vector<std::string> layer_names_of(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Layer& layer : scene.layers) names.push_back(layer.name);
+  return names;
+}
+
+TEST(Merged, OneSceneStaysAsItIs) {
+  Scene scene = scene_named("fox");
+  scene.info.notes = {"a note"};
+  const Scene result = merged({scene});
+  EXPECT_EQ(result.layers.at(0).name, "");
+  EXPECT_THAT(result.info.notes, ElementsAre("a note"));
+}
+
+TEST(Merged, LayersKeepTheirOrderAndPlace) {
+  const Scene result = merged({scene_named("a", 1), scene_named("b", 2), scene_named("c", 3)});
+  ASSERT_EQ(result.layers.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Layer& layer = result.layers[i];
+    EXPECT_EQ(origin_of(layer), glm::dvec3(double(i + 1), 0, 0));
+    EXPECT_EQ(std::get<TriangleSoup>(layer.primitives).positions[0].x, float(i + 1));
+  }
+}
+
+TEST(Merged, NamesAreDistinct) {
+  Scene several = scene_named("house");
+  several.layers.push_back({.name = "fox", .primitives = one_triangle(0)});
+  several.layers.push_back({.primitives = one_triangle(0)});
+  EXPECT_THAT(layer_names_of(merged({scene_named("fox"), several, scene_named("fox"),
+                                     scene_named("fox 2"), scene_named("")})),
+              ElementsAre("fox", "house", "fox 2", "house 2", "fox 2 2", "fox 2 2 2", "scene"));
+}
+
+TEST(Merged, SettingsAreThoseOfTheFirstScene) {
+  Scene first = scene_named("first"), second = scene_named("second");
+  first.info.up = {0, 0, 1};
+  first.info.background = glm::vec3(1);
+  first.info.source = "by hand";
+  first.quality.supersampling = 2;
+  second.cameras.resize(2);
+  second.info.compressed = true;
+  const Scene result = merged({first, second, first});
+  EXPECT_EQ(result.info.name, "first");
+  EXPECT_EQ(result.info.source, "by hand");
+  EXPECT_EQ(result.info.up, glm::vec3(0, 0, 1));
+  EXPECT_EQ(result.info.background, glm::vec3(1));
+  EXPECT_EQ(result.quality.supersampling, 2);
+  EXPECT_TRUE(result.cameras.empty());
+  EXPECT_TRUE(result.info.compressed);
+  ASSERT_EQ(result.info.remarks.size(), 1u);
+  EXPECT_EQ(result.info.remarks[0],
+            (Remark{.kind = Remark::Kind::settings_dropped,
+                    .names = {"cameras", "up axis", "background", "quality"},
+                    .scene = "second"}));
+  EXPECT_EQ(describe(result.info.remarks[0]),
+            "second: these settings differ from those of the first scene and are ignored: cameras, "
+            "up axis, background, quality");
+}
+
+TEST(Merged, RemarksAndNotesNameTheirScene) {
+  Scene one = scene_named("one"), two = scene_named("two");
+  one.info.remarks = {{Remark::Kind::colors_missing}};
+  two.info.remarks = {{Remark::Kind::polygons_split, {3}}};
+  two.info.notes = {"a note"};
+  const Scene result = merged({one, two});
+  EXPECT_EQ(
+      result.info.remarks,
+      (std::vector<Remark>{{.kind = Remark::Kind::colors_missing, .scene = "one"},
+                           {.kind = Remark::Kind::polygons_split, .counts = {3}, .scene = "two"}}));
+  EXPECT_THAT(result.info.notes, ElementsAre("two: a note"));
+  // A scene that was merged before keeps the names.
+  EXPECT_EQ(merged({result, two}).info.remarks.front().scene, "one");
+}
+
+TEST(Merged, MoreLayersThanTheStencilBufferCountsAreRefused) {
+  const Scene one = scene_named("one");
+  EXPECT_EQ(merged(std::vector<Scene>(max_layers, one)).layers.size(), 255u);
+  try {
+    merged(std::vector<Scene>(max_layers + 1, one));
+    FAIL() << "256 layers were accepted";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("256 layers"));
+    EXPECT_THAT(error.what(), HasSubstr("at most 255"));
+  }
+}
+
+}  // namespace merged_test
+}  // namespace tureen
