@@ -62,6 +62,9 @@ class Renderer {
   /// reversed depth, and at most max_plan_layers layers. Throws DeviceLimitError; then nothing has
   /// changed.
   void add_layers(PreparedScene prepared);
+  /// The same with layers that another renderer of the same device has uploaded, for example in
+  /// another thread. It must have left its context, if that is another one.
+  void add_layers(Renderer other);
   /// Frees the layer's memory on the device. Later layers move up.
   void remove_layer(std::size_t layer);
   /// Changes the order: at equal depth the earlier layer is visible.

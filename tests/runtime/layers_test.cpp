@@ -121,7 +121,9 @@ TEST_P(Layers, MayBeAddedRemovedAndSwapped) {
   renderer.draw(input);
   EXPECT_EQ(renderer.read_color().at(3, 5), glm::u8vec4(255)) << "none left";
   renderer.add_layers(prepared(2));
-  renderer.add_layers(prepared(0));
+  Renderer other(context, prepared(0));
+  other.leave_context();
+  renderer.add_layers(std::move(other));
   renderer.set_background(glm::vec4(0, 0, 0, 1));
   EXPECT_EQ(image(renderer), image_of({2, 0})) << "added again";
 }
