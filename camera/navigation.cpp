@@ -36,21 +36,26 @@ Camera camera_at(const Subject& subject, const Bearing& bearing, const Lens& len
 }  // namespace
 
 Subject subject_of(const Scene& scene) {
+  std::vector<PlacedBounds> boxes;
+  for (const Layer& layer : scene.layers) boxes.push_back({bounds(layer), layer.world_from_layer});
+  return subject_of(boxes, glm::dvec3(scene.info.up));
+}
+
+Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   glm::dvec3 low(infinity), high(-infinity);
-  for (const Layer& layer : scene.layers) {
-    const Bounds box = bounds(layer);
+  for (const auto& [box, world_from_layer] : boxes) {
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec4 position(corner & 1 ? box.high.x : box.low.x,
                                 corner & 2 ? box.high.y : box.low.y,
                                 corner & 4 ? box.high.z : box.low.z, 1.0);
-      const glm::dvec3 world(layer.world_from_layer * position);
+      const glm::dvec3 world(world_from_layer * position);
       low = glm::min(low, world);
       high = glm::max(high, world);
     }
   }
-  if (scene.layers.empty()) low = high = glm::dvec3(0.0);
-  return {low, high, glm::dvec3(scene.info.up)};
+  if (boxes.empty()) low = high = glm::dvec3(0.0);
+  return {low, high, up};
 }
 
 glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {

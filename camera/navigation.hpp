@@ -4,9 +4,11 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/clip_range.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -23,6 +25,8 @@ struct Subject {
 /// The box in world coordinates around the boxes of all layers, also of invisible ones, and the
 /// scene's up axis. A layer without triangles counts as its origin. O(data).
 Subject subject_of(const Scene& scene);
+/// The same for boxes that are known. O(boxes).
+Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up);
 
 /// The optics of a view.
 struct Lens {

@@ -103,7 +103,8 @@ Application::Application(ApplicationOptions options)
   // A replay does not wait for the screen.
   vsync_ = state_.settings.vsync && !replay_;
   window_.set_vsync(vsync_);
-  if (!options_.scene.empty()) state_.ask(OpenPath{options_.scene});
+  if (options_.scenes.size() == 1) state_.ask(OpenPath{options_.scenes.front()});
+  if (options_.scenes.size() > 1) state_.ask(AddPaths{options_.scenes});
   if (!options_.dataset.empty()) state_.ask(OpenPhotographs{options_.dataset});
 }
 
@@ -257,7 +258,8 @@ void Application::dispatch(const std::vector<Event>& events) {
 void Application::handle(const Event& event) {
   if (std::holds_alternative<CloseAsked>(event)) state_.ask(Quit{});
   if (const auto* dropped = std::get_if<FilesDropped>(&event))
-    for (const std::string& path : dropped->paths) state_.ask(OpenPath{path});
+    state_.ask(
+        AddPaths{std::vector<std::filesystem::path>(dropped->paths.begin(), dropped->paths.end())});
   if (const auto* size = std::get_if<Resized>(&event); size && replay_)
     window_.resize({size->width, size->height});
   if (const auto* replaced = std::get_if<FileReplaced>(&event)) replace_file(*replaced);

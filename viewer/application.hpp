@@ -22,8 +22,8 @@
 namespace tureen::viewer {
 
 struct ApplicationOptions {
-  std::filesystem::path scene;    // empty: none
-  std::filesystem::path dataset;  // empty: none
+  std::vector<std::filesystem::path> scenes;  // several become the layers of one
+  std::filesystem::path dataset;              // empty: none
   DrawingChoice drawing = {};
   gl::Api api = gl::Api::desktop;
   std::optional<glm::ivec2> window = {};          // in points; default: of the last run
@@ -80,6 +80,8 @@ class Application {
   // -- requests (application_requests.cpp, application_images.cpp, application_debug_views.cpp)
   void carry_out();
   void carry_out(const OpenPath& request);
+  void carry_out(const AddPaths& request);
+  void carry_out(const ArrangeLayers& request);
   void carry_out(const OpenPhotographs& request);
   void carry_out(const CloseDataset& request);
   void carry_out(const ReloadScene& request);
@@ -96,8 +98,27 @@ class Application {
   void carry_out(const WriteAnimation& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
-  void open_scene(const std::filesystem::path& path, bool keep_view);
-  void show(std::unique_ptr<Stage> stage, bool keep_view);
+  /// The relation of a loaded scene to the one that is shown.
+  enum class Relation {
+    other,    // replaces it
+    changed,  // the same files, read again, or prepared in another way
+    grown,    // the same with further files
+  };
+  /// Scenes that the worker reads: all files, or those besides the files of the shown scene.
+  struct Loading {
+    Relation relation = Relation::other;
+    std::vector<std::filesystem::path> paths;
+  };
+  void load(const Loading& loading);
+  Worker::Completion load_in_background(
+      const Loading& loading, std::shared_ptr<StageSource> before, const StageRequest& request,
+      const std::function<void(const std::filesystem::path&)>& begins);
+  void add(const std::shared_ptr<StageAddition>& addition);
+  void prepare_grown(const StageSource& source);
+  void show(std::unique_ptr<Stage> stage, Relation relation);
+  void after_change_of_layers();
+  void show_files_of_scene();
+  void report_refused(const std::vector<RefusedLayer>& layers);
   void compare_when_needed();
   void prepare_debug_view_when_needed();
   void watch_file();
@@ -121,12 +142,14 @@ class Application {
   std::optional<Recorder> recorder_;
   std::vector<std::filesystem::path> promised_;  // paths of images that are being written
   std::vector<Event> pending_;
-  FileWatch watch_;
+  std::vector<FileWatch> watches_;  // of the scene's files
+  std::optional<Loading> loading_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
   bool image_is_current_ = false;
   /// Whether a worker prepares the scene for debug views (true) or for colours (false).
   std::optional<bool> preparing_debug_views_;
+  bool preparing_drawing_ = false;  // by state_.wanted
   Camera drawn_camera_;
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;

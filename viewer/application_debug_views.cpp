@@ -20,14 +20,14 @@ void Application::prepare_debug_view_when_needed() {
   const DrawingChoice choice = state_.wanted;
   worker_.start(
       {.kind = JobKind::debug_view,
-       .what = (wanted ? "preparing debug views of " : "preparing ") + short_name(source.path),
+       .what = (wanted ? "preparing debug views of " : "preparing ") + short_names(source.paths()),
        .work =
            [this, source, choice, wanted](const Worker::Progress& progress) {
              const auto prepare = wanted ? prepare_debug_stage : prepare_stage;
              std::shared_ptr<Stage> stage = prepare(source, {window_.context(), choice, progress});
              return Worker::Completion([this, stage = std::move(stage)] {
                if (state_.stage && state_.stage->scene == stage->scene)
-                 show(std::make_unique<Stage>(std::move(*stage)), true);
+                 show(std::make_unique<Stage>(std::move(*stage)), Relation::changed);
              });
            },
        .failed =

@@ -29,7 +29,7 @@ fs::path Application::image_path(const std::string& extension) {
   const fs::path folder = folder_of_images();
   make_folder(folder);
   const std::string stem =
-      state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
+      state_.stage ? fs::path(short_name(state_.stage->path())).stem().string() : "tureen";
   for (int number = 1;; ++number) {
     fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
     std::error_code ignored;
@@ -132,6 +132,13 @@ void Application::carry_out(const LoadPath& request) {
 
 void Application::carry_out(const CopyCommand&) {
   if (!has_scene()) return;
+  if (!state_.stage->is_as_read()) {
+    state_.messages.note(
+        "No command draws this image: the scene has several files, or changed layers. Ctrl+S saves "
+        "the image",
+        state_.now);
+    return;
+  }
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   fs::path file;
   if (needs_camera_file(camera)) {

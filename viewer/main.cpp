@@ -2,19 +2,25 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/extension.hpp"
 #include "base/memory_budget.hpp"
 #include "base/memory_help.hpp"
 #include "base/shown_text.hpp"
+#include "formats/scene_file.hpp"
 #include "viewer/application.hpp"
 
 namespace tureen::viewer {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 // The exit codes of all programs here (ARCHITECTURE.md).
 enum class ExitCode { done = 0, failed = 1, usage = 2, bad_input = 3, no_context = 4, other = 5 };
@@ -31,16 +37,20 @@ volatile std::sig_atomic_t was_interrupted = 0;
 extern "C" void note_interrupt(int) { was_interrupted = 1; }
 
 struct Arguments {
-  std::string scene, dataset, api = "gl", size, replay, record, images;
+  std::vector<std::string> paths;
+  std::string api = "gl", size, replay, record, images;
   std::string pipeline = "auto";
   bool no_specialise = false, no_settings = false, report = false;
 };
 
 void add_arguments(CLI::App& program, Arguments& arguments) {
-  program.add_option("SCENE", arguments.scene,
-                     "scene: .glb, .gltf, .off, .coff, .ply, .obj, .pt, or a folder");
-  program.add_option("DATASET", arguments.dataset,
-                     "photographs for comparison: a COLMAP or NeRF folder");
+  program
+      .add_option(
+          "SCENE", arguments.paths,
+          "scenes: .glb, .gltf, .off, .coff, .ply, .obj, .pt, or a folder; several are drawn "
+          "together, each as a layer. After the first, a folder that is no scene, or a .json file, "
+          "is a DATASET: photographs for comparison (COLMAP or NeRF)")
+      ->option_text(".. [DATASET]");
   program.add_option("--size", arguments.size, "window size in screen coordinates")
       ->option_text("WxH");
   program
@@ -87,10 +97,28 @@ std::optional<glm::ivec2> parse_size(const std::string& text) {
   return size;
 }
 
+/// Whether a path after the first is a dataset.
+bool is_dataset(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ? !is_scene(path) : extension_of(path) == ".json";
+}
+
+void take_paths(const std::vector<std::string>& paths, ApplicationOptions& options) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (i == 0 || !is_dataset(paths[i])) {
+      options.scenes.emplace_back(paths[i]);
+      continue;
+    }
+    if (!options.dataset.empty())
+      throw UsageError("two datasets: " + options.dataset.string() + " and " + paths[i] +
+                       "; the window compares with one");
+    options.dataset = paths[i];
+  }
+}
+
 int run(const Arguments& arguments) {
   ApplicationOptions options;
-  options.scene = arguments.scene;
-  options.dataset = arguments.dataset;
+  take_paths(arguments.paths, options);
   options.api = arguments.api == "es" ? gl::Api::es : gl::Api::desktop;
   options.window = parse_size(arguments.size);
   options.record = arguments.record;
@@ -124,11 +152,12 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   using namespace tureen::viewer;
   CLI::App program("Shows trained triangle soups in a window.", "tureen view");
-  program.footer(R"(Without SCENE, drop a scene on the window or press Ctrl+O. F1 lists the keys.
+  program.footer(R"(Without SCENE, drop scenes on the window or press Ctrl+O. F1 lists the keys.
 
 Examples:
   tureen view soup.glb
   tureen view soup.glb photographs/          the keys [ and ] select the photographs' cameras
+  tureen view room.glb chair.glb             both, as layers of one scene
 
 Exit codes: 0 done, 1 the window showed an error at the end of a replay, 2 wrong usage, 3 the
 session or the settings cannot be read, 4 no display or no OpenGL, 5 any other error.)");

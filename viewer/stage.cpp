@@ -1,13 +1,23 @@
 #include "viewer/stage.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
+#include "base/error.hpp"
 #include "formats/scene_file.hpp"
+#include "runtime/device_forecast.hpp"
+#include "viewer/names.hpp"
 
 namespace tureen::viewer {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 class Stopwatch {
  public:
@@ -19,8 +29,103 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Fraction of the progress bar for reading; the rest is for preparation.
-constexpr double reading_share = 0.9;
+/// Reads a file and appends it and its layers.
+void append_file(StageSource& source, const fs::path& path,
+                 const std::function<void(double)>& progress) {
+  const FileWatch watch(path);
+  auto scene = std::make_shared<Scene>(read_scene(path, {.progress = progress}));
+  make_opaque(*scene);
+  if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
+  for (std::size_t i = 0; i < scene->layers.size(); ++i) {
+    Layer& layer = scene->layers[i];
+    auto soup = std::make_shared<TriangleSoup>(
+        std::exchange(std::get<TriangleSoup>(layer.primitives), TriangleSoup{}));
+    const Bounds box = bounds(*soup);
+    source.layers.push_back({.soup = std::move(soup),
+                             .box = box,
+                             .world_from_layer = layer.world_from_layer,
+                             .visible = layer.visible,
+                             .file = source.files.size(),
+                             .index = i});
+  }
+  source.files.push_back({path, watch, std::move(scene)});
+}
+
+void append_files(StageSource& source, const ReadRequest& request) {
+  for (std::size_t i = 0; i < request.paths.size(); ++i) {
+    request.begins(request.paths[i]);
+    append_file(source, request.paths[i], [&](double done) {
+      request.progress((double(i) + done) / double(request.paths.size()));
+    });
+  }
+}
+
+void update_subject(StageSource& source) {
+  std::vector<PlacedBounds> boxes;
+  for (const StageLayer& layer : source.layers)
+    boxes.push_back({layer.box, layer.world_from_layer});
+  source.subject = subject_of(boxes, source.up.axis);
+}
+
+/// Sets what depends on all files.
+void merge_files(StageSource& source) {
+  std::vector<Scene> headers;
+  std::vector<std::size_t> first_layers;  // of each file in the merged scene
+  std::size_t count = 0;
+  for (const SceneFile& file : source.files) {
+    headers.push_back(*file.header);
+    first_layers.push_back(count);
+    count += file.header->layers.size();
+  }
+  source.scene = std::make_shared<const Scene>(merged(std::move(headers)));
+  for (StageLayer& layer : source.layers) {
+    layer.name = source.scene->layers[first_layers[layer.file] + layer.index].name;
+    if (layer.name.empty()) layer.name = short_name(source.files[layer.file].path);
+  }
+}
+
+void guess_up_axis(StageSource& source) {
+  source.up.axis = glm::dvec3(source.scene->info.up);
+  update_subject(source);
+  source.up = guess_up(evidence_of(*source.scene, source.subject));
+  source.subject.up = source.up.axis;
+}
+
+bool is_moved(const StageLayer& layer, const StageSource& source) {
+  return layer.world_from_layer != source.as_read(layer).world_from_layer;
+}
+
+/// The layer of `source` that is the same as `layer` of `before`, or null.
+const StageLayer* same_layer(const StageLayer& layer, const StageSource& before,
+                             const StageSource& source) {
+  for (const StageLayer& each : source.layers)
+    if (each.file == layer.file && each.index == layer.index)
+      return source.as_read(each).name == before.as_read(layer).name ? &each : nullptr;
+  return nullptr;
+}
+
+/// Whether `before` had the layer when its file was read.
+bool was_known(const StageLayer& layer, const StageSource& source, const StageSource& before) {
+  if (layer.file >= before.files.size()) return false;
+  const std::vector<Layer>& known = before.files[layer.file].header->layers;
+  return layer.index < known.size() && known[layer.index].name == source.as_read(layer).name;
+}
+
+/// A renderer of one layer by the choice.
+Renderer prepare_layer(const StageLayer& layer, const Scene& scene, const StageRequest& request) {
+  const RenderOptions options = render_options(request.choice, scene);
+  const PlacedSoup placed{*layer.soup, layer.world_from_layer, layer.name, layer.visible};
+  const DeviceLimits limits = device_limits(request.context.capabilities());
+  return Renderer(request.context, prepare_scene(std::span(&placed, 1), limits, options), options);
+}
+
+RefusedLayer refused(const StageLayer& layer, const Scene& scene, const StageRequest& request,
+                     const DeviceLimitError& error) {
+  const DeviceLimits limits = device_limits(request.context.capabilities());
+  const RenderPlan plan =
+      make_plan(*layer.soup, limits, render_options(request.choice, scene).plan);
+  return {layer.name, device_forecast(*layer.soup, plan.layers.front()).bytes, error.reason()};
+}
 
 }  // namespace
 
@@ -36,30 +141,142 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
   return options;
 }
 
-Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
-  const Scene& scene = *source.scene;
-  return make_renderer(request.context, scene, request.choice.pipeline,
-                       render_options(request.choice, scene));
+// -- sources --------------------------------------------------------------------------------------
+
+std::vector<fs::path> StageSource::paths() const {
+  std::vector<fs::path> result;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (std::any_of(layers.begin(), layers.end(), [i](const auto& each) { return each.file == i; }))
+      result.push_back(files[i].path);
+  if (result.empty()) result.push_back(path());
+  return result;
 }
 
-std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request) {
+const Layer& StageSource::as_read(const StageLayer& layer) const {
+  return files[layer.file].header->layers[layer.index];
+}
+
+bool StageSource::is_as_read() const {
+  if (files.size() != 1 || layers.size() != files.front().header->layers.size()) return false;
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    if (layers[i].index != i || is_moved(layers[i], *this) ||
+        layers[i].visible != as_read(layers[i]).visible)
+      return false;
+  return true;
+}
+
+std::vector<PlacedSoup> placed_soups(const StageSource& source) {
+  std::vector<PlacedSoup> result;
+  for (const StageLayer& layer : source.layers)
+    result.push_back({*layer.soup, layer.world_from_layer, layer.name, layer.visible});
+  return result;
+}
+
+std::optional<std::string> why_not(DebugView what, const StageSource& source) {
+  for (const StageLayer& layer : source.layers)
+    if (const auto reason = tureen::why_not(what, *layer.soup))
+      return source.layers.size() > 1 ? layer.name + ": " + *reason : *reason;
+  return std::nullopt;
+}
+
+int feature_count(const StageSource& source) {
+  int count = tureen::feature_count(*source.layers.front().soup);
+  for (const StageLayer& layer : source.layers)
+    count = std::min(count, tureen::feature_count(*layer.soup));
+  return count;
+}
+
+StageSource read_source(const ReadRequest& request) {
   const Stopwatch reading;
-  const FileWatch watch(path);
-  auto scene = std::make_shared<Scene>(
-      read_scene(path, {.progress = [&](double done) { request.progress(reading_share * done); }}));
-  make_opaque(*scene);
   StageSource source;
-  source.path = path;
-  source.watch = watch;
-  source.scene = scene;
-  source.subject = subject_of(*scene);
-  source.up = guess_up(evidence_of(*scene, source.subject));
-  source.subject.up = source.up.axis;
+  append_files(source, request);
+  merge_files(source);
+  guess_up_axis(source);
   source.read_seconds = reading.seconds();
-  const auto preparing = [&](double done) {
-    request.progress(reading_share + (1 - reading_share) * done);
+  return source;
+}
+
+StageSource read_more(const StageSource& before, const ReadRequest& request) {
+  const Stopwatch reading;
+  StageSource source = before;
+  append_files(source, request);
+  merge_files(source);
+  update_subject(source);
+  source.read_seconds = reading.seconds();
+  return source;
+}
+
+StageSource read_again(const StageSource& before, const ReadRequest& request) {
+  const Stopwatch reading;
+  StageSource source;
+  const std::vector<fs::path> drawn = before.paths();
+  const double total = double(drawn.size() + request.paths.size());
+  double finished = 0;
+  for (std::size_t i = 0; i < before.files.size(); ++i) {
+    const SceneFile& file = before.files[i];
+    if (std::none_of(before.layers.begin(), before.layers.end(),
+                     [i](const StageLayer& each) { return each.file == i; })) {
+      source.files.push_back(file);  // its cameras and settings may be those of the scene
+      continue;
+    }
+    request.begins(file.path);
+    append_file(source, file.path,
+                [&](double done) { request.progress((finished + done) / total); });
+    finished += 1;
+  }
+  ReadRequest further = request;
+  further.progress = [&](double done) {
+    request.progress((finished + done * double(request.paths.size())) / total);
   };
-  return prepare_stage(source, {request.context, request.choice, preparing});
+  append_files(source, further);
+  merge_files(source);
+  keep_changes(source, before);
+  guess_up_axis(source);
+  source.read_seconds = reading.seconds();
+  return source;
+}
+
+void keep_changes(StageSource& source, const StageSource& before) {
+  std::vector<StageLayer> layers;
+  for (const StageLayer& old : before.layers) {
+    const StageLayer* const same = same_layer(old, before, source);
+    if (!same) continue;
+    const Layer& read = source.as_read(*same);
+    StageLayer layer = *same;
+    layer.world_from_layer = is_moved(old, before) ? old.world_from_layer : read.world_from_layer;
+    layer.visible = old.visible != before.as_read(old).visible ? old.visible : read.visible;
+    layers.push_back(std::move(layer));
+  }
+  for (const StageLayer& layer : source.layers)
+    if (!was_known(layer, source, before)) layers.push_back(layer);
+  // A changed file may have lost all layers that were not removed.
+  if (!layers.empty()) source.layers = std::move(layers);
+  update_subject(source);
+}
+
+// -- stages ---------------------------------------------------------------------------------------
+
+std::string describe(const RefusedLayer& layer) {
+  return fmt::format("Forecast: {:.1f} MiB. {}", double(layer.forecast_bytes) / (1 << 20),
+                     layer.reason);
+}
+
+Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
+  const std::vector<PlacedSoup> layers = placed_soups(source);
+  const RenderOptions options = render_options(request.choice, *source.scene);
+  if (request.choice.pipeline == PipelineKind::tureen)
+    return Renderer(request.context,
+                    prepare_scene(layers, device_limits(request.context.capabilities()), options),
+                    options);
+  if (layers.size() > 1)
+    throw UsageError("the baseline draws scenes of one layer; this scene has " +
+                     std::to_string(layers.size()));
+  const PlacedSoup& layer = layers.front();
+  Renderer renderer =
+      make_renderer(request.context, layer.soup, glm::dvec3(0.0), request.choice.pipeline, options);
+  renderer.place_layer(0, layer.world_from_layer);
+  renderer.show_layer(0, layer.visible);
+  return renderer;
 }
 
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {
@@ -70,16 +287,105 @@ std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageReque
       Stage{{source}, request.choice, std::nullopt, std::move(renderer), preparing.seconds()});
 }
 
+std::unique_ptr<Stage> prepare_fitting_stage(const StageSource& source,
+                                             const StageRequest& request) {
+  try {
+    return prepare_stage(source, request);
+  } catch (const DeviceLimitError&) {
+    if (source.layers.size() == 1 || request.choice.pipeline != PipelineKind::tureen) throw;
+  }
+  const Stopwatch preparing;
+  StageAddition fitting = prepare_addition(source, 0, request);
+  if (fitting.renderers.empty()) {
+    const RefusedLayer& first = fitting.refused.front();
+    throw DeviceLimitError("layer " + first.name + ": " + describe(first));
+  }
+  auto stage = std::make_unique<Stage>(Stage{{source},
+                                             request.choice,
+                                             std::nullopt,
+                                             std::move(fitting.renderers.front()),
+                                             preparing.seconds(),
+                                             std::move(fitting.refused)});
+  for (std::size_t i = 1; i < fitting.renderers.size(); ++i)
+    stage->renderer.add_layers(std::move(fitting.renderers[i]));
+  stage->layers = std::move(fitting.layers);
+  update_subject(*stage);
+  stage->renderer.leave_context();
+  return stage;
+}
+
 std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const StageRequest& request) {
   const Stopwatch preparing;
-  const Scene& scene = *source.scene;
-  const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
+  const RenderOptions options{.background = glm::vec4(source.scene->info.background, 1.0f)};
   const DeviceLimits limits = device_limits(request.context.capabilities());
-  const std::vector<PlacedSoup> layers = placed_soups(scene);
+  const std::vector<PlacedSoup> layers = placed_soups(source);
   Renderer renderer(request.context, prepare_debug_views(layers, limits, options), options);
   renderer.leave_context();
   return std::make_unique<Stage>(Stage{
       {source}, request.choice, DebugViews(layers), std::move(renderer), preparing.seconds()});
+}
+
+StageAddition prepare_addition(const StageSource& source, std::size_t present,
+                               const StageRequest& request) {
+  StageAddition result{.source = source};
+  for (std::size_t i = present; i < source.layers.size(); ++i) {
+    const StageLayer& layer = source.layers[i];
+    try {
+      Renderer renderer = prepare_layer(layer, *source.scene, request);
+      renderer.leave_context();
+      result.renderers.push_back(std::move(renderer));
+      result.layers.push_back(layer);
+    } catch (const DeviceLimitError& error) {
+      result.refused.push_back(refused(layer, *source.scene, request, error));
+    }
+    request.progress(double(i + 1 - present) / double(source.layers.size() - present));
+  }
+  return result;
+}
+
+void add_to(Stage& stage, StageAddition addition) {
+  assert(stage.can_grow());
+  for (Renderer& each : addition.renderers) stage.renderer.add_layers(std::move(each));
+  StageSource source = std::move(addition.source);
+  // The layers that are on the device now, in its order, with the names of the merged scene.
+  std::vector<StageLayer> layers = stage.layers;
+  std::move(addition.layers.begin(), addition.layers.end(), std::back_inserter(layers));
+  source.layers = std::move(layers);
+  merge_files(source);
+  update_subject(source);
+  static_cast<StageSource&>(stage) = std::move(source);
+}
+
+void arrange_layers(Stage& stage, std::vector<StageLayer> wanted) {
+  std::vector<StageLayer>& layers = stage.layers;
+  const auto find = [](std::vector<StageLayer>& among, const StageLayer& layer) {
+    return std::find_if(among.begin(), among.end(),
+                        [&](const StageLayer& each) { return each.soup == layer.soup; });
+  };
+  std::erase_if(wanted, [&](const auto& each) { return find(layers, each) == layers.end(); });
+  assert(!wanted.empty());
+  const bool same_order =
+      std::equal(wanted.begin(), wanted.end(), layers.begin(), layers.end(),
+                 [](const StageLayer& a, const StageLayer& b) { return a.soup == b.soup; });
+  // The passes of debug views refer to the soups.
+  if (!same_order && stage.debug_views) stage.renderer.set_passes({});
+  for (std::size_t i = layers.size(); i-- > 0;) {
+    if (find(wanted, layers[i]) != wanted.end()) continue;
+    stage.renderer.remove_layer(i);
+    layers.erase(layers.begin() + std::ptrdiff_t(i));
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto at = std::size_t(find(layers, wanted[i]) - layers.begin());
+    if (at != i) {
+      stage.renderer.swap_layers(i, at);
+      std::swap(layers[i], layers[at]);
+    }
+    stage.renderer.place_layer(i, wanted[i].world_from_layer);
+    stage.renderer.show_layer(i, wanted[i].visible);
+  }
+  layers = std::move(wanted);
+  if (!same_order && stage.debug_views) stage.debug_views.emplace(placed_soups(stage));
+  update_subject(stage);
 }
 
 }  // namespace tureen::viewer

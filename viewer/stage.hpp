@@ -6,6 +6,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "camera/navigation.hpp"
 #include "camera/up_axis.hpp"
@@ -29,18 +32,62 @@ Quality quality_of(const DrawingChoice& choice, const Scene& scene);
 /// The choice as options of the runtime.
 RenderOptions render_options(const DrawingChoice& choice, const Scene& scene);
 
+/// A file of the scene.
+struct SceneFile {
+  std::filesystem::path path;
+  FileWatch watch;  // created before it was read
+  /// The file's scene as it was read, except that its layers have no triangles.
+  std::shared_ptr<const Scene> header;
+};
+
+/// A layer of the scene. The user changes its place; its soup never changes, and jobs in the
+/// background share it.
+struct StageLayer {
+  std::string name = {};  // that of the file for a single layer without a name
+  std::shared_ptr<const TriangleSoup> soup = {};
+  Bounds box = {};  // in layer coordinates
+  glm::dmat4 world_from_layer{1.0};
+  bool visible = true;
+  std::size_t file = 0, index = 0;  // the file, and the layer in it
+};
+
 /// A scene that was read.
 struct StageSource {
-  std::filesystem::path path;
-  std::shared_ptr<const Scene> scene;  // its layers hold no soft triangles
-  Subject subject;                     // with the guessed up axis
+  std::vector<SceneFile> files;  // also those whose layers were removed; not empty
+  /// Cameras, quality and info. Its layers have no triangles: the drawn ones are below.
+  std::shared_ptr<const Scene> scene;
+  std::vector<StageLayer> layers;  // in drawing order
+  Subject subject;                 // with the guessed up axis
   UpGuess up;
-  FileWatch watch;  // created before it was read
   double read_seconds = 0;
 
-  const TriangleSoup& soup() const { return only_soup(*scene); }
-  glm::dvec3 origin() const { return origin_of(only_layer(*scene)); }
+  /// The first file.
+  const std::filesystem::path& path() const { return files.front().path; }
+  /// The files with layers; the first file if there are none.
+  std::vector<std::filesystem::path> paths() const;
+  /// The layer with the place that its file gives it.
+  const Layer& as_read(const StageLayer& layer) const;
+  /// Whether the scene is one file, and no layer was moved, hidden or removed.
+  bool is_as_read() const;
 };
+
+/// The layers for the runtime. They refer to the source's soups.
+std::vector<PlacedSoup> placed_soups(const StageSource& source);
+
+/// The reason why this debug view is not available, from the first layer that lacks it.
+std::optional<std::string> why_not(DebugView what, const StageSource& source);
+/// The number of features that every layer has.
+int feature_count(const StageSource& source);
+
+/// A layer that the device refused.
+struct RefusedLayer {
+  std::string name;
+  std::uint64_t forecast_bytes = 0;  // of its buffers and textures
+  std::string reason;                // the device's
+};
+
+/// "Forecast: 512.0 MiB. .."
+std::string describe(const RefusedLayer& layer);
 
 struct Stage : StageSource {
   DrawingChoice choice;
@@ -49,9 +96,34 @@ struct Stage : StageSource {
   std::optional<DebugViews> debug_views;
   Renderer renderer;
   double prepare_seconds = 0;
+  std::vector<RefusedLayer> refused = {};  // those are not in `layers`
 
   const StageSource& source() const { return *this; }
+  /// Whether add_to() accepts this stage.
+  bool can_grow() const { return !debug_views && choice.pipeline == PipelineKind::tureen; }
 };
+
+/// The inputs of reading.
+struct ReadRequest {
+  std::vector<std::filesystem::path> paths;
+  std::function<void(double)> progress;  // 0..1; may throw to abandon
+  /// Called before each file is read.
+  std::function<void(const std::filesystem::path&)> begins = [](const auto&) {};
+};
+
+/// The layers of all files, in one scene (merged() in scene/scene.hpp). Throws InputError, and
+/// UsageError for too many layers.
+StageSource read_source(const ReadRequest& request);
+/// The same after the layers of `before`, which stay as they are; so does its up axis.
+StageSource read_more(const StageSource& before, const ReadRequest& request);
+/// Reads the files of `before` again that have layers, and then those of the request. The user's
+/// changes stay, as in keep_changes().
+StageSource read_again(const StageSource& before, const ReadRequest& request);
+
+/// Gives the layers the order, places and visibility that the user chose in `before`, and removes
+/// those that the user removed. Layers are the same if they have the same name and position in
+/// their file. `source` has the files of `before`, and perhaps further ones, whose layers follow.
+void keep_changes(StageSource& source, const StageSource& before);
 
 /// The inputs of preparation. `context` describes the device; a context that shares with it must be
 /// current.
@@ -65,14 +137,35 @@ struct StageRequest {
 /// UsageError.
 Renderer prepare_renderer(const StageSource& scene, const StageRequest& request);
 
-/// Reads a scene and prepares it. The renderer has left the context, so that the drawing thread can
-/// use it. Throws InputError, DeviceLimitError and UsageError.
-std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request);
+/// Prepares a scene that was read. The renderer has left the context, so that the drawing thread
+/// can use it. Throws DeviceLimitError and UsageError.
+std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request);
 
-/// Prepares a scene that was read, for debug views, likewise.
+/// The same without the layers that the device refuses. Throws DeviceLimitError if it refuses all.
+std::unique_ptr<Stage> prepare_fitting_stage(const StageSource& source,
+                                             const StageRequest& request);
+
+/// Prepares a scene that was read, for debug views, as prepare_stage.
 std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const StageRequest& request);
 
-/// Prepares a scene that was read, likewise.
-std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request);
+/// Layers on the device, to be added to a stage that is shown.
+struct StageAddition {
+  StageSource source;                    // with the layers of the stage and all new ones
+  std::vector<StageLayer> layers = {};   // the new ones that fit
+  std::vector<Renderer> renderers = {};  // for each of them; they have left their context
+  std::vector<RefusedLayer> refused = {};
+};
+
+/// Prepares the layers of `source` after the first `present`, which are on the device. Throws
+/// UsageError.
+StageAddition prepare_addition(const StageSource& source, std::size_t present,
+                               const StageRequest& request);
+
+/// Adds the layers. What is on the device stays there. Needs Stage::can_grow().
+void add_to(Stage& stage, StageAddition addition);
+
+/// Gives the stage these of its layers, in this order and at these places, without uploading. The
+/// layers are compared by their soups; those that the stage does not have are ignored.
+void arrange_layers(Stage& stage, std::vector<StageLayer> wanted);
 
 }  // namespace tureen::viewer

@@ -13,6 +13,7 @@
 #include "camera/camera_controls.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "runtime/debug_views/debug_view.hpp"
+#include "scene/similarity.hpp"
 #include "viewer/animation.hpp"
 #include "viewer/comparison.hpp"
 #include "viewer/debug_view_choice.hpp"
@@ -28,6 +29,15 @@ namespace tureen::viewer {
 /// Opens a scene, photographs or a camera path, detected from its name and contents.
 struct OpenPath {
   std::filesystem::path path;
+};
+/// The same for several paths, except that scenes are added as layers to the scene that is shown or
+/// loading. Without one, they become its layers.
+struct AddPaths {
+  std::vector<std::filesystem::path> paths;
+};
+/// Gives the stage these of its layers, as arrange_layers().
+struct ArrangeLayers {
+  std::vector<StageLayer> layers;
 };
 struct OpenPhotographs {
   std::filesystem::path path;
@@ -65,10 +75,10 @@ struct WriteAnimation {};
 struct StopWriting {};
 struct Quit {};
 
-using Request =
-    std::variant<OpenPath, OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded,
-                 TakeImage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable,
-                 SavePath, LoadPath, WriteAnimation, StopWriting, Quit>;
+using Request = std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset,
+                             ReloadScene, ChooseDrawing, ShowRecorded, TakeImage, CopyCommand,
+                             ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable, SavePath,
+                             LoadPath, WriteAnimation, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -76,6 +86,15 @@ struct Photographs {
   std::vector<Photograph> list;
   std::size_t train_count = 0;
   std::vector<std::string> notes;
+};
+
+/// The fields of the panel *Layers*.
+struct LayerEditing {
+  std::size_t selected = 0;
+  /// The numbers of the selected layer, and their matrix. They are kept while the matrix is the
+  /// layer's, because other numbers may have the same matrix.
+  Similarity numbers;
+  glm::dmat4 matrix{1.0};
 };
 
 /// The fields of the panel *Images*.
@@ -96,6 +115,7 @@ struct State {
   Comparison comparison;
   Animation animation;
   Messages messages;
+  LayerEditing layer_editing;
   ImageWish image;
   bool show_interface = true;
   bool show_keys = false;

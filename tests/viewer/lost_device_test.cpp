@@ -79,6 +79,102 @@ TEST_F(LostDevice, IsToldAlsoWhereNothingCanBeKept) {
   EXPECT_EQ(read_settings(folder / "viewer.json").window, glm::ivec2(480, 320));
 }
 
+// -- Too little memory for a layer ----------------------------------------------------------------
+
+PFNGLBUFFERDATAPROC own_buffer_data = nullptr;  // the driver's
+PFNGLGETERRORPROC own_error = nullptr;
+thread_local bool buffer_was_refused = false;
+
+/// The buffer of 20,000 triangles needs 720,000 bytes; that of the example needs fewer.
+constexpr GLsizeiptr max_buffer_bytes = 700000;
+
+void GLAD_API_PTR refuse_large_buffers(GLenum target, GLsizeiptr size, const void* data,
+                                       GLenum usage) {
+  buffer_was_refused = target == GL_ARRAY_BUFFER && size > max_buffer_bytes;
+  if (!buffer_was_refused) own_buffer_data(target, size, data, usage);
+}
+
+GLenum GLAD_API_PTR error_of_refusal() {
+  return std::exchange(buffer_was_refused, false) ? GL_OUT_OF_MEMORY : own_error();
+}
+
+class FullDevice : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    write_triangles("small.off", 1);
+    write_triangles("large.off", 20000);
+  }
+  void TearDown() override {
+    if (own_buffer_data) glad_glBufferData = std::exchange(own_buffer_data, nullptr);
+    if (own_error) glad_glGetError = std::exchange(own_error, nullptr);
+  }
+
+  /// Red triangles behind each other; each hides those before it only in part.
+  void write_triangles(const std::string& name, int count) const {
+    std::ofstream file(folder / name);
+    file << "OFF\n" << count + 2 << " " << count << " 0\n-1 0 -1\n1 0 -1\n";
+    for (int i = 0; i < count; ++i) file << "0 " << 1e-5 * i << " 1\n";
+    for (int i = 0; i < count; ++i) file << "3 0 1 " << i + 2 << " 255 0 0\n";
+  }
+
+  /// Opens the first files, drops the others, and returns the errors shown at the end.
+  std::vector<std::string> run(const std::vector<std::string>& opened,
+                               const std::vector<std::string>& dropped) {
+    ApplicationOptions options;
+    for (const std::string& name : opened) options.scenes.push_back(folder / name);
+    options.images = folder;
+    Session session{.window = {480, 480}, .events = {}};
+    session.events.push_back({0.02, AwaitRest{}});
+    session.events.push_back({0.04, KeyChanged{Key::h, true}});
+    session.events.push_back({0.06, KeyChanged{Key::h, false}});
+    FilesDropped files;
+    for (const std::string& name : dropped) files.paths.push_back((folder / name).string());
+    if (!dropped.empty()) session.events.push_back({0.08, files});
+    session.events.push_back({0.10, AwaitRest{}});
+    session.events.push_back({0.12, WindowScreenshot{"end.png"}});
+    options.replay = session;
+    Application application(options);
+    own_buffer_data = std::exchange(glad_glBufferData, refuse_large_buffers);
+    own_error = std::exchange(glad_glGetError, error_of_refusal);
+    application.run();
+    return application.errors();
+  }
+
+  std::ptrdiff_t red_pixels() const {
+    Input input = Input::open(folder / "end.png");
+    const Image8 image = read_image(input);
+    return std::count(image.pixels.begin(), image.pixels.end(), glm::u8vec4(255, 0, 0, 255));
+  }
+
+  const fs::path folder = fs::path(testing::TempDir()) / "full_device" /
+                          testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+// The forecast: 20,000 triangles of 36 bytes, twice because small ones are culled on software
+// OpenGL, and of 4 bytes for the colour.
+const auto names_the_large_layer =
+    testing::AllOf(testing::HasSubstr("The layer large does not fit"),
+                   testing::ContainsRegex("Forecast: 1\\.4 MiB"));
+
+TEST_F(FullDevice, OfDroppedLayersDrawsThoseThatFitAndNamesTheOthers) {
+  EXPECT_THAT(run({"small.off"}, {"large.off", "small.off"}),
+              testing::ElementsAre(names_the_large_layer));
+  EXPECT_GT(red_pixels(), 500);
+}
+
+TEST_F(FullDevice, OfOpenedLayersDrawsThoseThatFitAndNamesTheOthers) {
+  EXPECT_THAT(run({"large.off", "small.off"}, {}), testing::ElementsAre(names_the_large_layer));
+  EXPECT_GT(red_pixels(), 500);
+}
+
+TEST_F(FullDevice, ASceneWithoutAnyLayerThatFitsIsNotShown) {
+  EXPECT_THAT(run({"large.off"}, {}),
+              testing::ElementsAre(testing::HasSubstr("large.off cannot be shown")));
+  EXPECT_EQ(red_pixels(), 0);
+}
+
 // -- Too little memory for an image --------------------------------------------------------------
 
 /// The longest side of a target that fits in the device's memory: enough for 400 x 300 with four
@@ -113,7 +209,7 @@ class SmallDevice : public testing::Test {
   /// The example from its first camera, without panels.
   ApplicationOptions options(glm::ivec2 window) {
     ApplicationOptions options;
-    options.scene = fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb";
+    options.scenes = {fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb"};
     options.images = folder;
     session = {.window = window, .events = {}};
     wait();
@@ -176,7 +272,7 @@ TEST_F(SmallDevice, DrawsOneSampleAPixelWhereMoreDoNotFit) {
   add(Resized{600, 450});
   look("large");
   EXPECT_THAT(run(supersampled), SizeIs(1));
-  const std::string scene = supersampled.scene.string();
+  const std::string scene = supersampled.scenes.front().string();
   const test::ChildResult plain = test::Child({"render", scene, "--camera", scene + ":0", "--size",
                                                "600x450", "-o", "plain.png"},
                                               folder, TUREEN_HEADLESS_PROGRAM)

@@ -40,7 +40,7 @@ glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string
 
 StageSource source(const std::string& path) {
   StageSource result;
-  result.path = path;
+  result.files.push_back({.path = path, .watch = {}, .header = nullptr});
   result.scene = std::make_shared<const Scene>();
   return result;
 }

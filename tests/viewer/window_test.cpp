@@ -20,6 +20,7 @@
 #include "tests/support/golden.hpp"
 #include "tests/viewer/display.hpp"
 #include "viewer/files/session.hpp"
+#include "viewer/messages.hpp"
 
 namespace tureen::test {
 namespace window_test {
@@ -62,9 +63,18 @@ class Person {
     }
     return add(ButtonChanged{button, false});
   }
+  Person& point(glm::dvec2 at) { return add(PointerMoved{at.x, at.y}); }
   Person& click(glm::dvec2 at) { return drag(Button::left, at, at); }
+  /// Waits until the notes have disappeared.
+  Person& without_notes() { return hold(Key::super, Messages::note_seconds + 1); }
   Person& turn_wheel(double away) { return add(Scrolled{0, away}); }
-  Person& drop(const std::string& path) { return add(FilesDropped{{path}}); }
+  Person& drop(const std::string& path) { return drop_all({path}); }
+  Person& drop_all(std::vector<std::string> paths) { return add(FilesDropped{std::move(paths)}); }
+  Person& double_click(glm::dvec2 at) { return click(at).click(at); }
+  Person& type(const std::string& ascii) {
+    for (const char letter : ascii) add(TextTyped{static_cast<unsigned char>(letter)});
+    return press(Key::enter);
+  }
   Person& resize(glm::ivec2 size) { return add(Resized{size.x, size.y}); }
   Person& replace(const std::string& file, const std::string& with) {
     return add(FileReplaced{.from = with, .to = file});
@@ -367,6 +377,146 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
   EXPECT_EQ(count(before, blue), 0);
   EXPECT_EQ(count(after, red), 0);
   EXPECT_EQ(count(after, blue), count(before, red)) << "the view must not change";
+}
+
+// -- layers ---------------------------------------------------------------------------------------
+
+constexpr const char* square = "OFF\n4 2 0\n-2 -2 0.3\n2 -2 0.3\n2 2 0.3\n-2 2 0.3\n";
+
+/// A square of this colour, which cuts the example.
+void write_square(const fs::path& file, const std::string& color) {
+  std::ofstream(file) << square << "3 0 1 2 " << color << "\n3 0 2 3 " << color << "\n";
+}
+
+std::ptrdiff_t count(const Image8& image, glm::u8vec4 color) {
+  return std::count(image.pixels.begin(), image.pixels.end(), color);
+}
+
+constexpr glm::u8vec4 red(255, 0, 0, 255), blue(0, 0, 255, 255);
+
+TEST_F(Window, ADroppedSceneIsAddedAndTheViewStays) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  Person person;
+  person.wait().press(Key::h).press(Key::right_bracket).look("before").drop("floor.off");
+  person.look("added");
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(count(image("before"), red), 0);
+  EXPECT_GT(count(image("added"), red), 1000);
+  // The example is where it was: most of its pixels are not covered.
+  const Image8 before = image("before"), added = image("added");
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < before.pixels.size(); ++i)
+    same += before.pixels[i] == added.pixels[i];
+  EXPECT_GT(same, before.pixels.size() / 10);
+}
+
+TEST_F(Window, ScenesOnTheCommandLineOrDroppedTogetherAreLayersOfOneScene) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  const auto shown = [](Person person) {
+    person.wait().press(Key::h).press(Key::right_bracket);
+    return person.look("shown");
+  };
+  EXPECT_EQ(replay(shown(Person()), {"soup.glb", "floor.off"}).exit_code, 0);
+  const Image8 named = image("shown");
+  EXPECT_GT(count(named, red), 1000);
+  Person together, later;
+  together.drop_all({"soup.glb", "floor.off"});
+  EXPECT_EQ(replay(shown(together), {}).exit_code, 0);
+  expect_equal(image("shown"), named);
+  later.wait().drop("floor.off");
+  EXPECT_EQ(replay(shown(later)).exit_code, 0);
+  expect_equal(image("shown"), named);
+  // The second is read together with the first, which is still loading.
+  Person in_a_row;
+  in_a_row.drop("soup.glb").drop("floor.off");
+  EXPECT_EQ(replay(shown(in_a_row), {}).exit_code, 0);
+  expect_equal(image("shown"), named);
+}
+
+TEST_F(Window, OfSeveralDroppedFilesABadOneIsNamedAndTheOldSceneStays) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  std::ofstream(folder_ / "bad.off") << "OFF\n1 1 0\n";
+  Person person;
+  person.wait().press(Key::h).press(Key::right_bracket).wait();
+  const ChildResult result = replay(person.drop_all({"floor.off", "bad.off"}).look("bad"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, Names("bad.off cannot be shown"));
+  EXPECT_EQ(count(image("bad"), red), 0);
+}
+
+TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  Person person({320, 240});
+  person.wait().press(Key::h).press(Key::right_bracket).drop("floor.off").wait();
+  person.without_notes().look("colours").press_with_control(Key::s).wait().press(Key::v).wait();
+  person.without_notes().look("depth").press_with_control(Key::s).wait();
+  // A layer that is added to a debug view.
+  person.drop("floor.off").wait().without_notes().look("depth_of_three");
+  person.press_with_control(Key::s).wait();
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(image("soup-1"), image("colours"));
+  expect_equal(image("soup-2"), image("depth"));
+  expect_equal(image("soup-3"), image("depth_of_three"));
+}
+
+/// Positions in the panel Layers of a scene of two layers in a window of 720 x 640, from the
+/// golden.
+constexpr glm::dvec2 second_visible{417, 283}, second_name{500, 283}, degrees_x{445, 332},
+    remove_button{568, 380};
+
+TEST_F(Window, ThePanelPlacesHidesAndRemovesLayers) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  Person person({720, 640});
+  person.drop_all({"soup.glb", "floor.off"}).wait().press(Key::digit_7).wait().without_notes();
+  person.click(second_name).double_click(degrees_x).type("30").point({200, 540}).look("placed");
+  // The image alone: as it is saved, as a debug view, and after the files were read again.
+  person.press(Key::h).look("alone").press_with_control(Key::s).wait().press(Key::v).wait();
+  person.without_notes().press_with_control(Key::s).wait().without_notes().look("depth");
+  for (int i = 0; i < 6; ++i) person.press(Key::v);  // once around those that the square has
+  person.press(Key::f5).wait().without_notes().look("again");
+  person.press(Key::h).wait().click(second_visible).press(Key::h).look("hidden");
+  // Also in a debug view, whose passes refer to the layers.
+  for (int i = 0; i < 3; ++i) person.press(Key::v);
+  person.look("faces").press(Key::h).wait().click(remove_button).press(Key::h).look("removed");
+  const ChildResult result = replay(person, {});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("placed"), "window_layers");
+  EXPECT_GT(count(image("alone"), red), 1000);
+  expect_equal(image("soup-1"), image("alone"));
+  expect_equal(image("soup-2"), image("depth"));
+  expect_equal(image("again"), image("alone"));
+  EXPECT_EQ(count(image("hidden"), red), 0);
+  expect_equal(image("removed"), image("faces"));
+}
+
+TEST_F(Window, EveryFileOfALayerIsWatched) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  write_square(folder_ / "next.off", "0 0 255");
+  Person person;
+  person.wait().press(Key::h).press(Key::right_bracket).wait().without_notes().look("before");
+  person.replace("floor.off", "next.off").hold(Key::super, 4).wait().without_notes().look("after");
+  const ChildResult result = replay(person, {"soup.glb", "floor.off"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(count(image("before"), red), 1000);
+  EXPECT_EQ(count(image("after"), blue), count(image("before"), red));
+}
+
+TEST_F(Window, TheBaselineRefusesAFurtherLayer) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  const ChildResult result =
+      replay(Person().wait().drop("floor.off").wait(), {"soup.glb", "--pipeline", "baseline"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, Names("floor.off cannot be shown", "baseline"));
+}
+
+TEST_F(Window, ComparesWithOneDataset) {
+  fs::create_directories(folder_ / "a");
+  fs::create_directories(folder_ / "b");
+  const ChildResult result = Child({"soup.glb", "a", "b"}, folder_).wait();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, Names("two datasets"));
 }
 
 TEST_F(Window, TheSameSessionShowsTheSame) {

@@ -39,7 +39,7 @@ void next_debug_view(State& state) {
   const auto names = debug_view_names();
   std::size_t next = std::size_t(state.debug_view.what);
   do next = (next + 1) % names.size();
-  while (why_not(names[next].what, state.stage->soup()));
+  while (why_not(names[next].what, *state.stage));
   state.debug_view.what = names[next].what;
 }
 

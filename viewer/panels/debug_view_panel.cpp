@@ -21,13 +21,13 @@ void feature_choice(FeatureChoice& choice, int count) {
 }  // namespace
 
 void debug_view_panel(State& state) {
-  const TriangleSoup& soup = state.stage->soup();
+  const StageSource& source = *state.stage;
   DebugViewChoice& debug_view = state.debug_view;
   const DebugViewName& current = debug_view_names()[std::size_t(debug_view.what)];
   ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
   if (ImGui::BeginCombo("shown", current.title, ImGuiComboFlags_HeightLarge)) {
     for (const DebugViewName& each : debug_view_names()) {
-      const std::optional<std::string> reason = why_not(each.what, soup);
+      const std::optional<std::string> reason = why_not(each.what, source);
       {
         const Disabled disabled(reason.has_value());
         if (ImGui::Selectable(each.title, each.what == debug_view.what))
@@ -41,7 +41,7 @@ void debug_view_panel(State& state) {
   tip("V selects the next one");
   aside(current.meaning);
   if (debug_view.what == DebugView::features)
-    feature_choice(debug_view.features, feature_count(soup));
+    feature_choice(debug_view.features, feature_count(source));
   if (debug_view.what != DebugView::color && state.stage->debug_views)
     legend_rows(state.stage->debug_views->legend());
 }

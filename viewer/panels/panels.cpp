@@ -41,6 +41,9 @@ void draw_panels(State& state, const FrameClock& clock) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   section("Scene", true, [&] { scene_panel(state); });
+  // For other scenes it would only take room.
+  if (state.stage->layers.size() > 1 || !state.stage->is_as_read())
+    section("Layers", true, [&] { layers_panel(state); });
   section("View", true, [&] { view_panel(state); });
   section("Debug view", true, [&] { debug_view_panel(state); });
   section("Drawing", false, [&] { drawing_panel(state); });

@@ -22,17 +22,23 @@ void recent_menu(State& state) {
 void scene_panel(State& state) {
   Stage& stage = *state.stage;
   const Scene& scene = *stage.scene;
-  paragraph(stage.path.string());
-  const TriangleSoup& soup = stage.soup();
-  paragraph(
-      fmt::format("{} triangles, {}", soup.triangles.size(), appearance_name(soup.appearance)));
+  for (const std::filesystem::path& path : stage.paths()) paragraph(path.string());
+  if (stage.layers.size() == 1) {
+    const TriangleSoup& soup = *stage.layers.front().soup;
+    paragraph(
+        fmt::format("{} triangles, {}", soup.triangles.size(), appearance_name(soup.appearance)));
+  } else {
+    std::size_t triangles = 0;
+    for (const StageLayer& layer : stage.layers) triangles += layer.soup->triangles.size();
+    text("{} triangles in {} layers", triangles, stage.layers.size());
+  }
   text("{:.1f} MiB on the device", double(stage.renderer.device_bytes()) / (1 << 20));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
                   stage.prepare_seconds));
   if (!scene.info.source.empty()) aside("from " + scene.info.source);
   for (const std::string& note : all_notes(scene.info)) aside(note);
   if (ImGui::Button("Open")) state.show_files = true;
-  tip("Ctrl+O, or drop a file or a folder on the window");
+  tip("Ctrl+O replaces the scene; scenes that are dropped on the window are added");
   ImGui::SameLine();
   recent_menu(state);
   ImGui::SameLine();

@@ -1,0 +1,26 @@
+// A similarity as numbers that a person reads and edits.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace tureen {
+
+/// The transform mirrors, scales, rotates and translates, in this order.
+struct Similarity {
+  glm::dvec3 position{0.0};  // of the origin, in world coordinates
+  /// In degrees, about the world's axes through the origin: first about x, then about y, then
+  /// about z. Positive angles are counter-clockwise, seen from the positive end of the axis.
+  glm::dvec3 angles{0.0};
+  double scale = 1;     // > 0
+  bool mirror = false;  // negates x; then the matrix has a negative determinant
+};
+
+glm::dmat4 matrix_of(const Similarity& similarity);
+
+/// The numbers of a matrix. Asserts that Layer's defect() (scene/scene.hpp) accepts it. The angle
+/// about y is in [-90, 90], the others in (-180, 180]. At 90 and -90 the axes of x and z coincide:
+/// the angle about z is then an arbitrary one, and the angle about x matches it.
+Similarity similarity_of(const glm::dmat4& matrix);
+
+}  // namespace tureen
