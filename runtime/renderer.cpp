@@ -236,30 +236,15 @@ void Renderer::add_layers(Renderer other) {
   state.arrange();
 }
 
-void Renderer::add_layers(Renderer other) {
-  State &state = *state_, &from = *other.state_;
-  assert(state.draws_soups && from.draws_soups);
-  assert(from.plan.reversed_depth == state.plan.reversed_depth);
-  assert(state.places.size() + from.places.size() <= max_plan_layers);
-  from.soup_passes.clear();  // they refer to the soups
-  for (std::size_t i = 0; i < from.soups.size(); ++i) {
-    state.soups.push_back(std::move(from.soups[i]));
-    state.places.push_back(from.places[i]);
-    make_layered(from.plan.layers[i]);
-    state.plan.layers.push_back(std::move(from.plan.layers[i]));
-  }
-  state.arrange();
-}
-
 void Renderer::remove_layer(std::size_t layer) {
-  assert(state_->draws_soups && layer < layer_count());
+  assert((state_->draws_soups || state_->passes.empty()) && layer < layer_count());
   state_->remove(layer);
   state_->arrange();
 }
 
 void Renderer::swap_layers(std::size_t a, std::size_t b) {
   State& state = *state_;
-  assert(state.draws_soups && a < layer_count() && b < layer_count());
+  assert((state.draws_soups || state.passes.empty()) && a < layer_count() && b < layer_count());
   std::swap(state.soups[a], state.soups[b]);
   std::swap(state.places[a], state.places[b]);
   std::swap(state.plan.layers[a], state.plan.layers[b]);

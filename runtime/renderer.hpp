@@ -62,7 +62,7 @@ class Renderer {
   void show_layer(std::size_t layer, bool visible);
 
   // The next functions change the layers. They end the last frame: draw() must follow before other
-  // reading functions. They require that the layers are drawn by their own passes: no set_passes().
+  // reading functions. Passes from set_passes() refer to the soups: replace them by none before.
 
   /// Adds the layers of a scene after the present ones, which stay on the device. Several layers
   /// are all drawn deferred. The quality stays that of the first scene. Requires a scene without

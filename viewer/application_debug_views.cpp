@@ -47,9 +47,9 @@ void Application::compare_when_needed() {
     comparison.forget();
   }
   if (comparison.result || comparison.asked) return;
+  if (state_.stage->debug_views) return;  // its renderer is not that of the drawing choice
   comparison.asked = true;
   Renderer& renderer = state_.stage->renderer;
-  if (state_.stage->debug_views) state_.stage->debug_views->show(renderer, DebugView::color);
   try {
     renderer.draw({photograph->camera});
   } catch (const DeviceLimitError& error) {

@@ -67,7 +67,9 @@ void drawing_panel(State& state) {
     changed = true;
   }
   tip("A reimplementation of the published DiffSoup viewer");
-  if (!baseline) {
+  if (stage.debug_views) {
+    aside("Debug views are drawn without these choices.");
+  } else if (!baseline) {
     changed |= ImGui::Checkbox("specialise for the scene", &choice.plan.specialise);
     if (choice.plan.specialise) {
       ImGui::Indent();
@@ -76,6 +78,7 @@ void drawing_panel(State& state) {
     }
   }
   if (changed) state.ask(ChooseDrawing{choice});
+  if (stage.debug_views) return;  // the plan is not that of the choice
   ImGui::Separator();
   for (const std::string& sentence : describe(stage.renderer.plan())) aside(sentence);
 }

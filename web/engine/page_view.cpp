@@ -192,8 +192,13 @@ void PageView::show(DebugView what, const FeatureChoice& features) {
       shows_debug_view != had_debug_views) {
     try {
       prepare_renderer(shows_debug_view);
-    } catch (const DeviceLimitError&) {
-      prepare_renderer(had_debug_views);
+    } catch (const Error&) {
+      try {
+        prepare_renderer(had_debug_views);
+        if (had_debug_views) stage.debug_views->show(*stage.renderer, debug_view_, features_);
+      } catch (const Error&) {
+        drop_scene();
+      }
       throw;
     }
   }
@@ -216,7 +221,8 @@ void PageView::prepare_renderer(bool for_debug_views) {
 }
 
 Legend PageView::legend() const {
-  return stage_ && stage_->debug_views ? stage_->debug_views->legend() : Legend{};
+  const Stage* shown = current();
+  return shown && shown->debug_views ? shown->debug_views->legend() : Legend{};
 }
 
 bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
