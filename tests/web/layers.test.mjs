@@ -213,10 +213,15 @@ function shortOfMemory() {
   };
 }
 
-test('a layer that does not fit is named with its forecast, and the others stay', () => visit('drawing.html', async (page, profile) => {
+async function reloadedShort(page, profile) {
+  await page.waitForFunction(() => window.viewer);  // a viewer that has not started would report an error
   await profile.addInitScript(shortOfMemory);
   await page.reload();
   await page.waitForFunction(() => window.viewer);
+}
+
+test('a layer that does not fit is named with its forecast, and the others stay', () => visit('drawing.html', async (page, profile) => {
+  await reloadedShort(page, profile);
   const { error, kind, names, progress, scene } = await page.evaluate(async () => {
     const progress = [];
     viewer.on('progress', ({ deviceBytes }) => { if (deviceBytes !== null) progress.push(deviceBytes); });
@@ -339,9 +344,7 @@ test('a file of several layers, loaded and added', needsFile, viewing(async (pag
 }));
 
 test('of a file that does not fit, the layers that fit are drawn', needsFile, () => visit('drawing.html', async (page, profile) => {
-  await profile.addInitScript(shortOfMemory);
-  await page.reload();
-  await page.waitForFunction(() => window.viewer);
+  await reloadedShort(page, profile);
   const { names, notices } = await page.evaluate(async () => {
     const notices = [];
     viewer.on('notice', (sentence) => notices.push(sentence));
