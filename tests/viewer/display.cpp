@@ -19,10 +19,11 @@ Display::Display() {
     // The server chooses a free display number and writes it here, so parallel tests do not
     // collide.
     const std::string descriptor = std::to_string(ends[1]);
+    // Without -noreset it restarts when the last window closes, and meanwhile refuses the next one.
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDERR_FILENO);
     ::execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "1600x1200x24",
-             "-nolisten", "tcp", static_cast<char*>(nullptr));
+             "-nolisten", "tcp", "-noreset", static_cast<char*>(nullptr));
     ::_exit(127);
   }
   ::close(ends[1]);
