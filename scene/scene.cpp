@@ -99,10 +99,11 @@ Scene scene_of(std::variant<TriangleSoup, SoftTriangles> primitives, const glm::
 
 const Layer& only_layer(const Scene& scene) {
   if (scene.layers.empty())
-    throw UsageError("this needs a scene with one layer; this scene has no layer");
+    throw UsageError("only a scene with one layer is supported here; this scene has no layer");
   if (scene.layers.size() > 1)
-    throw UsageError("this needs a scene with one layer; this scene has " +
-                     std::to_string(scene.layers.size()) + ": " + layer_names(scene));
+    throw UsageError("only a scene with one layer is supported here; this scene has " +
+                         std::to_string(scene.layers.size()) + ": " + layer_names(scene),
+                     "use the file of a single layer");
   return scene.layers.front();
 }
 

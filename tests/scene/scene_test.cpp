@@ -112,14 +112,15 @@ TEST(Scene, OfSeveralLayersHasNoOnlyLayer) {
     try {
       only_layer(scene);
     } catch (const UsageError& error) {
-      return error.what();
+      return error.reason();
     }
     return "";
   };
-  EXPECT_EQ(refusal(), "this needs a scene with one layer; this scene has no layer");
+  EXPECT_EQ(refusal(), "only a scene with one layer is supported here; this scene has no layer");
   scene.layers = {{.name = "house"}, {}, {.name = "garden"}};
-  EXPECT_EQ(refusal(),
-            "this needs a scene with one layer; this scene has 3: house, layer 1, garden");
+  EXPECT_EQ(
+      refusal(),
+      "only a scene with one layer is supported here; this scene has 3: house, layer 2, garden");
   EXPECT_THROW(only_soup(scene), UsageError);
 }
 
