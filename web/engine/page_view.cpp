@@ -120,8 +120,8 @@ void PageView::follow_layers(Stage& stage) {
 
 void PageView::add_layers(PreparedScene prepared) {
   Stage& stage = colors_with(0);
-  if (stage.layers.size() + prepared.layers.size() > max_plan_layers)
-    throw UsageError("at most " + std::to_string(max_plan_layers) +
+  if (stage.layers.size() + prepared.layers.size() > max_layers)
+    throw UsageError("at most " + std::to_string(max_layers) +
                      " layers can be drawn together: remove layers first");
   if (prepared.plan.reversed_depth != stage.renderer->plan().reversed_depth)
     throw UsageError("the layer was prepared for another device");
