@@ -21,6 +21,7 @@
 #include "runtime/plan/plan_description.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/lint.hpp"
+#include "scene/similarity.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen::cli {
@@ -154,6 +155,7 @@ const std::vector<NamedDevice>& named_devices() {
 
 /// What is printed about one layer.
 struct LayerFacts {
+  std::string name;  // label() of the layer
   const Layer* layer;
   const TriangleSoup* soup;
   bool soft;  // soft triangles in the file; `soup` is their opaque form
@@ -163,36 +165,27 @@ struct LayerFacts {
   Lint lint;
 };
 
-/// `several`: the scene has several layers, which are all drawn deferred.
-LayerFacts facts_of(const Layer& layer, bool soft, bool several) {
+LayerFacts facts_of(const Scene& scene, std::size_t index, bool soft) {
+  const Layer& layer = scene.layers[index];
+  const bool several = scene.layers.size() > 1;
   const TriangleSoup& soup = std::get<TriangleSoup>(layer.primitives);
-  LayerFacts facts{.layer = &layer,
+  LayerFacts facts{.name = label(layer, index),
+                   .layer = &layer,
                    .soup = &soup,
                    .soft = soft,
                    .appearance = {},
                    .plan = make_plan(soup, named_devices().back().limits),
                    .forecast = {},
                    .lint = lint(soup)};
+  // Several layers are all drawn deferred.
   if (several) make_layered(facts.plan.layers.front());
   facts.forecast = device_forecast(soup, facts.plan.layers.front());
   std::visit(facts.appearance, soup.appearance);
   return facts;
 }
 
-/// "at (1, 2, 3), turned by 30 degrees, 2 times as large, mirrored".
 std::string place_text(const Layer& layer) {
-  std::string text = "at " + vector_text(origin_of(layer));
-  const glm::dmat3 linear(layer.world_from_layer);
-  const double determinant = glm::determinant(linear);
-  const double scale = std::cbrt(std::abs(determinant));
-  const double sign = determinant < 0 ? -1.0 : 1.0;
-  const double trace = sign / scale * (linear[0][0] + linear[1][1] + linear[2][2]);
-  const double degrees = glm::degrees(std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0)));
-  // Six digits are printed; smaller differences come from rounding.
-  if (degrees > 1e-4) text += fmt::format(", turned by {:.6g} degrees", degrees);
-  if (std::abs(scale - 1.0) > 1e-6) text += fmt::format(", {:.6g} times as large", scale);
-  if (determinant < 0) text += ", mirrored";
-  return text;
+  return describe(similarity_of(layer.world_from_layer)) + (layer.visible ? "" : "; hidden");
 }
 
 void add_appearance(Table& table, const LayerFacts& facts) {
@@ -218,10 +211,10 @@ void say_layer(const LayerFacts& facts) {
   table.row({"triangles", triangles_text(facts.soup->triangles.size(), facts.soup->positions.size(),
                                          facts.soft)});
   add_appearance(table, facts);
-  table.row({"place", place_text(*facts.layer) + (facts.layer->visible ? "" : "; hidden")});
-  say_list("Layer " + facts.layer->name + ":", table.lines());
-  say_list("Plan of " + facts.layer->name + ":", describe(facts.plan));
-  say_list("Lint of " + facts.layer->name + ":", lint_lines(facts.lint));
+  table.row({"place", place_text(*facts.layer)});
+  say_list("Layer " + facts.name + ":", table.lines());
+  say_list("Plan of " + facts.name + ":", describe(facts.plan));
+  say_list("Lint of " + facts.name + ":", lint_lines(facts.lint));
 }
 
 Json matrix_json(const glm::dmat4& matrix) {
@@ -318,7 +311,8 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
                          bytes_text(bytes_on_disk(options.scene)),
                          bytes_text(totals.bytes_in_memory), bytes_text(totals.bytes_on_device))});
   table.row({"bounds", vector_text(subject.low) + " to " + vector_text(subject.high)});
-  if (only && !is_translation(*only->layer)) table.row({"place", place_text(*only->layer)});
+  if (only && (!is_translation(*only->layer) || !only->layer->visible))
+    table.row({"place", place_text(*only->layer)});
   table.row({"up", vector_text(scene.info.up)});
   table.row({"cameras", std::to_string(scene.cameras.size())});
   if (scene.quality != Quality{}) table.row({"quality", describe(scene.quality)});
@@ -381,7 +375,7 @@ ExitCode inform(const InfoOptions& options) {
   make_opaque(scene);
   std::vector<LayerFacts> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    layers.push_back(facts_of(scene.layers[i], soft[i], scene.layers.size() > 1));
+    layers.push_back(facts_of(scene, i, soft[i]));
   const Subject subject = subject_of(scene);
   const DeviceFit devices(layers);
   say_scene(options, scene, subject, layers, devices);

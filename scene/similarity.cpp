@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "base/decimal_text.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -54,6 +55,29 @@ Similarity similarity_of(const glm::dmat4& matrix) {
   const double x = std::atan2(s * axes[2].x - c * axes[2].y, c * axes[1].y - s * axes[1].x);
   result.angles = glm::dvec3(x, y, z) / radians_per_degree + 0.0;  // without -0
   return result;
+}
+
+namespace {
+
+std::string text_of(const glm::dvec3& v) {
+  return "(" + short_decimal(v.x, 6) + ", " + short_decimal(v.y, 6) + ", " + short_decimal(v.z, 6) +
+         ")";
+}
+
+}  // namespace
+
+std::string describe(const Similarity& similarity) {
+  std::string text = "at " + text_of(similarity.position);
+  // Smaller differences come from rounding.
+  glm::dvec3 angles = similarity.angles;
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(angles[i]) < 1e-4) angles[i] = 0;
+  if (angles != glm::dvec3(0.0))
+    text += ", turned by " + text_of(angles) + " degrees about x, y and z";
+  if (std::abs(similarity.scale - 1.0) > 1e-6)
+    text += ", " + short_decimal(similarity.scale, 6) + " times as large";
+  if (similarity.mirror) text += ", mirrored";
+  return text;
 }
 
 }  // namespace tureen

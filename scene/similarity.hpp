@@ -3,6 +3,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 
 namespace tureen {
 
@@ -20,7 +21,11 @@ glm::dmat4 matrix_of(const Similarity& similarity);
 
 /// The numbers of a matrix. Asserts that Layer's defect() (scene/scene.hpp) accepts it. The angle
 /// about y is in [-90, 90], the others in (-180, 180]. At 90 and -90 the axes of x and z coincide:
-/// the angle about z is then an arbitrary one, and the angle about x matches it.
+/// the angle about z is then arbitrary, and the angle about x matches it.
 Similarity similarity_of(const glm::dmat4& matrix);
+
+/// "at (1, 2, 3), turned by (0, 0, 30) degrees about x, y and z, 2 times as large, mirrored"; six
+/// digits, and only the parts that differ from the identity, except the position.
+std::string describe(const Similarity& similarity);
 
 }  // namespace tureen

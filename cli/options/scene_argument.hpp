@@ -36,13 +36,13 @@ void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std:
 /// Throws InputError, with a suggestion if the path does not exist.
 Scene read(const SceneArgument& argument);
 
-/// The same for a command that knows one layer at an origin: applies the layer's rotation, scale or
-/// mirror to the vertices (scene/edit/baked_transform.hpp). Throws UsageError for several layers,
-/// and for a transform that would change colours.
+/// The same for a command that supports only one layer at an origin: applies the layer's rotation,
+/// scale or mirror to the vertices (scene/edit/baked_transform.hpp). Throws UsageError for several
+/// layers, and for a transform that would change colours.
 Scene read_one_layer(const SceneArgument& argument);
 
-/// The same as read() for all scenes, merged (scene/scene.hpp). Of several scenes, one without a
-/// name is named after its file. Throws UsageError for more than max_layers layers.
+/// The same as read() for all scenes, merged (scene/scene.hpp). If there are several, a scene
+/// without a name gets the name of its file. Throws UsageError for more than max_layers layers.
 Scene read(const SceneArguments& arguments);
 
 /// require_not_input() for each scene (cli/options/output_argument.hpp).

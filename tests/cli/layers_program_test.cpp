@@ -101,7 +101,8 @@ TEST_F(LayersProgram, InfoListsEachLayer) {
   for (const char* heading : {"Layer scene:", "Plan of fox:", "Lint of turned:"})
     EXPECT_THAT(text.err, HasSubstr(heading));
   EXPECT_THAT(text.err,
-              HasSubstr("at (1e+06, 0, 0), turned by 90 degrees, 2 times as large; hidden"));
+              HasSubstr("at (1e+06, 0, 0), turned by (0, 0, 90) degrees about x, y and z, "
+                        "2 times as large; hidden"));
 
   const auto json = info({"scene.off", "two.glb"});
   EXPECT_EQ(json["files"], nlohmann::ordered_json({"scene.off", "two.glb"}));
@@ -127,7 +128,7 @@ TEST_F(LayersProgram, InfoOfOneTurnedLayerNamesItsPlace) {
   const auto json = info({"turned.glb"});
   EXPECT_FALSE(json.contains("layers"));
   EXPECT_EQ(json["world_from_layer"][1], 2);
-  EXPECT_THAT(run({"info", "turned.glb"}).err, HasSubstr("turned by 90 degrees"));
+  EXPECT_THAT(run({"info", "turned.glb"}).err, HasSubstr("turned by (0, 0, 90) degrees"));
 }
 
 TEST_F(LayersProgram, CommandsForOneLayerNameTheLayers) {

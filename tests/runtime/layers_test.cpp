@@ -193,6 +193,13 @@ TEST_P(Layers, AreFilteredAndLeaveTheContext) {
     renderer.leave_context();
     renderer.draw({scene.cameras.front()});
     EXPECT_EQ(renderer.read_color().pixels, image.pixels);
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) renderer.remove_layer(0);
+    EXPECT_TRUE(renderer.read_faces().empty()) << "of layers that are gone";
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, 1, 1);
+    renderer.set_background(glm::vec4(1.0f));
+    renderer.draw({scene.cameras.front()});
+    EXPECT_EQ(renderer.read_color().at(9, 9), glm::u8vec4(255)) << "no layer, foreign state";
   }
 }
 
