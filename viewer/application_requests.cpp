@@ -197,7 +197,7 @@ void Application::prepare_grown(const StageSource& source) {
 }
 
 void Application::carry_out(const ArrangeLayers& request) {
-  if (!state_.stage) return;
+  if (!state_.stage || state_.stage->scene != request.scene) return;
   arrange_layers(*state_.stage, request.layers);
   after_change_of_layers();
 }
