@@ -92,7 +92,8 @@ std::string describe(const RefusedLayer& layer);
 struct Stage : StageSource {
   DrawingChoice choice;
   /// If the renderer was prepared for debug views; otherwise it was prepared by the choice. There
-  /// is only one renderer, so that the device holds the scene once.
+  /// is one renderer for both, so that the device holds the scene once, or twice while another
+  /// stage is prepared.
   std::optional<DebugViews> debug_views;
   Renderer renderer;
   double prepare_seconds = 0;
