@@ -54,9 +54,15 @@ void append_file(StageSource& source, const fs::path& path,
 void append_files(StageSource& source, const ReadRequest& request) {
   for (std::size_t i = 0; i < request.paths.size(); ++i) {
     request.begins(request.paths[i]);
-    append_file(source, request.paths[i], [&](double done) {
-      request.progress((double(i) + done) / double(request.paths.size()));
-    });
+    try {
+      append_file(source, request.paths[i], [&](double done) {
+        request.progress((double(i) + done) / double(request.paths.size()));
+      });
+    } catch (const InputError& error) {
+      const bool none_remains = source.files.empty() && i + 1 == request.paths.size();
+      if (!request.unreadable || none_remains) throw;
+      request.unreadable(request.paths[i], error.what());
+    }
   }
 }
 

@@ -436,7 +436,7 @@ TEST_F(Window, ScenesOnTheCommandLineOrDroppedTogetherAreLayersOfOneScene) {
   expect_equal(image("shown"), named);
 }
 
-TEST_F(Window, OfSeveralDroppedFilesABadOneIsNamedAndTheOldSceneStays) {
+TEST_F(Window, OfSeveralDroppedFilesABadOneIsNamedAndTheOthersAreAdded) {
   write_square(folder_ / "floor.off", "255 0 0");
   std::ofstream(folder_ / "bad.off") << "OFF\n1 1 0\n";
   Person person;
@@ -444,7 +444,7 @@ TEST_F(Window, OfSeveralDroppedFilesABadOneIsNamedAndTheOldSceneStays) {
   const ChildResult result = replay(person.drop_all({"floor.off", "bad.off"}).look("bad"));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names("bad.off cannot be shown"));
-  EXPECT_EQ(count(image("bad"), red), 0);
+  EXPECT_GT(count(image("bad"), red), 1000);
 }
 
 TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
