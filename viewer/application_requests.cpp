@@ -208,8 +208,10 @@ void Application::prepare_grown(const StageSource& source) {
 
 void Application::carry_out(const ArrangeLayers& request) {
   if (!state_.stage || state_.stage->scene != request.scene) return;
+  const std::vector<fs::path> before = state_.stage->paths();
   arrange_layers(*state_.stage, request.layers);
   after_change_of_layers();
+  if (state_.stage->paths() != before) show_files_of_scene();
 }
 
 void Application::after_change_of_layers() {

@@ -73,19 +73,42 @@ void update_subject(StageSource& source) {
   source.subject = subject_of(boxes, source.up.axis);
 }
 
+bool has_layer(const StageSource& source, std::size_t file, std::size_t index) {
+  return std::any_of(source.layers.begin(), source.layers.end(), [&](const StageLayer& each) {
+    return each.file == file && each.index == index;
+  });
+}
+
+bool has_layers(const StageSource& source, std::size_t file) {
+  return std::any_of(source.layers.begin(), source.layers.end(),
+                     [&](const StageLayer& each) { return each.file == file; });
+}
+
+/// The files' headers, without removed layers and without files that have no others. The first file
+/// stays, because cameras and settings are its own.
+std::vector<Scene> headers_of(const StageSource& source) {
+  std::vector<Scene> headers;
+  for (std::size_t file = 0; file < source.files.size(); ++file) {
+    if (file > 0 && !has_layers(source, file)) continue;
+    Scene header = *source.files[file].header;
+    std::vector<Layer> layers;
+    for (std::size_t i = 0; i < header.layers.size(); ++i)
+      if (has_layer(source, file, i)) layers.push_back(std::move(header.layers[i]));
+    header.layers = std::move(layers);
+    headers.push_back(std::move(header));
+  }
+  return headers;
+}
+
 /// Sets what depends on all files.
 void merge_files(StageSource& source) {
-  std::vector<Scene> headers;
-  std::vector<std::size_t> first_layers;  // of each file in the merged scene
-  std::size_t count = 0;
-  for (const SceneFile& file : source.files) {
-    headers.push_back(*file.header);
-    first_layers.push_back(count);
-    count += file.header->layers.size();
-  }
-  source.scene = std::make_shared<const Scene>(merged(std::move(headers)));
+  source.scene = std::make_shared<const Scene>(merged(headers_of(source)));
   for (StageLayer& layer : source.layers) {
-    layer.name = source.scene->layers[first_layers[layer.file] + layer.index].name;
+    const auto is_before = [&](const StageLayer& each) {
+      return std::pair(each.file, each.index) < std::pair(layer.file, layer.index);
+    };
+    const auto place = std::count_if(source.layers.begin(), source.layers.end(), is_before);
+    layer.name = source.scene->layers[std::size_t(place)].name;
     if (layer.name.empty()) layer.name = short_name(source.files[layer.file].path);
   }
 }
@@ -152,8 +175,7 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
 std::vector<fs::path> StageSource::paths() const {
   std::vector<fs::path> result;
   for (std::size_t i = 0; i < files.size(); ++i)
-    if (std::any_of(layers.begin(), layers.end(), [i](const auto& each) { return each.file == i; }))
-      result.push_back(files[i].path);
+    if (has_layers(*this, i)) result.push_back(files[i].path);
   if (result.empty()) result.push_back(path());
   return result;
 }
@@ -220,8 +242,7 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
   double finished = 0;
   for (std::size_t i = 0; i < before.files.size(); ++i) {
     const SceneFile& file = before.files[i];
-    if (std::none_of(before.layers.begin(), before.layers.end(),
-                     [i](const StageLayer& each) { return each.file == i; })) {
+    if (!has_layers(before, i)) {
       source.files.push_back(file);  // its cameras and settings may be those of the scene
       continue;
     }
@@ -235,8 +256,8 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
     request.progress((finished + done * double(request.paths.size())) / total);
   };
   append_files(source, further);
-  merge_files(source);
   keep_changes(source, before);
+  merge_files(source);
   guess_up_axis(source);
   source.read_seconds = reading.seconds();
   return source;

@@ -54,7 +54,8 @@ struct StageLayer {
 /// A scene that was read.
 struct StageSource {
   std::vector<SceneFile> files;  // also those whose layers were removed; not empty
-  /// Cameras, quality and info. Its layers have no triangles: the drawn ones are below.
+  /// Cameras, quality and info. Its layers have no triangles: the drawn ones are below. A removed
+  /// layer stays in it until the next file is read.
   std::shared_ptr<const Scene> scene;
   std::vector<StageLayer> layers;  // in drawing order
   Subject subject;                 // with the guessed up axis

@@ -62,5 +62,20 @@ TEST_F(Stages, WithoutAGoodFileTheErrorIsThrown) {
   EXPECT_THAT(unreadable_, ElementsAre("a.off"));
 }
 
+TEST_F(Stages, RemovedLayersDoNotCount) {
+  const fs::path a = good("a.off"), b = good("b.off");
+  StageSource source = read_source(request({a, b, b}));
+  EXPECT_THAT(names(source), ElementsAre("a", "b", "b 2"));
+  source.layers.resize(1);
+  EXPECT_THAT(source.paths(), ElementsAre(a));
+  source = read_more(source, request({b}));
+  EXPECT_THAT(names(source), ElementsAre("a", "b"));
+  EXPECT_EQ(source.scene->layers.size(), 2u);
+  source.layers.erase(source.layers.begin());
+  source = read_again(source, request({}));
+  EXPECT_THAT(names(source), ElementsAre("b"));
+  EXPECT_THAT(source.paths(), ElementsAre(b));
+}
+
 }  // namespace stage_test
 }  // namespace tureen::viewer
