@@ -185,12 +185,18 @@ const Layer& StageSource::as_read(const StageLayer& layer) const {
 }
 
 bool StageSource::is_as_read() const {
-  if (files.size() != 1 || layers.size() != files.front().header->layers.size()) return false;
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    if (layers[i].index != i || is_moved(layers[i], *this) ||
-        layers[i].visible != as_read(layers[i]).visible)
-      return false;
-  return true;
+  std::size_t at = 0;
+  for (std::size_t file = 0; file < files.size(); ++file) {
+    if (file > 0 && !has_layers(*this, file)) continue;
+    for (std::size_t i = 0; i < files[file].header->layers.size(); ++i, ++at) {
+      if (at == layers.size()) return false;
+      const StageLayer& layer = layers[at];
+      if (layer.file != file || layer.index != i || is_moved(layer, *this) ||
+          layer.visible != as_read(layer).visible)
+        return false;
+    }
+  }
+  return at == layers.size();
 }
 
 std::vector<PlacedSoup> placed_soups(const StageSource& source) {

@@ -68,7 +68,8 @@ struct StageSource {
   std::vector<std::filesystem::path> paths() const;
   /// The layer with the place that its file gives it.
   const Layer& as_read(const StageLayer& layer) const;
-  /// Whether the scene is one file, and no layer was moved, hidden or removed.
+  /// Whether reading paths() gives this scene: no layer was moved, hidden, reordered, or removed
+  /// alone from its file.
   bool is_as_read() const;
 };
 

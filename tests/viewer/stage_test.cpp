@@ -68,10 +68,14 @@ TEST_F(Stages, RemovedLayersDoNotCount) {
   EXPECT_THAT(names(source), ElementsAre("a", "b", "b 2"));
   source.layers.resize(1);
   EXPECT_THAT(source.paths(), ElementsAre(a));
+  EXPECT_TRUE(source.is_as_read());
   source = read_more(source, request({b}));
   EXPECT_THAT(names(source), ElementsAre("a", "b"));
   EXPECT_EQ(source.scene->layers.size(), 2u);
+  EXPECT_TRUE(source.is_as_read());
+  // The first file keeps its cameras and settings, so that another scene is read without it.
   source.layers.erase(source.layers.begin());
+  EXPECT_FALSE(source.is_as_read());
   source = read_again(source, request({}));
   EXPECT_THAT(names(source), ElementsAre("b"));
   EXPECT_THAT(source.paths(), ElementsAre(b));
