@@ -163,7 +163,7 @@ void Application::add(const std::shared_ptr<StageAddition>& addition) {
     prepare_grown(source);
     return;
   }
-  const std::vector<std::string> known = all_notes(stage.scene->info);
+  const std::vector<std::string> known = named_notes(stage);
   add_to(stage, std::move(*addition));
   for (const std::string& note : all_notes(stage.scene->info))
     if (std::find(known.begin(), known.end(), note) == known.end())

@@ -199,6 +199,12 @@ bool StageSource::is_as_read() const {
   return at == layers.size();
 }
 
+std::vector<std::string> named_notes(const StageSource& source) {
+  std::vector<Scene> headers = headers_of(source);
+  headers.emplace_back();  // merged() returns a single scene without names
+  return all_notes(merged(std::move(headers)).info);
+}
+
 std::vector<PlacedSoup> placed_soups(const StageSource& source) {
   std::vector<PlacedSoup> result;
   for (const StageLayer& layer : source.layers)

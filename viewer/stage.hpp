@@ -73,6 +73,9 @@ struct StageSource {
   bool is_as_read() const;
 };
 
+/// The notes of the files as a scene of several files has them: with names.
+std::vector<std::string> named_notes(const StageSource& source);
+
 /// The layers for the runtime. They refer to the source's soups.
 std::vector<PlacedSoup> placed_soups(const StageSource& source);
 
