@@ -109,10 +109,20 @@ class Application {
     Relation relation = Relation::other;
     std::vector<std::filesystem::path> paths;
   };
+  /// What happens to the files of a Loading.
+  struct Reading {
+    std::filesystem::path current;
+    struct Failure {
+      std::filesystem::path path;
+      std::string reason;
+    };
+    std::vector<Failure> failures;  // of files that were left out
+  };
   void load(const Loading& loading);
-  Worker::Completion load_in_background(
-      const Loading& loading, std::shared_ptr<StageSource> before, const StageRequest& request,
-      const std::function<void(const std::filesystem::path&)>& begins);
+  Worker::Completion load_in_background(const Loading& loading, std::shared_ptr<StageSource> before,
+                                        const StageRequest& request,
+                                        const std::shared_ptr<Reading>& files);
+  void end_loading(const Reading& files);
   void add(const std::shared_ptr<StageAddition>& addition);
   void prepare_grown(const StageSource& source);
   void show(std::unique_ptr<Stage> stage, Relation relation);

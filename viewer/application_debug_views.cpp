@@ -31,9 +31,15 @@ void Application::prepare_debug_view_when_needed() {
              });
            },
        .failed =
-           [this](const std::string& reason) {
-             state_.debug_view.what = DebugView::color;
-             state_.messages.error("The debug view cannot be shown", reason, state_.now);
+           [this, wanted, left = drawn_debug_view_.what](const std::string& reason) {
+             // Back to the view that the renderer can draw; the user may then try again.
+             if (wanted)
+               state_.debug_view.what = DebugView::color;
+             else if (!why_not(left, *state_.stage))
+               state_.debug_view.what = left;
+             state_.messages.error(
+                 wanted ? "The debug view cannot be shown" : "The colours cannot be shown", reason,
+                 state_.now);
            }});
 }
 

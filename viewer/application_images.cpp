@@ -133,10 +133,8 @@ void Application::carry_out(const LoadPath& request) {
 void Application::carry_out(const CopyCommand&) {
   if (!has_scene()) return;
   if (!state_.stage->is_as_read()) {
-    state_.messages.note(
-        "No command draws this image: the scene has several files, or changed layers. Ctrl+S saves "
-        "the image",
-        state_.now);
+    state_.messages.note("No command draws this image: layers were changed. Ctrl+S saves the image",
+                         state_.now);
     return;
   }
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);

@@ -94,30 +94,40 @@ void Application::load(const Loading& loading) {
   const DrawingChoice choice = state_.stage ? state_.wanted : options_.drawing;
   const std::vector<fs::path> named =
       loading.relation == Relation::changed ? before->paths() : loading.paths;
-  auto current = std::make_shared<fs::path>(named.front());
-  worker_.start(
-      {.kind = JobKind::scene,
-       .what = "reading " + short_names(named),
-       .work =
-           [this, loading, before, choice, current](const Worker::Progress& progress) {
-             return load_in_background(loading, before, {window_.context(), choice, progress},
-                                       [current](const fs::path& path) { *current = path; });
-           },
-       .failed =
-           [this, current](const std::string& reason) {
-             loading_.reset();
-             state_.messages.error(short_name(*current) + " cannot be shown", reason, state_.now);
-           }});
+  auto files = std::make_shared<Reading>(Reading{.current = named.front(), .failures = {}});
+  worker_.start({.kind = JobKind::scene,
+                 .what = "reading " + short_names(named),
+                 .work =
+                     [this, loading, before, choice, files](const Worker::Progress& progress) {
+                       return load_in_background(loading, before,
+                                                 {window_.context(), choice, progress}, files);
+                     },
+                 .failed =
+                     [this, files](const std::string& reason) {
+                       files->failures.push_back({files->current, reason});
+                       end_loading(*files);
+                     }});
+}
+
+void Application::end_loading(const Reading& files) {
+  loading_.reset();
+  for (const Reading::Failure& each : files.failures)
+    state_.messages.error(short_name(each.path) + " cannot be shown", each.reason, state_.now);
 }
 
 /// Runs in the worker's thread; its result runs in the main thread.
-Worker::Completion Application::load_in_background(
-    const Loading& loading, std::shared_ptr<StageSource> before, const StageRequest& request,
-    const std::function<void(const fs::path&)>& begins) {
+Worker::Completion Application::load_in_background(const Loading& loading,
+                                                   std::shared_ptr<StageSource> before,
+                                                   const StageRequest& request,
+                                                   const std::shared_ptr<Reading>& files) {
   const ReadRequest reading{
       .paths = loading.paths,
       .progress = [&](double done) { request.progress(reading_share * done); },
-      .begins = begins};
+      .begins = [&](const fs::path& path) { files->current = path; },
+      .unreadable =
+          [&](const fs::path& path, const std::string& reason) {
+            files->failures.push_back({path, reason});
+          }};
   const StageRequest preparing{request.context, request.choice, [&](double done) {
                                  request.progress(reading_share + (1 - reading_share) * done);
                                }};
@@ -125,16 +135,16 @@ Worker::Completion Application::load_in_background(
     const StageSource source = read_more(*before, reading);
     auto addition =
         std::make_shared<StageAddition>(prepare_addition(source, before->layers.size(), preparing));
-    return [this, addition] {
-      loading_.reset();
+    return [this, addition, files] {
+      end_loading(*files);
       add(addition);
     };
   }
   const bool again = loading.relation == Relation::changed;
   std::shared_ptr<Stage> stage =
       prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
-  return [this, stage = std::move(stage), relation = loading.relation] {
-    loading_.reset();
+  return [this, stage = std::move(stage), relation = loading.relation, files] {
+    end_loading(*files);
     show(std::make_unique<Stage>(std::move(*stage)), relation);
   };
 }
@@ -153,7 +163,7 @@ void Application::add(const std::shared_ptr<StageAddition>& addition) {
     prepare_grown(source);
     return;
   }
-  const std::vector<std::string> known = all_notes(stage.scene->info);
+  const std::vector<std::string> known = named_notes(stage);
   add_to(stage, std::move(*addition));
   for (const std::string& note : all_notes(stage.scene->info))
     if (std::find(known.begin(), known.end(), note) == known.end())
@@ -197,9 +207,11 @@ void Application::prepare_grown(const StageSource& source) {
 }
 
 void Application::carry_out(const ArrangeLayers& request) {
-  if (!state_.stage) return;
+  if (!state_.stage || state_.stage->scene != request.scene) return;
+  const std::vector<fs::path> before = state_.stage->paths();
   arrange_layers(*state_.stage, request.layers);
   after_change_of_layers();
+  if (state_.stage->paths() != before) show_files_of_scene();
 }
 
 void Application::after_change_of_layers() {

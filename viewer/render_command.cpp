@@ -68,7 +68,8 @@ bool needs_camera_file(const Camera& camera) {
 std::string render_command(const StageSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file) {
-  std::string command = "tureen render " + quoted(scene.path().string());
+  std::string command = "tureen render";
+  for (const std::filesystem::path& path : scene.paths()) command += " " + quoted(path.string());
   if (needs_camera_file(camera)) {
     command += " --camera " + quoted(camera_file.string());
   } else {

@@ -10,9 +10,10 @@
 
 namespace tureen::viewer {
 
-/// "tureen render ..." with enough digits to give the same camera. --eye, --target and --fov cannot
-/// describe a shifted principal point or two focal lengths. needs_camera_file() detects these
-/// cameras; for them the command reads `camera_file`, which the caller writes.
+/// "tureen render ..." of all files of the scene, with enough digits to give the same camera.
+/// --eye, --target and --fov cannot describe a shifted principal point or two focal lengths.
+/// needs_camera_file() detects these cameras; for them the command reads `camera_file`, which the
+/// caller writes.
 std::string render_command(const StageSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file);

@@ -54,9 +54,15 @@ void append_file(StageSource& source, const fs::path& path,
 void append_files(StageSource& source, const ReadRequest& request) {
   for (std::size_t i = 0; i < request.paths.size(); ++i) {
     request.begins(request.paths[i]);
-    append_file(source, request.paths[i], [&](double done) {
-      request.progress((double(i) + done) / double(request.paths.size()));
-    });
+    try {
+      append_file(source, request.paths[i], [&](double done) {
+        request.progress((double(i) + done) / double(request.paths.size()));
+      });
+    } catch (const InputError& error) {
+      const bool none_remains = source.files.empty() && i + 1 == request.paths.size();
+      if (!request.unreadable || none_remains) throw;
+      request.unreadable(request.paths[i], error.what());
+    }
   }
 }
 
@@ -67,19 +73,42 @@ void update_subject(StageSource& source) {
   source.subject = subject_of(boxes, source.up.axis);
 }
 
+bool has_layer(const StageSource& source, std::size_t file, std::size_t index) {
+  return std::any_of(source.layers.begin(), source.layers.end(), [&](const StageLayer& each) {
+    return each.file == file && each.index == index;
+  });
+}
+
+bool has_layers(const StageSource& source, std::size_t file) {
+  return std::any_of(source.layers.begin(), source.layers.end(),
+                     [&](const StageLayer& each) { return each.file == file; });
+}
+
+/// The files' headers, without removed layers and without files that have no others. The first file
+/// stays, because cameras and settings are its own.
+std::vector<Scene> headers_of(const StageSource& source) {
+  std::vector<Scene> headers;
+  for (std::size_t file = 0; file < source.files.size(); ++file) {
+    if (file > 0 && !has_layers(source, file)) continue;
+    Scene header = *source.files[file].header;
+    std::vector<Layer> layers;
+    for (std::size_t i = 0; i < header.layers.size(); ++i)
+      if (has_layer(source, file, i)) layers.push_back(std::move(header.layers[i]));
+    header.layers = std::move(layers);
+    headers.push_back(std::move(header));
+  }
+  return headers;
+}
+
 /// Sets what depends on all files.
 void merge_files(StageSource& source) {
-  std::vector<Scene> headers;
-  std::vector<std::size_t> first_layers;  // of each file in the merged scene
-  std::size_t count = 0;
-  for (const SceneFile& file : source.files) {
-    headers.push_back(*file.header);
-    first_layers.push_back(count);
-    count += file.header->layers.size();
-  }
-  source.scene = std::make_shared<const Scene>(merged(std::move(headers)));
+  source.scene = std::make_shared<const Scene>(merged(headers_of(source)));
   for (StageLayer& layer : source.layers) {
-    layer.name = source.scene->layers[first_layers[layer.file] + layer.index].name;
+    const auto is_before = [&](const StageLayer& each) {
+      return std::pair(each.file, each.index) < std::pair(layer.file, layer.index);
+    };
+    const auto place = std::count_if(source.layers.begin(), source.layers.end(), is_before);
+    layer.name = source.scene->layers[std::size_t(place)].name;
     if (layer.name.empty()) layer.name = short_name(source.files[layer.file].path);
   }
 }
@@ -146,8 +175,7 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
 std::vector<fs::path> StageSource::paths() const {
   std::vector<fs::path> result;
   for (std::size_t i = 0; i < files.size(); ++i)
-    if (std::any_of(layers.begin(), layers.end(), [i](const auto& each) { return each.file == i; }))
-      result.push_back(files[i].path);
+    if (has_layers(*this, i)) result.push_back(files[i].path);
   if (result.empty()) result.push_back(path());
   return result;
 }
@@ -157,12 +185,24 @@ const Layer& StageSource::as_read(const StageLayer& layer) const {
 }
 
 bool StageSource::is_as_read() const {
-  if (files.size() != 1 || layers.size() != files.front().header->layers.size()) return false;
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    if (layers[i].index != i || is_moved(layers[i], *this) ||
-        layers[i].visible != as_read(layers[i]).visible)
-      return false;
-  return true;
+  std::size_t at = 0;
+  for (std::size_t file = 0; file < files.size(); ++file) {
+    if (file > 0 && !has_layers(*this, file)) continue;
+    for (std::size_t i = 0; i < files[file].header->layers.size(); ++i, ++at) {
+      if (at == layers.size()) return false;
+      const StageLayer& layer = layers[at];
+      if (layer.file != file || layer.index != i || is_moved(layer, *this) ||
+          layer.visible != as_read(layer).visible)
+        return false;
+    }
+  }
+  return at == layers.size();
+}
+
+std::vector<std::string> named_notes(const StageSource& source) {
+  std::vector<Scene> headers = headers_of(source);
+  headers.emplace_back();  // merged() returns a single scene without names
+  return all_notes(merged(std::move(headers)).info);
 }
 
 std::vector<PlacedSoup> placed_soups(const StageSource& source) {
@@ -214,8 +254,7 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
   double finished = 0;
   for (std::size_t i = 0; i < before.files.size(); ++i) {
     const SceneFile& file = before.files[i];
-    if (std::none_of(before.layers.begin(), before.layers.end(),
-                     [i](const StageLayer& each) { return each.file == i; })) {
+    if (!has_layers(before, i)) {
       source.files.push_back(file);  // its cameras and settings may be those of the scene
       continue;
     }
@@ -229,8 +268,8 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
     request.progress((finished + done * double(request.paths.size())) / total);
   };
   append_files(source, further);
-  merge_files(source);
   keep_changes(source, before);
+  merge_files(source);
   guess_up_axis(source);
   source.read_seconds = reading.seconds();
   return source;

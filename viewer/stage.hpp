@@ -54,7 +54,8 @@ struct StageLayer {
 /// A scene that was read.
 struct StageSource {
   std::vector<SceneFile> files;  // also those whose layers were removed; not empty
-  /// Cameras, quality and info. Its layers have no triangles: the drawn ones are below.
+  /// Cameras, quality and info. Its layers have no triangles: the drawn ones are below. A removed
+  /// layer stays in it until the next file is read.
   std::shared_ptr<const Scene> scene;
   std::vector<StageLayer> layers;  // in drawing order
   Subject subject;                 // with the guessed up axis
@@ -67,9 +68,13 @@ struct StageSource {
   std::vector<std::filesystem::path> paths() const;
   /// The layer with the place that its file gives it.
   const Layer& as_read(const StageLayer& layer) const;
-  /// Whether the scene is one file, and no layer was moved, hidden or removed.
+  /// Whether reading paths() gives this scene: no layer was moved, hidden, reordered, or removed
+  /// alone from its file.
   bool is_as_read() const;
 };
+
+/// The notes of the files as a scene of several files has them: with names.
+std::vector<std::string> named_notes(const StageSource& source);
 
 /// The layers for the runtime. They refer to the source's soups.
 std::vector<PlacedSoup> placed_soups(const StageSource& source);
@@ -92,7 +97,8 @@ std::string describe(const RefusedLayer& layer);
 struct Stage : StageSource {
   DrawingChoice choice;
   /// If the renderer was prepared for debug views; otherwise it was prepared by the choice. There
-  /// is only one renderer, so that the device holds the scene once.
+  /// is one renderer for both, so that the device holds the scene once, or twice while another
+  /// stage is prepared.
   std::optional<DebugViews> debug_views;
   Renderer renderer;
   double prepare_seconds = 0;
@@ -109,6 +115,9 @@ struct ReadRequest {
   std::function<void(double)> progress;  // 0..1; may throw to abandon
   /// Called before each file is read.
   std::function<void(const std::filesystem::path&)> begins = [](const auto&) {};
+  /// Called for a file of `paths` with an error, which is then left out. Without this function, and
+  /// if no file remains, the error is thrown.
+  std::function<void(const std::filesystem::path&, const std::string& reason)> unreadable = {};
 };
 
 /// The layers of all files, in one scene (merged() in scene/scene.hpp). Throws InputError, and

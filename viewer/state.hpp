@@ -35,8 +35,10 @@ struct OpenPath {
 struct AddPaths {
   std::vector<std::filesystem::path> paths;
 };
-/// Gives the stage these of its layers, as arrange_layers().
+/// Gives the stage these of its layers, as arrange_layers(). Ignored if the stage has another scene
+/// by then, for example because a layer was added.
 struct ArrangeLayers {
+  std::shared_ptr<const Scene> scene;  // that of the stage with these layers
   std::vector<StageLayer> layers;
 };
 struct OpenPhotographs {

@@ -45,6 +45,16 @@ StageSource source(const std::string& path) {
   return result;
 }
 
+TEST(RenderCommand, NamesAllFilesWithLayers) {
+  StageSource scene = source("a.glb");
+  for (const char* path : {"removed.glb", "b c.glb"})
+    scene.files.push_back({.path = path, .watch = {}, .header = nullptr});
+  scene.layers = {{.file = 0}, {.file = 2}};
+  const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
+  EXPECT_THAT(render_command(scene, {}, {}, camera, ""),
+              testing::StartsWith("tureen render a.glb 'b c.glb' --eye"));
+}
+
 TEST(RenderCommand, NamesTheSameCamera) {
   CameraControls controls({.low = {100, -2, 3}, .high = {104, 5, 9}, .up = {0, 0, 1}});
   controls.set_smoothing(0);

@@ -144,7 +144,7 @@ void layers_panel(State& state) {
   tip("The position, rotation, scale and mirror that the file gives");
   ImGui::SameLine();
   changed |= order_buttons(layers, editing.selected);
-  if (changed) state.ask(ArrangeLayers{std::move(layers)});
+  if (changed) state.ask(ArrangeLayers{stage.scene, std::move(layers)});
 }
 
 }  // namespace tureen::viewer

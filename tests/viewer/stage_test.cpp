@@ -1,0 +1,85 @@
+// Scenes of several files, before they are on the device.
+#include "viewer/stage.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.hpp"
+
+namespace tureen::viewer {
+namespace stage_test {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+class Stages : public testing::Test {
+ protected:
+  Stages()
+      : folder_(fs::path(testing::TempDir()) / "stages" /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+
+  fs::path good(const std::string& name) const {
+    std::ofstream(folder_ / name) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9 9 9\n";
+    return folder_ / name;
+  }
+  fs::path bad(const std::string& name) const {
+    std::ofstream(folder_ / name) << "OFF\n1 1 0\n";
+    return folder_ / name;
+  }
+  ReadRequest request(std::vector<fs::path> paths) {
+    return {.paths = std::move(paths),
+            .progress = [](double) {},
+            .unreadable = [this](const fs::path& path,
+                                 const std::string&) { unreadable_.push_back(path.filename()); }};
+  }
+
+  fs::path folder_;
+  std::vector<fs::path> unreadable_;
+};
+
+std::vector<std::string> names(const StageSource& source) {
+  std::vector<std::string> result;
+  for (const StageLayer& layer : source.layers) result.push_back(layer.name);
+  return result;
+}
+
+TEST_F(Stages, FilesWithErrorsAreLeftOut) {
+  const StageSource source =
+      read_source(request({bad("a.off"), good("b.off"), bad("c.off"), good("d.off")}));
+  EXPECT_THAT(names(source), ElementsAre("b", "d"));
+  EXPECT_THAT(unreadable_, ElementsAre("a.off", "c.off"));
+  EXPECT_THAT(names(read_more(source, request({bad("e.off")}))), ElementsAre("b", "d"));
+  EXPECT_THAT(unreadable_, ElementsAre("a.off", "c.off", "e.off"));
+}
+
+TEST_F(Stages, WithoutAGoodFileTheErrorIsThrown) {
+  EXPECT_THROW(read_source(request({bad("a.off"), bad("b.off")})), InputError);
+  EXPECT_THAT(unreadable_, ElementsAre("a.off"));
+}
+
+TEST_F(Stages, RemovedLayersDoNotCount) {
+  const fs::path a = good("a.off"), b = good("b.off");
+  StageSource source = read_source(request({a, b, b}));
+  EXPECT_THAT(names(source), ElementsAre("a", "b", "b 2"));
+  source.layers.resize(1);
+  EXPECT_THAT(source.paths(), ElementsAre(a));
+  EXPECT_TRUE(source.is_as_read());
+  source = read_more(source, request({b}));
+  EXPECT_THAT(names(source), ElementsAre("a", "b"));
+  EXPECT_EQ(source.scene->layers.size(), 2u);
+  EXPECT_TRUE(source.is_as_read());
+  // The first file keeps its cameras and settings, so that another scene is read without it.
+  source.layers.erase(source.layers.begin());
+  EXPECT_FALSE(source.is_as_read());
+  source = read_again(source, request({}));
+  EXPECT_THAT(names(source), ElementsAre("b"));
+  EXPECT_THAT(source.paths(), ElementsAre(b));
+}
+
+}  // namespace stage_test
+}  // namespace tureen::viewer
