@@ -31,12 +31,18 @@ export class Loading {
     });
   }
 
-  /** Calls `listener` when a load begins that replaces the scene. */
+  /** Calls `listener` when a load begins that replaces the scene, and before the scene is removed. */
   onBegin(listener: () => void): void { this.listeners.push(listener); }
 
   get busy(): boolean { return this.current !== null; }
 
   cancel(): void { this.current?.abort(); }
+
+  /** Removes the scene, and cancels loads and additions. */
+  clear(): void {
+    for (const listener of this.listeners) listener();
+    this.viewer.clear();
+  }
 
   /** The scene; null if loading failed (the page then shows the error) or was cancelled. */
   async load(source: SceneSource): Promise<SceneSummary | null> {
