@@ -55,6 +55,7 @@ const { visit, server } = await stage({
     ...drawingRoutes,
     ...Object.fromEntries(['/red.ply', '/green.ply', '/blue.ply', '/several.glb'].map((path) =>
       [path, (request, response) => plies[path](request, response)])),
+    '/stalled.ply': () => {},  // no answer
     '/embedder.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(embedder),
   },
 });
@@ -299,6 +300,32 @@ test('a new scene cancels layers that are being added', viewing(async (page) => 
   assert.deepEqual(names, ['blue']);
 }));
 
+test('a debug view that is chosen while layers are added follows them', viewing(async (page) => {
+  const names = await page.evaluate(async () => {
+    await viewer.load({ url: 'red.ply' });
+    const added = viewer.addLayers({ url: 'green.ply' });
+    const shows = viewer.show('triangle-id');
+    await Promise.all([added, shows]);
+    const more = viewer.show('depth');
+    await Promise.all([more, viewer.addLayers({ url: 'blue.ply' })]);
+    return viewer.layers.map(({ name }) => name);
+  });
+  assert.deepEqual(names, ['red', 'green', 'blue']);
+  assert.equal(await page.evaluate(() => viewer.debugView), 'depth');
+}));
+
+test('a layer is removed while another is added', viewing(async (page) => {
+  const { added, names } = await page.evaluate(async () => {
+    await viewer.load({ url: 'red.ply' });
+    await viewer.addLayers({ url: 'green.ply' });
+    const adding = viewer.addLayers({ url: 'blue.ply' });
+    await viewer.removeLayer(0);
+    return { added: (await adding).map(({ name }) => name), names: viewer.layers.map(({ name }) => name) };
+  });
+  assert.deepEqual(added, ['blue']);
+  assert.deepEqual(names, ['green', 'blue']);
+}));
+
 test('the device is lost and comes back, with all layers', viewing(async (page) => {
   const before = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
@@ -319,6 +346,27 @@ test('the device is lost and comes back, with all layers', viewing(async (page) 
   assert.equal(await page.evaluate(() => JSON.stringify(viewer.layers)), before);
   assert.deepEqual(await middleColor(page), colors.blue);
 }));
+
+test('the device is lost, and a file is missing when it comes back', viewing(async (page) => {
+  await page.evaluate(async () => {
+    const { href } = new URL('green.ply', location.href), blob = URL.createObjectURL(await (await fetch(href)).blob());
+    await viewer.load({ url: blob, name: 'gone' });
+    await viewer.addLayers({ url: 'red.ply' });
+    await viewer.addLayers({ url: 'blue.ply' });
+    URL.revokeObjectURL(blob);
+    window.noted = [];
+    viewer.on('notice', (sentence) => noted.push(sentence));
+    const back = new Promise((resolve) => viewer.on('context', (what) => { if (what === 'restored') resolve(); }));
+    const loss = viewer.canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+    await window.still();  // a frame between the loss and its event would report an error
+    loss.loseContext();
+    setTimeout(() => loss.restoreContext(), 200);
+    await back;
+  });
+  assert.deepEqual(await page.evaluate(() => shown().map(({ name }) => name)), ['red', 'blue']);
+  assert.equal(await page.evaluate(() => noted.length), 1);
+  assert.deepEqual(await middleColor(page), colors.red);
+}, { expected: [/ERR_FILE_NOT_FOUND/] }));
 
 const several = join(folder, 'several.glb');
 const writes = spawnSync(join(programs, 'tureen'), ['convert', ...['red', 'green', 'blue'].map((name) => join(folder, `${name}.ply`)),
@@ -341,6 +389,23 @@ test('a file of several layers, loaded and added', needsFile, viewing(async (pag
     await viewer.removeLayer(0);
   });
   assert.deepEqual(await middleColor(page), colors.blue);
+}));
+
+test('layers of a file that was cancelled are removed', needsFile, viewing(async (page) => {
+  const { kind, before, after } = await page.evaluate(async () => {
+    await viewer.load({ url: 'red.ply' });
+    const ending = new AbortController();
+    let before = 0;
+    viewer.on('layers', ({ length }) => {
+      if (length === 2) setTimeout(() => ending.abort());
+      before = Math.max(before, length);
+    });
+    const kind = await viewer.addLayers({ url: 'several.glb' }, { signal: ending.signal }).then(() => null, (error) => error.kind);
+    return { kind, before, after: viewer.layers.map(({ name }) => name) };
+  });
+  assert.equal(kind, 'cancelled');
+  assert.ok(before > 1);
+  assert.deepEqual(after, ['red']);
 }));
 
 test('of a file that does not fit, the layers that fit are drawn', needsFile, () => visit('drawing.html', async (page, profile) => {
@@ -452,13 +517,25 @@ test('a link has the scenes, and the order, places and visibility of their layer
   assert.ok(a.length === b.length && different < a.length / 200, `${different} of ${a.length} values differ`);
 }));
 
+test('a new scene ends the opening of a link', () => visit('?scene=red.ply&scene=stalled.ply&scene=green.ply', async (page) => {
+  await page.waitForFunction(() => document.getElementById('loading-name').textContent.includes('stalled'), null, often);
+  await pick(page, join(folder, 'blue.ply'));
+  await sceneShown(page, 'blue');
+  await still(page);
+  assert.equal(await page.textContent('#scene-title'), 'blue');
+}));
+
 test('a link\'s unreadable layers are reported, and the scenes are shown', () => visit('?scene=red.ply&scene=green.ply#layers=1,nowhere', async (page) => {
   await layersShown(page, ['red', 'green']);
   await noticeShown(page, 'layers');
 }));
 
-test('a scene of a link that is missing is reported, and the others are shown', () => visit('?scene=red.ply&scene=nowhere.ply&scene=blue.ply', async (page) => {
-  await layersShown(page, ['red', 'blue']);
+test('a scene of a link that is missing is reported, and the others are shown',
+     () => visit('?scene=red.ply&scene=nowhere.ply&scene=blue.ply#layers=3,hidden;2;1', async (page) => {
+  await layersShown(page, ['blue', 'red']);
+  assert.equal(await page.isChecked('[aria-label="Show blue"]'), false, 'the numbers are the link\'s');
+  await still(page);
+  assert.match(page.url(), /\?scene=red\.ply&scene=nowhere\.ply&scene=blue\.ply#layers=3,hidden;2;1$/, 'the address still has all scenes');
   assert.match(await errorShown(page), /nowhere\.ply.*404/);
 }, { expected: [/404/] }));
 

@@ -87,7 +87,7 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
   return new Map<string, Answer>([
     ['load', ([what]) => loading.attempt(source(what))],
     ['cancel', () => loading.cancel()],
-    ['clear', () => viewer.clear()],
+    ['clear', () => loading.clear()],
     ['addLayers', async ([what]) => withoutSources(await loading.attemptToAdd(source(what)))],
     ['layers', () => withoutSources(viewer.layers)],
     ['setLayer', ([index, change]) => viewer.setLayer(whole(index, 'The layer'), layerChange(change))],

@@ -17,7 +17,8 @@ export class Loading {
   private readonly what = block('loading-what');
   private readonly progress = block('progress');
   private readonly bar = block('progress-bar');
-  private current: AbortController | null = null;
+  /** The loads and additions that are not over. The viewer runs them in this order; the card shows the first. */
+  private readonly pending: { readonly name: string; readonly ending: AbortController }[] = [];
   private preview = '';
   private progressNow: LoadProgress = { stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null, deviceBytes: null };
   private readonly listeners: (() => void)[] = [];
@@ -31,12 +32,19 @@ export class Loading {
     });
   }
 
-  /** Calls `listener` when a load begins that replaces the scene. */
+  /** Calls `listener` when a load begins that replaces the scene, and before the scene is removed. */
   onBegin(listener: () => void): void { this.listeners.push(listener); }
 
-  get busy(): boolean { return this.current !== null; }
+  get busy(): boolean { return this.pending.length > 0; }
 
-  cancel(): void { this.current?.abort(); }
+  /** Cancels the running load or addition. */
+  cancel(): void { this.pending[0]?.ending.abort(); }
+
+  /** Removes the scene, and cancels loads and additions. */
+  clear(): void {
+    for (const listener of this.listeners) listener();
+    this.viewer.clear();
+  }
 
   /** The scene; null if loading failed (the page then shows the error) or was cancelled. */
   async load(source: SceneSource): Promise<SceneSummary | null> {
@@ -52,6 +60,7 @@ export class Loading {
   attempt(source: SceneSource): Promise<SceneSummary> {
     this.messages.clearErrors();
     for (const listener of this.listeners) listener();
+    this.pending.length = 0;  // the viewer cancels them
     return this.run(source, (signal) => this.viewer.load(source, { signal }));
   }
 
@@ -71,24 +80,25 @@ export class Loading {
   }
 
   private async run<T>(source: SceneSource, start: (signal: AbortSignal) => Promise<T>): Promise<T> {
-    const mine = this.begin(nameOf(source));
+    const mine = { name: nameOf(source), ending: new AbortController() };
+    this.pending.push(mine);
+    if (this.pending[0] === mine) this.begin(mine.name);
     try {
-      return await start(mine.signal);
+      return await start(mine.ending.signal);
     } finally {
-      if (this.current === mine) {
-        this.current = null;
-        this.card.hidden = true;
-      }
+      const at = this.pending.indexOf(mine);
+      if (at >= 0) this.pending.splice(at, 1);
+      const [next] = this.pending;
+      if (!next) this.card.hidden = true;
+      else if (at === 0) this.begin(next.name);
     }
   }
 
-  private begin(name: string): AbortController {
-    this.current = new AbortController();
+  private begin(name: string): void {
     this.preview = '';
     this.name.textContent = name;
     this.show({ stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null, deviceBytes: null });
     this.card.hidden = false;
-    return this.current;
   }
 
   private show(progress: LoadProgress): void {

@@ -28,12 +28,18 @@ interface Opened {
 export class Openings {
   private origin_: Origin | null = null;
   private readonly opened = new Map<SceneSource, Opened>();
-  /** Whether the scenes of a link are being opened: then the address is theirs. */
-  private opening = false;
+  /** Number of times that the scene was replaced or cleared: it ends earlier openings and additions. */
+  private generation = 0;
+  /** The generation whose scenes are being opened: the address is theirs until then. */
+  private opening: number | null = null;
+  /** Whether a scene of the link is missing: the address still names it. */
+  private incomplete = false;
   private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly viewer: Viewer, private readonly loading: Loading,
-              private readonly messages: Messages, private readonly bar: AddressBar) {}
+              private readonly messages: Messages, private readonly bar: AddressBar) {
+    loading.onBegin(() => ++this.generation);
+  }
 
   /** The origin of the first scene; null without one. */
   get origin(): Origin | null { return this.viewer.scene ? this.origin_ : null; }
@@ -62,13 +68,13 @@ export class Openings {
     return writeLayers(this.linked, this.viewer.layers, (source) => this.opened.get(source)!.layers);
   }
 
-  /** Calls `listener` after scenes are open and their first view is set, and after layers were added. */
+  /** Calls `listener` after scenes are open and their first view is set, and after files were added. */
   onOpened(listener: () => void): void { this.listeners.push(listener); }
 
-  /** Shows scenes, camera and layers in the address, unless it belongs to scenes that are being opened. */
+  /** Shows scenes, camera and layers in the address, unless it names scenes that are not open. */
   updateAddress(): void {
     const { viewer, bar } = this;
-    if (!viewer.scene || this.opening || this.loading.busy) return;
+    if (!viewer.scene || this.incomplete || this.opening === this.generation || this.loading.busy) return;
     bar.showView(this.addresses, viewer.getView(), viewer.debugView, this.layersText);
   }
 
@@ -100,17 +106,21 @@ export class Openings {
   /** Adds files to the scene. */
   async addFiles(sources: readonly SceneSource[]): Promise<boolean> {
     this.messages.clearErrors();
+    const { generation } = this;
     let all = true;
-    for (const source of sources) all = await this.add(source, { kind: 'files', name: source.name ?? '' }) && all;
-    this.tellOpened();
+    for (const source of sources) {
+      if (generation !== this.generation) return all;  // another scene is open now
+      all = await this.add(source, { kind: 'files', name: source.name ?? '' }) && all;
+    }
+    this.reportOpened();
     return all;
   }
 
-  /** Applies the camera, the layers and the debug view of a link. */
-  async look(view: LinkedView): Promise<void> {
+  /** Applies the camera, the layers and the debug view of a link. `scenes`: the scenes of the link. */
+  async look(view: LinkedView, scenes = this.linked): Promise<void> {
     if (view.defect) this.messages.notice(view.defect);
     try {
-      await this.arrange(view);
+      await this.arrange(view, scenes);
       this.lookFrom(view);
       if ((view.debugView ?? 'color') !== this.viewer.debugView) await this.viewer.show(view.debugView ?? 'color');
     } catch (error) {
@@ -123,9 +133,9 @@ export class Openings {
   }
 
   /** Gives the layers the order and the places of a link. Entries without a layer are ignored. */
-  private async arrange({ layers: entries }: LinkedView): Promise<void> {
+  private async arrange({ layers: entries }: LinkedView, scenes: readonly SceneSource[]): Promise<void> {
     if (!entries) return;
-    const { viewer } = this, scenes = this.linked;
+    const { viewer } = this;
     let next = 0;
     for (const { scene, layer, visible, placement } of entries) {
       const at = viewer.layers.findIndex(({ source, sourceLayer }, index) =>
@@ -147,22 +157,30 @@ export class Openings {
       this.lookFrom(view);
       looked = true;
     });
-    const scene: SceneSummary | null = await this.loading.load(first.source);
+    const loaded: Promise<SceneSummary | null> = this.loading.load(first.source);
+    const { generation } = this;
+    const scene = await loaded;
     forget();
     if (!scene) return false;
     this.origin_ = first.origin;
+    this.incomplete = false;
     this.opened.clear();
     this.opened.set(first.source, { origin: first.origin, layers: this.viewer.layers });
     this.bar.showScenes(scenes.flatMap(({ origin }) => (origin.kind === 'address' ? [origin.address] : [])));
     // With further scenes the view is set before and after them: they take time.
     if (others.length > 0 && !looked) this.lookFrom(view);
-    this.opening = true;
-    for (const { source, origin } of others)
-      if (this.opened.has(first.source)) await this.add(source, origin);  // otherwise another scene is open now
-    if (!this.opened.has(first.source)) return true;
-    this.opening = false;
-    await this.look(looked || others.length > 0 ? { ...view, pose: null } : view);
-    this.tellOpened();
+    this.opening = generation;
+    let all = true;
+    for (const { source, origin } of others) {
+      if (generation !== this.generation) return true;  // another scene is open now
+      all = await this.add(source, origin) && all;
+    }
+    if (generation !== this.generation) return true;
+    this.opening = null;
+    this.incomplete = !all;
+    await this.look(looked || others.length > 0 ? { ...view, pose: null } : view,
+                    scenes.filter(({ origin }) => origin.kind === 'address').map(({ source }) => source));
+    this.reportOpened();
     return true;
   }
 
@@ -174,7 +192,7 @@ export class Openings {
     return true;
   }
 
-  private tellOpened(): void {
+  private reportOpened(): void {
     for (const listener of this.listeners) listener();
   }
 }

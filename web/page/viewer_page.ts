@@ -135,12 +135,12 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
 }
 
 /** Opens the scene and view of the page's address when the user goes back or forward. */
-function followAddress(viewer: Viewer, openings: Openings, bar: AddressBar, start: Start): void {
+function followAddress(loading: Loading, openings: Openings, bar: AddressBar, start: Start): void {
   bar.onChange(() => {
     const wanted = bar.scenes();
     if (bar.has(openings.addresses)) return void openings.look(bar.view());
     if (wanted.length === 0) {
-      viewer.clear();
+      loading.clear();
       start.update();
     } else {
       void openings.openAddresses(wanted, bar.view());
@@ -185,7 +185,7 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
   } else {
     start.attachDrop();
     addControls(viewer, messages, loading, openings, bar, start);
-    followAddress(viewer, openings, bar, start);
+    followAddress(loading, openings, bar, start);
     block('actions').inert = false;
   }
   if (wanted.length > 0) await openings.openAddresses(wanted, bar.view());

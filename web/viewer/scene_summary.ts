@@ -29,7 +29,9 @@ export const nothingDrawn = 'The scene cannot be drawn: it has no triangles with
 const megabytes = (bytes: number) => `${(bytes / 1e6).toFixed(bytes < 9.95e6 ? 1 : 0)}\u00a0MB`;
 
 export const tooLargeSentence = (layer: string, bytes: number) =>
-  `This device has not enough memory for the layer “${layer}”, which needs ${megabytes(bytes)}. The other layers are drawn.`;
+  `This device has not enough memory for the layer “${layer}”, which needs ${megabytes(bytes)}.`;
+
+export const othersDrawn = 'The other layers are drawn.';
 
 /** The debug views that all sources support. */
 function debugViewsOf(sources: readonly SceneDescription[]): readonly DebugViewChoice[] {

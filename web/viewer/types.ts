@@ -194,8 +194,8 @@ export interface Viewer {
 
   /** Replaces the scene when the new one is complete; a preview may come earlier. The next load and the
    *  signal cancel a running load: its promise rejects with 'cancelled', and the old scene stays. A
-   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left. Of a
-   *  source with several layers, those are drawn that fit the device's memory; notices name the others.
+   *  complete new scene replaces the old one before its upload. If the upload fails, no scene is left. The
+   *  viewer draws the layers that fit the device's memory; notices name the others.
    *  Rejects with ViewerError. */
   load(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<SceneSummary>;
   /** Removes the scene. */
@@ -208,7 +208,7 @@ export interface Viewer {
    *  a scene it loads the source. Several calls run one after the other; `load`, `clear` and the signal
    *  cancel them. A layer that the device's memory cannot hold is not added: a notice names it and its
    *  bytes, and the others are drawn. Rejects with ViewerError, also if no layer was added, or if there would
-   *  be more than `maxLayers`. */
+   *  be more than `maxLayers`; then no layer of the source is left. */
   addLayers(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<readonly SceneLayer[]>;
   /** Changes the members that are given. Throws ViewerError if the transform is not a similarity. */
   setLayer(index: number, change: { readonly visible?: boolean; readonly transform?: Matrix | Placement }): void;
@@ -253,10 +253,10 @@ export interface Viewer {
   // Drawing.
   background: Vec3;
   resolution: Resolution;
-  /** Selects a debug view; "color" is the final image. Other debug views read the scene again, which may
-   *  take time; a later call overrides an earlier one. `features`: the features that "features" draws as
-   *  red, green and blue, `count` 1 to 3 from `first` below SceneSummary.featureCount. Rejects with
-   *  ViewerError if the scene does not support the debug view. */
+  /** Selects a debug view; "color" is the final image. Waits for earlier loads and additions. Other debug
+   *  views read the scene again, which may take time; a later call overrides an earlier one. `features`: the
+   *  features that "features" draws as red, green and blue, `count` 1 to 3 from `first` below
+   *  SceneSummary.featureCount. Rejects with ViewerError if the scene does not support the debug view. */
   show(name: string, features?: { readonly first: number; readonly count: number }): Promise<void>;
   readonly debugView: string;
   readonly legend: readonly LegendEntry[];

@@ -13,7 +13,7 @@ import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
 import {
-  lowerLevelSentence, nothingDrawn, sceneSummary, tooLargeSentence, type ShownFacts, type ShownLayer,
+  lowerLevelSentence, nothingDrawn, othersDrawn, sceneSummary, tooLargeSentence, type ShownFacts, type ShownLayer,
 } from './scene_summary.js';
 import {
   maxLayers, ViewerError, type FrameStats, type LegendEntry, type Matrix, type NamedView, type NavigationMode,
@@ -96,7 +96,7 @@ class CanvasViewer implements Viewer {
   private turn: Promise<unknown> = Promise.resolve();
   /** Number of calls that cancel earlier loads and additions. */
   private cancellations = 0;
-  /** The description of the loaded scene; background, up axis and cameras are its. */
+  /** The description of the loaded scene, with the background, the up axis and the cameras. */
   private first: SceneDescription | null = null;
   private parts: readonly Part[] = [];  // another list after each change
   private records: readonly LayerRecord[] = [];
@@ -105,6 +105,8 @@ class CanvasViewer implements Viewer {
   private previewed = false;
   private debugView_ = { name: 'color', features: { first: 0, count: 3 } };
   private debugViewsAsked = 0;
+  /** Resolves when no debug view is being shown by show(). */
+  private showing: Promise<unknown> = Promise.resolve();
   private opening: { readonly parts: readonly Part[]; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
@@ -157,13 +159,23 @@ class CanvasViewer implements Viewer {
   /** Starts a new engine and loads the scene again: the old context and the old engine's memory are lost. */
   private async restore(): Promise<void> {
     const view = this.shown ? this.getView() : null, shown = this.debugView_;
-    const { parts, layers_: layers } = this;
+    const { first, parts, layers_: layers } = this;
     try {
       await (this.started = this.startEngine());
       if (this.ending.signal.aborted) return;
-      if (parts.length > 0) {
-        await this.load(parts[0]!.source);
-        for (const { source } of parts.slice(1)) await this.addLayers(source);
+      let restored = false;
+      for (const { source } of parts) {
+        try {
+          await (restored ? this.addLayers(source) : this.load(source, {}, first));
+          restored = true;
+        } catch (error) {
+          // The other sources can be restored, unless a load cancelled this one or the device is lost again.
+          if (this.isGone || (error instanceof ViewerError && error.kind === 'cancelled')) throw error;
+          if (!restored) this.forgetScene();
+          this.emit('notice', error instanceof Error ? error.message : String(error));
+        }
+      }
+      if (restored) {
         await this.arrange(layers);
         if (view) this.setView(view);
         if (shown.name !== 'color') await this.show(shown.name, shown.features);
@@ -171,6 +183,7 @@ class CanvasViewer implements Viewer {
     } catch (error) {
       // A load of another scene may have cancelled this one.
       if (!(error instanceof ViewerError && error.kind === 'cancelled')) {
+        if (!this.lost) this.engine.call('clear');
         this.forgetScene();
         this.emit('notice', error instanceof Error ? error.message : String(error));
       }
@@ -183,15 +196,19 @@ class CanvasViewer implements Viewer {
 
   get scene(): SceneSummary | null { return this.shown; }
 
-  load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
+  /** `first`: as in showScene(). */
+  load(source: SceneSource, options: { readonly signal?: AbortSignal } = {},
+       first: SceneDescription | null = null): Promise<SceneSummary> {
     ++this.cancellations;
-    const loaded = this.replace(source, options);
+    const loaded = this.replace(source, options, first);
     this.turn = loaded.catch(() => {});
     return loaded;
   }
 
-  private async replace(source: SceneSource, options: { readonly signal?: AbortSignal }): Promise<SceneSummary> {
+  private async replace(source: SceneSource, options: { readonly signal?: AbortSignal },
+                        first: SceneDescription | null = null): Promise<SceneSummary> {
     if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
+    const { cancellations } = this;
     this.loading?.cancel();
     this.dropPreview();
     const loading = this.begin(source);
@@ -202,13 +219,14 @@ class CanvasViewer implements Viewer {
         preview: (scene) => this.showPreview(scene),
         scene: (scene) => {
           layers = scene.description.layer_names.length;
-          return this.showScene(scene, source);
+          return this.showScene(scene, source, first ?? scene.description);
         },
       });
     } catch (error) {
       if (this.loading === null) this.dropPreview();  // no later load has begun
       if (layers === 1 || !isShortage(error)) throw error;
-      await this.add(source, options.signal);  // layer by layer: draws those that fit
+      if (this.cancellations !== cancellations) throw cancelled();
+      await this.add(source, options.signal, first);  // layer by layer: draws those that fit
     }
     return this.shown!;
   }
@@ -266,6 +284,7 @@ class CanvasViewer implements Viewer {
   private forgetScene(): void {
     if (!this.shown) return;
     this.setScene(null, [], []);
+    this.debugView_ = { ...this.debugView_, name: 'color' };
     this.setLayers([]);
     this.emit('scene', null);
     this.emit('layers', []);
@@ -278,11 +297,12 @@ class CanvasViewer implements Viewer {
     if (!first) this.shown = null;
   }
 
-  /** Shows a scene. Returns null, or the reason if the device's memory is too small. */
-  private showScene(scene: PreparedScene, source: SceneSource): string | null {
+  /** Shows a scene with the background, up axis and cameras of `first`. Returns null, or the reason if the
+   *  device's memory is too small. */
+  private showScene(scene: PreparedScene, source: SceneSource, first: SceneDescription): string | null {
     let facts;
     try {
-      facts = this.unpack(scene, 'scene');
+      facts = this.unpack({ description: first, parcel: scene.parcel }, 'scene');
     } catch (error) {
       if (this.isGone) throw new ViewerError('The browser reset the graphics device: open the scene again.', 'device');
       this.forgetScene();  // the engine has removed it
@@ -295,7 +315,7 @@ class CanvasViewer implements Viewer {
     const records: LayerRecord[] = [];
     for (let index = 0; index < facts.layers.length; ++index)
       records.push({ part, index, name: freeName(ownName(description, index), records), placement: null });
-    this.setScene(description, [part], records);
+    this.setScene(first, [part], records);
     this.showFacts(facts);
     if (facts.drawn === 0) this.emit('notice', nothingDrawn);
     if (scene.level !== null)
@@ -366,9 +386,10 @@ class CanvasViewer implements Viewer {
   get layers(): readonly SceneLayer[] { return this.layers_; }
 
   addLayers(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<readonly SceneLayer[]> {
-    const { turn, cancellations } = this;
+    const { turn, showing, cancellations } = this;
     const added = (async () => {
       await turn;
+      await showing;
       if (this.cancellations !== cancellations || options.signal?.aborted) throw cancelled();
       if (this.shown) return this.inColors(() => this.add(source, options.signal));
       await this.replace(source, options);
@@ -378,36 +399,67 @@ class CanvasViewer implements Viewer {
     return added;
   }
 
-  /** Adds the layers of a source; the first is the scene if there is none. */
-  private async add(source: SceneSource, signal: AbortSignal | undefined): Promise<readonly SceneLayer[]> {
+  /** Adds the layers of a source; the first is the scene if there is none, with the cameras of `first` if it is
+   *  given. If this fails, it adds none. */
+  private async add(source: SceneSource, signal: AbortSignal | undefined,
+                    first: SceneDescription | null = null): Promise<readonly SceneLayer[]> {
     if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
     this.requireRoom(1);
-    const before = this.layers_.length, refused: string[] = [];
+    const refused: string[] = [];
     const loading = new Loading(this.assets, this.program, Promise.resolve(this.device.limits), source, 'layers');
-    let part: Part | null = null;
-    await this.run(loading, signal, {
-      progress: (progress) => this.emit('progress', progress),
-      layer: ({ description, parcel, index, forecasts }) => {
-        if (index === 0) this.requireRoom(forecasts.length);
-        const name = freeName(ownName(description, index), this.records);
-        let facts;
-        try {
-          facts = this.shown ? this.give(parcel, 'add_layers', {}) : this.unpack({ description, parcel }, 'scene');
-        } catch (error) {
-          if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');
-          if (!isShortage(error)) throw error;
-          refused.push(tooLargeSentence(name, forecasts[index]!));
-          return;
-        }
-        const parts = part ? this.parts : [...this.parts, part = { source, description, level: null }];
-        this.setScene(this.first ?? description, parts, [...this.records, { part, index, name, placement: null }]);
-        this.showFacts(facts);
-      },
-    });
-    const added = this.layers_.slice(before);
-    if (added.length === 0) throw new ViewerError(refused.join(' '), 'memory');
-    for (const sentence of refused) this.emit('notice', sentence);
-    return added;
+    let part: Part | null = null, total = 0;
+    try {
+      await this.run(loading, signal, {
+        progress: (progress) => this.emit('progress', progress),
+        layer: ({ description, parcel, index, forecasts }) => {
+          if (index === 0) this.requireRoom(forecasts.length);
+          total = forecasts.length;
+          part ??= { source, description, level: null };
+          const name = freeName(ownName(description, index), this.records);
+          let facts;
+          try {
+            facts = this.shown ? this.give(parcel, 'add_layers', {})
+                               : this.unpack({ description: first ?? description, parcel }, 'scene');
+          } catch (error) {
+            if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');
+            if (!isShortage(error)) throw error;
+            refused.push(tooLargeSentence(name, forecasts[index]!));
+            return;
+          }
+          const parts = this.parts.includes(part) ? this.parts : [...this.parts, part];
+          this.setScene(this.first ?? first ?? description, parts, [...this.records, { part, index, name, placement: null }]);
+          this.showFacts(facts);
+        },
+      });
+    } catch (error) {
+      this.removePart(part);
+      throw error;
+    }
+    if (refused.length === total) throw new ViewerError(refused.join(' '), 'memory');
+    for (const sentence of refused) this.emit('notice', `${sentence} ${othersDrawn}`);
+    // The user may have removed some of them.
+    return this.layers_.filter((_, index) => this.records[index]!.part === part);
+  }
+
+  /** Removes the layers of a source whose addition failed. */
+  private removePart(part: Part | null): void {
+    const kept = this.records.filter((record) => record.part !== part);
+    if (kept.length === this.records.length || this.ending.signal.aborted) return;
+    if (kept.length === 0) {
+      if (!this.isGone) this.engine.call('clear');
+      this.forgetScene();
+      this.ask();
+    } else if (this.isGone) {  // restore() will not add them
+      this.layers_ = this.layers_.filter((_, index) => this.records[index]!.part !== part);
+      this.setScene(this.first, this.parts.filter((one) => one !== part), kept);
+      this.emit('layers', this.layers_);
+    } else {
+      let facts: ShownFacts | null = null;
+      for (let index = this.records.length - 1; index >= 0; --index)
+        if (this.records[index]!.part === part) facts = this.engine.call<ShownFacts>('remove_layer', index);
+      this.setScene(this.first, this.parts.filter((one) => one !== part), kept);
+      this.showFacts(facts!);
+    }
   }
 
   private requireRoom(more: number): void {
@@ -471,12 +523,12 @@ class CanvasViewer implements Viewer {
   private async inColors<T>(change: () => T | Promise<T>): Promise<T> {
     const { name, features } = this.debugView_, { cancellations } = this;
     if (name === 'color') return change();
-    await this.show('color');
+    await this.showNow('color', features);
     try {
       return await change();
     } finally {
       if (this.shown && !this.lost && this.cancellations === cancellations)
-        await this.show(name, features).catch((error: unknown) => {
+        await this.showNow(name, features).catch((error: unknown) => {
           this.emit('notice', error instanceof Error ? error.message : String(error));
         });
     }
@@ -574,8 +626,19 @@ class CanvasViewer implements Viewer {
   get debugView(): string { return this.debugView_.name; }
   get legend(): readonly LegendEntry[] { return this.engine.call<LegendEntry[]>('legend'); }
 
-  async show(name: string, features = { first: 0, count: 3 }): Promise<void> {
-    const mine = ++this.debugViewsAsked;
+  show(name: string, features = { first: 0, count: 3 }): Promise<void> {
+    const { turn } = this, mine = ++this.debugViewsAsked;
+    const shown = (async () => {
+      await turn;  // layers are added in colours
+      if (mine === this.debugViewsAsked) await this.showNow(name, features);
+    })();
+    this.showing = shown.catch(() => {});
+    return shown;
+  }
+
+  /** The same, also while layers are added. */
+  private async showNow(name: string, features: { readonly first: number; readonly count: number }): Promise<void> {
+    const mine = this.debugViewsAsked;
     if (name !== 'color' && !this.engine.call<boolean>('is_read_for_debug_views')) {
       if (!this.opening || this.opening.parts !== this.parts)
         this.opening = { parts: this.parts, done: this.readForDebugViews() };
