@@ -54,7 +54,6 @@ for (const how of [{ viewport: { width: 1100, height: 1200 } }, { ...phone, colo
     await page.click('#layers .go:has-text("soup 2")');
     await assertAccessible(page, 'layers');
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'the panel fits');
-    await page.screenshot({ path: process.env.LAYERS_SHOT ? `${process.env.LAYERS_SHOT}${how.isMobile ? 'phone' : 'wide'}.png` : undefined });
   }, how));
 }
 
