@@ -12,8 +12,8 @@
 
 namespace tureen {
 
-/// One frame's camera in the coordinates of a layer. A point has the same stored depth, after the
-/// division by w, as with the world's camera.
+/// One frame's camera in the coordinates of a layer. A point gets the same value in the depth
+/// buffer as with the camera in world coordinates.
 struct FrameCamera {
   /// The camera's rotation includes the layer's rotation and mirror. The camera's translation is
   /// not used; `eye` replaces it.
