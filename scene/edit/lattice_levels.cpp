@@ -56,7 +56,7 @@ class Projections {
 
 FaceTexels projected(const LatticeProjection& projection, const FaceTexels& fine) {
   FaceTexels coarse(projection.to());
-  projection.project(features, fine.features, coarse.features);
+  projection.project(LatticeTexture::features, fine.features, coarse.features);
   for (float& value : coarse.features) value = std::clamp(value, 0.0f, 1.0f);
   projection.project_alpha(fine.alpha, coarse.alpha);
   return coarse;
@@ -146,7 +146,8 @@ std::vector<std::uint8_t> smallest_levels(const LatticeTexture& texture,
         if (unseen) return true;
         const LatticeProjection& projection = projections.get(int(patch.level), level);
         const FaceTexels coarse = projected(projection, fine);
-        const auto error = projection.error(features, compared, fine.features, coarse.features);
+        const auto error =
+            projection.error(LatticeTexture::features, compared, fine.features, coarse.features);
         return error.largest <= tolerance.largest &&
                std::sqrt(error.squared) <= tolerance.root_mean_square &&
                projection.coverage_mismatch(fine.alpha, coarse.alpha) <= tolerance.coverage;
