@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/vec4.hpp>
 #include <limits>
 
 namespace tureen {
@@ -28,12 +27,20 @@ ClipRange range_of_sphere(double depth, double radius, DepthStorage storage) {
 
 bool has_extent(const PlacedBounds& layer) { return layer.bounds.low != layer.bounds.high; }
 
-/// A point of a layer relative to the eye, in world axes: far from the world's origin, the
-/// translation minus the eye has digits that a world position lacks. For a layer that is only
-/// translated, the products with 1 and 0 are exact.
-glm::dvec3 seen_from(const glm::dvec3& eye, const glm::dmat4& world_from_layer,
-                     const glm::dvec3& point) {
-  return glm::dmat3(world_from_layer) * point + (glm::dvec3(world_from_layer[3]) - eye);
+struct Sphere {
+  double depth;  // of the centre, along the viewing axis
+  double radius;
+};
+
+/// The sphere around a layer. Its centre is computed relative to the eye: far from the world's
+/// origin, the translation minus the eye has digits that a world position lacks. For a layer that
+/// is only translated, the products with 1 and 0 are exact.
+Sphere sphere_of(const PlacedBounds& layer, const Camera& camera) {
+  const glm::dmat4& place = layer.world_from_layer;
+  const glm::dvec3 centre =
+      glm::dmat3(place) * layer.bounds.centre() + (glm::dvec3(place[3]) - camera.eye());
+  const double scale = glm::length(glm::dvec3(place[0]));
+  return {glm::dot(centre, forward_of(camera)), scale * layer.bounds.radius()};
 }
 
 }  // namespace
@@ -45,33 +52,15 @@ ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
 
 ClipRange clip_range(std::span<const PlacedBounds> layers, const Camera& camera,
                      DepthStorage storage) {
-  const glm::dvec3 eye = camera.eye(), forward = forward_of(camera);
-  const auto count = std::count_if(layers.begin(), layers.end(), has_extent);
-  if (count == 0 && layers.size() != 1) return range_of_sphere(0, 0, storage);
-
-  if (count <= 1) {
-    const PlacedBounds& only =
-        count == 0 ? layers.front() : *std::find_if(layers.begin(), layers.end(), has_extent);
-    const double scale = glm::length(glm::dvec3(only.world_from_layer[0]));
-    const glm::dvec3 centre = seen_from(eye, only.world_from_layer, only.bounds.centre());
-    return range_of_sphere(glm::dot(centre, forward), scale * only.bounds.radius(), storage);
-  }
-
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  ClipRange all{std::numeric_limits<double>::infinity(), 0};
   for (const PlacedBounds& layer : layers) {
-    if (!has_extent(layer)) continue;
-    const Bounds& box = layer.bounds;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 point(corner & 1 ? box.high.x : box.low.x,
-                             corner & 2 ? box.high.y : box.low.y,
-                             corner & 4 ? box.high.z : box.low.z);
-      const glm::dvec3 seen = seen_from(eye, layer.world_from_layer, point);
-      low = glm::min(low, seen);
-      high = glm::max(high, seen);
-    }
+    const Sphere sphere = sphere_of(layer, camera);
+    const ClipRange one = range_of_sphere(sphere.depth, sphere.radius, storage);
+    if (layers.size() == 1) return one;
+    if (!has_extent(layer) || sphere.depth + sphere.radius < 0) continue;
+    all = {std::min(all.near, one.near), std::max(all.far, one.far)};
   }
-  return range_of_sphere(glm::dot(0.5 * (low + high), forward), 0.5 * glm::length(high - low),
-                         storage);
+  return all.far > 0 ? all : range_of_sphere(0, 0, storage);
 }
 
 glm::dvec3 forward_of(const Camera& camera) { return -camera.world_from_view_rotation()[2]; }

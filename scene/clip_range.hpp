@@ -40,12 +40,13 @@ struct PlacedBounds {
   glm::dmat4 world_from_layer{1.0};
 };
 
-/// The range of a frame that draws all these layers with one depth buffer, in world units. One
-/// layer has the range of its bounding sphere; several have that of the sphere around a common box,
-/// with its axes along the world's. Boxes without extent are ignored beside others: they contain
-/// nothing visible, and the box of an empty layer lies at an arbitrary place. Without layers, the
-/// range has no meaning, but is valid. For one layer that is only translated, the result equals
-/// clip_range(bounds, eye - translation, forward, storage) bit for bit.
+/// The range of a frame that draws all these layers with one depth buffer, in world units: from the
+/// smallest `near` of a layer to the largest `far`. A distant or enormous layer thus does not clip
+/// the others; with DepthStorage::fixed_24, a small layer near the eye makes the depth of the
+/// others coarser. Beside others, layers behind the eye are ignored, and layers without extent:
+/// they contain nothing visible, and the box of an empty layer lies at an arbitrary place. Without
+/// layers, the range has no meaning, but is valid. For one layer that is only translated, the
+/// result equals clip_range(bounds, eye - translation, forward, storage) bit for bit.
 ClipRange clip_range(std::span<const PlacedBounds> layers, const Camera& camera,
                      DepthStorage storage);
 

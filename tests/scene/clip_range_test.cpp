@@ -92,17 +92,21 @@ TEST(ClipRange, OfSeveralLayersContainsEveryCorner) {
   }
 }
 
-// Two halves of one box have a common box: the whole.
-TEST(ClipRange, OfSeveralLayersIsThatOfTheirCommonBox) {
-  Bounds lower = box, upper = box;
-  lower.high.y = upper.low.y = 0.5f;
+// One layer would otherwise blank the image of all others.
+TEST(ClipRange, OfALayerThatIsFarAwayOrEnormousClipsNoOther) {
   const Camera camera = camera_at({4, 3, 9}, {0, 0.5, 1});
+  const Bounds enormous{glm::vec3(-1), glm::vec3(1e38f)};
   for (const DepthStorage storage : both_storages) {
-    const ClipRange whole = clip_range(std::array{PlacedBounds{box}}, camera, storage);
-    const ClipRange halves =
-        clip_range(std::array{PlacedBounds{lower}, PlacedBounds{upper}}, camera, storage);
-    EXPECT_NEAR(halves.near, whole.near, 1e-12 * whole.near);
-    EXPECT_NEAR(halves.far, whole.far, 1e-12 * whole.far);
+    const ClipRange alone = clip_range(std::array{PlacedBounds{box}}, camera, storage);
+    for (const PlacedBounds& other :
+         {PlacedBounds{box, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1e12))},
+          PlacedBounds{box, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 1e300))},
+          PlacedBounds{enormous}}) {
+      const ClipRange range = clip_range(std::array{PlacedBounds{box}, other}, camera, storage);
+      expect_valid(range);
+      EXPECT_LE(range.near, alone.near);
+      EXPECT_GE(range.far, alone.far);
+    }
   }
 }
 
