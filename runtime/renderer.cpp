@@ -36,6 +36,8 @@ struct Renderer::State {
   void upload(std::vector<PreparedLayer>& layers, std::span<const SoupPlan> plans);
   void arrange();
   void remove(std::size_t layer);
+  template <class Add>
+  void add_or_undo(const Add& add);
   FrameFormat format() const;
 
   /// Calls act(pass) for each pass in order, without the filter.
@@ -93,6 +95,23 @@ void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const
                                                      layer.soup->geometry, plans[i]));
       });
     places.push_back({{layer.bounds, layer.world_from_layer}, layer.visible});
+  }
+}
+
+/// Calls add(), which appends layers, and arranges them. If that throws, the layers are as before.
+template <class Add>
+void Renderer::State::add_or_undo(const Add& add) {
+  const std::size_t before = soups.size();
+  try {
+    add();
+    arrange();
+  } catch (...) {
+    if (soup_passes.size() > before) soup_passes.resize(before);  // they refer to the soups
+    soups.resize(before);
+    places.resize(before);
+    plan.layers.resize(before);
+    arrange();
+    throw;
   }
 }
 
@@ -209,17 +228,11 @@ void Renderer::add_layers(PreparedScene prepared) {
   assert(state.draws_soups && !prepared.make_passes);
   assert(prepared.plan.reversed_depth == state.plan.reversed_depth);
   assert(state.places.size() + prepared.layers.size() <= max_layers);
-  const std::size_t before = state.places.size();
   gl::use_plain_pixel_transfer();
-  try {
+  state.add_or_undo([&] {
     state.upload(prepared.layers, prepared.plan.layers);
-  } catch (...) {
-    state.soups.resize(before);
-    state.places.resize(before);
-    throw;
-  }
-  for (SoupPlan& each : prepared.plan.layers) state.plan.layers.push_back(std::move(each));
-  state.arrange();
+    for (SoupPlan& each : prepared.plan.layers) state.plan.layers.push_back(std::move(each));
+  });
 }
 
 void Renderer::add_layers(Renderer other) {
@@ -228,12 +241,13 @@ void Renderer::add_layers(Renderer other) {
   assert(from.plan.reversed_depth == state.plan.reversed_depth);
   assert(state.places.size() + from.places.size() <= max_layers);
   from.soup_passes.clear();  // they refer to the soups
-  for (std::size_t i = 0; i < from.soups.size(); ++i) {
-    state.soups.push_back(std::move(from.soups[i]));
-    state.places.push_back(from.places[i]);
-    state.plan.layers.push_back(std::move(from.plan.layers[i]));
-  }
-  state.arrange();
+  state.add_or_undo([&] {
+    for (std::size_t i = 0; i < from.soups.size(); ++i) {
+      state.soups.push_back(std::move(from.soups[i]));
+      state.places.push_back(from.places[i]);
+      state.plan.layers.push_back(std::move(from.plan.layers[i]));
+    }
+  });
 }
 
 void Renderer::remove_layer(std::size_t layer) {

@@ -67,7 +67,7 @@ class Renderer {
   /// Adds the layers of a scene after the present ones, which stay on the device. Several layers
   /// are all drawn deferred. The quality stays that of the first scene. Requires a scene without
   /// make_passes, the same choice of reversed depth, and at most max_layers layers. Throws
-  /// DeviceLimitError; then nothing has changed.
+  /// DeviceLimitError and ContextError; then the layers are as before.
   void add_layers(PreparedScene prepared);
   /// The same with layers that another renderer of the same device has uploaded, for example in
   /// another thread. It must have left its context, if that is another one.
