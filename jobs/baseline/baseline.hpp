@@ -31,8 +31,8 @@ RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& p
 /// The soup with the baseline's passes. The plan is from make_baseline_plan for this soup, which
 /// must not move until a Renderer was made. The Renderer throws DeviceLimitError if the lookup
 /// textures exceed `limits`.
-PreparedScene prepare_baseline(const TriangleSoup& soup, glm::dvec3 origin,
-                               const DeviceLimits& limits, RenderPlan plan);
+PreparedScene prepare_baseline(const PlacedSoup& layer, const DeviceLimits& limits,
+                               RenderPlan plan);
 
 /// Plans and uploads for this pipeline. Throws as prepare_scene, make_baseline_plan and Renderer.
 Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,

@@ -189,12 +189,15 @@ class NetworkPass final : public Pass {
 
 }  // namespace
 
-PreparedScene prepare_baseline(const TriangleSoup& soup, glm::dvec3 origin,
-                               const DeviceLimits& limits, RenderPlan plan) {
+PreparedScene prepare_baseline(const PlacedSoup& layer, const DeviceLimits& limits,
+                               RenderPlan plan) {
   PreparedScene prepared;
   prepared.plan = std::move(plan);
-  prepared.layers.push_back({.bounds = bounds(soup), .world_from_layer = at_origin(origin)});
-  prepared.make_passes = [&soup, limits](const PassInputs& inputs) {
+  prepared.layers.push_back({.name = layer.name,
+                             .bounds = bounds(layer.soup),
+                             .world_from_layer = layer.world_from_layer,
+                             .visible = layer.visible});
+  prepared.make_passes = [&soup = layer.soup, limits](const PassInputs& inputs) {
     auto features =
         std::make_unique<FeaturesPass>(inputs.device, limits, soup, inputs.plan.layers.front());
     const ColorMlp& mlp = *std::get<LatticeTexture>(soup.appearance).mlp;

@@ -49,7 +49,7 @@ class RendererCase final : public BenchCase {
     const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     const DeviceLimits limits = device_limits(context.capabilities());
     PreparedScene prepared =
-        is_baseline ? prepare_baseline(soup, origin_of(only_layer(scene)), limits, std::move(plan))
+        is_baseline ? prepare_baseline(placed_soups(scene).front(), limits, std::move(plan))
                     : prepare_scene(placed_soups(scene), limits, std::move(plan));
     renderer_ = std::make_unique<Renderer>(context, std::move(prepared), options);
     renderer_->finish();

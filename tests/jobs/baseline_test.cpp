@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "base/error.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "tests/support/agreement.hpp"
@@ -75,6 +78,31 @@ TEST_P(BaselineOracle, AgreesAtThisLevel) {
 
 INSTANTIATE_TEST_SUITE_P(Level, BaselineOracle, testing::Range(0, 8),
                          testing::PrintToStringParamName());
+
+// A layer that turns together with the camera gives the same image.
+TEST(Baseline, DrawsALayerInItsPlace) {
+  const gl::Context context = gl::Context::create(osmesa);
+  Random random(12);
+  const Camera camera = random_camera(random, 160, 120);
+  const glm::dmat4 turn = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, -4, 5)), 2.1,
+                                      glm::dvec3(0.6, 0, 0.8));
+  Camera turned = camera;
+  turned.view_from_world = camera.view_from_world * glm::inverse(turn);
+  Image8 images[2];
+  for (const bool is_turned : {false, true}) {
+    Scene scene = scene_of(one_level());
+    if (is_turned) scene.layers[0].world_from_layer = turn;
+    Renderer renderer = make_renderer(context, scene, PipelineKind::baseline);
+    renderer.draw({is_turned ? turned : camera});
+    images[is_turned] = renderer.read_color();
+  }
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < images[0].pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      off += std::abs(int(images[0].pixels[i][c]) - int(images[1].pixels[i][c])) > 1;
+  // The camera's matrix is rounded once more: some vertices move to another 1/256 of a pixel.
+  EXPECT_LE(double(off), 0.01 * double(images[0].pixels.size()));
+}
 
 TEST(Baseline, DrawsTheSameAfterItLeftTheContext) {
   const gl::Context context = gl::Context::create(osmesa);

@@ -103,9 +103,9 @@ Json add_published(const Json& arguments) {
   RenderPlan plan = make_baseline_plan(soup, options.plan);
   const double planned = milliseconds();
   const DeviceLimits limits = device_limits(page_view().capabilities());
-  to.published.emplace(
-      page_view().context(),
-      prepare_baseline(soup, origin_of(only_layer(scene)), limits, std::move(plan)), options);
+  to.published.emplace(page_view().context(),
+                       prepare_baseline(placed_soups(scene).front(), limits, std::move(plan)),
+                       options);
   Json result = facts(*to.published, planned);
   result["plan_ms"] = planned - start;
   return result;
