@@ -21,6 +21,8 @@ struct Camera {
   /// maps the positions of a soup to them.
   glm::dmat4 view_from_world{1.0};
 
+  bool operator==(const Camera&) const = default;
+
   /// The camera's centre in world coordinates.
   glm::dvec3 eye() const;
 

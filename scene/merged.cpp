@@ -27,7 +27,7 @@ class DistinctNames {
 /// Names of the settings of `scene` that merged() drops.
 std::vector<std::string> dropped_settings(const Scene& scene, const Scene& first) {
   std::vector<std::string> names;
-  if (!scene.cameras.empty()) names.emplace_back("cameras");
+  if (!scene.cameras.empty() && scene.cameras != first.cameras) names.emplace_back("cameras");
   if (scene.info.up != first.info.up) names.emplace_back("up axis");
   if (scene.info.background != first.info.background) names.emplace_back("background");
   if (scene.quality != first.quality) names.emplace_back("quality");

@@ -323,11 +323,7 @@ void Application::draw_scene() {
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   // Colours until the debug view is prepared.
   const DebugViewChoice debug_view = stage.debug_views ? state_.debug_view : DebugViewChoice{};
-  const bool same = image_is_current_ && drawn_debug_view_ == debug_view &&
-                    camera.view_from_world == drawn_camera_.view_from_world &&
-                    camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
-                    camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
-                    camera.cx == drawn_camera_.cx && camera.cy == drawn_camera_.cy;
+  const bool same = image_is_current_ && drawn_debug_view_ == debug_view && camera == drawn_camera_;
   if (stage.debug_views) {
     // Their frame times would not be those of ordinary frames.
     if (!same) {

@@ -79,6 +79,8 @@ TEST(Merged, SettingsAreThoseOfTheFirstScene) {
   EXPECT_EQ(describe(result.info.remarks[0]),
             "second: these settings differ from those of the first scene and are ignored: cameras, "
             "up axis, background, quality");
+  // Equal settings are not dropped.
+  EXPECT_TRUE(merged({second, second}).info.remarks.empty());
 }
 
 TEST(Merged, RemarksAndNotesNameTheirScene) {
