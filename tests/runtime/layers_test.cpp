@@ -184,6 +184,19 @@ TEST_P(Layers, APointIsThatOfTheNearestLayer) {
   EXPECT_NEAR(renderer.point_at({16, 16}).value().z, 0.0, 1e-3);
 }
 
+TEST_P(Layers, OneFarAwayHidesNoOther) {
+  Scene scene;
+  scene.layers.push_back({.primitives = wall(glm::vec4(0, 1, 0, 1))});
+  for (const double distance : {1e6, 1e12, 1e30}) {
+    Scene both = scene;
+    both.layers.push_back({.world_from_layer = at_origin({distance, 0, -distance}),
+                           .primitives = wall(glm::vec4(1, 0, 0, 1))});
+    Renderer renderer = renderer_of_scene(context, both);
+    renderer.draw({look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 32, 32)});
+    EXPECT_EQ(renderer.read_color().at(16, 16), glm::u8vec4(0, 255, 0, 255)) << distance;
+  }
+}
+
 TEST_P(Layers, AreFilteredAndLeaveTheContext) {
   const Scene scene = layered_scene(8);
   for (const Quality quality : {Quality{.supersampling = 2}, Quality{.resolution_scale = 0.5}}) {
@@ -242,28 +255,9 @@ TEST_P(Layers, HaveDebugViewsInWorldCoordinates) {
 INSTANTIATE_TEST_SUITE_P(All, Layers, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// The example, a textured mesh beside it, and the example again: turned, mirrored and smaller.
-Scene golden_layers() {
-  Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
-  const glm::dvec3 above(-0.9, 0.9, 2.0);
-  const glm::dmat4 turned = glm::translate(glm::dmat4(1.0), above) *
-                            glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0.6, 0.0, 0.8)) *
-                            glm::scale(glm::dmat4(1.0), glm::dvec3(-0.6, 0.6, 0.6)) *
-                            scene.layers[0].world_from_layer;
-  const glm::dmat4 beside =
-      glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1.2, -1.2, 1.0)), glm::dvec3(0.5));
-  scene.layers.push_back({.name = "mesh",
-                          .world_from_layer = beside,
-                          .primitives = random_soup(3, {.kind = Kind::uv_textures, .faces = 40})});
-  Layer copy = scene.layers[0];
-  copy.world_from_layer = turned;
-  scene.layers.push_back(std::move(copy));
-  scene.cameras = {resized(scene.cameras.at(golden_example_camera), 320, 240)};
-  return scene;
-}
-
 TEST(LayersGolden, OneTurnedMirroredAndSmaller) {
-  const Scene scene = golden_layers();
+  const Scene scene =
+      golden_layers(read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb"));
   for (const NamedContext& named : every_context) {
     const gl::Context context = gl::Context::create(named.request);
     Renderer renderer = renderer_of_scene(

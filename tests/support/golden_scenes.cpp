@@ -45,4 +45,22 @@ Scene layered_scene(std::uint64_t seed) {
   return scene;
 }
 
+Scene golden_layers(Scene scene) {
+  const glm::dvec3 above(-0.9, 0.9, 2.0);
+  const glm::dmat4 turned = glm::translate(glm::dmat4(1.0), above) *
+                            glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0.6, 0.0, 0.8)) *
+                            glm::scale(glm::dmat4(1.0), glm::dvec3(-0.6, 0.6, 0.6)) *
+                            scene.layers[0].world_from_layer;
+  const glm::dmat4 beside =
+      glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1.2, -1.2, 1.0)), glm::dvec3(0.5));
+  scene.layers.push_back({.name = "mesh",
+                          .world_from_layer = beside,
+                          .primitives = random_soup(3, {.kind = Kind::uv_textures, .faces = 40})});
+  Layer copy = scene.layers[0];
+  copy.world_from_layer = turned;
+  scene.layers.push_back(std::move(copy));
+  scene.cameras = {resized(scene.cameras.at(golden_example_camera), 320, 240)};
+  return scene;
+}
+
 }  // namespace tureen::test

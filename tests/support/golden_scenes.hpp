@@ -21,4 +21,7 @@ inline constexpr std::size_t golden_example_camera = 40;
 /// The last layer is rotated, mirrored and scaled. One camera.
 Scene layered_scene(std::uint64_t seed);
 
+/// The example, a textured mesh beside it, and the example again: turned, mirrored and smaller.
+Scene golden_layers(Scene example);
+
 }  // namespace tureen::test

@@ -36,6 +36,11 @@ test('the example on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   assertSame('example', golden('example'), await image({ from: 40, width: 320, height: 240 }));
 }));
 
+test('several layers on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+  await load(scenes, ['layers.glb']);
+  assertSame('layers', golden('layers'), await image({ from: 0, width: 320, height: 240 }));
+}));
+
 test('every debug view on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(scenes, ['debug_views.glb']);
   for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe'])
