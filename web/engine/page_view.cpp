@@ -97,25 +97,13 @@ PageView::Stage& PageView::colors_with(std::size_t layer) {
 
 /// Gives the controls the box around the visible layers; around all if none is visible.
 void PageView::follow_layers(Stage& stage) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const bool any = std::any_of(stage.layers.begin(), stage.layers.end(),
                                [](const ShownLayer& layer) { return layer.visible; });
-  glm::dvec3 low(infinity), high(-infinity);
-  for (const auto& [box, visible, triangles, device_bytes] : stage.layers) {
-    if (any && !visible) continue;
-    const auto& [bounds, world_from_layer] = box;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec4 position(corner & 1 ? bounds.high.x : bounds.low.x,
-                                corner & 2 ? bounds.high.y : bounds.low.y,
-                                corner & 4 ? bounds.high.z : bounds.low.z, 1.0);
-      const glm::dvec3 world(world_from_layer * position);
-      low = glm::min(low, world);
-      high = glm::max(high, world);
-    }
-  }
-  stage.scene.subject.low = low;
-  stage.scene.subject.high = high;
-  stage.controls.set_box(low, high);
+  std::vector<PlacedBounds> boxes;
+  for (const ShownLayer& layer : stage.layers)
+    if (layer.visible || !any) boxes.push_back(layer.box);
+  stage.scene.subject = subject_of(boxes, stage.scene.subject.up);
+  stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
 }
 
 void PageView::add_layers(PreparedScene prepared) {

@@ -1,5 +1,9 @@
 #include "web/engine/values.hpp"
 
+#include <glm/trigonometric.hpp>
+
+#include "base/error.hpp"
+
 namespace tureen::web {
 
 Json to_json(const glm::dvec3& value) { return {value.x, value.y, value.z}; }
@@ -19,6 +23,22 @@ glm::dmat4 matrix_of(const Json& value) {
   glm::dmat4 matrix;
   for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = value.at(std::size_t(i)).get<double>();
   return matrix;
+}
+
+Json to_json(const Similarity& similarity) {
+  return {{"position", to_json(similarity.position)},
+          {"rotation", to_json(glm::radians(similarity.angles))},
+          {"scale", similarity.scale},
+          {"mirror", similarity.mirror}};
+}
+
+Similarity placement_of(const Json& value) {
+  const Similarity result{.position = vector_of(value.at("position")),
+                          .angles = glm::degrees(vector_of(value.at("rotation"))),
+                          .scale = value.at("scale").get<double>(),
+                          .mirror = value.at("mirror").get<bool>()};
+  if (!(result.scale > 0)) throw UsageError("a placement needs a scale above 0");
+  return result;
 }
 
 Json to_json(const Camera& camera) {

@@ -10,6 +10,7 @@
 #include "camera/navigation.hpp"
 #include "runtime/plan/plan.hpp"
 #include "scene/camera.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen::web {
 
@@ -21,6 +22,11 @@ glm::dvec3 vector_of(const Json& value);
 /// 16 numbers, column by column.
 Json to_json(const glm::dmat4& matrix);
 glm::dmat4 matrix_of(const Json& value);
+
+/// {"position", "rotation": radians, "scale", "mirror"}. placement_of throws UsageError for a scale
+/// that is not above 0.
+Json to_json(const Similarity& similarity);
+Similarity placement_of(const Json& value);
 
 Json to_json(const Camera& camera);
 Camera camera_of(const Json& value);

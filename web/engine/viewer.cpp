@@ -48,6 +48,7 @@ Json layers() {
     list.push_back({{"triangles", triangles},
                     {"visible", visible},
                     {"transform", to_json(box.world_from_layer)},
+                    {"placement", to_json(similarity_of(box.world_from_layer))},
                     {"device_bytes", device_bytes}});
   return list;
 }
@@ -93,11 +94,13 @@ Json add_layers(const Json&) {
   return facts();
 }
 
-/// {"layer", "transform"?: 16 numbers, column by column, "visible"?}
+/// {"layer", "transform"?: 16 numbers, column by column, or "placement"?, "visible"?}
 Json set_layer(const Json& arguments) {
   const std::size_t layer = arguments.at("layer");
   if (const auto matrix = arguments.find("transform"); matrix != arguments.end())
     view().place_layer(layer, matrix_of(*matrix));
+  if (const auto placement = arguments.find("placement"); placement != arguments.end())
+    view().place_layer(layer, matrix_of(placement_of(*placement)));
   if (const auto visible = arguments.find("visible"); visible != arguments.end())
     view().show_layer(layer, visible->get<bool>());
   return layers();

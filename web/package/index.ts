@@ -2,7 +2,6 @@
 
 export { createViewer } from '../viewer/viewer.js';
 export { attachControls } from '../viewer/controls.js';
-export { matrixOf, placementOf } from '../viewer/placement.js';
 export { maxLayers, namedViews, ViewerError } from '../viewer/types.js';
 export type { Assets } from '../viewer/assets.js';
 export type * from '../viewer/types.js';

@@ -1,13 +1,14 @@
 // The summary of a scene for the page, from the loader's description and the device's facts.
 
 import type { SceneDescription } from './loader_messages.js';
-import type { DebugViewChoice, SceneSummary } from './types.js';
+import type { DebugViewChoice, Placement, SceneSummary } from './types.js';
 
 /** A layer on the device: web/engine/viewer.cpp. */
 export interface ShownLayer {
   readonly triangles: number;
   readonly visible: boolean;
   readonly transform: readonly number[];
+  readonly placement: Placement;
   readonly device_bytes: number;
 }
 

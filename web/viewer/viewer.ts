@@ -1,5 +1,6 @@
 // A viewer on a canvas: it shows scenes from loaders, moves the view, and draws a frame after each
-// change.
+// change. The file exceeds 600 lines: one object owns the device's state, and loading, layers, debug
+// views and frames all change it.
 
 import { urlOf } from './addresses.js';
 import { assetsAt, type Assets } from './assets.js';
@@ -8,7 +9,6 @@ import { compile, Engine, type Parcel } from './engine.js';
 import { FrameTimes } from './frame_times.js';
 import type { PreparedScene, SceneDescription } from './loader_messages.js';
 import { isShortage, Loading } from './loading.js';
-import { matrixOf, placementOf } from './placement.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
@@ -335,9 +335,9 @@ class CanvasViewer implements Viewer {
   /** `shown`: the engine's layers, one for each record. */
   private setLayers(shown: readonly ShownLayer[]): void {
     this.layers_ = this.records.map(({ part, index, name, placement }, at) => {
-      const { triangles, visible, transform, device_bytes } = shown[at]!;
+      const { device_bytes, ...facts } = shown[at]!;
       return {
-        name, triangles, visible, transform, placement: placement ?? placementOf(transform), deviceBytes: device_bytes,
+        name, ...facts, placement: placement ?? facts.placement, deviceBytes: device_bytes,
         source: part.source, sourceLayer: index,
       };
     });
@@ -477,14 +477,15 @@ class CanvasViewer implements Viewer {
     this.requireLayer(index);
     const { visible, transform } = change;
     const placement = transform && 'position' in transform ? transform : null;
-    const matrix = placement ? matrixOf(placement) : transform as Matrix | undefined;
-    if (matrix && !(matrix.length === 16 && matrix.every(Number.isFinite)))
-      throw new ViewerError('A transform needs 16 numbers, column by column.', 'usage');
+    const matrix = placement ? undefined : transform as Matrix | undefined;
+    const numbers = placement ? [...placement.position, ...placement.rotation, placement.scale] : matrix;
+    if (numbers && !(numbers.length === (placement ? 7 : 16) && numbers.every(Number.isFinite)))
+      throw new ViewerError('A transform needs 16 numbers, column by column, or a position, a rotation and a scale above 0.', 'usage');
     if (this.lost) return;
     const shown = this.engine.call<ShownLayer[]>('set_layer', {
-      layer: index, ...(matrix && { transform: matrix }), ...(visible !== undefined && { visible }),
+      layer: index, ...(matrix && { transform: matrix }), ...(placement && { placement }), ...(visible !== undefined && { visible }),
     });
-    if (matrix) this.records = this.records.map((record, at) => (at === index ? { ...record, placement } : record));
+    if (transform) this.records = this.records.map((record, at) => (at === index ? { ...record, placement } : record));
     this.setLayers(shown);
     this.emit('layers', this.layers_);
     this.ask();
