@@ -30,6 +30,10 @@ function text(value: unknown, name: string): string {
   return typeof value === 'string' ? value : refuse(`${name} is not a text.`);
 }
 
+function truth(value: unknown, name: string): boolean {
+  return typeof value === 'boolean' ? value : refuse(`${name} is not true or false.`);
+}
+
 const vector = (value: unknown, name: string): Vec3 =>
   isVector(value) ? value : refuse(`${name} is not three numbers.`);
 
@@ -75,7 +79,7 @@ function transform(value: unknown): Matrix | Placement {
 function layerChange(value: unknown): { visible?: boolean; transform?: Matrix | Placement } {
   const given = object(value);
   return {
-    ...(given.visible !== undefined && { visible: given.visible === true }),
+    ...(given.visible !== undefined && { visible: truth(given.visible, 'visible') }),
     ...(given.transform !== undefined && { transform: transform(given.transform) }),
   };
 }

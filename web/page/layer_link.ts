@@ -7,7 +7,7 @@
 // of a layer that was moved. Layers without an entry are removed.
 
 import type { Placement, SceneLayer, SceneSource, Vec3 } from '../viewer/types.js';
-import { degreesPerRadian, plainNumber } from './numbers.js';
+import { degreesPerRadian } from './numbers.js';
 
 export interface LinkedLayer {
   /** The number of the scene in the link, and of the layer in its scene, from 0. */
@@ -20,8 +20,12 @@ export interface LinkedLayer {
 
 /** Nine significant digits: the same place on the screen. */
 const numberText = (value: number) =>
-  plainNumber(value, value === 0 ? 0 : 8 - Math.floor(Math.log10(Math.abs(value))));
+  String(Number(value.toPrecision(9))).replace('+', '');  // in a link, '+' is a space
 const listText = (values: Vec3, factor = 1) => values.map((value) => numberText(value * factor)).join(':');
+
+/** "2", or "2.3" for a layer of a scene with several, even if the device refused the others. */
+const numberOf = (scene: number, layer: number, loaded: readonly SceneLayer[]) =>
+  `${scene + 1}${layer > 0 || loaded.length > 1 ? `.${layer + 1}` : ''}`;
 
 function changesOf(now: SceneLayer, loaded: SceneLayer): string {
   const parts: string[] = [];
@@ -42,11 +46,11 @@ export function writeLayers(scenes: readonly SceneSource[], layers: readonly Sce
                             loaded: (scene: SceneSource) => readonly SceneLayer[]): string | null {
   const entries = layers.filter(({ source }) => scenes.includes(source)).map((layer) => {
     const before = loaded(layer.source), own = before.find(({ sourceLayer }) => sourceLayer === layer.sourceLayer)!;
-    const number = `${scenes.indexOf(layer.source) + 1}${before.length > 1 ? `.${layer.sourceLayer + 1}` : ''}`;
+    const number = numberOf(scenes.indexOf(layer.source), layer.sourceLayer, before);
     return { number, text: number + changesOf(layer, own) + (own.visible || !layer.visible ? '' : ',shown') };
   });
   const untouched = scenes.flatMap((scene, index) => loaded(scene).map(({ sourceLayer }, _, all) =>
-    `${index + 1}${all.length > 1 ? `.${sourceLayer + 1}` : ''}`));
+    numberOf(index, sourceLayer, all)));
   const text = entries.map((entry) => entry.text).join(';');
   return text === untouched.join(';') ? null : text;
 }

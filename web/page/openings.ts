@@ -27,6 +27,7 @@ interface Opened {
 
 export class Openings {
   private origin_: Origin | null = null;
+  private key = '';
   private readonly opened = new Map<SceneSource, Opened>();
   /** Number of times that the scene was replaced or cleared: it ends earlier openings and additions. */
   private generation = 0;
@@ -43,6 +44,9 @@ export class Openings {
 
   /** The origin of the first scene; null without one. */
   get origin(): Origin | null { return this.viewer.scene ? this.origin_ : null; }
+
+  /** Identifies the first scene for saved views; added layers do not change it. */
+  get sceneKey(): string { return this.key; }
 
   /** The scenes with an address, in the order of their first layers. */
   private get linked(): readonly SceneSource[] {
@@ -163,6 +167,7 @@ export class Openings {
     forget();
     if (!scene) return false;
     this.origin_ = first.origin;
+    this.key = first.origin.kind === 'address' ? first.origin.address : `${scene.name}:${scene.triangles}`;
     this.incomplete = false;
     this.opened.clear();
     this.opened.set(first.source, { origin: first.origin, layers: this.viewer.layers });

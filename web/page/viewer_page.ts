@@ -86,10 +86,6 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
                  start: Start): void {
   const tell = (sentence: string) => messages.notice(sentence);
   const failed = (what: unknown) => messages.thrown(what);
-  const sceneKey = () => {
-    const origin = openings.origin;
-    return origin?.kind === 'address' ? origin.address : `${viewer.scene?.name}:${viewer.scene?.triangles}`;
-  };
 
   const panel = new Panel(), fullScreen = new FullScreen();
   new SceneSection(viewer, loading);
@@ -109,7 +105,7 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
   viewer.on('layers', follow);
   viewer.on('context', () => debugViews.update());
   openings.onOpened(() => {
-    saved.follow(sceneKey());
+    saved.follow(openings.sceneKey);
     debugViews.update();
     follow();
   });

@@ -118,7 +118,8 @@ class Loader {
     const permille = fraction === null ? Math.floor(this.loaded / 1e5) : Math.floor(1000 * fraction);
     if (this.told.stage === stage && this.told.permille === permille) return;
     this.told = { stage, permille };
-    const deviceBytes = this.forecasts.length ? this.forecasts.reduce((sum, bytes) => sum + bytes, 0) : null;
+    const left = this.forecasts.slice(Math.max(this.nextLayer - 1, 0));
+    const deviceBytes = left.length ? left.reduce((sum, bytes) => sum + bytes, 0) : null;
     post({ kind: 'progress', progress: { stage, fraction, loadedBytes: this.loaded, totalBytes: this.total, deviceBytes } });
   }
 }

@@ -110,7 +110,7 @@ export interface LoadProgress {
   readonly loadedBytes: number;
   /** null if the server does not report it. */
   readonly totalBytes: number | null;
-  /** Forecast of the bytes on the device, for added layers before their upload; otherwise null. */
+  /** Forecast of the bytes on the device for the added layers that are not uploaded yet; otherwise null. */
   readonly deviceBytes: number | null;
 }
 

@@ -61,23 +61,25 @@ export class LayersSection {
     const { name } = this.viewer.layers[from]!;
     if (this.selected === from) this.selected = to;
     else if (this.selected === to) this.selected = from;
-    await this.attempt(() => this.viewer.moveLayer(from, to));
-    this.tell(`${name} is now layer ${to + 1} of ${this.viewer.layers.length}.`);
+    if (await this.attempt(() => this.viewer.moveLayer(from, to)))
+      this.tell(`${name} is now layer ${to + 1} of ${this.viewer.layers.length}.`);
   }
 
   private async remove(index: number): Promise<void> {
     const { name } = this.viewer.layers[index]!;
     if (this.selected > index) --this.selected;
-    await this.attempt(() => this.viewer.removeLayer(index));
-    this.tell(`${name} was removed.`);
+    if (await this.attempt(() => this.viewer.removeLayer(index))) this.tell(`${name} was removed.`);
     if (document.activeElement === document.body) this.viewer.canvas.focus();  // the section is hidden now
   }
 
-  private async attempt(what: () => Promise<void>): Promise<void> {
+  /** Returns whether it succeeded; otherwise the page shows the error. */
+  private async attempt(what: () => Promise<void>): Promise<boolean> {
     try {
       await what();
+      return true;
     } catch (error) {
       this.failed(error);
+      return false;
     }
   }
 

@@ -10,11 +10,11 @@ export class SceneSection {
 
   constructor(private readonly viewer: Viewer, loading: Loading) {
     viewer.on('scene', (scene) => {
-      this.notices = [];  // notices of the previous scene
+      if (!scene) this.notices = [];
       this.show(scene);
     });
     viewer.on('notice', (sentence) => {
-      this.notices.push(sentence);
+      if (!this.notices.includes(sentence)) this.notices.push(sentence);
       this.showNotes();
     });
     loading.onBegin(() => { this.notices = []; });  // notices of the previous scene
