@@ -153,7 +153,7 @@ const std::vector<NamedDevice>& named_devices() {
   return devices;
 }
 
-/// What is printed about one layer.
+/// The printed facts of one layer.
 struct LayerFacts {
   std::string name;  // label() of the layer
   const Layer* layer;

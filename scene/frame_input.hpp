@@ -1,4 +1,4 @@
-// What a frame shows. Everything that draws takes it: renderers, debug views, the oracle.
+// The input of a frame, for everything that draws: renderers, debug views, the oracle.
 #pragma once
 
 #include "scene/camera.hpp"

@@ -109,14 +109,14 @@ class Application {
     Relation relation = Relation::other;
     std::vector<std::filesystem::path> paths;
   };
-  /// What happens to the files of a Loading.
+  /// The progress and the errors of a Loading.
   struct Reading {
     std::filesystem::path current;
     struct Failure {
       std::filesystem::path path;
       std::string reason;
     };
-    std::vector<Failure> failures;  // of files that were left out
+    std::vector<Failure> failures;  // of files that are not shown
   };
   void load(const Loading& loading);
   Worker::Completion load_in_background(const Loading& loading, std::shared_ptr<StageSource> before,

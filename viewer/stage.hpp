@@ -115,8 +115,8 @@ struct ReadRequest {
   std::function<void(double)> progress;  // 0..1; may throw to abandon
   /// Called before each file is read.
   std::function<void(const std::filesystem::path&)> begins = [](const auto&) {};
-  /// Called for a file of `paths` with an error, which is then left out. Without this function, and
-  /// if no file remains, the error is thrown.
+  /// Called for a file of `paths` with an error; the other files are read. Without this function,
+  /// and if no file remains, the error is thrown.
   std::function<void(const std::filesystem::path&, const std::string& reason)> unreadable = {};
 };
 

@@ -27,7 +27,7 @@ struct DebugViewSubject {
   std::array<std::optional<std::string>, 10> refusals;  // why_not(), by DebugView
 };
 
-/// What is shown, and with which scale.
+/// The shown debug view, and the scale of its colours.
 struct ShownDebugView {
   DebugView what = DebugView::color;
   FeatureChoice features;
