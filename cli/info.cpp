@@ -371,7 +371,7 @@ ExitCode inform(const InfoOptions& options) {
   Scene scene = read(options.scene);
   std::vector<bool> soft;
   for (const Layer& layer : scene.layers)
-    soft.push_back(std::holds_alternative<SoftTriangles>(layer.primitives));
+    soft.push_back(std::holds_alternative<Splats>(layer.primitives));
   make_opaque(scene);
   std::vector<LayerFacts> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)

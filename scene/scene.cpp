@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "scene/opaque_windows.hpp"
 
 namespace tureen {
 
@@ -49,13 +50,7 @@ glm::dmat4 at_origin(const glm::dvec3& origin) {
 glm::dvec3 origin_of(const Layer& layer) { return glm::dvec3(layer.world_from_layer[3]); }
 
 Bounds bounds(const Layer& layer) {
-  if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives)) return bounds(*soup);
-  // The window of a soft triangle is 0 outside the triangle, so its corners determine the box.
-  TriangleSoup corners;
-  corners.positions = std::get<SoftTriangles>(layer.primitives).positions;
-  for (std::uint32_t i = 0; i + 2 < corners.positions.size(); i += 3)
-    corners.triangles.push_back({i, i + 1, i + 2});
-  return bounds(corners);
+  return std::visit([](const auto& primitives) { return bounds(primitives); }, layer.primitives);
 }
 
 std::optional<std::string> defect(const Layer& layer) {
@@ -90,7 +85,7 @@ std::optional<std::string> defect(const Layer& layer) {
   return std::nullopt;
 }
 
-Scene scene_of(std::variant<TriangleSoup, SoftTriangles> primitives, const glm::dvec3& origin) {
+Scene scene_of(Primitives primitives, const glm::dvec3& origin) {
   Scene scene;
   scene.layers.push_back(
       {.world_from_layer = at_origin(origin), .primitives = std::move(primitives)});
@@ -120,10 +115,14 @@ TriangleSoup& only_soup(Scene& scene) {
 }
 
 void make_opaque(Scene& scene) {
-  for (Layer& layer : scene.layers) {
-    auto* soft = std::get_if<SoftTriangles>(&layer.primitives);
-    if (!soft) continue;
-    OpaqueResult result = to_opaque(std::move(*soft));
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    Layer& layer = scene.layers[i];
+    auto* splats = std::get_if<Splats>(&layer.primitives);
+    if (!splats) continue;
+    if (!std::holds_alternative<TriangleWindows>(splats->kernel))
+      throw UsageError("only triangles are supported here; " + label(layer, i) + " holds " +
+                       kernel_name(splats->kernel));
+    OpaqueResult result = to_opaque(std::move(*splats));
     for (Remark& remark : result.remarks) scene.info.remarks.push_back(std::move(remark));
     layer.primitives = std::move(result.soup);
   }

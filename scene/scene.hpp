@@ -12,7 +12,7 @@
 #include "scene/camera.hpp"
 #include "scene/quality.hpp"
 #include "scene/remark.hpp"
-#include "scene/soft_triangles.hpp"
+#include "scene/splats.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
@@ -31,6 +31,8 @@ struct SceneInfo {
 /// The notes, followed by the descriptions of the remarks.
 std::vector<std::string> all_notes(const SceneInfo& info);
 
+using Primitives = std::variant<TriangleSoup, Splats>;
+
 /// One set of primitives of a scene.
 struct Layer {
   std::string name = {};
@@ -38,7 +40,7 @@ struct Layer {
   /// mirror).
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  std::variant<TriangleSoup, SoftTriangles> primitives = {};
+  Primitives primitives = {};
 };
 
 /// The translation by `origin`, in world coordinates: the world_from_layer of a layer whose
@@ -49,7 +51,7 @@ glm::dmat4 at_origin(const glm::dvec3& origin);
 /// vertices (world = origin + position) only if world_from_layer has no rotation, scale or mirror.
 glm::dvec3 origin_of(const Layer& layer);
 
-/// The box around the layer's triangles, in layer coordinates; zeros if there are none.
+/// The box around the layer's primitives, in layer coordinates; zeros if there are none.
 Bounds bounds(const Layer& layer);
 
 /// The reason why world_from_layer is not a similarity (a number that is not finite, a perspective
@@ -72,16 +74,15 @@ struct Scene {
 };
 
 /// A scene of one visible layer without a name, at `origin` in world coordinates.
-Scene scene_of(std::variant<TriangleSoup, SoftTriangles> primitives,
-               const glm::dvec3& origin = glm::dvec3(0.0));
+Scene scene_of(Primitives primitives, const glm::dvec3& origin = glm::dvec3(0.0));
 
 /// The layer of a scene with one layer. Throws UsageError, which names the layers, if the scene has
 /// any other number of layers.
 Layer& only_layer(Scene& scene);
 const Layer& only_layer(const Scene& scene);
 
-/// The soup of a scene with one layer. Throws UsageError like only_layer. Soft triangles in this
-/// layer are a programming error: call make_opaque before.
+/// The soup of a scene with one layer. Throws UsageError like only_layer. Splats in this layer are
+/// a programming error: call make_opaque before.
 TriangleSoup& only_soup(Scene& scene);
 const TriangleSoup& only_soup(const Scene& scene);
 
@@ -94,8 +95,9 @@ const TriangleSoup& only_soup(const Scene& scene);
 /// Throws UsageError for more than max_layers layers.
 Scene merged(std::vector<Scene> scenes);
 
-/// Converts the soft triangles of every layer by to_opaque. The losses of the conversions are added
-/// to info.remarks. Afterwards every layer holds a TriangleSoup.
+/// Converts the triangle windows of every layer by to_opaque. The losses of the conversions are
+/// added to info.remarks. Afterwards every layer holds a TriangleSoup. Throws UsageError, which
+/// names the layer, for splats with another kernel.
 void make_opaque(Scene& scene);
 
 }  // namespace tureen

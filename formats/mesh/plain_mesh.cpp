@@ -7,6 +7,7 @@
 #include "image/quantise.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
+#include "scene/opaque_windows.hpp"
 
 namespace tureen {
 
@@ -118,8 +119,11 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
 
 PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   const Layer& layer = only_layer(scene);
-  if (const auto* soft = std::get_if<SoftTriangles>(&layer.primitives)) {
-    OpaqueResult opaque = to_opaque(*soft);
+  if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
+    if (!std::holds_alternative<TriangleWindows>(splats->kernel))
+      throw UsageError(format + " holds triangles; this scene holds " +
+                       kernel_name(splats->kernel));
+    OpaqueResult opaque = to_opaque(*splats);
     lost = described(opaque.remarks);
     own_ = std::move(opaque.soup);
     soup_ = &*own_;

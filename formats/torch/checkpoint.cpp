@@ -217,27 +217,27 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
   archive.expect_shape(sigma, {count, 1});
   archive.expect_shape(opacity, {count, 1});
 
-  SoftTriangles soft;
-  soft.positions = read_vectors(archive, points);
-  soft.sigma = archive.read_floats(sigma);
-  soft.opacity = archive.read_floats(opacity);
+  TriangleWindows windows;
+  windows.corners = read_vectors(archive, points);
+  windows.sigma = archive.read_floats(sigma);
+  windows.opacity = archive.read_floats(opacity);
   for (std::size_t t = 0; t < count; ++t) {
     // In double. Sigma fails if it is NaN or exceeds a float, opacity only if it is NaN.
-    const double s = 0.01 + std::exp(double(soft.sigma[t]));
-    const double o = 1.0 / (1.0 + std::exp(-double(soft.opacity[t])));
+    const double s = 0.01 + std::exp(double(windows.sigma[t]));
+    const double o = 1.0 / (1.0 + std::exp(-double(windows.opacity[t])));
     if (!(s <= std::numeric_limits<float>::max()) || std::isnan(o))
-      archive.fail("triangle " + std::to_string(t) + " has sigma " + std::to_string(soft.sigma[t]) +
-                   " and opacity " + std::to_string(soft.opacity[t]) +
-                   " before activation: not finite");
-    soft.sigma[t] = static_cast<float>(s);
-    soft.opacity[t] = static_cast<float>(o);
+      archive.fail("triangle " + std::to_string(t) + " has sigma " +
+                   std::to_string(windows.sigma[t]) + " and opacity " +
+                   std::to_string(windows.opacity[t]) + " before activation: not finite");
+    windows.sigma[t] = static_cast<float>(s);
+    windows.opacity[t] = static_cast<float>(o);
   }
   if (options.progress) options.progress(0.3);
   HarmonicsOf sh = read_harmonics(archive, count);
-  soft.degree = sh.degree;
-  soft.coefficients = std::move(sh.coefficients);
 
-  Scene scene = scene_of(std::move(soft));
+  Scene scene = scene_of(Splats{.kernel = std::move(windows),
+                                .color = {sh.degree, std::move(sh.coefficients)},
+                                .profile = *profile_named("triangle-splatting")});
   scene.info.source = "Triangle Splatting checkpoint";
   assume_up(scene);
   return scene;

@@ -21,9 +21,9 @@ namespace tureen {
 bool is_checkpoint(std::span<const std::byte> head);
 
 /// DiffSoup becomes a LatticeTexture with float texels and its color MLP. Triangle Splatting
-/// becomes SoftTriangles, after activation. Triangle Splatting+ and MeshSplatting become harmonics
-/// on shared vertices: their final models are opaque, since their own readers set an opacity of at
-/// least 0.9999. Assumptions are in info.remarks. Throws InputError.
+/// becomes TriangleWindows, after activation. Triangle Splatting+ and MeshSplatting become
+/// harmonics on shared vertices: their final models are opaque, since their own readers set an
+/// opacity of at least 0.9999. Assumptions are in info.remarks. Throws InputError.
 Scene read_checkpoint(const std::filesystem::path& path, const ReadOptions& options = {});
 Scene read_checkpoint(Input input, const ReadOptions& options = {});
 

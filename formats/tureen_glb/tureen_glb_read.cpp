@@ -96,8 +96,7 @@ class Reader {
   }
 
   /// The appearance in `extension`, of the root or of a layer, for the given geometry.
-  std::variant<TriangleSoup, SoftTriangles> primitives(const JsonView& extension,
-                                                       TriangleSoup soup) {
+  Primitives primitives(const JsonView& extension, TriangleSoup soup) {
     const JsonView appearance = extension["appearance"];
     if (appearance["type"].text() == "soft_triangles")
       return soft_triangles(extension, std::move(soup));
@@ -232,17 +231,19 @@ class Reader {
     return sh;
   }
 
-  SoftTriangles soft_triangles(const JsonView& extension, TriangleSoup soup) {
+  Splats soft_triangles(const JsonView& extension, TriangleSoup soup) {
     const JsonView view = extension["appearance"];
     const std::size_t faces = soup.triangles.size();
     if (extension.find("triangles")) extension.fail("soft triangles share no vertices");
-    SoftTriangles soft;
-    soft.positions = std::move(soup.positions);
-    soft.degree = degree(view);
-    soft.coefficients = coefficients(view, soft.degree, faces);
-    soft.sigma = arrays_.read<float>(view, "sigma", faces, glb_formats::scalar_float);
-    soft.opacity = arrays_.read<float>(view, "opacity", faces, glb_formats::scalar_float);
-    return soft;
+    Splats splats{.profile = *profile_named("triangle-splatting")};
+    splats.color.degree = degree(view);
+    splats.color.coefficients = coefficients(view, splats.color.degree, faces);
+    TriangleWindows& windows = splats.kernel.emplace<TriangleWindows>();
+    windows.corners = std::move(soup.positions);
+    windows.sigma = arrays_.read<float>(view, "sigma", faces, glb_formats::scalar_float);
+    windows.opacity = arrays_.read<float>(view, "opacity", faces, glb_formats::scalar_float);
+    if (const auto reason = defect(splats)) extension.fail(*reason);
+    return splats;
   }
 
   std::optional<ColorMlp> color_mlp(const JsonView& holder) {

@@ -279,25 +279,26 @@ std::string utf8(const std::string& text, std::vector<std::string>& losses) {
   }
 }
 
-/// The soft triangles as a soup with their harmonics, only for the mesh.
-TriangleSoup hard_shapes(const SoftTriangles& soft) {
+/// The windows' triangles as a soup with their harmonics, only for the mesh.
+TriangleSoup hard_shapes(const Splats& splats) {
   TriangleSoup soup;
-  soup.positions = soft.positions;
-  soup.triangles.resize(soft.sigma.size());
+  soup.positions = std::get<TriangleWindows>(splats.kernel).corners;
+  soup.triangles.resize(count(splats));
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
   soup.appearance = Harmonics{.domain = Harmonics::Domain::face,
-                              .degree = soft.degree,
+                              .degree = splats.color.degree,
                               .view = ViewConvention::eye_to_surface,
-                              .coefficients = soft.coefficients};
+                              .coefficients = splats.color.coefficients};
   return soup;
 }
 
-json soft_json(BinaryPlan& plan, const SoftTriangles& soft) {
-  json result = {{"type", "soft_triangles"}, {"degree", soft.degree}};
-  plan.accessor(result, "coefficients", bytes_of(soft.coefficients), vec3_float);
-  plan.accessor(result, "sigma", bytes_of(soft.sigma), scalar_float);
-  plan.accessor(result, "opacity", bytes_of(soft.opacity), scalar_float);
+json windows_json(BinaryPlan& plan, const Splats& splats) {
+  const auto& windows = std::get<TriangleWindows>(splats.kernel);
+  json result = {{"type", "soft_triangles"}, {"degree", splats.color.degree}};
+  plan.accessor(result, "coefficients", bytes_of(splats.color.coefficients), vec3_float);
+  plan.accessor(result, "sigma", bytes_of(windows.sigma), scalar_float);
+  plan.accessor(result, "opacity", bytes_of(windows.opacity), scalar_float);
   return result;
 }
 
@@ -408,16 +409,16 @@ class Document {
   /// Adds the layer's geometry and appearance to `extension`, and its mesh. Returns the mesh's
   /// index, or null for a layer without faces: glTF does not allow an empty mesh.
   json add_primitives(json& extension, const Layer& layer) {
-    const auto* soft = std::get_if<SoftTriangles>(&layer.primitives);
-    const TriangleSoup& soup = soft ? shapes_.emplace_back(checked_shapes(*soft))
-                                    : std::get<TriangleSoup>(layer.primitives);
+    const auto* splats = std::get_if<Splats>(&layer.primitives);
+    const TriangleSoup& soup = splats ? shapes_.emplace_back(checked_shapes(*splats))
+                                      : std::get<TriangleSoup>(layer.primitives);
     if (const auto reason = defect(soup))
       throw UsageError("the scene cannot be written: " + *reason);
     extension["vertex_count"] = soup.positions.size();
     extension["face_count"] = soup.triangles.size();
     json primitive = add_mesh(plan_, extension, soup);
     extension["appearance"] =
-        soft ? soft_json(plan_, *soft) : std::visit(AddAppearance{plan_}, soup.appearance);
+        splats ? windows_json(plan_, *splats) : std::visit(AddAppearance{plan_}, soup.appearance);
     if (primitive.is_null()) return nullptr;
     meshes_.push_back({{"primitives", json::array({std::move(primitive)})}});
     return meshes_.size() - 1;
@@ -466,15 +467,13 @@ class Document {
   json nodes = json::array();  // the first is the root of the scene
 
  private:
-  static TriangleSoup checked_shapes(const SoftTriangles& soft) {
-    if (soft.opacity.size() != soft.sigma.size())
-      throw UsageError("the scene cannot be written: it has " +
-                       std::to_string(soft.opacity.size()) + " opacities for " +
-                       std::to_string(soft.sigma.size()) + " soft triangles");
-    TriangleSoup shapes = hard_shapes(soft);
-    if (shapes.positions.size() != 3 * shapes.triangles.size())
-      throw UsageError("the scene cannot be written: soft triangles share vertices");
-    return shapes;
+  static TriangleSoup checked_shapes(const Splats& splats) {
+    if (!std::holds_alternative<TriangleWindows>(splats.kernel))
+      throw UsageError("the scene cannot be written: it holds " +
+                       std::string(kernel_name(splats.kernel)));
+    if (const auto reason = defect(splats))
+      throw UsageError("the scene cannot be written: " + *reason);
+    return hard_shapes(splats);
   }
 
   static json unlit_material() {

@@ -27,7 +27,7 @@ bool is_translation(const Layer& layer) {
 }
 
 bool depends_on_view(const Layer& layer) {
-  if (const auto* soft = std::get_if<SoftTriangles>(&layer.primitives)) return soft->degree > 0;
+  if (const auto* splats = std::get_if<Splats>(&layer.primitives)) return splats->color.degree > 0;
   return std::visit(UsesDirection{}, std::get<TriangleSoup>(layer.primitives).appearance);
 }
 
@@ -46,9 +46,13 @@ void bake_transform(Layer& layer) {
     throw UsageError(
         "the layer is rotated, scaled or mirrored, and its colours depend on the view: they cannot "
         "be moved into world coordinates");
-  auto& positions = std::holds_alternative<TriangleSoup>(layer.primitives)
-                        ? std::get<TriangleSoup>(layer.primitives).positions
-                        : std::get<SoftTriangles>(layer.primitives).positions;
+  auto* splats = std::get_if<Splats>(&layer.primitives);
+  if (splats && !std::holds_alternative<TriangleWindows>(splats->kernel))
+    throw UsageError("the layer is rotated, scaled or mirrored, and holds " +
+                     std::string(kernel_name(splats->kernel)) +
+                     ": they cannot be moved into world coordinates");
+  auto& positions = splats ? std::get<TriangleWindows>(splats->kernel).corners
+                           : std::get<TriangleSoup>(layer.primitives).positions;
   positions = baked_positions(positions, layer);
   layer.world_from_layer = at_origin(origin_of(layer));
 }

@@ -101,9 +101,9 @@ TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
   EXPECT_EQ(subject.low, glm::dvec3(100, 200, 300));
   EXPECT_EQ(subject.high, glm::dvec3(101, 202, 303));
   EXPECT_EQ(subject.up, glm::dvec3(0, 0, 1));
-  SoftTriangles soft;
-  soft.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};
-  only_layer(scene).primitives = soft;
+  only_layer(scene).primitives =
+      Splats{.kernel = TriangleWindows{
+                 .corners = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}}, .sigma = {1}, .opacity = {1}}};
   EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
 }
 

@@ -249,25 +249,28 @@ TorchFixture triangle_splatting(int degree, std::uint64_t rest) {
 
 TEST(Checkpoint, TriangleSplattingIsActivated) {
   const Scene scene = read(triangle_splatting(2, 15));
-  const auto& soft = std::get<SoftTriangles>(only_layer(scene).primitives);
-  ASSERT_EQ(soft.positions.size(), 6u);
-  EXPECT_EQ(soft.positions[5], glm::vec3(0.001f * 15, 0.001f * 16, 0.001f * 17));
-  EXPECT_FLOAT_EQ(soft.sigma[0], float(0.01 + std::exp(0.25)));
-  EXPECT_FLOAT_EQ(soft.sigma[1], float(0.01 + std::exp(-3.0)));
-  EXPECT_FLOAT_EQ(soft.opacity[0], float(1 / (1 + std::exp(2.0))));
-  EXPECT_EQ(soft.degree, 2);
+  const auto& splats = std::get<Splats>(only_layer(scene).primitives);
+  const auto& windows = std::get<TriangleWindows>(splats.kernel);
+  const SplatColor& color = splats.color;
+  EXPECT_EQ(name_of(splats.profile), "triangle-splatting");
+  ASSERT_EQ(windows.corners.size(), 6u);
+  EXPECT_EQ(windows.corners[5], glm::vec3(0.001f * 15, 0.001f * 16, 0.001f * 17));
+  EXPECT_FLOAT_EQ(windows.sigma[0], float(0.01 + std::exp(0.25)));
+  EXPECT_FLOAT_EQ(windows.sigma[1], float(0.01 + std::exp(-3.0)));
+  EXPECT_FLOAT_EQ(windows.opacity[0], float(1 / (1 + std::exp(2.0))));
+  EXPECT_EQ(color.degree, 2);
   // Nine coefficients a triangle of the sixteen that are stored.
-  ASSERT_EQ(soft.coefficients.size(), 18u);
-  EXPECT_EQ(soft.coefficients[9], glm::vec3(5 + 0.001f * 3, 5 + 0.001f * 4, 5 + 0.001f * 5));
-  EXPECT_EQ(soft.coefficients[10].x, 7 + 0.001f * 45);
-  EXPECT_EQ(soft.coefficients[17].z, 7 + 0.001f * (45 + 23));
+  ASSERT_EQ(color.coefficients.size(), 18u);
+  EXPECT_EQ(color.coefficients[9], glm::vec3(5 + 0.001f * 3, 5 + 0.001f * 4, 5 + 0.001f * 5));
+  EXPECT_EQ(color.coefficients[10].x, 7 + 0.001f * 45);
+  EXPECT_EQ(color.coefficients[17].z, 7 + 0.001f * (45 + 23));
   EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
   EXPECT_TRUE(scene.info.up_is_assumed);
   EXPECT_THAT(scene.info.remarks,
               ::testing::Contains(Remark{Remark::Kind::up_unknown_to_checkpoint}));
 
-  EXPECT_EQ(std::get<SoftTriangles>(only_layer(read(triangle_splatting(0, 15))).primitives)
-                .coefficients.size(),
+  EXPECT_EQ(std::get<Splats>(only_layer(read(triangle_splatting(0, 15))).primitives)
+                .color.coefficients.size(),
             2u);
   EXPECT_THAT(refusal(triangle_splatting(3, 8)), ErrorAt("scene.pt", 8));
   EXPECT_THAT(refusal(triangle_splatting(5, 15)), ErrorAt("scene.pt", "active_sh_degree", 5));

@@ -331,7 +331,7 @@ TEST(DiffSoupExport, WhatItCannotHoldIsRefusedAndLeavesNothing) {
   soup.appearance = Harmonics{.coefficients = {glm::vec3(1)}};
   EXPECT_THAT(usage_error(scene), ErrorAt(""));
   soup.appearance = UvTextures{};
-  EXPECT_THAT(usage_error(scene_of(SoftTriangles{})), ErrorAt(""));
+  EXPECT_THAT(usage_error(scene_of(Splats{})), ErrorAt(""));
   soup = TriangleSoup{{}, {}, FaceColors{}};
   EXPECT_THAT(usage_error(scene), ErrorAt(""));
   EXPECT_FALSE(fs::exists(folder / "a"));

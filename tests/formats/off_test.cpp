@@ -294,12 +294,9 @@ TEST(Off, WritesMeanColoursOfOtherAppearances) {
   EXPECT_EQ(only_soup(again).positions, soup.positions);
   EXPECT_THAT(face_rgba(again), ElementsAre(glm::vec4(153, 128, 102, 255) / 255.0f));
 
-  SoftTriangles soft;
-  soft.positions = soup.positions;
-  soft.sigma = {1.0f};
-  soft.opacity = {0.9f};
-  soft.coefficients = {glm::vec3(c, 0.0f, -c)};
-  only_layer(scene).primitives = soft;
+  only_layer(scene).primitives = Splats{
+      .kernel = TriangleWindows{.corners = soup.positions, .sigma = {1.0f}, .opacity = {0.9f}},
+      .color = {.coefficients = {glm::vec3(c, 0.0f, -c)}}};
   EXPECT_THAT(write_off(scene, folder / "b.off"),
               Contains(Names("OFF", appearance_name(soup.appearance))));
   EXPECT_EQ(face_rgba(read_off(folder / "b.off")), face_rgba(again));

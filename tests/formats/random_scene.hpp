@@ -125,16 +125,15 @@ class RandomScene {
     return textures;
   }
 
-  SoftTriangles soft_triangles(std::size_t faces, int degree) {
-    SoftTriangles soft;
-    soft.positions = geometry(faces, false).positions;
-    soft.degree = degree;
-    soft.coefficients = harmonics(faces, Harmonics::Domain::face, degree).coefficients;
-    for (std::size_t t = 0; t < faces; ++t) {
-      soft.sigma.push_back(real(0.01f, 3));
-      soft.opacity.push_back(real());
+  Splats windows(std::size_t splats, int degree) {
+    TriangleWindows windows;
+    windows.corners = geometry(splats, false).positions;
+    SplatColor color{degree, harmonics(splats, Harmonics::Domain::face, degree).coefficients};
+    for (std::size_t i = 0; i < splats; ++i) {
+      windows.sigma.push_back(real(0.01f, 3));
+      windows.opacity.push_back(real());
     }
-    return soft;
+    return {std::move(windows), std::move(color), *profile_named("triangle-splatting")};
   }
 
   /// A scene with one layer, an empty soup; all other members have values.
@@ -229,10 +228,23 @@ struct SamePrimitives {
     return same_bits(a.positions, b.positions) && same_bits(a.triangles, b.triangles) &&
            std::visit(SameAppearance{}, a.appearance, b.appearance);
   }
-  bool operator()(const SoftTriangles& a, const SoftTriangles& b) {
-    return same_bits(a.positions, b.positions) && same_bits(a.sigma, b.sigma) &&
-           same_bits(a.opacity, b.opacity) && a.degree == b.degree &&
-           same_bits(a.coefficients, b.coefficients);
+  bool operator()(const Splats& a, const Splats& b) {
+    return std::visit(*this, a.kernel, b.kernel) && a.color.degree == b.color.degree &&
+           same_bits(a.color.coefficients, b.color.coefficients) && a.profile == b.profile;
+  }
+  bool operator()(const TriangleWindows& a, const TriangleWindows& b) {
+    return same_bits(a.corners, b.corners) && same_bits(a.sigma, b.sigma) &&
+           same_bits(a.opacity, b.opacity);
+  }
+  bool operator()(const Gaussians& a, const Gaussians& b) {
+    return same_bits(a.centers, b.centers) && same_bits(a.scales, b.scales) &&
+           same_bits(a.rotations, b.rotations) && same_bits(a.opacity, b.opacity) &&
+           a.flat == b.flat;
+  }
+  bool operator()(const NeuralDensities& a, const NeuralDensities& b) {
+    return same_bits(a.centers, b.centers) && same_bits(a.semi_axes, b.semi_axes) &&
+           same_bits(a.rotations, b.rotations) && same_bits(a.networks, b.networks) &&
+           same_bits(a.omega, b.omega);
   }
   template <class A, class B>
   bool operator()(const A&, const B&) {

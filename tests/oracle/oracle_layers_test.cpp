@@ -241,7 +241,7 @@ TEST(OracleLayers, InvisibleLayersAreSkipped) {
   }
   // An invisible layer may even hold primitives that the oracle cannot draw.
   Scene soft = only_visible(scene, 0);
-  soft.layers[1].primitives = SoftTriangles{};
+  soft.layers[1].primitives = Splats{};
   expect_equal(render_oracle(soft, {camera}), render_oracle(only_visible(scene, 0), {camera}));
 }
 

@@ -59,10 +59,8 @@ TEST(BakedTransform, ATranslationChangesNothing) {
 }
 
 TEST(BakedTransform, ColoursThatDependOnTheViewAreRefused) {
-  SoftTriangles soft_triangles;
-  soft_triangles.degree = 1;
   Layer soft = layer_of(FaceColors{});
-  soft.primitives = soft_triangles;
+  soft.primitives = Splats{.color = {.degree = 1}};
   for (Layer layer : {layer_of(harmonics_of(1)),
                       layer_of(with_network<LatticeTexture>(DirectionEncoding::harmonics2)),
                       layer_of(with_network<UvTextures>(DirectionEncoding::xyz)), soft}) {

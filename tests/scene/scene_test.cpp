@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "scene/opaque_windows.hpp"
 
 namespace tureen {
 namespace scene_test {
@@ -25,11 +26,11 @@ TriangleSoup triangle() {
           .appearance = FaceColors{{glm::vec4(1)}}};
 }
 
-SoftTriangles soft_triangle() {
-  return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}},
-          .sigma = {1},
-          .opacity = {0.5f},
-          .coefficients = {glm::vec3(0)}};
+Splats window() {
+  return {.kernel =
+              TriangleWindows{
+                  .corners = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}}, .sigma = {1}, .opacity = {0.5f}},
+          .color = {.coefficients = {glm::vec3(0)}}};
 }
 
 TEST(Layer, SimilaritiesHaveNoDefect) {
@@ -89,9 +90,9 @@ TEST(Layer, ItsOriginIsItsTranslation) {
   EXPECT_EQ(origin_of(Layer{}), glm::dvec3(0));
 }
 
-TEST(Layer, TheBoundsOfSoftTrianglesAreThoseOfTheirCorners) {
-  for (const Layer& layer : {scene_of(triangle(), {1, 2, 3}).layers[0],
-                             scene_of(soft_triangle(), {1, 2, 3}).layers[0]}) {
+TEST(Layer, TheBoundsOfWindowsAreThoseOfTheirCorners) {
+  for (const Layer& layer :
+       {scene_of(triangle(), {1, 2, 3}).layers[0], scene_of(window(), {1, 2, 3}).layers[0]}) {
     EXPECT_EQ(bounds(layer).low, glm::vec3(0, 0, 0));
     EXPECT_EQ(bounds(layer).high, glm::vec3(1, 2, 3));
   }
@@ -124,17 +125,28 @@ TEST(Scene, OfSeveralLayersHasNoOnlyLayer) {
   EXPECT_THROW(only_soup(scene), UsageError);
 }
 
-TEST(Scene, EverySoftLayerBecomesOpaque) {
-  Scene scene = scene_of(soft_triangle());
+TEST(Scene, OnlyTriangleWindowsBecomeOpaque) {
+  Scene scene = scene_of(triangle());
+  scene.layers.push_back({.name = "cloud", .primitives = Splats{.kernel = Gaussians{}}});
+  try {
+    make_opaque(scene);
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.reason(), "only triangles are supported here; cloud holds Gaussians");
+  }
+}
+
+TEST(Scene, EveryLayerOfWindowsBecomesOpaque) {
+  Scene scene = scene_of(window());
   scene.layers.push_back({.primitives = triangle()});
-  scene.layers.push_back({.primitives = soft_triangle()});
+  scene.layers.push_back({.primitives = window()});
   make_opaque(scene);
   ASSERT_EQ(scene.layers.size(), 3u);
   for (const Layer& layer : scene.layers)
     EXPECT_EQ(std::get<TriangleSoup>(layer.primitives).triangles.size(), 1u);
   EXPECT_TRUE(std::holds_alternative<FaceColors>(
       std::get<TriangleSoup>(scene.layers[1].primitives).appearance));
-  EXPECT_EQ(scene.info.remarks.size(), 2 * to_opaque(soft_triangle()).remarks.size());
+  EXPECT_EQ(scene.info.remarks.size(), 2 * to_opaque(window()).remarks.size());
 }
 
 }  // namespace scene_test

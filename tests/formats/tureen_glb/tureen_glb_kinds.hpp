@@ -86,7 +86,7 @@ inline std::vector<GlbKind> glb_kinds() {
         [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, true); });
   }
   all.push_back({"soft_triangles", [](RandomScene& random, Scene& scene, std::size_t faces) {
-                   only_layer(scene).primitives = random.soft_triangles(faces, 3);
+                   only_layer(scene).primitives = random.windows(faces, 3);
                  }});
   return all;
 }

@@ -60,7 +60,7 @@ TEST(TureenGlbLayers, ComeBackToTheBit) {
 TEST(TureenGlbLayers, WithoutFacesComeBackToo) {
   Scene scene = three_layers();
   scene.layers.insert(scene.layers.begin() + 1, {.name = "empty"});
-  scene.layers.push_back({.primitives = SoftTriangles{}});
+  scene.layers.push_back({.primitives = Splats{}});
   EXPECT_EQ(test::difference(scene, read_bytes(test::glb_bytes(scene, "empty"))), "");
 }
 

@@ -10,6 +10,7 @@
 
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"
 #include "scene/edit/mean_color.hpp"
+#include "scene/opaque_windows.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"
@@ -45,8 +46,8 @@ std::size_t beginning_of(Bytes bytes) {
 
 TriangleSoup soup_of(const Scene& scene) {
   // A preview shows soft triangles as hard ones, at any opacity.
-  const auto* soft = std::get_if<SoftTriangles>(&only_layer(scene).primitives);
-  return soft ? to_opaque(*soft, 0.0f).soup : only_soup(scene);
+  const auto* splats = std::get_if<Splats>(&only_layer(scene).primitives);
+  return splats ? to_opaque(*splats, 0.0f).soup : only_soup(scene);
 }
 
 class GlbPreview : public ::testing::TestWithParam<test::GlbKind> {};

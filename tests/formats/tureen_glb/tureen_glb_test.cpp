@@ -14,6 +14,7 @@
 #include "image/srgb.hpp"
 #include "scene/edit/edits.hpp"
 #include "scene/edit/mean_color.hpp"
+#include "scene/opaque_windows.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"
@@ -80,8 +81,8 @@ TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
 TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
   const Scene scene = test::random_scene(GetParam(), 6, 9);
   // A preview shows soft triangles with the mean of their harmonics, at any opacity.
-  const auto* soft = std::get_if<SoftTriangles>(&only_layer(scene).primitives);
-  const TriangleSoup soup = soft ? to_opaque(*soft, 0.0f).soup : only_soup(scene);
+  const auto* splats = std::get_if<Splats>(&only_layer(scene).primitives);
+  const TriangleSoup soup = splats ? to_opaque(*splats, 0.0f).soup : only_soup(scene);
   const auto bytes = test::glb_bytes(scene, GetParam().name);
   const auto json = test::glb_json(bytes);
   const auto& primitive = json["meshes"][0]["primitives"][0];

@@ -1,0 +1,26 @@
+// Triangle windows (Triangle Splatting, arXiv 2505.19175) as opaque triangles.
+#pragma once
+
+#include <vector>
+
+#include "scene/remark.hpp"
+#include "scene/splats.hpp"
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+/// Mean coverage of a triangle window: opacity * 2 / ((sigma+1)(sigma+2)). The factor after opacity
+/// is the mean of rho^sigma over the triangle.
+double solidity(double opacity, double sigma);
+
+struct OpaqueResult {
+  TriangleSoup soup;
+  std::vector<Remark> remarks;  // what was lost
+};
+
+/// Opaque faces with the same harmonics. Keeps every triangle with an opacity of at least
+/// `minimum_opacity`. Triangle Splatting itself skips triangles below 0.01. The kernel of `splats`
+/// is TriangleWindows.
+OpaqueResult to_opaque(Splats splats, float minimum_opacity = 0.01f);
+
+}  // namespace tureen

@@ -1,0 +1,141 @@
+// Splats: primitives that are blended by opacity. A kernel gives a splat's alpha at a point of the
+// image, its colour is one of spherical harmonics, and a profile holds the rules of the method that
+// trained it.
+//
+// All values are after activation. Splats are blended in the order of their centres' view depth.
+// Index i of the kernel is also splat i of the colour: never reorder one without the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+/// Triangle Splatting (arXiv 2505.19175). alpha = opacity * rho^sigma, where rho is the distance
+/// from the nearest edge over the inradius, both in the image: 1 at the incenter, 0 on the edges.
+/// The centre is the mean of the corners.
+struct TriangleWindows {
+  std::vector<glm::vec3> corners;  // three a splat
+  std::vector<float> sigma;        // > 0
+  std::vector<float> opacity;      // [0, 1]
+};
+
+/// 3D Gaussian Splatting, and with `flat` the discs of 2DGS, GaMeS and REdiSplats (arXiv
+/// 2503.12284). alpha = opacity * exp(-q / 2), where q is the squared distance from the centre in
+/// standard deviations; SplatProfile::projection says where it is measured.
+struct Gaussians {
+  std::vector<glm::vec3> centers;
+  /// Standard deviations along the local axes, in layer units, >= 0. Discs span the local x and y
+  /// axes; their z is not used.
+  std::vector<glm::vec3> scales;
+  std::vector<glm::quat> rotations;  // of unit length: layer from local coordinates
+  std::vector<float> opacity;        // [0, 1]
+  bool flat = false;
+};
+
+/// Splattable neural primitives (arXiv 2510.08491): ellipsoids with the density
+/// b2 + sum_k a_k cos(omega (w_k . u + b1_k)), u = (point - centre) / largest semi-axis, not
+/// rotated. alpha = 1 - exp(-optical depth), where the optical depth is the integral of the density
+/// along the ray's chord, in units of the largest semi-axis; below 0 it is 0.
+struct NeuralDensities {
+  static constexpr int width = 8;                           // neurons
+  static constexpr std::size_t parameters = 5 * width + 1;  // a splat
+  std::vector<glm::vec3> centers;
+  std::vector<glm::vec3> semi_axes;  // along the local axes, in layer units, > 0
+  std::vector<glm::quat> rotations;  // of unit length: layer from local coordinates
+  /// `parameters` values a splat: w_0.xyz, w_1.xyz, .. w_7.xyz, b1_0 .. b1_7, a_0 .. a_7, b2.
+  std::vector<float> networks;
+  float omega = 30;
+};
+
+using SplatKernel = std::variant<TriangleWindows, Gaussians, NeuralDensities>;
+
+/// Colour max(0, 1/2 + sum_i Y_i(d) c_i), where d is the unit direction from the eye to the splat's
+/// centre. It may exceed 1; only pixels are clamped.
+struct SplatColor {
+  int degree = 0;  // 0..4
+  /// For each splat: harmonics::count(degree) RGB coefficients.
+  std::vector<glm::vec3> coefficients = {};
+};
+
+/// The rules by which a method renders its splats. A file stores them; device, oracle and trainer
+/// follow them.
+struct SplatProfile {
+  /// Where the kernel of a Gaussian is measured.
+  enum class Projection {
+    ewa,    // in the image, by the affine approximation at the centre (EWA splatting)
+    plane,  // on the plane of a disc, exactly
+  };
+  /// Widening of Gaussians below the size of a pixel.
+  enum class LowPass {
+    none,
+    dilation,  // adds 0.3 px^2 to the variances in the image; 3DGS
+    mip,       // the same, and opacity keeps its integral; Mip-Splatting
+    screen,    // alpha is at least that of a Gaussian of variance 0.5 px^2 in the image; 2DGS
+  };
+
+  Projection projection = Projection::ewa;
+  LowPass low_pass = LowPass::none;
+  float max_alpha = 0.99f;          // larger values are clamped
+  float min_alpha = 1.0f / 255.0f;  // smaller values are not blended
+  /// A splat that would lower the transmittance of a pixel below this value ends the pixel and is
+  /// not blended. 0: every splat is blended.
+  float stop_transmittance = 1e-4f;
+
+  bool operator==(const SplatProfile&) const = default;
+};
+
+/// Variance in px^2 that LowPass::dilation and LowPass::mip add along both axes of the image.
+inline constexpr double dilation_variance = 0.3;
+/// Variance in px^2 of the Gaussian of LowPass::screen.
+inline constexpr double screen_variance = 0.5;
+
+/// A profile of a published method.
+struct NamedProfile {
+  std::string_view name;  // in files and options
+  SplatProfile profile;
+};
+/// "3dgs", "mip", "2dgs", "games", "redisplats", "triangle-splatting", "splatnet".
+extern const std::array<NamedProfile, 7> named_profiles;
+/// The profile of this name, or nullopt.
+std::optional<SplatProfile> profile_named(std::string_view name);
+/// The first name of this profile, or "custom".
+std::string_view name_of(const SplatProfile& profile);
+
+struct Splats {
+  SplatKernel kernel = {};
+  SplatColor color = {};
+  SplatProfile profile = {};
+};
+
+/// Number of splats.
+std::size_t count(const Splats& splats);
+
+/// "triangle windows", "Gaussians", "flat Gaussians" or "neural densities".
+const char* kernel_name(const SplatKernel& kernel);
+
+/// The centre of splat `i` in double precision, in layer coordinates.
+glm::dvec3 center(const Splats& splats, std::size_t i);
+
+/// The box around every point at which a splat's alpha, without a low pass, reaches
+/// SplatProfile::min_alpha; zeros without such points. Splats that are not finite are ignored.
+Bounds bounds(const Splats& splats);
+
+/// Bytes in the vectors.
+std::size_t byte_size(const Splats& splats);
+
+/// The reason why these splats cannot be drawn (a size that does not match, a value outside its
+/// range or not finite, a profile that its kernel does not support), or nullopt. Readers return
+/// splats without a defect, and all users rely on that. O(data).
+std::optional<std::string> defect(const Splats& splats);
+
+}  // namespace tureen
