@@ -178,8 +178,8 @@ LayerFacts facts_of(const Scene& scene, std::size_t index, bool soft) {
                    .forecast = {},
                    .lint = lint(soup)};
   // Several layers are all drawn deferred.
-  if (several) make_layered(facts.plan.layers.front());
-  facts.forecast = device_forecast(soup, facts.plan.layers.front());
+  if (several) make_layered(facts.plan.soup(0));
+  facts.forecast = device_forecast(soup, facts.plan.soup(0));
   std::visit(facts.appearance, soup.appearance);
   return facts;
 }

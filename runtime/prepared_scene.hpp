@@ -17,6 +17,7 @@
 #include "runtime/passes/pass.hpp"
 #include "runtime/plan/plan.hpp"
 #include "runtime/render_options.hpp"
+#include "runtime/splats/splat_source.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -32,8 +33,9 @@ struct PreparedLayer {
   Bounds bounds = {};  // in layer coordinates
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  /// Without it, passes from outside runtime/ hold the soup on the device.
+  /// Either of them. Without both, passes from outside runtime/ hold the soup on the device.
   std::optional<PreparedSoup> soup = {};
+  std::optional<SplatSource> splats = {};
 };
 
 /// The inputs of a function that makes passes.
@@ -59,7 +61,7 @@ struct PlacedSoup {
   std::string name = {};
   bool visible = true;
 };
-/// The layers of a scene, all of them soups.
+/// The layers of a scene that are soups.
 std::vector<PlacedSoup> placed_soups(const Scene& scene);
 
 /// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
@@ -68,7 +70,7 @@ std::vector<PlacedSoup> placed_soups(const Scene& scene);
 /// a soup does not fit.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& device,
                             const RenderOptions& options = {});
-/// The same for a scene, whose layers are soups, and for a single soup.
+/// The same for all layers of a scene, which may also be splats, and for a single soup.
 PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
                             const RenderOptions& options = {});
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,

@@ -83,7 +83,8 @@ class Renderer {
   /// Replaces all passes of later frames, also those of the layers. Passes that draw soups must not
   /// outlive them.
   void set_passes(Passes passes);
-  /// The soups on the device, for passes that draw them; they live as long as their layer.
+  /// The soups on the device, for passes that draw them; they live as long as their layer. Null for
+  /// layers of splats.
   std::span<const std::unique_ptr<DeviceSoup>> soups() const;
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
@@ -108,6 +109,10 @@ class Renderer {
   /// The visible face of each sample of the last frame: sample_size() entries, row 0 on top,
   /// no_face for the background. Empty if no pass stores faces, as in forward plans.
   std::vector<VisibleFace> read_faces() const;
+
+  /// The blended splats of the last frame without the soups behind them: premultiplied RGBA for
+  /// each sample, row 0 on top. Colours may exceed 1. Empty without splats.
+  std::vector<glm::vec4> read_splats() const;
 
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
   /// left corner. Returns nullopt for the background, and if no pass stores

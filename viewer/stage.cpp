@@ -153,7 +153,7 @@ RefusedLayer refused(const StageLayer& layer, const Scene& scene, const StageReq
   const DeviceLimits limits = device_limits(request.context.capabilities());
   const RenderPlan plan =
       make_plan(*layer.soup, limits, render_options(request.choice, scene).plan);
-  return {layer.name, device_forecast(*layer.soup, plan.layers.front()).bytes, error.reason()};
+  return {layer.name, device_forecast(*layer.soup, plan.soup(0)).bytes, error.reason()};
 }
 
 }  // namespace

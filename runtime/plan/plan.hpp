@@ -7,11 +7,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/plan/draw_order.hpp"
 #include "runtime/plan/specialisation.hpp"
+#include "runtime/plan/splat_plan.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -109,6 +111,8 @@ struct SoupPlan {
   int zero_weights = 0;              // in the network, not computed
 };
 
+using LayerPlan = std::variant<SoupPlan, SplatPlan>;
+
 /// The method of drawing a scene: what its layers share, and a plan for each layer.
 struct RenderPlan {
   bool reversed_depth = false;
@@ -116,9 +120,13 @@ struct RenderPlan {
   bool specialise = true;  // PlanPreferences::specialise
   /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
   ShadingStage requested_stage = ShadingStage::fragment;
-  std::vector<SoupPlan> layers;
+  std::vector<LayerPlan> layers;
   /// All sentences of describe(), for passes from outside runtime/; empty for ours.
   std::vector<std::string> description;
+
+  /// The plan of a layer that is a soup.
+  SoupPlan& soup(std::size_t layer) { return std::get<SoupPlan>(layers[layer]); }
+  const SoupPlan& soup(std::size_t layer) const { return std::get<SoupPlan>(layers[layer]); }
 
   /// Whether a layer applies it.
   bool applies(Specialisation what) const;

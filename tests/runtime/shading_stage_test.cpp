@@ -123,9 +123,9 @@ TEST(ShadingStagePlan, IsComputeOnlyWhereThePlanIsDeferred) {
     return make_plan(soup, limits, preferences);
   };
   const RenderPlan forward = plan_of({.site = ShadingSite::forward});
-  EXPECT_EQ(forward.layers[0].shading_stage, ShadingStage::fragment);
+  EXPECT_EQ(forward.soup(0).shading_stage, ShadingStage::fragment);
   EXPECT_EQ(forward.requested_stage, ShadingStage::compute);
-  EXPECT_EQ(plan_of({}).layers[0].shading_stage, ShadingStage::compute);
+  EXPECT_EQ(plan_of({}).soup(0).shading_stage, ShadingStage::compute);
 }
 
 }  // namespace shading_stage_test

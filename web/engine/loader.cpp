@@ -170,7 +170,7 @@ Json forecast(const Json& arguments) {
   for (const PlacedSoup& layer : placed_soups(scene)) {
     const RenderPlan plan =
         make_plan(layer.soup, limits_of(arguments.at("limits")), page_options(scene).plan);
-    layers.push_back(device_forecast(layer.soup, plan.layers[0]).bytes);
+    layers.push_back(device_forecast(layer.soup, plan.soup(0)).bytes);
   }
   return layers;
 }

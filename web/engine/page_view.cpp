@@ -24,7 +24,7 @@ std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
     const PreparedLayer& layer = prepared.layers[i];
     layers.push_back({.box = {layer.bounds, layer.world_from_layer},
                       .visible = layer.visible,
-                      .triangles = prepared.plan.layers[i].soup_faces});
+                      .triangles = prepared.plan.soup(i).soup_faces});
   }
   return layers;
 }

@@ -73,10 +73,10 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  auto& [name, bounds, world_from_layer, visible, soup] = value;
+  auto& [name, bounds, world_from_layer, visible, soup, splats] = value;
   archive(name, bounds, world_from_layer, visible);
   if constexpr (!std::is_const_v<Value>) soup.emplace();
-  assert(soup && "the page's instance makes no passes from outside runtime/");
+  assert(soup && !splats && "the page draws neither passes from outside runtime/ nor splats");
   archive_soup(archive, *soup);
 }
 
@@ -87,7 +87,9 @@ void archive_scene(Archive& archive, Value& value) {
   archive(reversed_depth);
   archive_quality(archive, quality);
   archive(specialise, requested_stage);
-  archive_list(archive, layer_plans, [](auto& to, auto& layer) { archive_layer_plan(to, layer); });
+  archive_list(archive, layer_plans, [](auto& to, auto& layer) {
+    archive_layer_plan(to, std::get<SoupPlan>(layer));  // the page draws no splats yet
+  });
   archive(description);
   archive_list(archive, layers, [](auto& to, auto& layer) { archive_layer(to, layer); });
 }

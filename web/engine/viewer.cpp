@@ -55,7 +55,8 @@ Json layers() {
 
 Json facts() {
   std::size_t drawn = 0;
-  for (const SoupPlan& layer : view().renderer().plan().layers) drawn += layer.faces.size();
+  for (const LayerPlan& layer : view().renderer().plan().layers)
+    drawn += std::get<SoupPlan>(layer).faces.size();
   return {{"plan", describe(view().renderer().plan())},
           {"drawn", drawn},
           {"device_bytes", view().renderer().device_bytes()},
