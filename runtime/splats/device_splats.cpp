@@ -31,24 +31,36 @@ std::string constant(double value) {
 
 struct Files {
   const char *projection, *vertex, *fragment;
+  /// Samplers of the further targets of splat_project.frag, from location 1 on.
+  std::vector<const char*> projected;
 };
 
 Files files_of(SplatShaders shaders) {
   switch (shaders) {
     case SplatShaders::windows:
-      return {"splats/project_windows.glsl", "splats/windows.vert", "splats/windows.frag"};
+      return {"splat_project_windows.glsl", "splat_windows.vert", "splat_windows.frag", {}};
     case SplatShaders::gaussians:
-      return {"splats/project_gaussians.glsl", "splats/gaussians.vert", "splats/gaussians.frag"};
+      return {"splat_project_gaussians.glsl",
+              "splat_gaussians.vert",
+              "splat_gaussians.frag",
+              {"places", "axes_of_splats"}};
     case SplatShaders::discs:
+      return {"splat_project_discs.glsl",
+              "splat_discs.vert",
+              "splat_discs.frag",
+              {"planes_xy", "planes_w", "places"}};
     case SplatShaders::neural_density:
-      break;
+      return {"splat_project_neural.glsl", "splat_neural.vert", "splat_neural.frag", {}};
   }
-  throw DeviceLimitError("this kind of splats cannot be drawn yet");
+  assert(!"a kind of splats without shaders");
+  return {};
 }
 
 }  // namespace
 
-int DeviceSplats::target_count() const { return shaders_ == SplatShaders::gaussians ? 3 : 1; }
+bool DeviceSplats::tests_depth() const {
+  return shaders_ == SplatShaders::discs || shaders_ == SplatShaders::neural_density;
+}
 
 DeviceSplats::Constants DeviceSplats::constants() const {
   const SplatProfile::LowPass low_pass = profile_.low_pass;
@@ -64,6 +76,8 @@ DeviceSplats::Constants DeviceSplats::constants() const {
           {"MAX_ALPHA", constant(double(profile_.max_alpha))},
           {"DILATION", dilates ? "1" : "0"},
           {"DILATION_VARIANCE", constant(dilation_variance)},
+          {"SCREEN_FILTER", low_pass == SplatProfile::LowPass::screen ? "1" : "0"},
+          {"SCREEN_VARIANCE", constant(screen_variance)},
           {"KEEP_INTEGRAL", low_pass == SplatProfile::LowPass::mip ? "1" : "0"}};
 }
 
@@ -80,9 +94,9 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
   const Files files = files_of(shaders_);
   projection_ = gl::Program(
       assemble({.file = "full_screen.vert"}, device.api),
-      assemble({.file = "splats/project.frag",
+      assemble({.file = "splat_project.frag",
                 .constants = constants(),
-                .generated = {{"splats/project_kernel.glsl",
+                .generated = {{"splat_project_kernel.glsl",
                                "#include \"" + std::string(files.projection) + "\"\n"}}},
                device.api));
   drawing_ = gl::Program(assemble({.file = files.vertex, .constants = constants()}, device.api),
@@ -92,7 +106,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
     throw DeviceLimitError(
         "the layer has " + std::to_string(centers_.size()) + " splats; this device draws at most " +
         std::to_string(std::size_t(device.max_texture_size) * std::size_t(projected_columns)));
-  for (int i = 0; i < target_count(); ++i)
+  for (std::size_t i = 0; i < 1 + files.projected.size(); ++i)
     projected_.push_back(make_target(projected_format, projected_columns, std::max(rows, 1)));
   gl::check("DeviceSplats");
 }
@@ -107,11 +121,11 @@ void DeviceSplats::bind(const gl::Program& program, int unit, const char* name, 
 
 void DeviceSplats::project(const Frame& frame) {
   if (centers_.empty()) return;
-  if (!projected_framebuffer_)
-    projected_framebuffer_ =
-        target_count() == 3
-            ? make_framebuffer({projected_[0].id(), projected_[1].id(), projected_[2].id()})
-            : make_framebuffer({projected_[0].id()});
+  if (!projected_framebuffer_) {
+    std::vector<GLuint> targets;
+    for (const gl::Texture& texture : projected_) targets.push_back(texture.id());
+    projected_framebuffer_ = make_framebuffer(targets);
+  }
   const auto count = static_cast<int>(centers_.size());
   gl::use_plain_rasterisation(projected_columns,
                               (count + projected_columns - 1) / projected_columns);
@@ -121,34 +135,44 @@ void DeviceSplats::project(const Frame& frame) {
   bind(projection_, 0, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
   bind(projection_, 1, "coefficients", GL_TEXTURE_2D_ARRAY, coefficients_.texture());
   projection_.set("splat_count", count);
-  const FrameCamera& in_layer = frame.layers[layer_];
-  set_eye(projection_, in_layer.eye);
-  const Camera& camera = in_layer.camera;
-  projection_.set("view_from_layer", glm::mat3(glm::dmat3(camera.view_from_world)));
-  projection_.set("focal", glm::vec2(camera.fx, camera.fy));
-  projection_.set("principal_point", glm::vec2(camera.cx, camera.height - camera.cy));
-  projection_.set("slope_range", ewa_slope_range(camera));
-  projection_.set("near", static_cast<float>(in_layer.range.near));
+  set_view(projection_, frame);
   full_screen_.draw(projection_);
+}
+
+/// Uniforms of the camera, for both programs; each ignores those that it does not use.
+void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) const {
+  const FrameCamera& in_layer = frame.layers[layer_];
+  const Camera& camera = in_layer.camera;
+  set_eye(program, in_layer.eye);
+  program.set("view_from_layer", glm::mat3(glm::dmat3(camera.view_from_world)));
+  program.set("focal", glm::vec2(camera.fx, camera.fy));
+  program.set("principal_point", glm::vec2(camera.cx, camera.height - camera.cy));
+  program.set("slope_range", ewa_slope_range(camera));
+  program.set("near", static_cast<float>(in_layer.range.near));
+  program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }
 
 void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLuint order) {
   const FrameCamera& in_layer = frame.layers[layer_];
-  const Camera& camera = in_layer.camera;
   drawing_.use();
   bind(drawing_, 0, "order", GL_TEXTURE_2D, order);
-  bind(drawing_, 1, "colors", GL_TEXTURE_2D, projected_[0].id());
-  bind(drawing_, 2, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
-  if (target_count() == 3) {
-    bind(drawing_, 3, "places", GL_TEXTURE_2D, projected_[1].id());
-    bind(drawing_, 4, "axes_of_splats", GL_TEXTURE_2D, projected_[2].id());
+  bind(drawing_, 1, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
+  bind(drawing_, 2, "colors", GL_TEXTURE_2D, projected_[0].id());
+  int unit = 3;
+  for (const char* name : files_of(shaders_).projected) {
+    bind(drawing_, unit, name, GL_TEXTURE_2D, projected_[std::size_t(unit - 2)].id());
+    ++unit;
   }
-  const glm::dmat4 clip_from_view = target.clip_from_view(camera, in_layer.range);
-  const glm::dmat4 rotation(glm::dmat3(camera.view_from_world));
-  set_eye(drawing_, in_layer.eye);
+  if (tests_depth()) bind(drawing_, unit, "depth_texture", GL_TEXTURE_2D, target.depth_texture());
+  set_view(drawing_, frame);
+  set_rays(drawing_, in_layer.camera);
+  const glm::dmat4 clip_from_view = target.clip_from_view(in_layer.camera, in_layer.range);
+  const glm::dmat4 rotation(glm::dmat3(in_layer.camera.view_from_world));
   drawing_.set("clip_from_camera", glm::mat4(clip_from_view * rotation));
-  drawing_.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
   drawing_.set("depth_of_z", glm::vec2(clip_from_view[2][2], clip_from_view[3][2]));
+  drawing_.set("ndc_from_stored",
+               target.reversed_depth() ? glm::vec2(1.0f, 0.0f) : glm::vec2(2.0f, -1.0f));
+  drawing_.set("far_stored", target.far_depth());
   nothing_.bind();
 }
 

@@ -43,6 +43,10 @@ class DeviceSplats {
   /// Draws `count` splats of the order from `first` on, as three vertices each.
   void draw_run(std::uint32_t first, std::uint32_t count);
 
+  /// Whether the fragment shader tests depth, because it differs from pixel to pixel. The caller
+  /// then binds a framebuffer without the depth texture.
+  bool tests_depth() const;
+
   std::size_t device_bytes() const;
   /// See Renderer::leave_context().
   void leave_context();
@@ -51,7 +55,7 @@ class DeviceSplats {
   using Constants = std::map<std::string, std::string>;
 
   Constants constants() const;
-  int target_count() const;
+  void set_view(const gl::Program& program, const Frame& frame) const;
   void bind(const gl::Program& program, int unit, const char* name, GLenum kind, GLuint texture);
 
   gl::Capabilities device_;

@@ -39,7 +39,7 @@ SplatPass::SplatPass(const gl::Capabilities& device,
                      std::span<const std::unique_ptr<DeviceSplats>> layers)
     : device_(device),
       resolve_(assemble({.file = "full_screen.vert"}, device.api),
-               assemble({.file = "splats/resolve.frag"}, device.api)) {
+               assemble({.file = "splat_resolve.frag"}, device.api)) {
   for (const std::unique_ptr<DeviceSplats>& layer : layers)
     if (layer) layers_.push_back(layer.get());
 }
@@ -49,6 +49,7 @@ void SplatPass::resize(const FrameTarget& target) {
   blended_ = make_target(blended_format, size_.x, size_.y);
   behind_ = make_target(target_formats::rgba8, size_.x, size_.y);
   blended_framebuffer_ = make_framebuffer({blended_.id()}, target.depth_attachment());
+  depthless_framebuffer_ = make_framebuffer({blended_.id()});
   behind_framebuffer_ = make_framebuffer({behind_.id()});
 }
 
@@ -107,7 +108,11 @@ void SplatPass::blend(const Frame& frame, FrameTarget& target) {
   const DeviceSplats* begun = nullptr;
   for (const SplatRun& run : order_.runs()) {
     DeviceSplats& layer = *layers_[run.layer];
-    if (begun != &layer) layer.begin_runs(frame, target, order_texture_.id());
+    if (begun != &layer) {
+      glBindFramebuffer(GL_FRAMEBUFFER, layer.tests_depth() ? depthless_framebuffer_.id()
+                                                            : blended_framebuffer_.id());
+      layer.begin_runs(frame, target, order_texture_.id());
+    }
     begun = &layer;
     layer.draw_run(run.first, run.count);
   }
@@ -156,6 +161,7 @@ std::size_t SplatPass::target_bytes() const {
 void SplatPass::leave_context() {
   full_screen_.leave_context();
   blended_framebuffer_ = {};
+  depthless_framebuffer_ = {};
   behind_framebuffer_ = {};
 }
 

@@ -44,6 +44,7 @@ class SplatPass final : public Pass {
   glm::ivec2 size_{0};
   gl::Texture blended_, behind_;
   gl::Framebuffer blended_framebuffer_, behind_framebuffer_;
+  gl::Framebuffer depthless_framebuffer_;  // of the same colours
 
   SplatOrder order_;
   std::vector<SplatsInView> ordered_;  // the views of the last order

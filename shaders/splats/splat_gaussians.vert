@@ -1,7 +1,7 @@
 // A Gaussian in the image as the smallest regular triangle around the circle, in standard
 // deviations, outside of which alpha is below MIN_ALPHA.
-#include "splats/order.glsl"
-#include "splats/projected.glsl"
+#include "splat_order.glsl"
+#include "splat_projected.glsl"
 
 uniform sampler2D colors, places, axes_of_splats;
 uniform vec2 half_size;   // of the image, in pixels

@@ -4,9 +4,9 @@
 // distances from the edges over the inradius. No division by a w near 0 occurs, so the hardware
 // may clip the triangle (docs/numerics.md, W14).
 #include "eye.glsl"
-#include "splats/kernel_texels.glsl"
-#include "splats/order.glsl"
-#include "splats/projected.glsl"
+#include "splat_kernel_texels.glsl"
+#include "splat_order.glsl"
+#include "splat_projected.glsl"
 
 uniform mat4 clip_from_camera;  // rotation and projection, no translation
 uniform vec2 half_size;         // of the image, in pixels

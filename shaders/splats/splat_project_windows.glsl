@@ -1,4 +1,4 @@
-// Windows are projected per vertex (splats/windows.vert).
+// Windows are projected per vertex (splat_windows.vert).
 float project(uint splat, out vec3 from_eye) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 3; ++i) sum += (kernel_texel(splat, i).xyz - eye_high) - eye_low;

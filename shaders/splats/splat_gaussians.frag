@@ -1,7 +1,7 @@
 in vec2 deviations;
 flat in vec4 color;
 
-#include "splats/blended.glsl"
+#include "splat_blended.glsl"
 
 void main() {
   blended = blended_color(color.rgb, color.a * exp(-0.5 * dot(deviations, deviations)));

@@ -1,14 +1,14 @@
 // What all pixels of a splat share, once a splat and frame: one texel of each target a splat.
 #include "eye.glsl"
 #include "harmonics.glsl"
-#include "splats/kernel_texels.glsl"
+#include "splat_kernel_texels.glsl"
 
 uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels a splat
 uniform int splat_count;
 uniform mat3 view_from_layer;  // rotation, perhaps a mirror
 
 layout(location = 0) out vec4 color;  // rgb >= 0, and opacity
-#include "splats/project_kernel.glsl"
+#include "splat_project_kernel.glsl"
 
 vec3 color_of(uint splat, vec3 from_eye) {
   float distance = length(from_eye);

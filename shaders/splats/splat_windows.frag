@@ -2,7 +2,7 @@ in vec3 distances;
 flat in vec4 color;
 flat in float sigma;
 
-#include "splats/blended.glsl"
+#include "splat_blended.glsl"
 
 void main() {
   float rho = clamp(min(distances.x, min(distances.y, distances.z)) * gl_FragCoord.w, 0.0, 1.0);
