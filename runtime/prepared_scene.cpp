@@ -46,18 +46,22 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
   return prepare_scene(layers, limits, make_plan(soups, limits, options.plan));
 }
 
-PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
+PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& device,
                             const RenderOptions& options) {
-  PreparedScene prepared = prepare_scene(placed_soups(scene), device, options);
+  std::vector<PlacedSoup> soups;
+  for (const PlacedLayer& layer : layers)
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      soups.push_back({*soup, layer.world_from_layer, layer.name, layer.visible});
+  PreparedScene prepared = prepare_scene(soups, device, options);
   const TexelLayout layout = TexelLayout::of(options.limits.value_or(device));
-  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    const Layer& layer = scene.layers[i];
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const PlacedLayer& layer = layers[i];
     const auto* splats = std::get_if<Splats>(&layer.primitives);
     if (!splats) continue;
     const auto at = static_cast<std::ptrdiff_t>(i);
     SplatPlan plan = make_splat_plan(*splats, options.plan.specialise);
     prepared.layers.insert(prepared.layers.begin() + at,
-                           {.name = label(layer, i),
+                           {.name = layer.name,
                             .bounds = bounds(*splats),
                             .world_from_layer = layer.world_from_layer,
                             .visible = layer.visible,
@@ -65,6 +69,16 @@ PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
     prepared.plan.layers.insert(prepared.plan.layers.begin() + at, std::move(plan));
   }
   return prepared;
+}
+
+PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
+                            const RenderOptions& options) {
+  std::vector<PlacedLayer> layers;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = scene.layers[i];
+    layers.push_back({layer.primitives, layer.world_from_layer, label(layer, i), layer.visible});
+  }
+  return prepare_scene(layers, device, options);
 }
 
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,

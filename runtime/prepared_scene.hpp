@@ -64,13 +64,23 @@ struct PlacedSoup {
 /// The layers of a scene that are soups.
 std::vector<PlacedSoup> placed_soups(const Scene& scene);
 
+/// The primitives of a layer with their place. It refers to the primitives.
+struct PlacedLayer {
+  const Primitives& primitives;
+  glm::dmat4 world_from_layer{1.0};
+  std::string name = {};
+  bool visible = true;
+};
+
 /// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
 /// soups. The soups must not move until the sources have been used. Soups and layers must have no
 /// defect(). Throws UsageError as make_plan does. Throws DeviceLimitError with the needed memory if
 /// a soup does not fit.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& device,
                             const RenderOptions& options = {});
-/// The same for all layers of a scene, which may also be splats, and for a single soup.
+/// The same for layers that may also be splats, for a scene, and for a single soup.
+PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& device,
+                            const RenderOptions& options = {});
 PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
                             const RenderOptions& options = {});
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,

@@ -58,6 +58,10 @@ Files files_of(SplatShaders shaders) {
 
 }  // namespace
 
+std::size_t projected_bytes(SplatShaders shaders) {
+  return (1 + files_of(shaders).projected.size()) * std::size_t(projected_format.bytes);
+}
+
 bool DeviceSplats::tests_depth() const {
   return shaders_ == SplatShaders::discs || shaders_ == SplatShaders::neural_density;
 }

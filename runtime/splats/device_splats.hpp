@@ -18,6 +18,9 @@
 
 namespace tureen {
 
+/// Bytes per splat of the textures that hold what all pixels of a splat share.
+std::size_t projected_bytes(SplatShaders shaders);
+
 class DeviceSplats {
  public:
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
