@@ -2,7 +2,7 @@
 flat in vec4 color;
 flat in vec4 plane_xy;
 flat in vec3 plane_w;
-flat in vec2 center;
+flat in vec4 place;
 
 uniform float near;
 
@@ -10,10 +10,10 @@ uniform float near;
 #include "splat_depth_behind.glsl"
 
 void main() {
-  vec2 pixel = gl_FragCoord.xy - center;
+  vec2 pixel = gl_FragCoord.xy - place.xy;
   // (u, v, 1) is orthogonal to both.
-  vec3 k = vec3(plane_xy.xy - pixel.x * plane_w.xy, -pixel.x * plane_w.z);
-  vec3 l = vec3(plane_xy.zw - pixel.y * plane_w.xy, -pixel.y * plane_w.z);
+  vec3 k = vec3(plane_xy.xy - pixel.x * plane_w.xy, place.z - pixel.x * plane_w.z);
+  vec3 l = vec3(plane_xy.zw - pixel.y * plane_w.xy, place.w - pixel.y * plane_w.z);
   vec3 point = cross(k, l);
   vec2 uv = point.xy / point.z;
   float depth = plane_w.z + dot(uv, plane_w.xy);

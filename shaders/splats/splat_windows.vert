@@ -16,39 +16,50 @@ out vec3 distances;
 flat out vec4 color;
 flat out float sigma;
 
+// Vertices are rounded to a grid of 1/256 of a pixel, or 1/16 at worst, which moves the edges. The
+// triangle is therefore enlarged by this many pixels, so that the distances alone decide where alpha
+// is 0. With a small sigma, alpha is about 1/2 close to an edge (docs/numerics.md, W16).
+const float margin = 1.0 / 16.0;
+
 void main() {
   uint splat = ordered_splat();
   int corner = splat_corner();
   vec4 texels[3];
-  vec3 corners[3];
-  for (int i = 0; i < 3; ++i) {
-    texels[i] = kernel_texel(splat, i);
-    corners[i] = (texels[i].xyz - eye_high) - eye_low;
+  vec4 clip[3];
+  for (int k = 0; k < 3; ++k) {
+    texels[k] = kernel_texel(splat, k);
+    clip[k] = clip_from_camera * vec4((texels[k].xyz - eye_high) - eye_low, 1.0);
   }
-  float lengths[3];  // of N_k.xy
-  float total = 0.0;
-  vec4 clip = vec4(0.0);
+  vec3 lengths;  // |N_k.xy|
+  float total = 0.0, doubled_area = 0.0;
   for (int k = 0; k < 3; ++k) {
     int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
-    vec4 point = clip_from_camera * vec4(corners[i], 1.0);
     // The difference of the stored positions is more exact than that of the image points.
     vec4 edge = clip_from_camera * vec4(texels[j].xyz - texels[i].xyz, 0.0);
-    vec2 normal = half_size.yx * vec2(point.y * edge.w - point.w * edge.y,
-                                      point.w * edge.x - point.x * edge.w);
+    vec2 normal = half_size.yx * vec2(clip[i].y * edge.w - clip[i].w * edge.y,
+                                      clip[i].w * edge.x - clip[i].x * edge.w);
     lengths[k] = length(normal);
-    vec4 opposite = clip_from_camera * vec4(corners[k], 1.0);
-    total += opposite.w * lengths[k];
-    if (k == corner) clip = opposite;
+    total += clip[k].w * lengths[k];
+    if (k == 0) {
+      vec4 other = clip_from_camera * vec4(texels[0].xyz - texels[1].xyz, 0.0);
+      doubled_area = abs(dot(normal, half_size * (other.xy * clip[1].w - clip[1].xy * other.w)));
+    }
   }
   color = texelFetch(colors, projected_position(splat), 0);
   sigma = texels[0].w;
-  distances = vec3(0.0);
-  float own = corner == 0 ? lengths[0] : corner == 1 ? lengths[1] : lengths[2];
   // Behind the eye, or without area in the image.
-  bool visible = total > 0.0 && min(lengths[0], min(lengths[1], lengths[2])) > 0.0;
-  float own_distance = visible ? total / own : 0.0;
-  if (corner == 0) distances.x = own_distance;
-  if (corner == 1) distances.y = own_distance;
-  if (corner == 2) distances.z = own_distance;
-  gl_Position = visible ? clip : nowhere;
+  bool visible = total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
+
+  // Corner k moves by e (2 c_k - c_i - c_j), and the edges by e times the heights. The limit keeps
+  // needles short. Triangles that cross the eye's plane are large, and stay.
+  float w = min(clip[0].w, min(clip[1].w, clip[2].w));
+  float e = 0.0;
+  if (w > 0.0) {
+    vec3 heights = doubled_area / clip[1].w / (vec3(clip[0].w, clip[1].w, clip[2].w) * lengths);
+    e = min(margin / min(heights.x, min(heights.y, heights.z)), 1.0);
+  }
+  vec4 sum = clip[0] + clip[1] + clip[2];
+  gl_Position = visible ? clip[corner] + e * (3.0 * clip[corner] - sum) : nowhere;
+  distances = visible ? -e * total / lengths : vec3(0.0);
+  if (visible) distances[corner] = (1.0 + 2.0 * e) * total / lengths[corner];
 }

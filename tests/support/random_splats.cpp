@@ -10,7 +10,9 @@ namespace tureen::test {
 
 namespace {
 
-glm::dvec3 point_in_ball(Random& random) { return std::cbrt(random.uniform()) * random.direction(); }
+glm::dvec3 point_in_ball(Random& random) {
+  return std::cbrt(random.uniform()) * random.direction();
+}
 
 glm::quat random_rotation(Random& random) {
   glm::dquat q(random.normal(), random.normal(), random.normal(), random.normal());
@@ -20,7 +22,8 @@ glm::quat random_rotation(Random& random) {
 /// A size that varies by a factor of about 3, and each axis by another.
 glm::vec3 random_axes(Random& random, double size) {
   const double own = size * std::exp(0.5 * random.normal());
-  return glm::vec3(own * glm::dvec3(std::exp(0.5 * random.normal()), std::exp(0.5 * random.normal()),
+  return glm::vec3(own * glm::dvec3(std::exp(0.5 * random.normal()),
+                                    std::exp(0.5 * random.normal()),
                                     std::exp(0.5 * random.normal())));
 }
 
