@@ -71,14 +71,18 @@ PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLim
   return prepared;
 }
 
-PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
-                            const RenderOptions& options) {
+std::vector<PlacedLayer> placed_layers(const Scene& scene) {
   std::vector<PlacedLayer> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = scene.layers[i];
     layers.push_back({layer.primitives, layer.world_from_layer, label(layer, i), layer.visible});
   }
-  return prepare_scene(layers, device, options);
+  return layers;
+}
+
+PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
+                            const RenderOptions& options) {
+  return prepare_scene(placed_layers(scene), device, options);
 }
 
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,

@@ -72,6 +72,9 @@ struct PlacedLayer {
   bool visible = true;
 };
 
+/// The layers of a scene.
+std::vector<PlacedLayer> placed_layers(const Scene& scene);
+
 /// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
 /// soups. The soups must not move until the sources have been used. Soups and layers must have no
 /// defect(). Throws UsageError as make_plan does. Throws DeviceLimitError with the needed memory if

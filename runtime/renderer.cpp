@@ -20,6 +20,7 @@ struct Renderer::State {
   State(const gl::Context& context, PreparedScene& prepared, const RenderOptions& options)
       : plan(std::move(prepared.plan)),
         background(options.background),
+        splat_target(options.splat_target),
         device(context.capabilities()) {
     gl::use_plain_pixel_transfer();
     upload(prepared.layers, plan.layers);
@@ -72,6 +73,7 @@ struct Renderer::State {
   RenderPlan plan;  // soups and passes refer to it
   std::vector<Place> places;
   glm::vec4 background;
+  SplatTarget splat_target;
   gl::Capabilities device;
   FrameTarget target{{}};
   // One for each layer; null for layers of the other kind.
@@ -156,7 +158,12 @@ void Renderer::State::arrange() {
   }
   splat_pass.reset();
   if (draws_layers && has_splats()) {
-    splat_pass = std::make_unique<SplatPass>(device, splats);
+    splat_pass = std::make_unique<SplatPass>(
+        device, splats,
+        splat_target == SplatTarget::rgba16f ||
+                (splat_target == SplatTarget::automatic && !device.float_blending)
+            ? SplatPass::Precision::half
+            : SplatPass::Precision::single);
     size = glm::ivec2(0);  // the next frame calls its resize()
   }
   const bool all_made = !draws_layers || soup_passes.size() == soups.size();
@@ -407,12 +414,16 @@ void Renderer::leave_context() {
   finish();
 }
 
+std::size_t Renderer::layer_bytes(std::size_t layer) const {
+  assert(layer < layer_count());
+  if (const auto& soup = state_->soups[layer]) return soup->device_bytes();
+  const auto& splats = state_->splats[layer];
+  return splats ? splats->device_bytes() : 0;
+}
+
 std::size_t Renderer::device_bytes() const {
   std::size_t bytes = 0;
-  for (const std::unique_ptr<DeviceSoup>& soup : state_->soups)
-    if (soup) bytes += soup->device_bytes();
-  for (const std::unique_ptr<DeviceSplats>& splats : state_->splats)
-    if (splats) bytes += splats->device_bytes();
+  for (std::size_t i = 0; i < layer_count(); ++i) bytes += layer_bytes(i);
   state_->for_each_pass_and_filter([&](Pass& pass) { bytes += pass.device_bytes(); });
   return bytes;
 }

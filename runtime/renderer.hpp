@@ -43,7 +43,8 @@ struct VisibleFace {
 class Renderer {
  public:
   /// Uploads a scene that was prepared for limits within those of the device. Only the background
-  /// of the options is used. Throws DeviceLimitError if the device refuses the memory.
+  /// and the target of splats are used of the options. Throws DeviceLimitError if the device
+  /// refuses the memory.
   Renderer(const gl::Context& context, PreparedScene prepared, const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
@@ -131,6 +132,9 @@ class Renderer {
   /// Bytes of the scene's buffers and textures, without the targets. Includes the copy of the
   /// corners for small-triangle culling, although it is in main memory.
   std::size_t device_bytes() const;
+
+  /// The part of device_bytes() of one layer.
+  std::size_t layer_bytes(std::size_t layer) const;
 
   /// Bytes of the targets at the last frame's size, by their formats; a driver may use more. 0
   /// before the first frame.

@@ -37,6 +37,8 @@ struct Capabilities {
   int max_image_side = 0;  // largest width and height of a frame
   int max_array_layers = 0;
   bool compute_shaders = false;  // with writable images: OpenGL 4.3, ES 3.1
+  bool float_targets = false;    // draws into textures of 32-bit and 16-bit floats
+  bool float_blending = false;   // also blends in those of 32 bits
 };
 
 /// Whether this GL_RENDERER is a software renderer: llvmpipe, SwiftShader and similar.

@@ -95,6 +95,10 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
       layout_(source.layout),
       kernel_(source.layout, source.kernel),
       coefficients_(source.layout, source.coefficients) {
+  if (!device.float_targets)
+    throw DeviceLimitError(
+        "splats need textures of floats as targets (EXT_color_buffer_float), which this device "
+        "lacks");
   const Files files = files_of(shaders_);
   projection_ = gl::Program(
       assemble({.file = "full_screen.vert"}, device.api),

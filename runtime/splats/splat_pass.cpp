@@ -11,7 +11,8 @@ namespace tureen {
 
 namespace {
 
-constexpr TargetFormat blended_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+constexpr TargetFormat single_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+constexpr TargetFormat half_format{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 constexpr int order_columns = DeviceSplats::order_columns;
 constexpr TargetFormat order_format{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
 
@@ -36,17 +37,21 @@ bool same_order(std::span<const SplatsInView> a, std::span<const SplatsInView> b
 }  // namespace
 
 SplatPass::SplatPass(const gl::Capabilities& device,
-                     std::span<const std::unique_ptr<DeviceSplats>> layers)
-    : device_(device),
+                     std::span<const std::unique_ptr<DeviceSplats>> layers, Precision precision)
+    : precision_(precision),
       resolve_(assemble({.file = "full_screen.vert"}, device.api),
                assemble({.file = "splat_resolve.frag"}, device.api)) {
   for (const std::unique_ptr<DeviceSplats>& layer : layers)
     if (layer) layers_.push_back(layer.get());
 }
 
+const TargetFormat& SplatPass::blended_format() const {
+  return precision_ == Precision::single ? single_format : half_format;
+}
+
 void SplatPass::resize(const FrameTarget& target) {
   size_ = target.size();
-  blended_ = make_target(blended_format, size_.x, size_.y);
+  blended_ = make_target(blended_format(), size_.x, size_.y);
   behind_ = make_target(target_formats::rgba8, size_.x, size_.y);
   blended_framebuffer_ = make_framebuffer({blended_.id()}, target.depth_attachment());
   depthless_framebuffer_ = make_framebuffer({blended_.id()});
@@ -155,7 +160,7 @@ std::size_t SplatPass::device_bytes() const {
 }
 
 std::size_t SplatPass::target_bytes() const {
-  return bytes_of(blended_format, size_) + bytes_of(target_formats::rgba8, size_);
+  return bytes_of(blended_format(), size_) + bytes_of(target_formats::rgba8, size_);
 }
 
 void SplatPass::leave_context() {

@@ -10,6 +10,7 @@
 #include "runtime/gl/context.hpp"
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/pass.hpp"
+#include "runtime/passes/targets.hpp"
 #include "runtime/splats/device_splats.hpp"
 #include "runtime/splats/splat_order.hpp"
 
@@ -17,8 +18,12 @@ namespace tureen {
 
 class SplatPass final : public Pass {
  public:
+  /// Of the floats in which colours are blended.
+  enum class Precision { single, half };
+
   /// `layers` outlive the pass; null for layers without splats.
-  SplatPass(const gl::Capabilities& device, std::span<const std::unique_ptr<DeviceSplats>> layers);
+  SplatPass(const gl::Capabilities& device, std::span<const std::unique_ptr<DeviceSplats>> layers,
+            Precision precision);
 
   const char* name() const override { return "splats"; }
   void resize(const FrameTarget& target) override;
@@ -37,7 +42,9 @@ class SplatPass final : public Pass {
   void blend(const Frame& frame, FrameTarget& target);
   void resolve(FrameTarget& target);
 
-  gl::Capabilities device_;
+  const TargetFormat& blended_format() const;
+
+  Precision precision_;
   std::vector<DeviceSplats*> layers_;
   gl::Program resolve_;
   FullScreen full_screen_;

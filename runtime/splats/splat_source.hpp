@@ -10,7 +10,8 @@
 
 namespace tureen {
 
-/// Texels per splat in the store `kernel`: KERNEL_TEXELS of shaders/splats/splat_kernel_texels.glsl.
+/// Texels per splat in the store `kernel`: KERNEL_TEXELS of
+/// shaders/splats/splat_kernel_texels.glsl.
 int kernel_texels(SplatShaders shaders);
 
 struct SplatSource {
