@@ -1,8 +1,8 @@
 #include "runtime/splats/splat_order.hpp"
 
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 namespace tureen {
@@ -11,7 +11,9 @@ namespace {
 
 /// Unsigned integers in the order of the floats. -0 equals 0, so that ties stay ties.
 std::uint32_t key_of(float depth) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(depth == 0.0f ? 0.0f : depth);
+  if (depth == 0.0f) depth = 0.0f;  // of -0
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &depth, sizeof bits);  // Emscripten's library lacks std::bit_cast
   return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 

@@ -42,6 +42,7 @@ Difference difference_of(std::vector<double> errors) {
 struct Limits {
   double float_psnr = 75;
   double byte_psnr = 56;  // rounding alone gives 58.9
+  double byte_percentile_999 = 1.0 / 255;
 };
 
 /// Renders a frame and compares the blended floats, and the image in bytes, with the oracle.
@@ -69,7 +70,7 @@ void expect_agreement(Renderer& renderer, const Scene& scene, const Camera& came
   EXPECT_GE(difference_of(of_floats).psnr, limits.float_psnr);
   const Difference in_bytes = difference_of(of_bytes);
   EXPECT_GE(in_bytes.psnr, limits.byte_psnr);
-  EXPECT_LE(in_bytes.percentile_999, 1.0 / 255);
+  EXPECT_LE(in_bytes.percentile_999, limits.byte_percentile_999);
 }
 
 using Case = std::tuple<NamedContext, SplatKind>;
@@ -93,8 +94,9 @@ TEST_P(SplatsOfKind, AgreeWithTheOracle) {
 TEST_P(SplatsOfKind, AgreeWithTheOracleInHalfFloats) {
   const Scene scene = scene_of(random_splats(kind, 5000, 0.1, 1));
   Renderer renderer = renderer_of_scene(context, scene, {.splat_target = SplatTarget::rgba16f});
+  // Half floats have steps of 1/2048 near 1, and splats below half a step vanish: up to 2.1/255.
   expect_agreement(renderer, scene, camera_of_ball(3, 120, 90),
-                   {.float_psnr = 52, .byte_psnr = 52});
+                   {.float_psnr = 52, .byte_psnr = 52, .byte_percentile_999 = 2.5 / 255});
 }
 
 /// Two layers, one of them turned, mirrored and scaled, with a soup among them.
@@ -186,7 +188,8 @@ TEST_P(SplatsIn, SmallNumbersOfSplatsAreDrawn) {
 
 TEST_P(SplatsIn, LayersAreHiddenMovedAndRemoved) {
   Scene scene = one_gaussian(0.5f, glm::vec3(1));
-  scene.layers.push_back({.primitives = random_soup(4, {.faces = 60})});
+  scene.layers.push_back({.world_from_layer = at_origin({0, 0, -5}),  // behind
+                          .primitives = random_soup(4, {.faces = 60})});
   Renderer renderer = renderer_of_scene(context, scene);
   const Camera camera = look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.1, 9, 9);
   const auto mean_alpha = [&] {
