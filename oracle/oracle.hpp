@@ -1,7 +1,7 @@
 // The oracle: the slow, simple reference renderer for all other paths, in double precision, without
 // GL. It draws the nearest visible hit along each pixel's ray. At equal depth, the earlier layer
-// and then the face with the lower index wins, as with GL_LESS and faces drawn in order of their
-// index.
+// wins; within a layer, the face with the lower index. GL_LESS gives the same result if layers and
+// faces are drawn in order.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,9 @@ struct OracleOptions {
   /// Rays per pixel along each axis, default 1: the pixel is the mean of supersampling^2 rays on a
   /// regular grid.
   int supersampling = 1;
-  /// The colour of pixels without a hit. If absent, pixels without a hit are transparent. A partly
-  /// covered pixel has the colour of its covered part, and alpha is the coverage.
+  /// The colour behind the hits; alpha is then 1. If absent, a pixel has the mean colour of its
+  /// hits, and alpha is the fraction of its rays that hit; a pixel without a hit is 0 in all
+  /// channels.
   std::optional<glm::vec3> background = glm::vec3(0.0f);
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};

@@ -33,7 +33,8 @@ struct PreparedLayer {
   Bounds bounds = {};  // in layer coordinates
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  /// Either of them. Without both, passes from outside runtime/ hold the soup on the device.
+  /// Either of them. Both are empty if the passes from PreparedScene::make_passes hold the soup on
+  /// the device (the baseline).
   std::optional<PreparedSoup> soup = {};
   std::optional<SplatSource> splats = {};
 };
@@ -49,8 +50,8 @@ struct PassInputs {
 struct PreparedScene {
   RenderPlan plan;
   std::vector<PreparedLayer> layers;  // one for each of plan.layers
-  /// Makes the passes of a frame, in the current context, instead of those of the soups. May throw
-  /// DeviceLimitError.
+  /// Optional. Makes all passes of a frame in the current context; the renderer then makes none for
+  /// the soups. May throw DeviceLimitError.
   std::function<Passes(const PassInputs&)> make_passes = {};
 };
 

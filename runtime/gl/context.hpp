@@ -1,6 +1,6 @@
 // A current OpenGL context without a window: EGL surfaceless or OSMesa. Both are loaded at run
-// time, so one program runs with either missing. Also wraps a context that another library made
-// current.
+// time, so the program also runs if one of them is not installed. Also wraps a context that another
+// library made current.
 #pragma once
 
 #include <memory>
@@ -56,8 +56,8 @@ class Context {
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
-  /// Destroys the context. If it was current, none is afterwards; another current context stays
-  /// current.
+  /// Destroys the context. If it was current, no context is current afterwards. If another context
+  /// is current, that one stays current.
   ~Context();
 
   /// Makes this context current on the calling thread and loads its functions.

@@ -36,7 +36,7 @@ enum class ShadingSite {
 
 /// The kind of shader in the shading pass of a deferred plan.
 enum class ShadingStage {
-  fragment,  // one triangle over the whole target; the depth test rejects the background
+  fragment,  // one triangle over the whole target
   compute,   // a compute shader with one invocation per pixel
 };
 
@@ -65,10 +65,10 @@ struct LatticePlan {
   /// Level of each slot on the device; below the soup's for affine faces. Empty if the texels are
   /// uploaded unchanged.
   std::vector<std::uint8_t> levels;
-  /// Alpha is stored by cell, with one read a fragment, or by texel, with three reads and less than
-  /// a third of the memory.
+  /// Alpha is stored by cell (one read per fragment) or by texel (three reads per fragment, less
+  /// than a third of the memory).
   bool alpha_by_cell = true;
-  /// Bytes that alpha by cell would need, if it was rejected for its size.
+  /// The bytes of alpha by cell, if they exceed max_alpha_cell_bytes; otherwise 0.
   std::uint64_t refused_alpha_cell_bytes = 0;
 };
 
@@ -121,7 +121,8 @@ struct RenderPlan {
   /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
   ShadingStage requested_stage = ShadingStage::fragment;
   std::vector<LayerPlan> layers;
-  /// All sentences of describe(), for passes from outside runtime/; empty for ours.
+  /// If not empty, describe() returns these sentences. Set by plans whose passes come from outside
+  /// runtime/.
   std::vector<std::string> description;
 
   /// The plan of a layer that is a soup.
