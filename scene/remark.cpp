@@ -15,6 +15,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "up_unknown_to_format",
     "up_unknown_to_trimesh",
     "up_unknown_to_checkpoint",
+    "up_unknown_to_splats",
     "up_of_colmap_scene",
     "up_of_synthetic_scene",
     "up_of_transforms",
@@ -26,6 +27,8 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "coordinates_rounded",
     "soft_triangles_opaque",
     "soft_triangles_dropped",
+    "splats_dropped",
+    "profile_assumed",
     "color_components_clamped",
     "face_colors_dropped",
     "colors_missing",
@@ -96,6 +99,10 @@ std::string sentence_of(const Remark& remark) {
     case Kind::up_unknown_to_checkpoint:
       return "the checkpoint stores no up axis: -y is assumed, as in COLMAP; scenes trained on "
              "Blender images have +z";
+    case Kind::up_unknown_to_splats:
+      return names[0] +
+             " stores no up axis: -y is assumed, as in COLMAP; scenes trained on Blender "
+             "images have +z";
     case Kind::up_of_colmap_scene:
       return "the checkpoint has flip_z: a COLMAP scene is assumed, with up -y and a black "
              "background";
@@ -125,6 +132,14 @@ std::string sentence_of(const Remark& remark) {
     case Kind::soft_triangles_dropped:
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
              " soft triangles have an opacity below " + short_decimal(values[0], 6) + ": dropped";
+    case Kind::splats_dropped:
+      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
+             " splats have a value that is not a number, a size that is not finite, or no "
+             "rotation: "
+             "dropped";
+    case Kind::profile_assumed:
+      return "the file does not store how its splats are rendered: the profile " + names[0] +
+             " is assumed";
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
@@ -231,6 +246,7 @@ std::string hint_of(const Remark& remark) {
   switch (remark.kind) {
     case Kind::up_unknown_to_format:
     case Kind::up_unknown_to_trimesh:
+    case Kind::up_unknown_to_splats:
       return "--up changes it";
     case Kind::vertex_colors_srgb_by_generator:
     case Kind::vertex_colors_linear_by_gltf:

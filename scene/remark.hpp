@@ -17,6 +17,7 @@ struct Remark {
     up_unknown_to_format,      // names: the format. z is assumed
     up_unknown_to_trimesh,     // z is assumed
     up_unknown_to_checkpoint,  // -y is assumed
+    up_unknown_to_splats,      // names: the format. -y is assumed
     up_of_colmap_scene,        // the checkpoint has flip_z: -y, and a black background
     up_of_synthetic_scene,     // no flip_z: +z, and a white background
     up_of_transforms,          // of a dataset: z, as in the scenes of NeRF
@@ -29,6 +30,9 @@ struct Remark {
     coordinates_rounded,     // from double to float
     soft_triangles_opaque,   // values: mean solidity, mean opacity
     soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
+    // Splats.
+    splats_dropped,   // counts: dropped, all
+    profile_assumed,  // names: the profile
     // Colours.
     color_components_clamped,  // counts: components
     face_colors_dropped,       // the file has vertex colours as well
