@@ -418,8 +418,8 @@ void add_info(Command& program) {
   command.footer(
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
 faces, unused vertices, and coordinates so large that floats round them visibly. Scenes with
-findings can still be drawn. render --camera can read the cameras from the JSON of --json.
-Plan and lint are printed for each layer.
+findings can still be drawn. Plan and lint are printed for each layer. The output of --json
+contains the cameras; tureen render --camera can read them from it.
 
 Examples:
   tureen info soup.glb

@@ -104,8 +104,8 @@ Exit codes: 0 done, 2 wrong usage, 3 a result cannot be read, 5 the page cannot 
       .required();
   command
       .add_option("-o,--output", options->output,
-                  "page to write; by default report.html in the user's cache folder, which then "
-                  "opens in a browser")
+                  "page to write. By default, writes report.html to the user's cache folder and opens "
+                  "it in a browser")
       .value_name("OUT.html");
   command.does([options] { return report(*options); });
 }

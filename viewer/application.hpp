@@ -105,8 +105,8 @@ class Application {
     changed,  // the same files, read again, or prepared in another way
     grown,    // the same with further files
   };
-  /// Scenes that the worker reads. `paths`: with Relation::other, all files; with `grown`, only the
-  /// files that the shown scene does not have; with `changed`, none.
+  /// Scenes that the worker reads. With Relation::other, `paths` has all files. Otherwise
+  /// it has only the files that the shown scene does not have.
   struct Loading {
     Relation relation = Relation::other;
     std::vector<std::filesystem::path> paths;
