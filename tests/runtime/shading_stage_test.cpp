@@ -106,9 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Contexts, ShadingStages, testing::ValuesIn(contexts),
 TEST(ShadingStagePlan, IsTheFragmentStageUnlessComputeIsAskedFor) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const auto planned = [&](bool compute_shaders, const PlanPreferences& preferences) {
-    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences)
-        .layers[0]
-        .shading_stage;
+    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences).soup(0).shading_stage;
   };
   EXPECT_EQ(planned(true, {}), ShadingStage::fragment);
   EXPECT_EQ(planned(true, deferred(ShadingStage::compute)), ShadingStage::compute);
