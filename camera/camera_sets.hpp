@@ -29,7 +29,8 @@ std::optional<CameraSetName> parse_camera_set(std::string_view text,
 
 /// `count` cameras spread evenly over the upper half of a sphere around the box (the Fibonacci
 /// lattice: equal steps of height, azimuth by the golden angle). All have the same distance,
-/// the smallest at which each camera shows the whole box. The first are the lowest. Names are "hemisphere 0", ..
+/// the smallest at which each camera shows the whole box. The first are the lowest. Names are
+/// "hemisphere 0", ..
 std::vector<Camera> hemisphere(const Subject& subject, int count, const Lens& lens);
 
 /// Approximate overdraw of a view: the sum of the projected areas of all triangles in the image, in

@@ -145,8 +145,9 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
       command.add_flag("--compress,--slim", arguments.compressed,
                        "write a compressed GLB, with loss: the smallest within --max-error");
   command
-      .add_option("--max-error", arguments.max_error_db,
-                  "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default")
+      .add_option(
+          "--max-error", arguments.max_error_db,
+          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default")
       .check(between(1e-4, 20.0))
       .value_name("DB")
       .needs(compressed);

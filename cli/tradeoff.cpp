@@ -129,10 +129,11 @@ on the device, or the output cannot be written.)");
       .check(between(1, 1000))
       .value_name("N");
   command
-      .add_option("--combinations", options->combinations,
-                  "largest number of combinations, separately for edits and for quality settings: 48 "
-                  "each by default, 256 each with --full. With 0, only one edit or setting changes "
-                  "at a time")
+      .add_option(
+          "--combinations", options->combinations,
+          "largest number of combinations, separately for edits and for quality settings: 48 "
+          "each by default, 256 each with --full. With 0, only one edit or setting changes "
+          "at a time")
       .check(between(0, 10000))
       .value_name("N");
   command

@@ -344,9 +344,10 @@ void add_file_options(Command& command, TrainOptions& options) {
       "--resume", options.resume,
       "continue from OUT.checkpoint; the soup is the same as without the interruption");
   command
-      .add_option("--preview-every", options.preview_every,
-                  "steps between previews; a preview is an image in the folder OUT.previews: a test "
-                  "view beside its photograph; no previews by default")
+      .add_option(
+          "--preview-every", options.preview_every,
+          "steps between previews; a preview is an image in the folder OUT.previews: a test "
+          "view beside its photograph; no previews by default")
       .check(between(1, 10'000'000))
       .value_name("N");
   command
