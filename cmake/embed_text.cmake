@@ -2,11 +2,15 @@
 #   cmake -DOUTPUT=x.cpp -DFILES="a.glsl;b.frag" -DHEADER=shaders/shaders.hpp
 #         -DNAMESPACE=tureen::shaders -P embed_text.cmake
 # HEADER declares in NAMESPACE: std::string_view text(std::string_view name). text() returns an empty
-# view for an unknown name.
+# view for an unknown name. With -DSTRIP=ON the texts lose // comments and indentation.
 set(entries "")
 foreach(file IN LISTS FILES)
   get_filename_component(name "${file}" NAME)
   file(READ "${file}" text)
+  if(STRIP)
+    string(REGEX REPLACE "[ \t]*//[^\n]*" "" text "${text}")
+    string(REGEX REPLACE "\n[ \n]+" "\n" text "${text}")
+  endif()
   string(APPEND entries "    {\"${name}\", R\"~text~(${text})~text~\"},\n")
 endforeach()
 file(WRITE "${OUTPUT}"

@@ -115,10 +115,33 @@ async function makeSite(folder, engine, parts) {
   write(folder, 'models.json', gallery(folder));
 }
 
-/** A script without imports, for the worker, which starts from a Blob, and for the single file. A Blob
- *  has no base address, so import.meta.url becomes an address that is never fetched. */
+/** A Blob has no base address, so import.meta.url becomes an address that is never fetched: the program's bytes
+ *  are passed to the engine. */
+const nowhere = { 'import.meta.url': '"file:///"' };
+
+/** The last line of tureen.js. The worker's script is tureen.js without it, followed by loader_worker.js
+ *  (viewer/assets.ts), so that a browser fetches the engine's script once. */
+const engineExport = 'export default createTureen.default;\n';
+
+/** The engine's script: a global createTureen, then its export. */
+const engineModule = async (engine) =>
+  await bundle(join(engine, 'tureen.js'), { format: 'iife', globalName: 'createTureen', define: nowhere }) + engineExport;
+
+/** The worker's script without the engine's. */
+const workerScript = () => bundle(from('viewer/loader_worker.ts'), {
+  format: 'iife', define: nowhere,
+  plugins: [{
+    name: 'engine before this script',
+    setup: ({ onResolve, onLoad }) => {
+      onResolve({ filter: /^tureen-engine$/ }, ({ path }) => ({ path, namespace: 'global' }));
+      onLoad({ filter: /.*/, namespace: 'global' }, () => ({ contents: 'export default createTureen.default;' }));
+    },
+  }],
+});
+
+/** A script without imports, for the single file. */
 const selfContained = (entry, engine) => bundle(from(entry), {
-  format: 'iife', alias: { 'tureen-engine': join(engine, 'tureen.js') }, define: { 'import.meta.url': '"file:///"' },
+  format: 'iife', alias: { 'tureen-engine': join(engine, 'tureen.js') }, define: nowhere,
 });
 
 /** The page as a single file. */
@@ -129,7 +152,7 @@ async function makeTemplate(engine, parts) {
   const part = (id, bytes) => `<script type="application/octet-stream;base64" id="${id}">` +
     `${Buffer.from(bytes).toString('base64')}</script>\n`;
   const hash = createHash('sha256').update(script).digest('base64');
-  const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', parts.worker);
+  const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', parts.engine.replace(engineExport, '') + parts.worker);
 
   let page = text(from('page/index.html'));
   page = replaceOnce(page, '<link rel="stylesheet" href="style.css">', `<style>\n${style}</style>`);
@@ -177,9 +200,9 @@ async function main() {
   const { engine, out } = options();
   const site = join(out, 'site'), npm = join(out, 'npm');
   const parts = {
-    engine: await bundle(join(engine, 'tureen.js'), { format: 'esm' }),
+    engine: await engineModule(engine),
     viewer: await module('package/index.ts'),
-    worker: await selfContained('viewer/loader_worker.ts', engine),
+    worker: await workerScript(),
   };
   for (const folder of [site, npm]) rmSync(folder, { recursive: true, force: true });
   await makeSite(site, engine, parts);

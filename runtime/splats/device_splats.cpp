@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iomanip>
-#include <limits>
-#include <sstream>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/geometry.hpp"
@@ -21,12 +19,11 @@ constexpr int projected_columns = 1024;
 
 constexpr TargetFormat projected_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 
-/// A float as a GLSL constant, in the locale of GLSL.
+/// A number as a float constant of GLSL.
 std::string constant(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::scientific << std::setprecision(std::numeric_limits<float>::max_digits10) << value;
-  return text.str();
+  std::string text = short_decimal(value, 9);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
 }
 
 struct Files {

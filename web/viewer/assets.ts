@@ -26,9 +26,16 @@ export function assetsAt(address?: string): Assets {
   return assets;
 }
 
+/** The worker's script: tureen.js without its last line, which exports createTureen, and loader_worker.js (build.mjs). */
+async function workerScript(base: string): Promise<string> {
+  const [engine, loader] = await Promise.all(['tureen.js', 'loader_worker.js'].map(
+    async (name) => (await fetched(new URL(name, base))).text()));
+  const script = engine!.slice(0, engine!.lastIndexOf('export default'));
+  return URL.createObjectURL(new Blob([script, loader!], { type: 'text/javascript' }));
+}
+
 function fetchedFrom(base: string): Assets {
-  const script = fetched(new URL('loader_worker.js', base))
-    .then(async (response) => URL.createObjectURL(new Blob([await response.text()], { type: 'text/javascript' })));
+  const script = workerScript(base);
   script.catch(() => { known.delete(base); });  // the next call tries again; loaderWorker() reports the error
   return {
     wasm: async () => (await fetched(new URL('tureen.wasm', base))).arrayBuffer(),
