@@ -1,4 +1,4 @@
-// What a kernel gives at an image point.
+// The values of a kernel at an image point.
 #pragma once
 
 #include <limits>

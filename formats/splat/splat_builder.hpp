@@ -1,5 +1,5 @@
 // Collects the splats of a file. All readers of splats share it, and with it the rules for values
-// that are invalid, the order of splats, and what the formats leave out.
+// that are invalid, the order of splats, and losses of the formats.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What all pixels of a splat share, once a splat and frame: one texel of each target a splat.
+// The values that all pixels of a splat share, computed once a splat and frame: one texel of each target a
+// splat.
 #include "eye.glsl"
 #include "harmonics.glsl"
 #include "splat_kernel_texels.glsl"
