@@ -33,17 +33,16 @@ struct WriteKernel {
     out[2] = rotation(gaussians.rotations[i]);
   }
   void operator()(const NeuralDensities& densities) const {
-    constexpr int width = NeuralDensities::width;
+    constexpr std::size_t width = NeuralDensities::width;
     const float* w = &densities.networks[NeuralDensities::parameters * i];
     const float *b1 = w + 3 * width, *a = b1 + width;
     out[0] = glm::vec4(densities.centers[i], 0.0f);
     out[1] = glm::vec4(densities.semi_axes[i], a[width]);
     out[2] = rotation(densities.rotations[i]);
-    for (int k = 0; k < width; ++k)
-      out[std::size_t(3 + k)] =
-          densities.omega * glm::vec4(w[3 * k], w[3 * k + 1], w[3 * k + 2], b1[k]);
-    for (int k = 0; k < width; k += 4)
-      out[std::size_t(3 + width + k / 4)] = glm::vec4(a[k], a[k + 1], a[k + 2], a[k + 3]);
+    for (std::size_t k = 0; k < width; ++k)
+      out[3 + k] = densities.omega * glm::vec4(w[3 * k], w[3 * k + 1], w[3 * k + 2], b1[k]);
+    for (std::size_t k = 0; k < width; k += 4)
+      out[3 + width + k / 4] = glm::vec4(a[k], a[k + 1], a[k + 2], a[k + 3]);
   }
   static glm::vec4 rotation(const glm::quat& q) { return {q.x, q.y, q.z, q.w}; }
 };

@@ -12,7 +12,7 @@
 namespace tureen::test {
 namespace splat_blending_test {
 
-TEST(Numerics, R3_TheOrderHoldsFarFromTheOrigin) {
+TEST(Numerics, Z3_TheOrderHoldsFarFromTheOrigin) {
   Recorder recorder({.stressed = "splats and eye far from the origin",
                      .parameter = "offset / units",
                      .unit = "depth by which a splat is too late",
@@ -107,7 +107,7 @@ TEST(Numerics, B2_OpaqueSplatsHideWhatIsBehind) {
   }
 }
 
-TEST(Numerics, R1_EqualDepthsAreDrawnTheSameInEveryFrame) {
+TEST(Numerics, Z1_EqualDepthsAreDrawnTheSameInEveryFrame) {
   Recorder recorder({.stressed = "coincident splats of different colours, 100 frames with turns of "
                                  "180 degrees",
                      .parameter = "splats",

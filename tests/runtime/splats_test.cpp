@@ -227,7 +227,7 @@ TEST(SplatOrder, IsThatOfTheDepthsWithTiesByLayerAndIndex) {
   EXPECT_EQ(order.runs()[3].first, 5u);
 }
 
-/// Far from the origin the depth is rounded after the offset is subtracted (docs/numerics.md, R3).
+/// Far from the origin the depth is rounded after the offset is subtracted (docs/numerics.md, Z3).
 TEST(SplatOrder, KeepsItsPrecisionFarFromTheOrigin) {
   std::vector<glm::vec3> centers;
   for (int i = 0; i < 100; ++i) centers.emplace_back(0, 0, 1e6 + 0.0625 * ((37 * i) % 100));
