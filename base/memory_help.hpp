@@ -4,6 +4,7 @@
 namespace tureen {
 
 inline constexpr const char* max_memory_help =
-    "memory limit for reading files, 4 GiB by default; a file that needs more is rejected";
+    "memory limit for reading each scene or dataset, 4 GiB by default; one that needs more is "
+    "rejected";
 
 }  // namespace tureen

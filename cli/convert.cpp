@@ -29,6 +29,8 @@ struct ConvertOptions {
   std::vector<std::string> further;
   SceneArguments scene;  // its paths are empty until sort_arguments()
   std::string output;
+  bool output_is_argument = false;  // without -o
+  std::string layer;                // the only layer to write; empty: all
   bool force = false;
   bool json = false;
   Edits edits;
@@ -46,6 +48,7 @@ void sort_arguments(ConvertOptions& options) {
       throw UsageError("several scenes need -o OUT",
                        "tureen convert A.glb B.glb -o OUT.glb makes them the layers of one scene");
     options.output = options.second;
+    options.output_is_argument = true;
     return;
   }
   if (!options.second.empty()) paths.push_back(options.second);
@@ -76,6 +79,15 @@ void require_known_extension(const fs::path& output) {
   }
 }
 
+/// Whether the output, which exists, is a scene.
+bool is_readable_scene(const fs::path& output) {
+  try {
+    return is_scene(output);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// Throws UsageError and OutputError. Runs before the scene is read, because reading may take
 /// minutes.
 void check_output(const ConvertOptions& options) {
@@ -92,7 +104,10 @@ void check_output(const ConvertOptions& options) {
     require_writable_file(output);
   std::error_code error;
   if (fs::exists(output, error) && !options.force)
-    throw UsageError(options.output + " exists", "choose another name, or replace it with --force");
+    throw UsageError(options.output + " exists",
+                     options.output_is_argument && is_readable_scene(output)
+                         ? "-o OUT is missing if it is a second scene; --force replaces it"
+                         : "choose another name, or replace it with --force");
 }
 
 void apply(const Edits& edits, Scene& scene) {
@@ -126,7 +141,7 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 /// Whether the page can contain the scene's file unchanged.
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.up.empty() && options.edits == Edits{} &&
-         !options.quality && options.scene.paths.size() == 1 &&
+         !options.quality && options.layer.empty() && options.scene.paths.size() == 1 &&
          is_our_glb(options.scene.paths.front());
 }
 
@@ -157,6 +172,7 @@ ExitCode convert_scene(ConvertOptions options) {
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
   Scene scene = read(options.scene);
   say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
+  if (!options.layer.empty()) keep_layer(scene, options.layer);
   apply(options.edits, scene);
   if (options.quality) scene.quality = *options.quality;
   const Json figures = page ? write_page(*page, std::move(scene), options)
@@ -210,6 +226,8 @@ Examples:
                                               stores 2 x 2 samples a pixel as a quality setting
   tureen convert house.glb fox.glb tree.ply -o garden.glb
                                               one scene with three layers
+  tureen convert garden.glb --layer fox -o one.glb
+                                              one layer, at its place
   tureen convert soup.glb soup.html           a page to share
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
   command
@@ -220,6 +238,8 @@ Examples:
   command.add_option("FURTHER", options->further, "with -o: further scenes");
   command.add_option("-o,--output", options->output, "file or folder to write, instead of OUT")
       .value_name("OUT");
+  command.add_option("--layer", options->layer, "write only this layer, with its transform")
+      .value_name("NAME");
   add_reading_options(command, options->scene.vertex_colors, options->scene.up);
   add_memory_option(command);
   command.add_flag("--force", options->force, "replace OUT if it exists");

@@ -344,6 +344,7 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
   say_list(fmt::format("{}: {}", listed(options.scene),
                        scene.info.source.empty() ? "a scene" : scene.info.source),
            table.lines());
+  say_if_hidden(scene);
   say_list("Notes:", all_notes(scene.info));
   if (only) say_list("Plan:", describe(only->plan));
   say_list("Devices:", devices.lines);

@@ -1,4 +1,5 @@
 // One scene from several.
+#include <algorithm>
 #include <cassert>
 #include <set>
 #include <utility>
@@ -44,6 +45,7 @@ void require_few_layers(const std::vector<Scene>& scenes) {
 
 /// Adds the layers, remarks and notes of `scene` to the result; `name` is the scene's own.
 void add(Scene&& scene, const std::string& name, DistinctNames& layer_names, Scene& result) {
+  const bool several = scene.layers.size() > 1;
   for (Layer& layer : scene.layers) {
     layer.name = layer_names.take(layer.name.empty() ? name : layer.name);
     result.layers.push_back(std::move(layer));
@@ -52,7 +54,14 @@ void add(Scene&& scene, const std::string& name, DistinctNames& layer_names, Sce
     if (remark.scene.empty()) remark.scene = name;
     result.info.remarks.push_back(std::move(remark));
   }
-  for (const std::string& note : scene.info.notes) result.info.notes.push_back(name + ": " + note);
+  // The notes of a scene with several layers have names from an earlier merged(). A second name in
+  // front would grow with each merge, and equal notes would repeat.
+  std::vector<std::string>& notes = result.info.notes;
+  for (const std::string& note : scene.info.notes) {
+    std::string text = several ? note : name + ": " + note;
+    if (std::find(notes.begin(), notes.end(), text) == notes.end())
+      notes.push_back(std::move(text));
+  }
 }
 
 }  // namespace

@@ -35,6 +35,16 @@ std::string label(const Layer& layer, std::size_t index) {
   return layer.name.empty() ? "layer " + std::to_string(index + 1) : layer.name;
 }
 
+void choose_up(SceneInfo& info, const glm::vec3& up) {
+  info.up = up;
+  info.up_is_assumed = false;
+  std::erase_if(info.remarks, [](const Remark& remark) {
+    return remark.kind == Remark::Kind::up_unknown_to_format ||
+           remark.kind == Remark::Kind::up_unknown_to_trimesh ||
+           remark.kind == Remark::Kind::up_unknown_to_checkpoint;
+  });
+}
+
 std::vector<std::string> all_notes(const SceneInfo& info) {
   std::vector<std::string> notes = info.notes;
   for (std::string& sentence : described(info.remarks)) notes.push_back(std::move(sentence));
@@ -98,7 +108,7 @@ const Layer& only_layer(const Scene& scene) {
   if (scene.layers.size() > 1)
     throw UsageError("only a scene with one layer is supported here; this scene has " +
                          std::to_string(scene.layers.size()) + ": " + layer_names(scene),
-                     "use the file of a single layer");
+                     "extract one with tureen convert SCENE --layer NAME -o ONE.glb");
   return scene.layers.front();
 }
 
@@ -112,6 +122,25 @@ const TriangleSoup& only_soup(const Scene& scene) {
 
 TriangleSoup& only_soup(Scene& scene) {
   return std::get<TriangleSoup>(only_layer(scene).primitives);
+}
+
+void keep_layer(Scene& scene, const std::string& name) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    if (label(scene.layers[i], i) == name) found.push_back(i);
+  if (found.size() != 1)
+    throw UsageError(
+        (found.empty() ? "no layer has the name '" : "several layers have the name '") + name +
+        "'; the layers are: " + layer_names(scene));
+  Layer kept = std::move(scene.layers[found.front()]);
+  kept.visible = true;
+  scene.layers.clear();
+  scene.layers.push_back(std::move(kept));
+}
+
+bool has_visible_layer(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(),
+                     [](const Layer& layer) { return layer.visible; });
 }
 
 void make_opaque(Scene& scene) {

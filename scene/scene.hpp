@@ -28,6 +28,9 @@ struct SceneInfo {
   std::vector<std::string> notes;  // stored in the file: free text, never interpreted
 };
 
+/// Sets the up axis by the user's choice, and removes the remarks that the file stores none.
+void choose_up(SceneInfo& info, const glm::vec3& up);
+
 /// The notes, followed by the descriptions of the remarks.
 std::vector<std::string> all_notes(const SceneInfo& info);
 
@@ -86,10 +89,19 @@ const Layer& only_layer(const Scene& scene);
 TriangleSoup& only_soup(Scene& scene);
 const TriangleSoup& only_soup(const Scene& scene);
 
+/// Removes all other layers; the named one keeps its transform and becomes visible. `name` is the
+/// layer's label(). Throws UsageError, which lists the labels, unless exactly one layer has it.
+void keep_layer(Scene& scene, const std::string& name);
+
+/// Whether a layer is visible.
+bool has_visible_layer(const Scene& scene);
+
 /// One scene with all layers, in order. Needs at least one scene; a single scene stays as it is.
 /// Cameras, quality and info are those of the first scene, except:
 /// - Layers without a name get the name of their scene. Equal names get numbers: "fox", "fox 2".
-/// - Remarks and notes are those of all scenes, with the scene's name. A remark lists the settings
+/// - Remarks and notes are those of all scenes, with the scene's name. Notes of a scene with
+/// several
+///   layers stay as they are, and equal notes appear once. A remark lists the settings
 ///   of a further scene that differ from the first scene's and are dropped.
 /// - `compressed` is true if one scene is.
 /// Throws UsageError for more than max_layers layers.

@@ -1,5 +1,6 @@
 #include "scene/similarity.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <glm/mat3x3.hpp>
@@ -67,7 +68,15 @@ std::string text_of(const glm::dvec3& v) {
 }  // namespace
 
 std::string describe(const Similarity& similarity) {
-  std::string text = "at " + text_of(similarity.position);
+  // A coordinate that ought to be 0 has the rounding errors of the terms that cancelled: 2^-53 of
+  // their size, which is that of the largest coordinate or of the scale. 1e-14 is 90 such errors,
+  // more than a product of several matrices accumulates.
+  glm::dvec3 position = similarity.position;
+  double size = similarity.scale;
+  for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(position[i]));
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(position[i]) < 1e-14 * size) position[i] = 0;
+  std::string text = "at " + text_of(position);
   // Smaller differences come from rounding.
   glm::dvec3 angles = similarity.angles;
   for (int i = 0; i < 3; ++i)

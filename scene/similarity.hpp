@@ -25,7 +25,8 @@ glm::dmat4 matrix_of(const Similarity& similarity);
 Similarity similarity_of(const glm::dmat4& matrix);
 
 /// "at (1, 2, 3), turned by (0, 0, 30) degrees about x, y and z, 2 times as large, mirrored"; six
-/// digits, and only the parts that differ from the identity, except the position.
+/// digits, and only the parts that differ from the identity, except the position. Coordinates
+/// within rounding noise of 0 are printed as 0.
 std::string describe(const Similarity& similarity);
 
 }  // namespace tureen

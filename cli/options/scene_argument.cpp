@@ -8,6 +8,7 @@
 #include "cli/options/output_argument.hpp"
 #include "cli/options/values.hpp"
 #include "cli/progress.hpp"
+#include "cli/report.hpp"
 #include "scene/edit/baked_transform.hpp"
 
 namespace tureen::cli {
@@ -63,10 +64,7 @@ Scene read(const SceneArgument& argument) {
   options.vertex_colors = argument.vertex_colors;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
-  if (!argument.up.empty()) {
-    scene.info.up = glm::vec3(glm::normalize(up));
-    scene.info.up_is_assumed = false;
-  }
+  if (!argument.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
   return scene;
 }
 
@@ -88,6 +86,12 @@ Scene read(const SceneArguments& arguments) {
 
 void require_not_inputs(const std::filesystem::path& output, const SceneArguments& arguments) {
   for (const std::string& path : arguments.paths) require_not_input(output, path);
+}
+
+void say_if_hidden(const Scene& scene) {
+  if (!has_visible_layer(scene))
+    say(scene.layers.size() == 1 ? "The only layer is hidden: images show only the background."
+                                 : "All layers are hidden: images show only the background.");
 }
 
 std::string listed(const SceneArguments& arguments) {

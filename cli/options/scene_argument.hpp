@@ -48,6 +48,9 @@ Scene read(const SceneArguments& arguments);
 /// require_not_input() for each scene (cli/options/output_argument.hpp).
 void require_not_inputs(const std::filesystem::path& output, const SceneArguments& arguments);
 
+/// Prints one sentence if no layer is visible.
+void say_if_hidden(const Scene& scene);
+
 /// "a.glb", "a.glb, b.glb".
 std::string listed(const SceneArguments& arguments);
 

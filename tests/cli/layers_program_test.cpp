@@ -124,6 +124,47 @@ TEST_F(LayersProgram, InfoListsEachLayer) {
   EXPECT_EQ(run({"info", "two.glb", "--strict"}).exit_code, 0);
 }
 
+TEST_F(LayersProgram, AGivenUpAxisIsNoAssumption) {
+  EXPECT_THAT(run({"info", "fox.off"}).err, HasSubstr("stores no up axis"));
+  EXPECT_THAT(run({"info", "fox.off", "--up", "0,1,0"}).err, Not(HasSubstr("stores no up axis")));
+}
+
+TEST_F(LayersProgram, ASecondSceneAsOutputReportsThatTheOptionIsMissing) {
+  expect_usage_error({"convert", "scene.off", "two.glb"}, "-o OUT is missing");
+  EXPECT_THAT(run({"convert", "scene.off", "-o", "two.glb"}).err, Not(HasSubstr("is missing")));
+  write("text.off", "no scene");
+  EXPECT_THAT(run({"convert", "scene.off", "text.off"}).err, Not(HasSubstr("is missing")));
+}
+
+TEST_F(LayersProgram, HiddenLayersAreReported) {
+  const auto image = [&](const std::string& scene) {
+    return run({"render", scene, "--size", "32x24", "--context", "osmesa", "-o", "image.png"}).err;
+  };
+  EXPECT_THAT(image("two.glb"), Not(HasSubstr("hidden:")));
+  EXPECT_THAT(run({"info", "two.glb"}).err, Not(HasSubstr("hidden:")));
+  EXPECT_THAT(image("turned.glb"), HasSubstr("The only layer is hidden:"));
+  Scene scene = read_scene(folder / "two.glb");
+  for (Layer& layer : scene.layers) layer.visible = false;
+  write_scene_file("hidden.glb", scene);
+  EXPECT_THAT(image("hidden.glb"), HasSubstr("All layers are hidden:"));
+  EXPECT_THAT(run({"info", "hidden.glb"}).err, HasSubstr("All layers are hidden:"));
+}
+
+TEST_F(LayersProgram, ConvertExtractsALayer) {
+  ASSERT_EQ(run({"convert", "two.glb", "--layer", "turned", "-o", "one.glb"}).exit_code, 0);
+  const Scene scene = read_scene(folder / "one.glb");
+  const Layer& layer = only_layer(scene);
+  EXPECT_EQ(layer.name, "turned");
+  EXPECT_TRUE(layer.visible);
+  EXPECT_EQ(layer.world_from_layer, read_scene(folder / "two.glb").layers[1].world_from_layer);
+  expect_usage_error({"convert", "two.glb", "--layer", "x", "-o", "no.glb"}, "layer 1, turned");
+  expect_usage_error({"bench", "two.glb", "--rounds", "1"}, "--layer NAME");
+}
+
+TEST_F(LayersProgram, TheMemoryLimitIsForEachScene) {
+  EXPECT_THAT(run({"info", "--help"}).out, HasSubstr("each scene or dataset"));
+}
+
 TEST_F(LayersProgram, InfoOfOneTurnedLayerNamesItsPlace) {
   const auto json = info({"turned.glb"});
   EXPECT_FALSE(json.contains("layers"));

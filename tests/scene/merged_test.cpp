@@ -98,6 +98,41 @@ TEST(Merged, RemarksAndNotesNameTheirScene) {
   EXPECT_EQ(merged({result, two}).info.remarks.front().scene, "one");
 }
 
+TEST(Merged, NotesOfMergedScenesKeepTheirNames) {
+  Scene one = scene_named("one"), two = scene_named("two");
+  one.info.notes = {"a note"};
+  two.info.notes = {"b"};
+  Scene both = merged({one, two});
+  both.info.notes.push_back("one: b");
+  EXPECT_THAT(merged({both, scene_named("three"), both}).info.notes,
+              ElementsAre("one: a note", "two: b", "one: b"));
+}
+
+TEST(Merged, OneLayerCanBeKept) {
+  Scene scene = merged({scene_named("a", 1), scene_named("b", 2), scene_named("c", 3)});
+  scene.layers[1].visible = false;
+  EXPECT_TRUE(has_visible_layer(scene));
+  Scene same = scene;
+  same.layers[2].name = "b";
+  EXPECT_THROW(keep_layer(same, "b"), UsageError) << "two have this name";
+  same.layers[2].name = "";
+  keep_layer(same, "layer 3");
+  EXPECT_EQ(origin_of(only_layer(same)), glm::dvec3(3, 0, 0));
+  try {
+    keep_layer(scene, "d");
+    FAIL() << "an unknown layer was accepted";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a, b, c"));
+  }
+  Scene hidden = scene;
+  for (Layer& layer : hidden.layers) layer.visible = false;
+  EXPECT_FALSE(has_visible_layer(hidden));
+  keep_layer(scene, "b");
+  EXPECT_EQ(layer_names_of(scene), std::vector<std::string>{"b"});
+  EXPECT_EQ(origin_of(scene.layers[0]), glm::dvec3(2, 0, 0));
+  EXPECT_TRUE(scene.layers[0].visible);
+}
+
 TEST(Merged, MoreLayersThanTheStencilBufferCountsAreRefused) {
   const Scene one = scene_named("one");
   EXPECT_EQ(merged(std::vector<Scene>(max_layers, one)).layers.size(), 255u);

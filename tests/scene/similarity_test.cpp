@@ -72,6 +72,15 @@ TEST(Similarity, TheMatrixComesBackAtAndNearTheEndsOfY) {
     }
 }
 
+TEST(Similarity, RoundingNoiseOfThePositionIsPrintedAsZero) {
+  EXPECT_EQ(describe(Similarity{.position = {-1.6e-16, 2, 3e-15}}), "at (0, 2, 0)");
+  EXPECT_EQ(describe(Similarity{.position = {-1.6e-16, 0, 0}}), "at (0, 0, 0)");
+  EXPECT_EQ(describe(Similarity{.position = {1e-9, 1e6, 0}}), "at (0, 1e+06, 0)");
+  EXPECT_EQ(describe(Similarity{.position = {1e-12, 2, 0}}), "at (1e-12, 2, 0)");
+  EXPECT_EQ(describe(Similarity{.position = {1e-16, 0, 0}, .scale = 1e-9}).substr(0, 15),
+            "at (1e-16, 0, 0");
+}
+
 TEST(Similarity, TinyAndHugeScalesComeBack) {
   for (const double scale : {1e-150, 1e150}) {
     const Similarity back = similarity_of(matrix_of({.scale = scale, .mirror = true}));
