@@ -36,7 +36,7 @@ std::vector<Camera> hemisphere(const Subject& subject, int count, const Lens& le
 /// Approximate overdraw of a view: the sum of the projected areas of all triangles in the image, in
 /// units of the image area. 1 means that the image is covered once. The image is divided into 64 x
 /// 36 cells. A triangle smaller than a cell adds its area if its centre is in the image; a larger
-/// one adds the number of cells whose centres it covers. A triangle that reaches behind the eye
+/// one adds the area of the cells whose centres it covers. A triangle that reaches behind the eye
 /// adds 0. `origin` is the soup's origin in world coordinates.
 double estimated_overdraw(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera);
 

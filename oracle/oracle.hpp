@@ -29,9 +29,9 @@ struct OracleOptions {
   /// Whether a splat that would lower the transmittance below its profile's stop_transmittance ends
   /// the pixel. If false, every splat is blended.
   bool splat_stop = true;
-  /// The colour behind the hits; alpha is then 1. If absent, a pixel has the mean colour of its
-  /// hits, and alpha is the fraction of its rays that hit; a pixel without a hit is 0 in all
-  /// channels. A ray without a hit counts by the alpha of its splats.
+  /// The colour behind the scene; alpha is then 1. If absent, alpha is the mean coverage of the
+  /// pixel's rays, and the colour is that of the covered part. The coverage of a ray is 1 if it hits
+  /// a face, otherwise the alpha of its splats. A pixel with coverage 0 is 0 in all channels.
   std::optional<glm::vec3> background = glm::vec3(0.0f);
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};

@@ -33,8 +33,8 @@ struct PreparedLayer {
   Bounds bounds = {};  // in layer coordinates
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  /// Either of them. Both are empty if the passes from PreparedScene::make_passes hold the soup on
-  /// the device (the baseline).
+  /// Either `soup` or `splats` is set. Both are empty if the passes from PreparedScene::make_passes
+  /// hold the soup on the device (the baseline).
   std::optional<PreparedSoup> soup = {};
   std::optional<SplatSource> splats = {};
 };

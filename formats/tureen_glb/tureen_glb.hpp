@@ -37,10 +37,10 @@ Scene read_tureen_glb(Input& input, const GlbContainer& glb, const ReadOptions& 
 
 bool is_tureen_glb(const GlbContainer& glb);
 
-/// Writes every kind of scene, including soft triangles, and its quality. Returns one sentence for
+/// Writes soups and triangle windows, and the scene's quality. Returns one sentence for
 /// each loss; the only possible loss is a text that is not UTF-8. Throws UsageError for a scene
-/// that has no layer, more than max_layers, a layer, soup or quality with a defect(), soft
-/// triangles that share vertices or lack opacities, or no up axis. It also throws UsageError for an
+/// that has no layer, more than max_layers, a layer, soup or quality with a defect(),
+/// splats with a defect() or another kernel, or no up axis. It also throws UsageError for an
 /// image that is too large, a camera without pixels or with a side above 65,536, non-finite numbers
 /// in a camera, material, up axis or background, and a file above 4 GiB. Throws OutputError if the
 /// file cannot be written.

@@ -62,7 +62,8 @@ class FrameTarget {
   /// which is in use.
   void bind_visibility(const gl::Program& program, int unit) const;
 
-  /// The matrix from view coordinates to clip coordinates, for FrameFormat::reversed_depth.
+  /// The matrix from view coordinates to clip coordinates. FrameFormat::reversed_depth selects
+  /// its depth range.
   glm::dmat4 clip_from_view(const Camera& camera, const ClipRange& range) const;
 
   /// Whether the last frame stored visible fragments, or depth.
