@@ -26,6 +26,8 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "coordinates_rounded",
     "soft_triangles_opaque",
     "soft_triangles_dropped",
+    "splats_dropped",
+    "splat_colors_linear",
     "color_components_clamped",
     "face_colors_dropped",
     "colors_missing",
@@ -125,6 +127,14 @@ std::string sentence_of(const Remark& remark) {
     case Kind::soft_triangles_dropped:
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
              " soft triangles have an opacity below " + short_decimal(values[0], 6) + ": dropped";
+    case Kind::splats_dropped:
+      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
+             " splats have a value that is not a number, a size that is not finite, or no "
+             "rotation: "
+             "dropped";
+    case Kind::splat_colors_linear:
+      return "the splats were trained and are blended in linear light; they are drawn as if their "
+             "colours were display-referred, and look different";
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:

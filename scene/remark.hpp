@@ -29,6 +29,9 @@ struct Remark {
     coordinates_rounded,     // from double to float
     soft_triangles_opaque,   // values: mean solidity, mean opacity
     soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
+    // Splats.
+    splats_dropped,       // counts: dropped, all
+    splat_colors_linear,  // in linear light, which SplatColor does not hold
     // Colours.
     color_components_clamped,  // counts: components
     face_colors_dropped,       // the file has vertex colours as well

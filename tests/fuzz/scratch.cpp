@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 void require_whole(const Scene& scene) {
   for (const Layer& layer : scene.layers) {
     auto reason = defect(layer);
-    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives); soup && !reason)
-      reason = defect(*soup);
+    if (!reason)
+      reason = std::visit([](const auto& each) { return defect(each); }, layer.primitives);
     if (!reason) continue;
     std::fprintf(stderr, "a reader returned a scene with a defect: %s\n", reason->c_str());
     std::abort();

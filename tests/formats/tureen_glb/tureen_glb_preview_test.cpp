@@ -50,6 +50,15 @@ TriangleSoup soup_of(const Scene& scene) {
   return splats ? to_opaque(*splats, 0.0f).soup : only_soup(scene);
 }
 
+TEST(GlbPreviewOfSplats, DoesNotExist) {
+  for (const test::GlbKind& kind : test::splat_glb_kinds()) {
+    const std::vector<std::byte> bytes = test::glb_bytes(test::random_scene(kind, 1, 3), kind.name);
+    EXPECT_EQ(size_of(bytes), 0u) << kind.name;
+    EXPECT_EQ(size_of(Bytes(bytes).first(beginning_of(bytes))), 0u) << kind.name;
+    EXPECT_FALSE(preview_of(bytes)) << kind.name;
+  }
+}
+
 class GlbPreview : public ::testing::TestWithParam<test::GlbKind> {};
 
 TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
