@@ -62,8 +62,9 @@ double framing_distance(const Subject& subject, const glm::dmat3& world_from_vie
 /// A camera that looks at the centre of the box and shows all of it.
 Camera frame(const Subject& subject, const Bearing& bearing, const Lens& lens);
 
-/// `count` cameras evenly around the up axis, beginning at `start`. All have the distance at which
-/// each shows the whole box, so that its apparent size stays constant.
+/// `count` cameras evenly around the up axis, beginning at `start`. All have the same
+/// distance, the smallest at which each camera shows the whole box. The apparent size of the box
+/// therefore stays constant.
 std::vector<Camera> orbit(const Subject& subject, int count, const Bearing& start,
                           const Lens& lens);
 

@@ -154,8 +154,8 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
       R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
 with the baseline if it supports the scene. Warm-up frames run until the times are stable. A
 frame ends when the device has finished. First, the first case is compared with itself (A/A).
-"best ms" is the smallest of the rounds' medians; ratios use it. Times within twice the spread
-are "equal"; the spread is the larger of the A/A spread and the spread between rounds.
+"best ms" is the smallest of the rounds' medians; ratios use it. Two times are "equal" if
+they differ by at most twice the spread: the larger of the A/A spread and the spread between rounds.
 Differences are reported only if at least 3 rounds were run. The 99th percentile and the 1 % low
 need 100 samples; a sample is one view in one round. Loading is measured separately.
 

@@ -136,9 +136,9 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot b
                                  "default")
       .value_name("NAME");
   command
-      .add_option(
-          "--pixel-tolerance", options->metrics.pixel_tolerance,
-          "a pixel counts as different if a channel differs by more, 0 to 1; 1/255 by default")
+      .add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
+                  "difference of a channel, 0 to 1, above which a pixel counts as different; 1/255 "
+                  "by default")
       .check(between(0.0, 1.0))
       .value_name("VALUE");
   std::vector<std::pair<std::string, SsimBorder>> borders;

@@ -207,7 +207,7 @@ Examples:
   tureen convert soup.glb less.glb --lattice-level 2
                                               coarser textures; tradeoff measures the error
   tureen convert soup.glb smooth.glb --supersample 2
-                                              2 x 2 samples a pixel by default
+                                              stores 2 x 2 samples a pixel as a quality setting
   tureen convert house.glb fox.glb tree.ply -o garden.glb
                                               one scene with three layers
   tureen convert soup.glb soup.html           a page to share

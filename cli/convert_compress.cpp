@@ -145,8 +145,9 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
       command.add_flag("--compress,--slim", arguments.compressed,
                        "write a compressed GLB, with loss: the smallest within --max-error");
   command
-      .add_option("--max-error", arguments.max_error_db,
-                  "with --compress: largest loss of PSNR against photographs in dB, 0.1 by default")
+      .add_option(
+          "--max-error", arguments.max_error_db,
+          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default")
       .check(between(1e-4, 20.0))
       .value_name("DB")
       .needs(compressed);
@@ -163,8 +164,10 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
       .add_flag("--keep-unseen", arguments.keep_unseen,
-                "with --compress: keep unseen faces; a face is unseen if none of the checked views "
-                "shows it: at most 200 recorded cameras, and 64 views from above and around")
+                "with --compress: keep unseen faces, which are removed by default if the scene and "
+                "the training photographs of --photographs have at least 8 cameras. A face is "
+                "unseen if it appears in none of these views: up to 200 of these cameras, and 64 "
+                "views from above and around")
       .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,

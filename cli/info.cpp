@@ -157,29 +157,37 @@ const std::vector<NamedDevice>& named_devices() {
 struct LayerFacts {
   std::string name;  // label() of the layer
   const Layer* layer;
-  const TriangleSoup* soup;
-  bool soft;  // soft triangles in the file; `soup` is their opaque form
-  Described appearance;
+  const TriangleSoup* soup;  // null for splats
+  const Splats* splats;      // null for a soup
+  Described appearance;      // of a soup
   RenderPlan plan;
   DeviceForecast forecast;
   Lint lint;
 };
 
-LayerFacts facts_of(const Scene& scene, std::size_t index, bool soft) {
+LayerFacts facts_of(const Scene& scene, std::size_t index) {
   const Layer& layer = scene.layers[index];
   const bool several = scene.layers.size() > 1;
-  const TriangleSoup& soup = std::get<TriangleSoup>(layer.primitives);
   LayerFacts facts{.name = label(layer, index),
                    .layer = &layer,
-                   .soup = &soup,
-                   .soft = soft,
+                   .soup = std::get_if<TriangleSoup>(&layer.primitives),
+                   .splats = std::get_if<Splats>(&layer.primitives),
                    .appearance = {},
-                   .plan = make_plan(soup, named_devices().back().limits),
+                   .plan = {},
                    .forecast = {},
-                   .lint = lint(soup)};
+                   .lint = {}};
+  if (facts.splats) {
+    SplatPlan plan = make_splat_plan(*facts.splats);
+    facts.forecast = device_forecast(*facts.splats, plan);
+    facts.plan.layers.emplace_back(std::move(plan));
+    return facts;
+  }
+  const TriangleSoup& soup = *facts.soup;
+  facts.plan = make_plan(soup, named_devices().back().limits);
+  facts.lint = lint(soup);
   // Several layers are all drawn deferred.
-  if (several) make_layered(facts.plan.layers.front());
-  facts.forecast = device_forecast(soup, facts.plan.layers.front());
+  if (several) make_layered(facts.plan.soup(0));
+  facts.forecast = device_forecast(soup, facts.plan.soup(0));
   std::visit(facts.appearance, soup.appearance);
   return facts;
 }
@@ -189,13 +197,13 @@ std::string place_text(const Layer& layer) {
 }
 
 void add_appearance(Table& table, const LayerFacts& facts) {
+  if (facts.splats) return;
   table.row({"appearance", appearance_name(facts.soup->appearance)});
   for (const std::string& line : facts.appearance.lines) table.row({"", line});
 }
 
-std::string triangles_text(std::size_t triangles, std::size_t vertices, bool soft) {
-  return fmt::format("{} with {} vertices{}", counted(triangles), counted(vertices),
-                     soft ? ", soft triangles, drawn as opaque" : "");
+std::string triangles_text(std::size_t triangles, std::size_t vertices) {
+  return fmt::format("{} with {} vertices", counted(triangles), counted(vertices));
 }
 
 std::vector<std::string> lint_lines(const Lint& lint) {
@@ -208,13 +216,16 @@ std::vector<std::string> lint_lines(const Lint& lint) {
 /// One of several layers: contents, place, plan and lint findings.
 void say_layer(const LayerFacts& facts) {
   Table table({"", "<"});
-  table.row({"triangles", triangles_text(facts.soup->triangles.size(), facts.soup->positions.size(),
-                                         facts.soft)});
+  if (facts.splats)
+    table.row({"splats", describe(*facts.splats)});
+  else
+    table.row(
+        {"triangles", triangles_text(facts.soup->triangles.size(), facts.soup->positions.size())});
   add_appearance(table, facts);
   table.row({"place", place_text(*facts.layer)});
   say_list("Layer " + facts.name + ":", table.lines());
   say_list("Plan of " + facts.name + ":", describe(facts.plan));
-  say_list("Lint of " + facts.name + ":", lint_lines(facts.lint));
+  if (facts.soup) say_list("Lint of " + facts.name + ":", lint_lines(facts.lint));
 }
 
 Json matrix_json(const glm::dmat4& matrix) {
@@ -226,9 +237,15 @@ Json matrix_json(const glm::dmat4& matrix) {
 
 /// The keys that a scene of one layer has at its top level.
 Json contents_json(const LayerFacts& facts) {
+  if (const Splats* splats = facts.splats)
+    return {{"splats", count(*splats)},
+            {"kernel", kernel_name(splats->kernel)},
+            {"profile", name_of(splats->profile)},
+            {"degree", splats->color.degree},
+            {"soft_triangles", std::holds_alternative<TriangleWindows>(splats->kernel)}};
   Json json = {{"triangles", facts.soup->triangles.size()},
                {"vertices", facts.soup->positions.size()},
-               {"soft_triangles", facts.soft},
+               {"soft_triangles", false},
                {"appearance", appearance_name(facts.soup->appearance)}};
   json.update(facts.appearance.json);
   return json;
@@ -239,28 +256,33 @@ Json plan_json(const RenderPlan& plan) {
           {"specialisations", results::specialisations_json(plan.applied())}};
 }
 
+std::size_t bytes_in_memory(const LayerFacts& facts) {
+  return facts.splats ? byte_size(*facts.splats) : byte_size(*facts.soup);
+}
+
 Json to_json(const LayerFacts& facts) {
   Json json = {{"name", facts.layer->name},
                {"visible", facts.layer->visible},
                {"world_from_layer", matrix_json(facts.layer->world_from_layer)}};
   json.update(contents_json(facts));
   json.update(
-      {{"bytes_in_memory", byte_size(*facts.soup)}, {"bytes_on_device", facts.forecast.bytes}});
+      {{"bytes_in_memory", bytes_in_memory(facts)}, {"bytes_on_device", facts.forecast.bytes}});
   json.update(plan_json(facts.plan));
-  json["lint"] = to_json(facts.lint);
+  if (facts.soup) json["lint"] = to_json(facts.lint);
   return json;
 }
 
 /// Sums over all layers.
 struct Totals {
-  std::size_t triangles = 0, vertices = 0;
+  std::size_t triangles = 0, vertices = 0, splats = 0;
   std::uint64_t bytes_in_memory = 0, bytes_on_device = 0;
 
   explicit Totals(const std::vector<LayerFacts>& layers) {
     for (const LayerFacts& facts : layers) {
-      triangles += facts.soup->triangles.size();
-      vertices += facts.soup->positions.size();
-      bytes_in_memory += byte_size(*facts.soup);
+      triangles += facts.soup ? facts.soup->triangles.size() : 0;
+      vertices += facts.soup ? facts.soup->positions.size() : 0;
+      splats += facts.splats ? count(*facts.splats) : 0;
+      bytes_in_memory += cli::bytes_in_memory(facts);
       bytes_on_device += facts.forecast.bytes;
     }
   }
@@ -304,7 +326,10 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
   Table table({"", "<"});
   if (!scene.info.name.empty()) table.row({"name", scene.info.name});
   if (!only) table.row({"layers", std::to_string(layers.size())});
-  table.row({"triangles", triangles_text(totals.triangles, totals.vertices, only && only->soft)});
+  if (totals.splats == 0 || totals.triangles > 0)
+    table.row({"triangles", triangles_text(totals.triangles, totals.vertices)});
+  if (totals.splats > 0)
+    table.row({"splats", only ? describe(*only->splats) : counted(totals.splats)});
   if (only) add_appearance(table, *only);
   table.row({"bytes",
              fmt::format("{} on disk, {} in memory, {} on the device",
@@ -322,7 +347,7 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
   say_list("Notes:", all_notes(scene.info));
   if (only) say_list("Plan:", describe(only->plan));
   say_list("Devices:", devices.lines);
-  if (only) say_list("Lint:", lint_lines(only->lint));
+  if (only && only->soup) say_list("Lint:", lint_lines(only->lint));
   if (!only)
     for (const LayerFacts& facts : layers) say_layer(facts);
 }
@@ -341,7 +366,9 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
   if (only) {
     json.update(contents_json(*only));
   } else {
-    json.update({{"triangles", totals.triangles}, {"vertices", totals.vertices}});
+    json.update({{"triangles", totals.triangles},
+                 {"vertices", totals.vertices},
+                 {"splats", totals.splats}});
     json["layers"] = Json::array();
     for (const LayerFacts& facts : layers) json["layers"].push_back(to_json(facts));
   }
@@ -363,19 +390,14 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
                  {"supersampling", scene.quality.supersampling}}}});
   if (only) json.update(plan_json(only->plan));
   json["devices"] = devices.json;
-  if (only) json["lint"] = to_json(only->lint);
+  if (only && only->soup) json["lint"] = to_json(only->lint);
   return json;
 }
 
 ExitCode inform(const InfoOptions& options) {
-  Scene scene = read(options.scene);
-  std::vector<bool> soft;
-  for (const Layer& layer : scene.layers)
-    soft.push_back(std::holds_alternative<Splats>(layer.primitives));
-  make_opaque(scene);
+  const Scene scene = read(options.scene);
   std::vector<LayerFacts> layers;
-  for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    layers.push_back(facts_of(scene, i, soft[i]));
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) layers.push_back(facts_of(scene, i));
   const Subject subject = subject_of(scene);
   const DeviceFit devices(layers);
   say_scene(options, scene, subject, layers, devices);
@@ -396,8 +418,8 @@ void add_info(Command& program) {
   command.footer(
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
 faces, unused vertices, and coordinates so large that floats round them visibly. Scenes with
-findings can still be drawn. render --camera can read the cameras from the JSON of --json.
-Plan and lint are printed for each layer.
+findings can still be drawn. Plan and lint are printed for each layer. The output of --json
+contains the cameras; tureen render --camera can read them from it.
 
 Examples:
   tureen info soup.glb

@@ -83,8 +83,8 @@ void add_tradeoff(Command& program, std::vector<std::string> arguments) {
 measurement has the frame time and E_render, the error against the oracle's image of the
 unchanged scene. The reference for quality settings has 8 x 8 samples a pixel. With photographs,
 the report also has the error against them (E_model), for the baseline too. The choice is the
-fastest configuration within --least-psnr and --most-mismatch; it contains no quality setting.
-docs/tradeoff.md describes the method.
+fastest configuration within --least-psnr and --most-mismatch; of equally fast ones, the one with
+the fewest changes. It contains no quality setting. docs/tradeoff.md describes the method.
 
 Examples:
   tureen tradeoff soup.glb -o tradeoff                report.html and tradeoff.json
@@ -129,10 +129,11 @@ on the device, or the output cannot be written.)");
       .check(between(1, 1000))
       .value_name("N");
   command
-      .add_option("--combinations", options->combinations,
-                  "largest number of combinations of edits, and the same limit for combinations of "
-                  "quality settings: each 48 by default, 256 with --full; 0 changes one edit or "
-                  "setting at a time")
+      .add_option(
+          "--combinations", options->combinations,
+          "largest number of combinations, separately for edits and for quality settings: 48 "
+          "each by default, 256 each with --full. With 0, only one edit or setting changes "
+          "at a time")
       .check(between(0, 10000))
       .value_name("N");
   command
@@ -148,8 +149,9 @@ on the device, or the output cannot be written.)");
       .value_name("DB");
   command
       .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
-                  "limit for the choice: largest fraction of pixels that are covered in only one "
-                  "image, the device's or the reference, 1e-4 by default")
+                  "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a "
+                  "mismatched pixel is covered either in the device's image or in the reference, "
+                  "but not in both")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");
   const Option write =

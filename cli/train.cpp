@@ -344,9 +344,10 @@ void add_file_options(Command& command, TrainOptions& options) {
       "--resume", options.resume,
       "continue from OUT.checkpoint; the soup is the same as without the interruption");
   command
-      .add_option("--preview-every", options.preview_every,
-                  "steps between previews in OUT.previews, a test view beside its photograph; none "
-                  "by default")
+      .add_option(
+          "--preview-every", options.preview_every,
+          "steps between previews; a preview is an image in the folder OUT.previews: a test "
+          "view beside its photograph; no previews by default")
       .check(between(1, 10'000'000))
       .value_name("N");
   command
@@ -363,8 +364,8 @@ void add_train(Command& program) {
   command.footer(
       R"(Trains triangles with lattice textures and a color MLP to match the photographs. Writes the
 soup as OUT.glb and a log as OUT.jsonl, and measures the soup on the test views. Ctrl-C writes
-a checkpoint; --resume continues from it. Equal seeds give equal soups with any number of
-threads.
+a checkpoint; --resume continues from it. Equal seeds give equal soups on a CPU, with any
+number of threads.
 
 Examples:
   tureen train lego -o lego.glb

@@ -12,6 +12,7 @@
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/ply.hpp"
 #include "formats/mesh/stray_content.hpp"
+#include "formats/splat/splat_records.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
@@ -59,21 +60,22 @@ const std::vector<Format>& formats() {
        .read = read_gltf_or_glb,
        .write = writes_files ? write_tureen_glb : nullptr},
       {.name = "OFF",
-       .description = "triangles with one colour per face or vertex, as text (OFF, COFF)",
+       .description = "triangles with one colour per face or vertex, as text",
        .read_extensions = {".off", ".coff"},
        .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_off(path, o); },
        .write = writes_files ? write_off : nullptr},
       {.name = "PLY",
-       .description = "triangles with one colour per face or vertex, ascii or binary",
+       .description = "triangles with one colour per face or vertex, or splats (3DGS, 2DGS, GaMeS, "
+                      "SplatNet; compressed PLY is only read)",
        .read_extensions = {".ply"},
        .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_ply(path, o); },
        .write = writes_files ? write_ply : nullptr},
       {.name = "DiffSoup export",
-       .description = "DiffSoup's export for the web: lattice textures and a color MLP",
+       .description = "lattice textures and a color MLP, for the web",
        .is_folder = true,
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
@@ -85,6 +87,11 @@ const std::vector<Format>& formats() {
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
 #endif
+      {.name = ".splat",
+       .description = "Gaussians of one colour in records of 32 bytes, without a header",
+       .read_extensions = {".splat"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_splat_records(c.path); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_splat_records(path, o); }},
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file in it",
        .read_extensions = {".obj"},
@@ -145,6 +152,17 @@ const Format& format_to_read(const Candidate& candidate) {
                        " in a supported format: " + listed(Direction::read));
 }
 
+/// The reason for rejecting a scene without primitives.
+std::string nothing_in(const Scene& scene) {
+  for (const Layer& layer : scene.layers)
+    if (std::holds_alternative<Splats>(layer.primitives)) {
+      for (const Remark& remark : scene.info.remarks)
+        if (remark.kind == Remark::Kind::splats_dropped) return describe(remark);
+      return "the file holds no splats";
+    }
+  return "the file holds no triangles";
+}
+
 /// The format by extension.
 const Format& format_to_write(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
@@ -186,11 +204,12 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   bool is_empty = true;
   for (const Layer& layer : scene.layers) {
     const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
-    if (soup)
-      if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
-    if (!soup || !soup->triangles.empty()) is_empty = false;
+    const auto reason = soup ? defect(*soup) : defect(std::get<Splats>(layer.primitives));
+    if (reason) throw InputError({path.string(), {}, {}}, *reason);
+    if (soup ? !soup->triangles.empty() : count(std::get<Splats>(layer.primitives)) > 0)
+      is_empty = false;
   }
-  if (is_empty) throw InputError({path.string(), {}, {}}, "the file holds no triangles");
+  if (is_empty) throw InputError({path.string(), {}, {}}, nothing_in(scene));
   return scene;
 }
 

@@ -25,9 +25,9 @@ struct ReadOptions {
 /// Whether a reader recognises the content. Throws InputError if the path cannot be opened.
 bool is_scene(const std::filesystem::path& path);
 
-/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, a DiffSoup export
-/// folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has triangles and no
-/// defect(). Throws InputError.
+/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, .splat, a DiffSoup
+/// export folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has triangles or
+/// splats, and no defect(). Throws InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Throws UsageError if write_scene would reject the name.

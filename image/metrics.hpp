@@ -20,8 +20,8 @@ struct MetricOptions {
   bool with_flip = true;
 };
 
-/// Over R, G and B, clamped to [0, 1], summed in double precision. Alpha affects only the coverage.
-/// NaN counts as 0 and is counted in non_finite.
+/// Over R, G and B, clamped to [0, 1], summed in double precision. Alpha affects only
+/// coverage_mismatch and non_finite. NaN counts as 0 and is counted in non_finite.
 struct Metrics {
   double mae = 0;
   double mse = 0;

@@ -26,17 +26,18 @@ namespace tureen::oracle {
 
 /// The pixels that a triangle covers.
 enum class Coverage {
-  /// The unmodified triangle. A centre exactly on an edge belongs to the face on its right, or
-  /// below a horizontal edge. Faces that share an edge thus cover each centre on it once.
+  /// The unmodified triangle. A pixel centre exactly on an edge belongs to the face to the right
+  /// of the edge. If the edge is horizontal, it belongs to the face below. Faces that share an edge
+  /// thus cover each centre on it once.
   exact,
   /// GL rasterisation: vertices rounded to a sub-pixel grid (RayOptions), integer edge functions. A
-  /// centre on an edge belongs to the face on its right, or to the face that
-  /// snapped_upper_edge_owns selects.
+  /// centre on an edge belongs to the face to the right of the edge. If the edge is horizontal, it
+  /// belongs to the face that snapped_upper_edge_owns selects.
   snapped,
 };
 
-/// The owner of centres on a horizontal edge between two faces, when snapped: true for the lower
-/// face, which has it as its upper edge; false for the upper face. GL leaves it open. Mesa's
+/// Coverage::snapped: which of two faces owns the centres on their common horizontal edge. True:
+/// the lower face, whose upper edge this is. False: the upper face. GL leaves it open. Mesa's
 /// llvmpipe applies the top-left rule to rows in memory order, and a framebuffer object's first row
 /// is the bottom of the image. The face above is therefore the owner
 /// (GlOracleSingle.CentresOnEdgesHaveTheSameOwner).
@@ -51,15 +52,16 @@ enum class Attributes {
 struct RayOptions {
   Coverage coverage = Coverage::exact;
   Attributes attributes = Attributes::unsnapped;  // only where coverage is snapped
-  /// Bits of the snapping grid, 2^subpixel_bits steps a pixel: the device's GL_SUBPIXEL_BITS, 1 ..
-  /// 16, default 8. GL guarantees at least 4; Mesa and all desktop GPUs have 8.
+  /// Bits of the snapping grid, 2^subpixel_bits steps per pixel: the device's GL_SUBPIXEL_BITS, 1
+  /// .. 16, default 8. GL guarantees at least 4; Mesa and all desktop GPUs have 8.
   int subpixel_bits = 8;
 };
 
 struct Hit {
   std::uint32_t face = 0;
   double b0 = 0, b1 = 0;  // weights of the face's vertices 0 and 1
-  double depth = 0;       // along the viewing axis, world units, at least the near distance
+  double depth = 0;       // along the viewing axis, world units, at least the near distance; with
+                          // Coverage::snapped, slightly less at a triangle that the near plane cuts
 };
 
 /// The rays of one camera through one soup at its place in the world. Both must outlive this
@@ -83,9 +85,10 @@ class Rays {
   /// Works in bands of rows, so memory holds only the hits in one band.
   void visit_pixels(const PixelVisitor& visit) const;
 
-  /// The unit direction from a pixel's surface to the eye, in layer coordinates: harmonics and
-  /// color MLPs are functions of it, so a layer keeps its look when it is moved, and a mirror
-  /// mirrors the direction. It is computed from the axes of camera and layer alone, so it loses no
+  /// The unit direction from the surface point of a pixel to the eye, in layer coordinates.
+  /// Harmonics and color MLPs are functions of this direction, so the look of a layer does not
+  /// change when the layer is moved. If world_from_layer mirrors, the direction is mirrored too. It
+  /// is computed from the axes of camera and layer alone, so it loses no
   /// digits far from the world's origin (docs/numerics.md, V1).
   glm::dvec3 to_eye(int column, int row) const;
 

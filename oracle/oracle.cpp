@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 #include <span>
@@ -33,28 +34,77 @@ struct NearestHit {
   oracle::SurfacePoint point() const { return {face, b0, b1}; }
 };
 
-OracleImage render_soups(std::span<const PlacedSoup> soups, const FrameInput& input,
-                         const OracleOptions& options) {
+/// The visible layers of a scene.
+struct PlacedLayers {
+  std::vector<PlacedSoup> soups;
+  std::vector<oracle::PlacedSplats> splats;
+  std::vector<PlacedBounds> bounds;  // of all
+};
+
+/// The colours of rays [first, first + colors.size()), 0 without a face.
+struct RayColors {
+  std::size_t first = 0;
+  std::vector<glm::dvec3> colors;
+};
+
+/// The mean over a pixel's rays. `blended` is empty without splats.
+glm::dvec4 pixel_of(const OracleImage& image, const RayColors& opaque,
+                    std::span<const oracle::BlendedSample> blended, int column, int row,
+                    const OracleOptions& options) {
+  const int n = options.supersampling;
+  const std::size_t stride = std::size_t(image.color.width) * n;
+  glm::dvec3 sum(0.0);
+  double covered = 0;  // rays
+  for (int i = 0; i < n * n; ++i) {
+    const std::size_t ray = (row * n + i / n) * stride + (column * n + i % n);
+    const bool has_face = image.face[ray] != OracleImage::no_face;
+    const double transmittance = blended.empty() ? 1.0 : blended[ray].transmittance;
+    if (!blended.empty()) sum += blended[ray].color;
+    if (has_face) sum += transmittance * opaque.colors[ray - opaque.first];
+    covered += has_face ? 1.0 : 1.0 - transmittance;
+  }
+  const double coverage = covered / (n * n);
+  glm::dvec4 pixel(0.0);
+  if (options.background)
+    pixel = {sum / double(n * n) + (1 - coverage) * glm::dvec3(*options.background), 1.0};
+  else if (covered > 0)
+    pixel = {sum / covered, coverage};
+  return glm::clamp(pixel, 0.0, 1.0);
+}
+
+OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
+                          const OracleOptions& options) {
   const Camera& camera = input.camera;
   const int n = options.supersampling;
   assert(n >= 1);
   const Camera fine = n == 1 ? camera : resized(camera, camera.width * n, camera.height * n);
   const std::size_t stride = fine.width;
+  const std::size_t all_rays = stride * fine.height;
+  const bool has_splats = !layers.splats.empty();
+  const std::vector<PlacedSoup>& soups = layers.soups;
 
-  std::vector<PlacedBounds> placed;
-  for (const PlacedSoup& each : soups)
-    placed.push_back({bounds(*each.soup), each.world_from_layer});
-  const ClipRange range = clip_range(placed, fine, DepthStorage::reversed_float);
+  const ClipRange range = clip_range(layers.bounds, fine, DepthStorage::reversed_float);
   std::vector<oracle::Rays> rays;
   for (const PlacedSoup& each : soups)
     rays.emplace_back(*each.soup, each.world_from_layer, fine, options.rays, range);
 
   OracleImage result;
   result.color = ImageF(camera.width, camera.height);
-  result.face.assign(stride * fine.height, OracleImage::no_face);
-  result.layer.assign(stride * fine.height, 0);
-  result.depth.assign(stride * fine.height, infinity);
+  result.face.assign(all_rays, OracleImage::no_face);
+  result.layer.assign(all_rays, 0);
+  result.depth.assign(all_rays, infinity);
 
+  const auto resolve = [&](int first_row, int end_row, const RayColors& opaque,
+                           std::span<const oracle::BlendedSample> blended) {
+    for (int row = first_row; row < end_row; ++row)
+      for (int column = 0; column < camera.width; ++column)
+        result.color.at(column, row) =
+            glm::vec4(pixel_of(result, opaque, blended, column, row, options));
+  };
+
+  // Splats need the opaque depth of a ray before its pixel is known, so then all colours are kept.
+  RayColors opaque;
+  if (has_splats) opaque.colors.assign(all_rays, glm::dvec3(0.0));
   const int band_rows = n * std::max(1, rays_in_a_band / (fine.width * n));
   std::vector<NearestHit> nearest;
   for (int first = 0; first < fine.height; first += band_rows) {
@@ -70,32 +120,40 @@ OracleImage render_soups(std::span<const PlacedSoup> soups, const FrameInput& in
           best = {hit.face, i, hit.b0, hit.b1, hit.depth};
       });
 
-    for (int row = first / n; row < end / n; ++row)
-      for (int column = 0; column < camera.width; ++column) {
-        glm::dvec3 sum(0.0);
-        int covered = 0;
-        for (int i = 0; i < n * n; ++i) {
-          const int x = column * n + i % n, y = row * n + i / n;
-          const NearestHit& hit = nearest[(y - first) * stride + x];
-          if (hit.face == OracleImage::no_face) continue;
-          const PlacedSoup& shown = soups[hit.soup];
-          const oracle::Rays& its_rays = rays[hit.soup];
-          result.face[y * stride + x] = hit.face;
-          result.layer[y * stride + x] = shown.layer;
-          result.depth[y * stride + x] = hit.depth;
-          sum += oracle::color(*shown.soup, hit.point(), its_rays.to_eye(x, y), its_rays.eye());
-          ++covered;
-        }
-        const double coverage = double(covered) / (n * n);
-        glm::dvec4 pixel(0.0);
-        if (options.background)
-          pixel = {sum / double(n * n) + (1 - coverage) * glm::dvec3(*options.background), 1.0};
-        else if (covered > 0)
-          pixel = {sum / double(covered), coverage};
-        result.color.at(column, row) = glm::vec4(pixel);
+    if (!has_splats) opaque = {first * stride, std::vector(nearest.size(), glm::dvec3(0.0))};
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < fine.width; ++x) {
+        const NearestHit& hit = nearest[(y - first) * stride + x];
+        if (hit.face == OracleImage::no_face) continue;
+        const std::size_t ray = y * stride + x;
+        const PlacedSoup& shown = soups[hit.soup];
+        const oracle::Rays& its_rays = rays[hit.soup];
+        result.face[ray] = hit.face;
+        result.layer[ray] = shown.layer;
+        result.depth[ray] = hit.depth;
+        opaque.colors[ray - opaque.first] =
+            oracle::color(*shown.soup, hit.point(), its_rays.to_eye(x, y), its_rays.eye());
       }
-    if (options.progress) options.progress(double(end) / fine.height);
+    if (!has_splats) resolve(first / n, end / n, opaque, {});
+    // With splats, opaque surfaces count as half of the work.
+    if (options.progress) options.progress(double(end) / fine.height * (has_splats ? 0.5 : 1.0));
   }
+  if (!has_splats) return result;
+
+  oracle::SplatBlending blending{.order = options.splat_order,
+                                 .stop = options.splat_stop,
+                                 .supersampling = n,
+                                 .near = range.near};
+  if (options.progress)
+    blending.progress = [&](double fraction) { options.progress(0.5 + 0.5 * fraction); };
+  const std::vector<oracle::BlendedSample> blended =
+      oracle::blend(layers.splats, camera, result.depth, blending);
+  for (const oracle::BlendedSample& each : blended) {
+    result.splat_alpha.push_back(1 - each.transmittance);
+    result.splat_depth.push_back(each.median_depth);
+  }
+  resolve(0, camera.height, opaque, blended);
+  if (options.progress) options.progress(1.0);
   return result;
 }
 
@@ -103,20 +161,25 @@ OracleImage render_soups(std::span<const PlacedSoup> soups, const FrameInput& in
 
 OracleImage render_oracle(const Scene& scene, const FrameInput& input,
                           const OracleOptions& options) {
-  std::vector<PlacedSoup> soups;
+  PlacedLayers layers;
   for (std::uint32_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = scene.layers[i];
     if (!layer.visible) continue;
-    assert(std::holds_alternative<TriangleSoup>(layer.primitives));
-    soups.push_back({&std::get<TriangleSoup>(layer.primitives), layer.world_from_layer, i});
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      layers.soups.push_back({soup, layer.world_from_layer, i});
+    else
+      layers.splats.push_back({&std::get<Splats>(layer.primitives), layer.world_from_layer});
+    layers.bounds.push_back({bounds(layer), layer.world_from_layer});
   }
-  return render_soups(soups, input, options);
+  return render_layers(layers, input, options);
 }
 
 OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
                           const OracleOptions& options) {
-  const PlacedSoup only{&soup, at_origin(origin), 0};
-  return render_soups({&only, 1}, input, options);
+  PlacedLayers layers;
+  layers.soups.push_back({&soup, at_origin(origin), 0});
+  layers.bounds.push_back({bounds(soup), at_origin(origin)});
+  return render_layers(layers, input, options);
 }
 
 }  // namespace tureen

@@ -8,6 +8,7 @@
 
 #include "runtime/passes/lattice_source.hpp"
 #include "runtime/passes/texel_store.hpp"
+#include "runtime/splats/device_splats.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -140,6 +141,18 @@ class Forecaster {
 
 DeviceForecast device_forecast(const TriangleSoup& soup, const SoupPlan& plan) {
   return Forecaster(soup, plan).run();
+}
+
+DeviceForecast device_forecast(const Splats& splats, const SplatPlan& plan) {
+  const TexelLayout layout;
+  const SplatSource source = prepare_splats(splats, plan, layout);
+  const TexelSource& largest =
+      source.kernel.count > source.coefficients.count ? source.kernel : source.coefficients;
+  return {.bytes = source.kernel.count * source.kernel.format.bytes +
+                   source.coefficients.count * source.coefficients.format.bytes +
+                   plan.drawn.size() * projected_bytes(plan.shaders),
+          .largest_store_texels = largest.count,
+          .largest_store = largest.what};
 }
 
 std::uint64_t texel_capacity(const DeviceLimits& limits) {

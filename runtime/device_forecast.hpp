@@ -1,4 +1,4 @@
-// Memory of a planned soup on a device, computed without a device.
+// Memory of a planned layer on a device, computed without a device.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,9 @@ struct DeviceForecast {
 
 /// The forecast for this soup with its plan from make_plan.
 DeviceForecast device_forecast(const TriangleSoup& soup, const SoupPlan& plan);
+
+/// The forecast for these splats with their plan from make_splat_plan.
+DeviceForecast device_forecast(const Splats& splats, const SplatPlan& plan);
 
 /// Largest number of texels in one store on such a device.
 std::uint64_t texel_capacity(const DeviceLimits& limits);

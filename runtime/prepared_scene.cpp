@@ -8,9 +8,11 @@ namespace tureen {
 
 std::vector<PlacedSoup> placed_soups(const Scene& scene) {
   std::vector<PlacedSoup> soups;
-  for (const Layer& layer : scene.layers)
-    soups.push_back({std::get<TriangleSoup>(layer.primitives), layer.world_from_layer,
-                     label(layer, soups.size()), layer.visible});
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = scene.layers[i];
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      soups.push_back({*soup, layer.world_from_layer, label(layer, i), layer.visible});
+  }
   return soups;
 }
 
@@ -21,7 +23,7 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
   const TexelLayout layout = TexelLayout::of(limits);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const PlacedSoup& layer = layers[i];
-    const SoupPlan& soup_plan = prepared.plan.layers[i];
+    const SoupPlan& soup_plan = prepared.plan.soup(i);
     PreparedSoup soup;
     with_layer_in_errors(layers.size() > 1 ? layer.name : "", [&] {
       soup = {.appearance = prepare_appearance(layer.soup, soup_plan, layout),
@@ -44,9 +46,43 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
   return prepare_scene(layers, limits, make_plan(soups, limits, options.plan));
 }
 
+PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& device,
+                            const RenderOptions& options) {
+  std::vector<PlacedSoup> soups;
+  for (const PlacedLayer& layer : layers)
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      soups.push_back({*soup, layer.world_from_layer, layer.name, layer.visible});
+  PreparedScene prepared = prepare_scene(soups, device, options);
+  const TexelLayout layout = TexelLayout::of(options.limits.value_or(device));
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const PlacedLayer& layer = layers[i];
+    const auto* splats = std::get_if<Splats>(&layer.primitives);
+    if (!splats) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    SplatPlan plan = make_splat_plan(*splats, options.plan.specialise);
+    prepared.layers.insert(prepared.layers.begin() + at,
+                           {.name = layer.name,
+                            .bounds = bounds(*splats),
+                            .world_from_layer = layer.world_from_layer,
+                            .visible = layer.visible,
+                            .splats = prepare_splats(*splats, plan, layout)});
+    prepared.plan.layers.insert(prepared.plan.layers.begin() + at, std::move(plan));
+  }
+  return prepared;
+}
+
+std::vector<PlacedLayer> placed_layers(const Scene& scene) {
+  std::vector<PlacedLayer> layers;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = scene.layers[i];
+    layers.push_back({layer.primitives, layer.world_from_layer, label(layer, i), layer.visible});
+  }
+  return layers;
+}
+
 PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
                             const RenderOptions& options) {
-  return prepare_scene(placed_soups(scene), device, options);
+  return prepare_scene(placed_layers(scene), device, options);
 }
 
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,

@@ -17,6 +17,7 @@
 #include "runtime/passes/pass.hpp"
 #include "runtime/plan/plan.hpp"
 #include "runtime/render_options.hpp"
+#include "runtime/splats/splat_source.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -32,8 +33,10 @@ struct PreparedLayer {
   Bounds bounds = {};  // in layer coordinates
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  /// Without it, passes from outside runtime/ hold the soup on the device.
+  /// Either of them. Both are empty if the passes from PreparedScene::make_passes hold the soup on
+  /// the device (the baseline).
   std::optional<PreparedSoup> soup = {};
+  std::optional<SplatSource> splats = {};
 };
 
 /// The inputs of a function that makes passes.
@@ -47,8 +50,8 @@ struct PassInputs {
 struct PreparedScene {
   RenderPlan plan;
   std::vector<PreparedLayer> layers;  // one for each of plan.layers
-  /// Makes the passes of a frame, in the current context, instead of those of the soups. May throw
-  /// DeviceLimitError.
+  /// Optional. Makes all passes of a frame in the current context; the renderer then makes none for
+  /// the soups. May throw DeviceLimitError.
   std::function<Passes(const PassInputs&)> make_passes = {};
 };
 
@@ -59,8 +62,19 @@ struct PlacedSoup {
   std::string name = {};
   bool visible = true;
 };
-/// The layers of a scene, all of them soups.
+/// The layers of a scene that are soups.
 std::vector<PlacedSoup> placed_soups(const Scene& scene);
+
+/// The primitives of a layer with their place. It refers to the primitives.
+struct PlacedLayer {
+  const Primitives& primitives;
+  glm::dmat4 world_from_layer{1.0};
+  std::string name = {};
+  bool visible = true;
+};
+
+/// The layers of a scene.
+std::vector<PlacedLayer> placed_layers(const Scene& scene);
 
 /// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
 /// soups. The soups must not move until the sources have been used. Soups and layers must have no
@@ -68,7 +82,9 @@ std::vector<PlacedSoup> placed_soups(const Scene& scene);
 /// a soup does not fit.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& device,
                             const RenderOptions& options = {});
-/// The same for a scene, whose layers are soups, and for a single soup.
+/// The same for layers that may also be splats, for a scene, and for a single soup.
+PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& device,
+                            const RenderOptions& options = {});
 PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
                             const RenderOptions& options = {});
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,

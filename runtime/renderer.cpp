@@ -11,6 +11,7 @@
 #include "runtime/passes/filter_pass.hpp"
 #include "runtime/passes/soup_passes.hpp"
 #include "runtime/passes/targets.hpp"
+#include "runtime/splats/splat_pass.hpp"
 #include "scene/clip_range.hpp"
 
 namespace tureen {
@@ -19,10 +20,11 @@ struct Renderer::State {
   State(const gl::Context& context, PreparedScene& prepared, const RenderOptions& options)
       : plan(std::move(prepared.plan)),
         background(options.background),
+        splat_target(options.splat_target),
         device(context.capabilities()) {
     gl::use_plain_pixel_transfer();
     upload(prepared.layers, plan.layers);
-    draws_soups = !prepared.make_passes;
+    draws_layers = !prepared.make_passes;
     arrange();
     if (prepared.make_passes) passes = prepared.make_passes({device, plan, soups});
     if (plan.quality != Quality{}) filter.emplace(plan.quality, device.api);
@@ -33,7 +35,8 @@ struct Renderer::State {
     bool visible = true;
   };
 
-  void upload(std::vector<PreparedLayer>& layers, std::span<const SoupPlan> plans);
+  void upload(std::vector<PreparedLayer>& layers, std::span<const LayerPlan> plans);
+  bool has_splats() const;
   void arrange();
   void remove(std::size_t layer);
   template <class Add>
@@ -43,10 +46,12 @@ struct Renderer::State {
   /// Calls act(pass) for each pass in order, without the filter.
   template <class Act>
   void for_each_pass(const Act& act) {
-    if (draws_soups) {
-      for (const SoupPasses& each : soup_passes) act(*each.faces);
+    if (draws_layers) {
+      for (const SoupPasses& each : soup_passes)
+        if (each.faces) act(*each.faces);
       for (const SoupPasses& each : soup_passes)
         if (each.shading) act(*each.shading);
+      if (splat_pass) act(*splat_pass);
     }
     for (const std::unique_ptr<Pass>& pass : passes) act(*pass);
   }
@@ -68,34 +73,50 @@ struct Renderer::State {
   RenderPlan plan;  // soups and passes refer to it
   std::vector<Place> places;
   glm::vec4 background;
+  SplatTarget splat_target;
   gl::Capabilities device;
   FrameTarget target{{}};
+  // One for each layer; null for layers of the other kind.
   std::vector<std::unique_ptr<DeviceSoup>> soups;
-  bool layered = false;                 // the passes are those of several layers
-  bool draws_soups = true;              // otherwise `passes` are all passes
-  std::vector<SoupPasses> soup_passes;  // one for each soup, if they are drawn
-  Passes passes;                        // from outside
-  std::optional<FilterPass> filter;     // for other than one sample a pixel
-  glm::ivec2 size{0};                   // of the last image; 0 before the first
-  Frame frame;                          // the last one
-  Camera camera;                        // of the last frame, at the image's size
+  std::vector<std::unique_ptr<DeviceSplats>> splats;
+  bool layered = false;                   // the passes are those of several soups
+  bool draws_layers = true;               // otherwise `passes` are all passes
+  std::vector<SoupPasses> soup_passes;    // one for each layer, if they are drawn
+  std::unique_ptr<SplatPass> splat_pass;  // of all layers of splats
+  Passes passes;                          // from outside
+  std::optional<FilterPass> filter;       // for other than one sample a pixel
+  glm::ivec2 size{0};                     // of the last image; 0 before the first
+  Frame frame;                            // the last one
+  Camera camera;                          // of the last frame, at the image's size
   gl::PassTimer* timer = nullptr;
   std::optional<DepthProbe> probe;
   std::vector<PlacedBounds> visible_boxes;  // for set_frame()
 };
 
 /// Appends the layers' places and soups.
-void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const SoupPlan> plans) {
+void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const LayerPlan> plans) {
   assert(layers.size() == plans.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
     PreparedLayer& layer = layers[i];
-    if (layer.soup)
-      with_layer_in_errors(places.size() + layers.size() - i > 1 ? layer.name : "", [&] {
-        soups.push_back(std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
-                                                     layer.soup->geometry, plans[i]));
-      });
+    std::unique_ptr<DeviceSoup> soup;
+    std::unique_ptr<DeviceSplats> of_splats;
+    with_layer_in_errors(places.size() + layers.size() - i > 1 ? layer.name : "", [&] {
+      if (layer.soup)
+        soup = std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
+                                            layer.soup->geometry, std::get<SoupPlan>(plans[i]));
+      if (layer.splats)
+        of_splats = std::make_unique<DeviceSplats>(device, std::move(*layer.splats),
+                                                   std::get<SplatPlan>(plans[i]));
+    });
+    soups.push_back(std::move(soup));
+    splats.push_back(std::move(of_splats));
     places.push_back({{layer.bounds, layer.world_from_layer}, layer.visible});
   }
+}
+
+bool Renderer::State::has_splats() const {
+  return std::any_of(splats.begin(), splats.end(),
+                     [](const auto& each) { return each != nullptr; });
 }
 
 /// Calls add(), which appends layers, and arranges them. If that throws, the layers are as before.
@@ -107,7 +128,9 @@ void Renderer::State::add_or_undo(const Add& add) {
     arrange();
   } catch (...) {
     if (soup_passes.size() > before) soup_passes.resize(before);  // they refer to the soups
+    splat_pass.reset();
     soups.resize(before);
+    splats.resize(before);
     places.resize(before);
     plan.layers.resize(before);
     arrange();
@@ -117,22 +140,36 @@ void Renderer::State::add_or_undo(const Add& add) {
 
 /// Numbers the soups and makes the passes that are missing, after a change of the layers.
 void Renderer::State::arrange() {
-  const bool now_layered = soups.size() > 1;
+  const auto is_soup = [](const auto& each) { return each != nullptr; };
+  const bool now_layered = std::count_if(soups.begin(), soups.end(), is_soup) > 1;
   // A change of the kind of plan needs other programs. One soup that remains of several keeps its
   // plan and programs, which draw it correctly.
   if (now_layered && !layered) soup_passes.clear();
   layered |= now_layered;
   if (layered)
-    for (SoupPlan& each : plan.layers) make_layered(each);
+    for (LayerPlan& each : plan.layers)
+      if (auto* soup = std::get_if<SoupPlan>(&each)) make_layered(*soup);
   std::uint32_t first_slot = 0;
   for (std::size_t i = 0; i < soups.size(); ++i) {
-    soups[i]->set_place(plan.layers[i], {i, first_slot, layered});
-    first_slot += static_cast<std::uint32_t>(plan.layers[i].faces.size());
+    if (splats[i]) splats[i]->set_layer(i);
+    if (!soups[i]) continue;
+    soups[i]->set_place(plan.soup(i), {i, first_slot, layered});
+    first_slot += static_cast<std::uint32_t>(plan.soup(i).faces.size());
   }
-  const bool all_made = !draws_soups || soup_passes.size() == soups.size();
+  splat_pass.reset();
+  if (draws_layers && has_splats()) {
+    splat_pass = std::make_unique<SplatPass>(
+        device, splats,
+        splat_target == SplatTarget::rgba16f ||
+                (splat_target == SplatTarget::automatic && !device.float_blending)
+            ? SplatPass::Precision::half
+            : SplatPass::Precision::single);
+    size = glm::ivec2(0);  // the next frame calls its resize()
+  }
+  const bool all_made = !draws_layers || soup_passes.size() == soups.size();
   if (!all_made)
     for (std::size_t i = soup_passes.size(); i < soups.size(); ++i)
-      soup_passes.push_back(make_soup_passes(*soups[i]));
+      soup_passes.push_back(soups[i] ? make_soup_passes(*soups[i]) : SoupPasses{});
   if (all_made && target.format() == format()) {
     target.begin(background);  // the last frame no longer belongs to the layers
     return;
@@ -143,8 +180,10 @@ void Renderer::State::arrange() {
 
 void Renderer::State::remove(std::size_t layer) {
   const auto at = static_cast<std::ptrdiff_t>(layer);
-  if (draws_soups) soup_passes.erase(soup_passes.begin() + at);
+  if (draws_layers) soup_passes.erase(soup_passes.begin() + at);
+  splat_pass.reset();
   soups.erase(soups.begin() + at);
+  splats.erase(splats.begin() + at);
   places.erase(places.begin() + at);
   plan.layers.erase(plan.layers.begin() + at);
 }
@@ -152,6 +191,7 @@ void Renderer::State::remove(std::size_t layer) {
 FrameFormat Renderer::State::format() const {
   FrameFormat result{.reversed_depth = plan.reversed_depth, .layered = layered};
   for (const std::unique_ptr<DeviceSoup>& soup : soups) {
+    if (!soup) continue;
     result.visibility |= soup->plan().site == ShadingSite::deferred;
     result.image_store |= soup->plan().shading_stage == ShadingStage::compute;
   }
@@ -225,25 +265,27 @@ void Renderer::show_layer(std::size_t layer, bool visible) {
 
 void Renderer::add_layers(PreparedScene prepared) {
   State& state = *state_;
-  assert(state.draws_soups && !prepared.make_passes);
+  assert(state.draws_layers && !prepared.make_passes);
   assert(prepared.plan.reversed_depth == state.plan.reversed_depth);
   assert(state.places.size() + prepared.layers.size() <= max_layers);
   gl::use_plain_pixel_transfer();
   state.add_or_undo([&] {
     state.upload(prepared.layers, prepared.plan.layers);
-    for (SoupPlan& each : prepared.plan.layers) state.plan.layers.push_back(std::move(each));
+    for (LayerPlan& each : prepared.plan.layers) state.plan.layers.push_back(std::move(each));
   });
 }
 
 void Renderer::add_layers(Renderer other) {
   State &state = *state_, &from = *other.state_;
-  assert(state.draws_soups && from.draws_soups);
+  assert(state.draws_layers && from.draws_layers);
   assert(from.plan.reversed_depth == state.plan.reversed_depth);
   assert(state.places.size() + from.places.size() <= max_layers);
   from.soup_passes.clear();  // they refer to the soups
+  from.splat_pass.reset();
   state.add_or_undo([&] {
     for (std::size_t i = 0; i < from.soups.size(); ++i) {
       state.soups.push_back(std::move(from.soups[i]));
+      state.splats.push_back(std::move(from.splats[i]));
       state.places.push_back(from.places[i]);
       state.plan.layers.push_back(std::move(from.plan.layers[i]));
     }
@@ -251,18 +293,19 @@ void Renderer::add_layers(Renderer other) {
 }
 
 void Renderer::remove_layer(std::size_t layer) {
-  assert((state_->draws_soups || state_->passes.empty()) && layer < layer_count());
+  assert((state_->draws_layers || state_->passes.empty()) && layer < layer_count());
   state_->remove(layer);
   state_->arrange();
 }
 
 void Renderer::swap_layers(std::size_t a, std::size_t b) {
   State& state = *state_;
-  assert((state.draws_soups || state.passes.empty()) && a < layer_count() && b < layer_count());
+  assert((state.draws_layers || state.passes.empty()) && a < layer_count() && b < layer_count());
   std::swap(state.soups[a], state.soups[b]);
+  std::swap(state.splats[a], state.splats[b]);
   std::swap(state.places[a], state.places[b]);
   std::swap(state.plan.layers[a], state.plan.layers[b]);
-  if (state.draws_soups) std::swap(state.soup_passes[a], state.soup_passes[b]);
+  if (state.draws_layers) std::swap(state.soup_passes[a], state.soup_passes[b]);
   state.arrange();
 }
 
@@ -273,8 +316,9 @@ void Renderer::add_pass(std::unique_ptr<Pass> pass) {
 
 void Renderer::set_passes(Passes passes) {
   state_->passes = std::move(passes);
-  state_->draws_soups = false;
+  state_->draws_layers = false;
   state_->soup_passes.clear();
+  state_->splat_pass.reset();
   state_->size = glm::ivec2(0);
 }
 
@@ -325,12 +369,17 @@ std::vector<VisibleFace> Renderer::read_faces() const {
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (slots[i] == no_face) continue;
     std::size_t layer = state.soups.size() - 1;
-    while (slots[i] < state.soups[layer]->place().first_slot) --layer;
+    while (!state.soups[layer] || slots[i] < state.soups[layer]->place().first_slot) --layer;
     const DeviceSoup& soup = *state.soups[layer];
     result[i] = {static_cast<std::uint32_t>(layer),
                  soup.plan().faces[slots[i] - soup.place().first_slot]};
   }
   return result;
+}
+
+std::vector<glm::vec4> Renderer::read_splats() const {
+  return state_->splat_pass && state_->size.x > 0 ? state_->splat_pass->read_blended()
+                                                  : std::vector<glm::vec4>{};
 }
 
 std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {
@@ -354,7 +403,10 @@ void Renderer::blit_to(unsigned framebuffer, glm::ivec2 corner) const {
 }
 
 void Renderer::leave_context() {
-  for (const std::unique_ptr<DeviceSoup>& soup : state_->soups) soup->leave_context();
+  for (const std::unique_ptr<DeviceSoup>& soup : state_->soups)
+    if (soup) soup->leave_context();
+  for (const std::unique_ptr<DeviceSplats>& splats : state_->splats)
+    if (splats) splats->leave_context();
   state_->for_each_pass_and_filter([](Pass& pass) { pass.leave_context(); });
   state_->target.leave_context();
   state_->probe.reset();
@@ -362,9 +414,16 @@ void Renderer::leave_context() {
   finish();
 }
 
+std::size_t Renderer::layer_bytes(std::size_t layer) const {
+  assert(layer < layer_count());
+  if (const auto& soup = state_->soups[layer]) return soup->device_bytes();
+  const auto& splats = state_->splats[layer];
+  return splats ? splats->device_bytes() : 0;
+}
+
 std::size_t Renderer::device_bytes() const {
   std::size_t bytes = 0;
-  for (const std::unique_ptr<DeviceSoup>& soup : state_->soups) bytes += soup->device_bytes();
+  for (std::size_t i = 0; i < layer_count(); ++i) bytes += layer_bytes(i);
   state_->for_each_pass_and_filter([&](Pass& pass) { bytes += pass.device_bytes(); });
   return bytes;
 }

@@ -43,7 +43,8 @@ struct VisibleFace {
 class Renderer {
  public:
   /// Uploads a scene that was prepared for limits within those of the device. Only the background
-  /// of the options is used. Throws DeviceLimitError if the device refuses the memory.
+  /// and the target of splats are used of the options. Throws DeviceLimitError if the device
+  /// refuses the memory.
   Renderer(const gl::Context& context, PreparedScene prepared, const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
@@ -61,29 +62,33 @@ class Renderer {
   /// Shows or hides a layer. Hidden layers stay on the device.
   void show_layer(std::size_t layer, bool visible);
 
-  // The next functions change the layers. They end the last frame: draw() must follow before other
-  // reading functions. Passes from set_passes() refer to the soups: replace them by none before.
+  // The next functions change the layers. They discard the last frame: call draw() before
+  // read_color(), read_faces(), point_at() or blit_to(). Passes from set_passes() may refer to the
+  // soups: call set_passes({}) before remove_layer() and swap_layers().
 
   /// Adds the layers of a scene after the present ones, which stay on the device. Several layers
-  /// are all drawn deferred. The quality stays that of the first scene. Requires a scene without
-  /// make_passes, the same choice of reversed depth, and at most max_layers layers. Throws
+  /// are all drawn deferred. The quality stays that of the first scene. Requires a scene
+  /// without make_passes, no call of set_passes() before, the same choice of reversed depth, and at
+  /// most max_layers layers. Throws
   /// DeviceLimitError and ContextError; then the layers are as before.
   void add_layers(PreparedScene prepared);
   /// The same with layers that another renderer of the same device has uploaded, for example in
-  /// another thread. It must have left its context, if that is another one.
+  /// another thread. If `other` has another context than this renderer, call
+  /// other.leave_context() before.
   void add_layers(Renderer other);
   /// Frees the layer's memory on the device. Later layers move up.
   void remove_layer(std::size_t layer);
   /// Changes the order: at equal depth the earlier layer is visible.
   void swap_layers(std::size_t a, std::size_t b);
 
-  /// Adds a pass after those of the layers. Its result is filtered like theirs if the plan has
-  /// another number of samples than one a pixel.
+  /// Adds a pass after those of the layers. If the plan has more or fewer than one sample per
+  /// pixel, the filter pass also applies to its result.
   void add_pass(std::unique_ptr<Pass> pass);
   /// Replaces all passes of later frames, also those of the layers. Passes that draw soups must not
   /// outlive them.
   void set_passes(Passes passes);
-  /// The soups on the device, for passes that draw them; they live as long as their layer.
+  /// The soups on the device, for passes that draw them; they live as long as their layer. Null for
+  /// layers of splats.
   std::span<const std::unique_ptr<DeviceSoup>> soups() const;
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
@@ -109,8 +114,12 @@ class Renderer {
   /// no_face for the background. Empty if no pass stores faces, as in forward plans.
   std::vector<VisibleFace> read_faces() const;
 
+  /// The blended splats of the last frame without the soups behind them: premultiplied RGBA for
+  /// each sample, row 0 on top. Colours may exceed 1. Empty without splats.
+  std::vector<glm::vec4> read_splats() const;
+
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
-  /// left corner. Returns nullopt for the background, and if no pass stores
+  /// left corner. Returns nullopt outside the image, for the background, and if no pass stores
   /// depth, as in DebugView::overdraw. Its precision is that of the depth buffer.
   /// Waits for the device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
@@ -126,6 +135,9 @@ class Renderer {
   /// Bytes of the scene's buffers and textures, without the targets. Includes the copy of the
   /// corners for small-triangle culling, although it is in main memory.
   std::size_t device_bytes() const;
+
+  /// The part of device_bytes() of one layer.
+  std::size_t layer_bytes(std::size_t layer) const;
 
   /// Bytes of the targets at the last frame's size, by their formats; a driver may use more. 0
   /// before the first frame.

@@ -24,8 +24,9 @@ constexpr std::uint32_t texel_count(int level) {
   return (n + 1) * (n + 2) / 2;
 }
 
-/// Cells of one triangle: squares of four texels each, except on the last diagonal. Their number
-/// and index equal those of the texels of a lattice one row smaller.
+/// Number of cells of one triangle. A cell is a square with four texels as its corners; on the last
+/// diagonal it is half a square, with three. Cells are counted and indexed like the texels of a
+/// lattice of resolution n - 1.
 constexpr std::uint32_t cell_count(int level) {
   const std::uint32_t n = 1u << level;
   return n * (n + 1) / 2;

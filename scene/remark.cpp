@@ -15,6 +15,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "up_unknown_to_format",
     "up_unknown_to_trimesh",
     "up_unknown_to_checkpoint",
+    "up_unknown_to_splats",
     "up_of_colmap_scene",
     "up_of_synthetic_scene",
     "up_of_transforms",
@@ -28,6 +29,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "soft_triangles_dropped",
     "splats_dropped",
     "splat_colors_linear",
+    "profile_assumed",
     "color_components_clamped",
     "face_colors_dropped",
     "colors_missing",
@@ -98,6 +100,10 @@ std::string sentence_of(const Remark& remark) {
     case Kind::up_unknown_to_checkpoint:
       return "the checkpoint stores no up axis: -y is assumed, as in COLMAP; scenes trained on "
              "Blender images have +z";
+    case Kind::up_unknown_to_splats:
+      return names[0] +
+             " stores no up axis: -y is assumed, as in COLMAP; scenes trained on Blender "
+             "images have +z";
     case Kind::up_of_colmap_scene:
       return "the checkpoint has flip_z: a COLMAP scene is assumed, with up -y and a black "
              "background";
@@ -135,6 +141,9 @@ std::string sentence_of(const Remark& remark) {
     case Kind::splat_colors_linear:
       return "the splats were trained and are blended in linear light; they are drawn as if their "
              "colours were display-referred, and look different";
+    case Kind::profile_assumed:
+      return "the file does not store how its splats are rendered: the profile " + names[0] +
+             " is assumed";
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
@@ -241,6 +250,7 @@ std::string hint_of(const Remark& remark) {
   switch (remark.kind) {
     case Kind::up_unknown_to_format:
     case Kind::up_unknown_to_trimesh:
+    case Kind::up_unknown_to_splats:
       return "--up changes it";
     case Kind::vertex_colors_srgb_by_generator:
     case Kind::vertex_colors_linear_by_gltf:

@@ -17,6 +17,7 @@ struct Remark {
     up_unknown_to_format,      // names: the format. z is assumed
     up_unknown_to_trimesh,     // z is assumed
     up_unknown_to_checkpoint,  // -y is assumed
+    up_unknown_to_splats,      // names: the format. -y is assumed
     up_of_colmap_scene,        // the checkpoint has flip_z: -y, and a black background
     up_of_synthetic_scene,     // no flip_z: +z, and a white background
     up_of_transforms,          // of a dataset: z, as in the scenes of NeRF
@@ -32,6 +33,7 @@ struct Remark {
     // Splats.
     splats_dropped,       // counts: dropped, all
     splat_colors_linear,  // in linear light, which SplatColor does not hold
+    profile_assumed,      // names: the profile
     // Colours.
     color_components_clamped,  // counts: components
     face_colors_dropped,       // the file has vertex colours as well

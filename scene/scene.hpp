@@ -59,11 +59,11 @@ Bounds bounds(const Layer& layer);
 /// The primitives are not checked.
 std::optional<std::string> defect(const Layer& layer);
 
-/// The layer's name, or "layer 2" for the second of the scene without a name. `index` is from 0.
+/// The layer's name. If it is empty: "layer 2" for the second layer, `index` 1.
 std::string label(const Layer& layer, std::size_t index);
 
-/// Most layers of a scene. The runtime marks the pixels of each layer in the stencil buffer, which
-/// has 8 bits; 0 is the background.
+/// Largest number of layers of a scene. The runtime marks the pixels of each layer in the stencil
+/// buffer, which has 8 bits; 0 is the background.
 inline constexpr std::size_t max_layers = 255;
 
 struct Scene {

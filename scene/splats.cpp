@@ -240,6 +240,12 @@ const char* kernel_name(const SplatKernel& kernel) {
   return "neural densities";
 }
 
+std::string describe(const Splats& splats) {
+  return std::to_string(count(splats)) + " " + kernel_name(splats.kernel) + ", profile " +
+         std::string(name_of(splats.profile)) + ", harmonics of degree " +
+         std::to_string(splats.color.degree);
+}
+
 glm::dvec3 center(const Splats& splats, std::size_t i) {
   if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
     const glm::vec3* corner = &windows->corners[3 * i];

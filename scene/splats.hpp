@@ -123,6 +123,9 @@ std::size_t count(const Splats& splats);
 /// "triangle windows", "Gaussians", "flat Gaussians" or "neural densities".
 const char* kernel_name(const SplatKernel& kernel);
 
+/// "90854 Gaussians, profile 3dgs, harmonics of degree 0".
+std::string describe(const Splats& splats);
+
 /// The centre of splat `i` in double precision, in layer coordinates.
 glm::dvec3 center(const Splats& splats, std::size_t i);
 

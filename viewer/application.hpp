@@ -22,7 +22,7 @@
 namespace tureen::viewer {
 
 struct ApplicationOptions {
-  std::vector<std::filesystem::path> scenes;  // several become the layers of one
+  std::vector<std::filesystem::path> scenes;  // several are combined, each as a layer
   std::filesystem::path dataset;              // empty: none
   DrawingChoice drawing = {};
   gl::Api api = gl::Api::desktop;
@@ -30,13 +30,14 @@ struct ApplicationOptions {
   std::optional<std::filesystem::path> settings;  // file; nullopt: not stored
   std::optional<Session> replay;                  // replaces the user's events
   std::filesystem::path record;                   // file for the session; empty: none
-  std::function<bool()> interrupted = {};         // called twice a second; true closes the window
-  std::filesystem::path images;                   // folder for images; empty: that of the settings
+  std::function<bool()> interrupted = {};  // called before each frame; true closes the window
+  std::filesystem::path images;            // folder for images; empty: that of the settings
 };
 
 /// Measurements of a run.
 struct RunReport {
-  double first_image_seconds = -1;  // since before the window opened; -1: no image
+  /// From the construction of Application to the first image of a scene; -1: no image.
+  double first_image_seconds = -1;
   /// Longest time of a frame on the main thread while a scene loads, without the drawing.
   double longest_busy_ms = 0;
 };
@@ -48,8 +49,8 @@ class Application {
   ~Application();
 
   /// Runs until the window is closed or the session ends, then writes the session and the settings.
-  /// Throws OutputError if they cannot be written. Throws ContextError if the device is lost, after
-  /// writing them too.
+  /// Throws OutputError if they cannot be written. If the device is lost, also writes both files if
+  /// possible, then throws ContextError.
   void run();
 
   const RunReport& report() const { return report_; }
@@ -104,7 +105,8 @@ class Application {
     changed,  // the same files, read again, or prepared in another way
     grown,    // the same with further files
   };
-  /// Scenes that the worker reads: all files, or those besides the files of the shown scene.
+  /// Scenes that the worker reads. With Relation::other, `paths` has all files. Otherwise
+  /// it has only the files that the shown scene does not have.
   struct Loading {
     Relation relation = Relation::other;
     std::vector<std::filesystem::path> paths;
@@ -159,7 +161,8 @@ class Application {
   bool image_is_current_ = false;
   /// Whether a worker prepares the scene for debug views (true) or for colours (false).
   std::optional<bool> preparing_debug_views_;
-  bool preparing_drawing_ = false;  // by state_.wanted
+  /// Whether a worker prepares the scene again with the options state_.wanted.
+  bool preparing_drawing_ = false;
   Camera drawn_camera_;
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;

@@ -48,8 +48,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       .add_option(
           "SCENE", arguments.paths,
           "scenes: .glb, .gltf, .off, .coff, .ply, .obj, .pt, or a folder; several are drawn "
-          "together, each as a layer. After the first, a folder that is no scene, or a .json file, "
-          "is a DATASET: photographs for comparison (COLMAP or NeRF)")
+          "together, each as a layer. One argument after the first scene can be a DATASET: a .json "
+          "file, or a folder that is not a scene, with photographs for comparison (COLMAP or NeRF)")
       ->option_text(".. [DATASET]");
   program.add_option("--size", arguments.size, "window size in screen coordinates")
       ->option_text("WxH");
@@ -76,14 +76,15 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(
       "--report", arguments.report,
-      "at the end, print the time to the first image, and the longest frame while a scene "
-      "loads; that frame time excludes the drawing");
+      "at the end, print the time to the first image, and the longest time that the main thread "
+      "needed for a frame while a scene was loading, without the drawing of the scene");
   program.add_option("--record", arguments.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
       .add_option(
           "--replay", arguments.replay,
-          "session file to replay, then exit; exit with 1 if the window then shows an error")
+          "session file: replay it, then exit; the exit code is 1 if the window shows an error at "
+          "the end of the replay")
       ->option_text("FILE");
 }
 

@@ -34,14 +34,12 @@ void append_file(StageSource& source, const fs::path& path,
                  const std::function<void(double)>& progress) {
   const FileWatch watch(path);
   auto scene = std::make_shared<Scene>(read_scene(path, {.progress = progress}));
-  make_opaque(*scene);
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
   for (std::size_t i = 0; i < scene->layers.size(); ++i) {
     Layer& layer = scene->layers[i];
-    auto soup = std::make_shared<TriangleSoup>(
-        std::exchange(std::get<TriangleSoup>(layer.primitives), TriangleSoup{}));
-    const Bounds box = bounds(*soup);
-    source.layers.push_back({.soup = std::move(soup),
+    const Bounds box = bounds(layer);
+    source.layers.push_back({.primitives = std::make_shared<const Primitives>(
+                                 std::exchange(layer.primitives, TriangleSoup{})),
                              .box = box,
                              .world_from_layer = layer.world_from_layer,
                              .visible = layer.visible,
@@ -143,17 +141,19 @@ bool was_known(const StageLayer& layer, const StageSource& source, const StageSo
 /// A renderer of one layer by the choice.
 Renderer prepare_layer(const StageLayer& layer, const Scene& scene, const StageRequest& request) {
   const RenderOptions options = render_options(request.choice, scene);
-  const PlacedSoup placed{*layer.soup, layer.world_from_layer, layer.name, layer.visible};
+  const PlacedLayer placed{*layer.primitives, layer.world_from_layer, layer.name, layer.visible};
   const DeviceLimits limits = device_limits(request.context.capabilities());
   return Renderer(request.context, prepare_scene(std::span(&placed, 1), limits, options), options);
 }
 
 RefusedLayer refused(const StageLayer& layer, const Scene& scene, const StageRequest& request,
                      const DeviceLimitError& error) {
+  if (const auto* splats = std::get_if<Splats>(layer.primitives.get()))
+    return {layer.name, device_forecast(*splats, make_splat_plan(*splats)).bytes, error.reason()};
+  const TriangleSoup& soup = *layer.soup();
   const DeviceLimits limits = device_limits(request.context.capabilities());
-  const RenderPlan plan =
-      make_plan(*layer.soup, limits, render_options(request.choice, scene).plan);
-  return {layer.name, device_forecast(*layer.soup, plan.layers.front()).bytes, error.reason()};
+  const RenderPlan plan = make_plan(soup, limits, render_options(request.choice, scene).plan);
+  return {layer.name, device_forecast(soup, plan.soup(0)).bytes, error.reason()};
 }
 
 }  // namespace
@@ -205,25 +205,40 @@ std::vector<std::string> named_notes(const StageSource& source) {
   return all_notes(merged(std::move(headers)).info);
 }
 
+std::size_t StageLayer::primitive_count() const {
+  return soup() ? soup()->triangles.size() : count(std::get<Splats>(*primitives));
+}
+
+std::vector<PlacedLayer> placed_layers(const StageSource& source) {
+  std::vector<PlacedLayer> result;
+  for (const StageLayer& layer : source.layers)
+    result.push_back({*layer.primitives, layer.world_from_layer, layer.name, layer.visible});
+  return result;
+}
+
 std::vector<PlacedSoup> placed_soups(const StageSource& source) {
   std::vector<PlacedSoup> result;
-  for (const StageLayer& layer : source.layers)
-    result.push_back({*layer.soup, layer.world_from_layer, layer.name, layer.visible});
+  for (const StageLayer& layer : source.layers) {
+    if (!layer.soup()) throw UsageError("layer " + layer.name + " holds splats, not triangles");
+    result.push_back({*layer.soup(), layer.world_from_layer, layer.name, layer.visible});
+  }
   return result;
 }
 
 std::optional<std::string> why_not(DebugView what, const StageSource& source) {
+  if (what == DebugView::color) return std::nullopt;
   for (const StageLayer& layer : source.layers)
-    if (const auto reason = tureen::why_not(what, *layer.soup))
+    if (const auto reason = layer.soup() ? tureen::why_not(what, *layer.soup())
+                                         : "debug views show triangles, not splats")
       return source.layers.size() > 1 ? layer.name + ": " + *reason : *reason;
   return std::nullopt;
 }
 
 int feature_count(const StageSource& source) {
-  int count = tureen::feature_count(*source.layers.front().soup);
+  int fewest = LatticeTexture::features;
   for (const StageLayer& layer : source.layers)
-    count = std::min(count, tureen::feature_count(*layer.soup));
-  return count;
+    fewest = std::min(fewest, layer.soup() ? tureen::feature_count(*layer.soup()) : 0);
+  return fewest;
 }
 
 StageSource read_source(const ReadRequest& request) {
@@ -301,12 +316,13 @@ std::string describe(const RefusedLayer& layer) {
 }
 
 Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
-  const std::vector<PlacedSoup> layers = placed_soups(source);
   const RenderOptions options = render_options(request.choice, *source.scene);
   if (request.choice.pipeline == PipelineKind::tureen)
     return Renderer(request.context,
-                    prepare_scene(layers, device_limits(request.context.capabilities()), options),
+                    prepare_scene(placed_layers(source),
+                                  device_limits(request.context.capabilities()), options),
                     options);
+  const std::vector<PlacedSoup> layers = placed_soups(source);
   if (layers.size() > 1)
     throw UsageError("the baseline draws scenes of one layer; this scene has " +
                      std::to_string(layers.size()));
@@ -398,14 +414,15 @@ void add_to(Stage& stage, StageAddition addition) {
 void arrange_layers(Stage& stage, std::vector<StageLayer> wanted) {
   std::vector<StageLayer>& layers = stage.layers;
   const auto find = [](std::vector<StageLayer>& among, const StageLayer& layer) {
-    return std::find_if(among.begin(), among.end(),
-                        [&](const StageLayer& each) { return each.soup == layer.soup; });
+    return std::find_if(among.begin(), among.end(), [&](const StageLayer& each) {
+      return each.primitives == layer.primitives;
+    });
   };
   std::erase_if(wanted, [&](const auto& each) { return find(layers, each) == layers.end(); });
   if (wanted.empty()) return;  // the user kept only layers that the device refused
-  const bool same_order =
-      std::equal(wanted.begin(), wanted.end(), layers.begin(), layers.end(),
-                 [](const StageLayer& a, const StageLayer& b) { return a.soup == b.soup; });
+  const bool same_order = std::equal(
+      wanted.begin(), wanted.end(), layers.begin(), layers.end(),
+      [](const StageLayer& a, const StageLayer& b) { return a.primitives == b.primitives; });
   // The passes of debug views refer to the soups.
   if (!same_order && stage.debug_views) stage.renderer.set_passes({});
   for (std::size_t i = layers.size(); i-- > 0;) {

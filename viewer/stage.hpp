@@ -36,25 +36,30 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene);
 struct SceneFile {
   std::filesystem::path path;
   FileWatch watch;  // created before it was read
-  /// The file's scene as it was read, except that its layers have no triangles.
+  /// The file's scene as it was read, except that its layers are empty.
   std::shared_ptr<const Scene> header;
 };
 
-/// A layer of the scene. The user changes its place; its soup never changes, and jobs in the
-/// background share it.
+/// A layer of the scene. The user changes its place; its primitives never change, and jobs in the
+/// background share them.
 struct StageLayer {
   std::string name = {};  // that of the file for a single layer without a name
-  std::shared_ptr<const TriangleSoup> soup = {};
+  std::shared_ptr<const Primitives> primitives = {};
   Bounds box = {};  // in layer coordinates
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
   std::size_t file = 0, index = 0;  // the file, and the layer in it
+
+  /// Null for splats.
+  const TriangleSoup* soup() const { return std::get_if<TriangleSoup>(primitives.get()); }
+  /// Triangles or splats.
+  std::size_t primitive_count() const;
 };
 
 /// A scene that was read.
 struct StageSource {
   std::vector<SceneFile> files;  // also those whose layers were removed; not empty
-  /// Cameras, quality and info. Its layers have no triangles: the drawn ones are below. A removed
+  /// Cameras, quality and info. Its layers are empty: the drawn ones are below. A removed
   /// layer stays in it until the next file is read.
   std::shared_ptr<const Scene> scene;
   std::vector<StageLayer> layers;  // in drawing order
@@ -76,7 +81,9 @@ struct StageSource {
 /// The notes of the files as a scene of several files has them: with names.
 std::vector<std::string> named_notes(const StageSource& source);
 
-/// The layers for the runtime. They refer to the source's soups.
+/// The layers for the runtime. They refer to the source's primitives.
+std::vector<PlacedLayer> placed_layers(const StageSource& source);
+/// The same for debug views and the baseline. Throws UsageError for splats.
 std::vector<PlacedSoup> placed_soups(const StageSource& source);
 
 /// The reason why this debug view is not available, from the first layer that lacks it.
@@ -174,7 +181,7 @@ StageAddition prepare_addition(const StageSource& source, std::size_t present,
 void add_to(Stage& stage, StageAddition addition);
 
 /// Gives the stage these of its layers, in this order and at these places, without uploading. The
-/// layers are compared by their soups; those that the stage does not have are ignored.
+/// layers are compared by their primitives; those that the stage does not have are ignored.
 void arrange_layers(Stage& stage, std::vector<StageLayer> wanted);
 
 }  // namespace tureen::viewer

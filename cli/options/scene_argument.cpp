@@ -43,8 +43,9 @@ void add_scene_argument(Command& command, SceneArgument& argument, const char* n
 
 void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name) {
   command
-      .add_option(name, arguments.paths,
-                  std::string(scene_help) + ". Several scenes become the layers of one")
+      .add_option(
+          name, arguments.paths,
+          std::string(scene_help) + ". Several scenes are combined into one, each as a layer")
       .required();
   add_reading_options(command, arguments.vertex_colors, arguments.up);
 }

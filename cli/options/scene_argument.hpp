@@ -20,7 +20,7 @@ struct SceneArgument {
 /// arguments are parsed.
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
 
-/// Several scenes, which become the layers of one. The options apply to each of them.
+/// Several scenes, combined into one, each as a layer. The options apply to each of them.
 struct SceneArguments {
   std::vector<std::string> paths;  // at least one
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;

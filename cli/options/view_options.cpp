@@ -135,10 +135,11 @@ void add_view_options(Command& command, ViewOptions& options) {
       .value_name("WxH");
   const Option camera =
       command
-          .add_option("--camera", options.camera,
-                      "camera N of a file, counted from 0, or all cameras: a JSON file written by "
-                      "Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, "
-                      "the folder of a COLMAP model, or a scene with cameras, such as SCENE")
+          .add_option(
+              "--camera", options.camera,
+              "camera N of FILE, counted from 0, or all its cameras. FILE is a JSON file written "
+              "by Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, "
+              "the folder of a COLMAP model, or a scene with cameras, such as SCENE")
           .value_name("FILE[:N|:all]");
   const Option eye = command
                          .add_option("--eye", options.eye,

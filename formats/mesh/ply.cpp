@@ -8,7 +8,10 @@
 
 #include "base/output.hpp"
 #include "formats/mesh/plain_mesh.hpp"
+#include "formats/mesh/ply_bytes.hpp"
 #include "formats/mesh/ply_values.hpp"
+#include "formats/splat/compressed_ply.hpp"
+#include "formats/splat/splat_ply.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {
@@ -30,8 +33,8 @@ struct Layout {
 
 class PlyReader {
  public:
-  PlyReader(Input& input, const ReadOptions& options)
-      : input_(input), header_(read_ply_header(input)), values_(input, header_), meter_(options) {}
+  PlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
+      : input_(input), header_(header), values_(input, header), meter_(options) {}
 
   Scene read() {
     check_kind();
@@ -72,11 +75,6 @@ class PlyReader {
     vertices_ = vertex->count;
     for (const char* name : {"face", "tristrips"})
       if (const PlyElement* faces = header_.find(name); faces && faces->count > 0) return;
-    if (vertex->find("f_dc_0") && vertex->find("scale_0") && vertex->find("rot_0"))
-      fail_header(*vertex, std::string("holds ") + (vertex->find("scale_2") ? "3D" : "2D") +
-                               " Gaussian splats, not triangles: a radiance field of " +
-                               std::to_string(vertices_) +
-                               " Gaussians and no faces, which is not supported");
     if (vertices_ > 0)
       fail_header(*vertex,
                   "is a point cloud: " + std::to_string(vertices_) + " vertices and no faces");
@@ -251,7 +249,7 @@ class PlyReader {
   }
 
   Input& input_;
-  const PlyHeader header_;
+  const PlyHeader& header_;
   PlyValues values_;
   ProgressMeter meter_;
   MeshBuilder mesh_{input_};
@@ -259,39 +257,13 @@ class PlyReader {
   bool rounded_ = false;
 };
 
-/// Writes values as little-endian bytes on any machine, in blocks.
-class ByteWriter {
- public:
-  explicit ByteWriter(Output& output) : output_(output) { bytes_.reserve(block + 16); }
-  void byte(unsigned value) {
-    bytes_.push_back(static_cast<std::byte>(value & 0xff));
-    if (bytes_.size() >= block) flush();
-  }
-  void word(std::uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8) byte(value >> shift);
-  }
-  void real(float value) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    word(bits);
-  }
-  void color(const glm::vec4& rgba, bool as_bytes) {
-    for (int c = 0; c < 4; ++c)
-      if (as_bytes)
-        byte(quantised_unit(rgba[c]));
-      else
-        real(rgba[c]);
-  }
-  void flush() {
-    output_.write(bytes_);
-    bytes_.clear();
-  }
-
- private:
-  static constexpr std::size_t block = 64 * 1024;
-  Output& output_;
-  std::vector<std::byte> bytes_;
-};
+void write_color(PlyBytes& bytes, const glm::vec4& rgba, bool as_bytes) {
+  for (int c = 0; c < 4; ++c)
+    if (as_bytes)
+      bytes.byte(quantised_unit(rgba[c]));
+    else
+      bytes.real(rgba[c]);
+}
 
 std::string color_properties(bool as_bytes) {
   std::string text;
@@ -303,7 +275,10 @@ std::string color_properties(bool as_bytes) {
 }  // namespace
 
 Scene read_ply(Input& input, const ReadOptions& options) {
-  return PlyReader(input, options).read();
+  const PlyHeader header = read_ply_header(input);
+  if (is_compressed_ply(header)) return read_compressed_ply(input, header, options);
+  if (is_splat_ply(header)) return read_splat_ply(input, header, options);
+  return PlyReader(input, header, options).read();
 }
 
 Scene read_ply(const std::filesystem::path& path, const ReadOptions& options) {
@@ -312,6 +287,7 @@ Scene read_ply(const std::filesystem::path& path, const ReadOptions& options) {
 }
 
 std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path) {
+  if (fits_splat_ply(scene)) return write_splat_ply(scene, path);
   PlainMesh mesh(scene, "PLY");
   const TriangleSoup& soup = mesh.soup();
   const auto* face_rgba = mesh.face_rgba();
@@ -331,15 +307,15 @@ std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::pa
   if (face_rgba) header += color_properties(as_bytes);
   output.write(std::string_view(header + "end_header\n"));
 
-  ByteWriter writer(output);
+  PlyBytes writer(output);
   for (std::size_t i = 0; i < soup.positions.size(); ++i) {
     for (int k = 0; k < 3; ++k) writer.real(soup.positions[i][k]);
-    if (vertex_rgba) writer.color((*vertex_rgba)[i], as_bytes);
+    if (vertex_rgba) write_color(writer, (*vertex_rgba)[i], as_bytes);
   }
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     writer.byte(3);
     for (int k = 0; k < 3; ++k) writer.word(soup.triangles[t][k]);
-    if (face_rgba) writer.color((*face_rgba)[t], as_bytes);
+    if (face_rgba) write_color(writer, (*face_rgba)[t], as_bytes);
   }
   writer.flush();
   output.commit();

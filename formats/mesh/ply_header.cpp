@@ -86,8 +86,13 @@ class HeaderReader {
   }
 
   bool next_line_of_content() {
-    while (next_line())
-      if (!words_.empty() && words_[0] != "comment" && words_[0] != "obj_info") return true;
+    while (next_line()) {
+      if (words_.empty() || words_[0] == "obj_info") continue;
+      if (words_[0] != "comment") return true;
+      for (std::size_t i = 1; i < words_.size(); ++i)
+        header_.comments.append(i > 1 ? " " : "").append(words_[i]);
+      header_.comments += '\n';
+    }
     return false;
   }
 

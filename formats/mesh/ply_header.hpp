@@ -46,6 +46,7 @@ struct PlyHeader {
 
   Encoding encoding = Encoding::ascii;
   std::vector<PlyElement> elements;
+  std::string comments;         // words separated by one space; each comment ends with LF
   std::uint64_t body = 0;       // first byte of the values
   std::uint64_t body_line = 1;  // and their line, for ascii
 
@@ -57,9 +58,9 @@ struct PlyHeader {
 bool is_ply(std::span<const std::byte> head);
 
 /// Reads from the start of `input`. Lines end with LF, CR or CR LF, as the first one does; comment
-/// and obj_info lines are skipped; all aliases of the scalar types are supported. Throws InputError
-/// with the line: an unknown keyword, encoding or type, an invalid number, extra words, a header
-/// longer than 1 MiB, or elements that exceed the file.
+/// lines are kept, obj_info lines skipped; all aliases of the scalar types are supported. Throws
+/// InputError with the line: an unknown keyword, encoding or type, an invalid number, extra words,
+/// a header longer than 1 MiB, or elements that exceed the file.
 PlyHeader read_ply_header(Input& input);
 
 }  // namespace tureen

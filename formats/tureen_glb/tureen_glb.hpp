@@ -1,6 +1,6 @@
-// Tureen's own file format: a GLB that any glTF viewer opens, with the vendor extension
-// TUREEN_triangle_soup. The extension stores the scene exactly. docs/format.md specifies every
-// byte.
+// Tureen's own file format: a GLB with the vendor extension TUREEN_triangle_soup, which stores the
+// scene exactly. Any glTF viewer opens it. Compressed files have the same extension, but store a
+// scene with losses, and only Tureen reads them. docs/format.md specifies every byte.
 //
 // Not supported: foreign glTF, which formats/gltf/gltf.hpp reads (it is the entry point for both),
 // and files above 4 GiB, the limit of GLB.
@@ -23,8 +23,8 @@ inline constexpr int tureen_extension_version = 1;
 /// Version of compressed files (formats/tureen_glb/tureen_glb_compressed.hpp). Version 2 used
 /// another coding and was never released.
 inline constexpr int tureen_compressed_version = 3;
-/// Version of files with several layers, or with a layer that is more than a visible, unnamed soup
-/// at an origin.
+/// Version of files with several layers, or with one layer that is hidden, named, rotated, scaled
+/// or mirrored.
 inline constexpr int tureen_layers_version = 4;
 /// Version of files with a layer of Gaussians or neural densities, or of triangle windows with
 /// another profile than Triangle Splatting's. Otherwise like version 4.
@@ -43,10 +43,10 @@ bool is_tureen_glb(const GlbContainer& glb);
 
 /// Writes every kind of scene, including splats, and its quality. Returns one sentence for
 /// each loss; the only possible loss is a text that is not UTF-8. Throws UsageError for a scene
-/// that has no layer, more than max_layers, a layer, soup or splats with a defect(), no up axis, or
-/// a quality with a defect(). It also throws UsageError for a camera without pixels or with a side
-/// above 65,536, for non-finite numbers in a camera or material, and above 4 GiB. Throws
-/// OutputError if the file cannot be written.
+/// that has no layer, more than max_layers, a layer, soup, splats or quality with a defect(), or no
+/// up axis. It also throws UsageError for an image that is too large, a camera without pixels or
+/// with a side above 65,536, non-finite numbers in a camera, material, up axis or background, and a
+/// file above 4 GiB. Throws OutputError if the file cannot be written.
 ///
 /// Memory in addition to the scene: the vertex colours for other glTF viewers (8 bytes a vertex of
 /// the glTF mesh, and as many a splat), the encoded images, and a second copy of the harmonics of

@@ -2,9 +2,10 @@
 // reference of all claims about speed. And the choice between the baseline and our own pipeline,
 // for programs that offer both.
 //
-// The baseline has the viewer's shortcomings too. It draws lattice textures with a color MLP, with
-// one lattice level for all faces, from lookup textures that must fit the largest 2D texture of the
-// device. It has no specialisations, and faces cannot be read from its renderers.
+// The baseline has the viewer's shortcomings too. It draws only lattice textures with a color
+// MLP, and all faces must have the same lattice level. The texels are in lookup textures, which
+// must fit within the device's limit for 2D textures. It has no specialisations.
+// Renderer::read_faces() returns nothing, because its passes store no face indices.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -23,9 +24,10 @@ enum class PipelineKind {
 };
 
 /// Plans without GL. Of the preferences, only the quality has an effect. The plan's description
-/// (describe() in runtime/plan/plan_description.hpp) describes the baseline; it reports kept
-/// specialisations as without effect. The soup must have no defect(). Throws UsageError for a soup
-/// that the baseline cannot draw, for ShadingStage::compute, and for a quality with a defect().
+/// (describe() in runtime/plan/plan_description.hpp) describes the baseline; if
+/// specialisations are switched off, it reports that --keep has no effect. The soup must have no
+/// defect(). Throws UsageError for a soup that the baseline cannot draw, for ShadingStage::compute,
+/// and for a quality with a defect().
 RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences = {});
 
 /// The soup with the baseline's passes. The plan is from make_baseline_plan for this soup, which

@@ -199,7 +199,7 @@ PreparedScene prepare_baseline(const PlacedSoup& layer, const DeviceLimits& limi
                              .visible = layer.visible});
   prepared.make_passes = [&soup = layer.soup, limits](const PassInputs& inputs) {
     auto features =
-        std::make_unique<FeaturesPass>(inputs.device, limits, soup, inputs.plan.layers.front());
+        std::make_unique<FeaturesPass>(inputs.device, limits, soup, inputs.plan.soup(0));
     const ColorMlp& mlp = *std::get<LatticeTexture>(soup.appearance).mlp;
     auto network = std::make_unique<NetworkPass>(inputs.device, mlp, *features);
     Passes passes;

@@ -26,7 +26,10 @@ Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm
 
 Renderer make_renderer(const gl::Context& context, const Scene& scene, PipelineKind kind,
                        const RenderOptions& options) {
-  if (kind == PipelineKind::baseline) only_layer(scene);  // throws for several
+  if (kind == PipelineKind::tureen)
+    return Renderer(context, prepare_scene(scene, device_limits(context.capabilities()), options),
+                    options);
+  only_layer(scene);  // throws for several
   return renderer_of(context, placed_soups(scene), kind, options);
 }
 

@@ -22,9 +22,9 @@ namespace {
 constexpr std::size_t counted_views = 200;
 constexpr int importance_views = 64;
 constexpr int fewest_bits = 10;
-/// Largest fraction of the loss that positions may cause. A further bit per position costs less
+/// Largest loss from positions, as a fraction of max_loss_db. A further bit per position costs less
 /// than texels save with the loss that it frees. With 15,000 triangles of lego or the fox, files
-/// are about 2 % smaller than with a quarter of the loss.
+/// are about 2 % smaller than with a quarter.
 constexpr double geometry_share = 0.08;
 /// Range of the step of colour, in 1/255. Below it, only the rounding to bytes is left; above it,
 /// every scene is unusable.

@@ -53,8 +53,9 @@ struct CompressResult {
 /// these cameras (at most 200) and in 64 views from the upper half of a sphere around the scene.
 /// With fewer cameras the typical viewpoints are unknown, and all faces stay.
 ///
-/// Positions may cause a twelfth of the loss, and get the fewest bits within it. Faces that a lower
-/// level represents to half a step of 8 bits get that level. Bisection and a scan then find the
+/// Positions may use 8 % of max_loss_db. They get the fewest bits whose loss stays within this
+/// limit, or the largest number of bits if all exceed it. Each face is reduced to the lowest
+/// lattice level whose error is below half an 8-bit step. Bisection and a scan then find the
 /// largest colour step within the bound. If the coarse alpha step exceeds the bound even at the
 /// finest colour step, a finer alpha step is tried.
 ///

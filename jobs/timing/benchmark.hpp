@@ -32,12 +32,12 @@ struct BenchmarkCase {
 struct BenchmarkOptions {
   /// Number of passes through all cameras, at least 1.
   int rounds = 5;
-  /// Time limit in seconds from the start, including warm-up: no round begins that would end later.
-  /// At least one round is run. Default 0: no limit.
+  /// Time limit in seconds from the start, including warm-up: a round does not begin if it is
+  /// expected to end later. At least one round is run. Default 0: no limit.
   double max_seconds = 0;
 
   /// Shortest sample in milliseconds. The fastest case's frames are repeated to reach it, up to
-  /// `max_frames_per_sample`; the other cases use the same number. Default 0: one frame a sample.
+  /// `max_frames_per_sample`; the other cases use the same number. Default 0: one frame per sample.
   double min_sample_ms = 0;
   int max_frames_per_sample = 100;
 
@@ -74,7 +74,7 @@ struct BenchmarkResult {
   std::vector<CaseResult> cases;      // in the order given
   double aa_spread = 0;               // series_spread of the first case against itself
   std::vector<FrameTimes> self_test;  // its two series; empty without it
-  int rounds = 0;                     // completed rounds: as requested, or fewer for time
+  int rounds = 0;                     // completed; fewer than requested if max_seconds is too short
   int frames_per_sample = 1;
   double seconds = 0;  // total
 };
@@ -105,7 +105,7 @@ class BenchmarkRun {
   /// Rounds of alternating cases, until all are complete or their share of the time is used up.
   struct Series {
     std::vector<std::size_t> cases;
-    std::vector<FrameTimes> times;  // one a case
+    std::vector<FrameTimes> times;  // one per case
     double begin = 0, limit = 0;    // seconds since the start; 0: no limit
     int round = 0;
     std::size_t turn = 0;  // within the round

@@ -39,7 +39,7 @@ struct Outcome {
   FrameStatistics ms;
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
-  std::optional<ExactError> exact;  // only for drawing settings
+  std::optional<ExactError> exact;  // only in the drawing panel
   bool stable = true;               // whether the warm-up was stable before timing
 
   int departures() const { return tradeoff::departures(configuration); }
@@ -51,7 +51,8 @@ struct SkippedOutcome {
   std::string reason;
 };
 
-/// Outcomes with a common reference: for drawing or for antialiasing settings.
+/// Outcomes with a common reference. The drawing panel has the edits, the antialiasing panel the
+/// quality settings.
 struct Panel {
   std::vector<QualitySetting> settings;
   std::vector<Outcome> outcomes;  // the defaults first
@@ -62,12 +63,12 @@ struct Panel {
   std::vector<std::size_t> front;  // indices of outcomes, fastest first; from candidates()
   double hypervolume = 0;          // decades times decibels
 
-  /// The reference's own images in 8 bits a channel: the best possible error on a screen (R1).
+  /// R1: the error of the reference's images after rounding to 8 bits per channel.
   RenderError ideal;
 };
 
-/// Whether the error of an outcome depends on its settings. False for supersampling at the
-/// antialiasing reference's own samples (antialiased_samples), which is measured only for its time.
+/// Whether the error of an outcome is meaningful. False if the outcome has as many samples as the
+/// antialiasing reference (antialiased_samples): only its time is then used.
 bool is_judged(const Outcome& outcome);
 
 /// Sentences on limits of the validity of an outcome's time or error.
@@ -102,8 +103,8 @@ struct Study {
   std::optional<std::size_t> choice;
 };
 
-/// A warning if one configuration differs from itself by more than BenchmarkOptions::stable_within:
-/// the cheapest choice is then partly random. `aa_spread` is a fraction.
+/// A warning if two timings of one configuration differ by more than
+/// BenchmarkOptions::stable_within. The choice is then partly random. `aa_spread` is a fraction.
 std::optional<std::string> spread_warning(double aa_spread);
 
 }  // namespace tureen::tradeoff

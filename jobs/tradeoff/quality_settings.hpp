@@ -1,5 +1,6 @@
-// The quality settings of a soup: their values, and the effect of each on its data or its sampling.
-// The experiment (jobs/tradeoff/experiment.hpp) uses only their numbers.
+// The edits and quality settings that a study of a soup varies: their values, and the effect of
+// each on the soup's data or its sampling. The experiment (jobs/tradeoff/experiment.hpp) uses only
+// their numbers.
 #pragma once
 
 #include <cstdint>
@@ -27,19 +28,20 @@ struct SettingValue {
   std::function<void(Applied&)> apply;
 };
 
+/// An edit or a quality setting.
 struct QualitySetting {
   std::string key;                   // name for programs: "lattice_level"
   std::string title;                 // description: "lattice level"
   std::vector<SettingValue> values;  // the default first; its apply changes nothing
 };
 
-/// The settings other than antialiasing, in the order of docs/tradeoff.md: those that apply to this
+/// The edits, in the order of docs/tradeoff.md: those that apply to this
 /// soup, with the values that change it. `visible_pixels` is the result of count_visible_pixels()
 /// for the views; the triangle budget uses it.
 std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels);
 
-/// The settings for the number and place of samples: resolution scale, and supersampling up to
+/// The quality settings: resolution scale, and supersampling up to
 /// `max_samples` an axis.
 std::vector<QualitySetting> antialiasing_settings(int max_samples);
 

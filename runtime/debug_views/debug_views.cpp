@@ -39,10 +39,10 @@ PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const Devi
                                .reversed_depth = options.plan.reversed_depth,
                                .site = ShadingSite::deferred});
   for (std::size_t i = 0; i < soups.size(); ++i)
-    plan.layers[i].latent_features = feature_count(*soups[i]) > 4;
+    plan.soup(i).latent_features = feature_count(*soups[i]) > 4;
   PreparedScene prepared = prepare_scene(layers, limits, std::move(plan));
   for (std::size_t i = 0; i < soups.size(); ++i)
-    add_debug_stores(*soups[i], prepared.plan.layers[i].faces, limits,
+    add_debug_stores(*soups[i], prepared.plan.soup(i).faces, limits,
                      prepared.layers[i].soup->appearance);
   return prepared;
 }

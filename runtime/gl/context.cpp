@@ -75,6 +75,26 @@ bool has_timer_queries(Api api) {
 #endif
 }
 
+bool has_float_targets(Api api) {
+#ifdef __EMSCRIPTEN__
+  (void)api;
+  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
+                                           "EXT_color_buffer_float");
+#else
+  return api == Api::desktop || has_extension("GL_EXT_color_buffer_float");
+#endif
+}
+
+bool has_float_blending(Api api) {
+#ifdef __EMSCRIPTEN__
+  (void)api;
+  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
+                                           "EXT_float_blend");
+#else
+  return api == Api::desktop || has_extension("GL_EXT_float_blend");
+#endif
+}
+
 bool has_clip_control(Api api, int version) {
 #ifdef __EMSCRIPTEN__
   (void)api, (void)version;
@@ -138,6 +158,8 @@ Capabilities query_capabilities(Api api) {
       {result.max_texture_size, integer_of(GL_MAX_RENDERBUFFER_SIZE), viewport[0], viewport[1]});
   result.max_array_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
   result.compute_shaders = has_compute_shaders(api, version);
+  result.float_targets = has_float_targets(api);
+  result.float_blending = result.float_targets && has_float_blending(api);
   return result;
 }
 

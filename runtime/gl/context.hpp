@@ -1,6 +1,6 @@
 // A current OpenGL context without a window: EGL surfaceless or OSMesa. Both are loaded at run
-// time, so one program runs with either missing. Also wraps a context that another library made
-// current.
+// time, so the program also runs if one of them is not installed. Also wraps a context that another
+// library made current.
 #pragma once
 
 #include <memory>
@@ -37,6 +37,8 @@ struct Capabilities {
   int max_image_side = 0;  // largest width and height of a frame
   int max_array_layers = 0;
   bool compute_shaders = false;  // with writable images: OpenGL 4.3, ES 3.1
+  bool float_targets = false;    // draws into textures of 32-bit and 16-bit floats
+  bool float_blending = false;   // also blends in those of 32 bits
 };
 
 /// Whether this GL_RENDERER is a software renderer: llvmpipe, SwiftShader and similar.
@@ -54,8 +56,8 @@ class Context {
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
-  /// Destroys the context. If it was current, none is afterwards; another current context stays
-  /// current.
+  /// Destroys the context. If it was current, no context is current afterwards. If another context
+  /// is current, that one stays current.
   ~Context();
 
   /// Makes this context current on the calling thread and loads its functions.

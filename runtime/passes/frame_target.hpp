@@ -62,7 +62,7 @@ class FrameTarget {
   /// which is in use.
   void bind_visibility(const gl::Program& program, int unit) const;
 
-  /// Clip from view coordinates, for the way in which depth is stored.
+  /// The matrix from view coordinates to clip coordinates, for FrameFormat::reversed_depth.
   glm::dmat4 clip_from_view(const Camera& camera, const ClipRange& range) const;
 
   /// Whether the last frame stored visible fragments, or depth.
@@ -72,7 +72,7 @@ class FrameTarget {
   bool layered() const { return format_.layered; }
   /// The depth of samples that no pass has drawn.
   float far_depth() const { return format_.reversed_depth ? 0.0f : 1.0f; }
-  /// The comparison that nearer fragments pass, and the one that also passes equal depth.
+  /// Depth functions: the first accepts only nearer fragments, the second also equal depth.
   GLenum nearer() const { return format_.reversed_depth ? GL_GREATER : GL_LESS; }
   GLenum nearer_or_equal() const { return format_.reversed_depth ? GL_GEQUAL : GL_LEQUAL; }
 

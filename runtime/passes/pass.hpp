@@ -26,7 +26,7 @@ struct FrameCamera {
 };
 
 /// The camera in the coordinates of a layer. `world_from_layer` is a similarity; `range` is in
-/// world units. For a translation, the camera is unchanged.
+/// world units. If `world_from_layer` is only a translation, FrameCamera::camera equals `camera`.
 FrameCamera camera_in_layer(const Camera& camera, const glm::dmat4& world_from_layer,
                             const ClipRange& range);
 

@@ -41,6 +41,10 @@ gl::Texture make_image_target(const TargetFormat& format, int width, int height)
 
 gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors,
                                  const DepthAttachment& depth) {
+  return make_framebuffer(std::span(colors.begin(), colors.size()), depth);
+}
+
+gl::Framebuffer make_framebuffer(std::span<const GLuint> colors, const DepthAttachment& depth) {
   gl::Framebuffer framebuffer = gl::Framebuffer::create();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   std::vector<GLenum> attachments;

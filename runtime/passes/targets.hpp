@@ -51,6 +51,7 @@ struct DepthAttachment {
 
 /// `colors` become attachments 0, 1, ..; all are draw buffers. The framebuffer stays bound. Throws
 /// as require_complete_framebuffer().
+gl::Framebuffer make_framebuffer(std::span<const GLuint> colors, const DepthAttachment& depth = {});
 gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors,
                                  const DepthAttachment& depth = {});
 

@@ -39,16 +39,16 @@ void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
 }  // namespace
 
 bool RenderPlan::applies(Specialisation what) const {
-  return std::any_of(layers.begin(), layers.end(), [what](const SoupPlan& layer) {
-    return std::any_of(layer.applied.begin(), layer.applied.end(),
-                       [what](const AppliedSpecialisation& each) { return each.what == what; });
-  });
+  const std::vector<AppliedSpecialisation> all = applied();
+  return std::any_of(all.begin(), all.end(),
+                     [what](const AppliedSpecialisation& each) { return each.what == what; });
 }
 
 std::vector<AppliedSpecialisation> RenderPlan::applied() const {
   std::vector<AppliedSpecialisation> all;
-  for (const SoupPlan& layer : layers)
-    all.insert(all.end(), layer.applied.begin(), layer.applied.end());
+  for (const LayerPlan& layer : layers)
+    if (const auto* soup = std::get_if<SoupPlan>(&layer))
+      all.insert(all.end(), soup->applied.begin(), soup->applied.end());
   return all;
 }
 
@@ -116,7 +116,7 @@ RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLim
   for (const TriangleSoup* soup : soups)
     plan.layers.push_back(make_soup_plan(*soup, limits, preferences));
   if (soups.size() > 1)
-    for (SoupPlan& layer : plan.layers) make_layered(layer);
+    for (LayerPlan& layer : plan.layers) make_layered(std::get<SoupPlan>(layer));
   return plan;
 }
 

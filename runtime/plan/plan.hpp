@@ -7,11 +7,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/plan/draw_order.hpp"
 #include "runtime/plan/specialisation.hpp"
+#include "runtime/plan/splat_plan.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -34,7 +36,7 @@ enum class ShadingSite {
 
 /// The kind of shader in the shading pass of a deferred plan.
 enum class ShadingStage {
-  fragment,  // one triangle over the whole target; the depth test rejects the background
+  fragment,  // one triangle over the whole target
   compute,   // a compute shader with one invocation per pixel
 };
 
@@ -63,10 +65,10 @@ struct LatticePlan {
   /// Level of each slot on the device; below the soup's for affine faces. Empty if the texels are
   /// uploaded unchanged.
   std::vector<std::uint8_t> levels;
-  /// Alpha is stored by cell, with one read a fragment, or by texel, with three reads and less than
-  /// a third of the memory.
+  /// Alpha is stored by cell (one read per fragment) or by texel (three reads per fragment, less
+  /// than a third of the memory).
   bool alpha_by_cell = true;
-  /// Bytes that alpha by cell would need, if it was rejected for its size.
+  /// The bytes of alpha by cell, if they exceed max_alpha_cell_bytes; otherwise 0.
   std::uint64_t refused_alpha_cell_bytes = 0;
 };
 
@@ -109,6 +111,8 @@ struct SoupPlan {
   int zero_weights = 0;              // in the network, not computed
 };
 
+using LayerPlan = std::variant<SoupPlan, SplatPlan>;
+
 /// The method of drawing a scene: what its layers share, and a plan for each layer.
 struct RenderPlan {
   bool reversed_depth = false;
@@ -116,9 +120,14 @@ struct RenderPlan {
   bool specialise = true;  // PlanPreferences::specialise
   /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
   ShadingStage requested_stage = ShadingStage::fragment;
-  std::vector<SoupPlan> layers;
-  /// All sentences of describe(), for passes from outside runtime/; empty for ours.
+  std::vector<LayerPlan> layers;
+  /// If not empty, describe() returns these sentences. Set by plans whose passes come from outside
+  /// runtime/.
   std::vector<std::string> description;
+
+  /// The plan of a layer that is a soup.
+  SoupPlan& soup(std::size_t layer) { return std::get<SoupPlan>(layers[layer]); }
+  const SoupPlan& soup(std::size_t layer) const { return std::get<SoupPlan>(layers[layer]); }
 
   /// Whether a layer applies it.
   bool applies(Specialisation what) const;

@@ -75,6 +75,18 @@ std::string describe_frame(const SoupPlan& plan, const RenderPlan& common) {
   return sentence;
 }
 
+template <class Add>
+void add_splats(const SplatPlan& plan, const Add& add) {
+  add("draws " + part_of(plan.drawn.size(), plan.splats) + "splats (" + plan.kernel + ", profile " +
+      std::string(name_of(plan.profile)) + "), blended from near to far");
+  if (plan.drawn.size() < plan.splats)
+    add(std::to_string(plan.splats - plan.drawn.size()) +
+        " splats never reach the smallest blended alpha and are not drawn (exact)");
+  if (plan.harmonics_degree < plan.stored_degree)
+    add("harmonics above degree " + std::to_string(plan.harmonics_degree) +
+        " are 0 and not evaluated (exact)");
+}
+
 }  // namespace
 
 std::string describe(const AppliedSpecialisation& applied) {
@@ -97,8 +109,13 @@ std::vector<std::string> describe(const RenderPlan& common) {
   const auto add = [&](const std::string& sentence) {
     sentences.push_back(several ? "layer " + std::to_string(layer) + ": " + sentence : sentence);
   };
-  for (const SoupPlan& plan : common.layers) {
+  for (const LayerPlan& of_layer : common.layers) {
     ++layer;
+    if (const auto* splats = std::get_if<SplatPlan>(&of_layer)) {
+      add_splats(*splats, add);
+      continue;
+    }
+    const auto& plan = std::get<SoupPlan>(of_layer);
     add(describe_frame(plan, common));
     if (layer == 1)
       for (std::string& sentence : describe_sampling(common.quality))

@@ -19,9 +19,11 @@ struct LintFinding {
     non_finite_vertices,
     /// No area: the cross product of two edges is below 1e-12 of the longest edge squared.
     degenerate_faces,
-    /// Faces with the same three corners, bit by bit and in any order, as an earlier face. Where
-    /// both are opaque, only one is visible. If the corners have the same order, it is the face
-    /// with the lower index. Degenerate faces are not counted here.
+    /// Faces with exactly the same three corners, in any order, as an earlier face. Where both
+    /// faces
+    /// are opaque, only one is visible. If their corners have the same order, the face with the
+    /// lower index is visible; otherwise rounding can decide. Degenerate faces are not counted
+    /// here.
     duplicate_faces,
     /// Faces with alpha below alpha_threshold (or the material's own threshold) everywhere. For UV
     /// textures the bound uses the whole image, so some invisible faces are not found.
@@ -54,7 +56,8 @@ std::string describe(const LintFinding& finding);
 
 struct Lint {
   std::vector<LintFinding> findings;  // in the order of their ids; empty for a clean soup
-  /// The soup's extent (the diagonal of its bounds) over its largest coordinate; 0 where that is 0.
+  /// The soup's extent (the diagonal of its bounds) divided by its largest absolute coordinate; 0
+  /// if all coordinates are 0.
   double extent_over_offset = 0;
 
   /// The finding, or null.

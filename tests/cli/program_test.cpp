@@ -235,7 +235,7 @@ TEST_F(Program, RenderDrawsAndReports) {
   const auto json = nlohmann::ordered_json::parse(result.out);
   EXPECT_THAT(keys(json),
               ElementsAre("width", "height", "context", "renderer", "software", "triangles",
-                          "frame_ms", "plan", "specialisations", "output"));
+                          "splats", "frame_ms", "plan", "specialisations", "output"));
   EXPECT_EQ(json["width"], 64);
   EXPECT_EQ(json["height"], 48);
   EXPECT_EQ(json["triangles"], 3);
@@ -294,7 +294,7 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
   EXPECT_THAT(overdraw.err, Names("overdraw", "#611366 2"));
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
               ElementsAre("width", "height", "context", "renderer", "software", "triangles",
-                          "frame_ms", "plan", "specialisations", "output"));
+                          "splats", "frame_ms", "plan", "specialisations", "output"));
   // Two faces overlap above the middle. Below it, the third lies behind them.
   const Image8 counts = read_png("out.png");
   EXPECT_EQ(counts.at(32, 20), glm::u8vec4(0x61, 0x13, 0x66, 255));

@@ -14,6 +14,7 @@
 #include "jobs/results/bench_json.hpp"
 #include "jobs/results/web_bench.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
+#include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/fuzz/folder_files.hpp"
@@ -179,6 +180,25 @@ void add_text_meshes(Collection& all) {
   all.add("obj", "quad.obj",
           "# a quad\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 -1e2\nvt 0.25 0.75\nvt 1 0.75\n"
           "vn 0 0 1\ns off\nf 1/1 2/2 3/1/1 4/2/1\nf -1/-1 -2/-2 -3/-1\n");
+}
+
+// ---- Splats
+
+void add_splats(Collection& all) {
+  const auto add = [&](const char* name, const Splats& splats) {
+    all.add_file("splat_ply", name, [&](const auto& path) { write_ply(scene_of(splats), path); });
+  };
+  add("gaussians.ply", test::random_gaussians(1, 2, "3dgs", 1));
+  add("discs.ply", test::random_gaussians(2, 2, "redisplats", 0, true));
+  add("densities.ply", test::random_densities(3, 1, 3));
+  all.add("splat_ply", "ascii.ply",
+          test::PlyFixture("ascii")
+              .element("vertex", test::splat_columns(0, 2),
+                       {{1, 2, 3, 0, 0, 0, 0.1, 0.2, 0.3, -1, -2, -3, 1, 0, 0, 0}})
+              .text());
+  std::string records;
+  for (int i = 0; i < 64; ++i) records += static_cast<char>(i % 32 < 24 ? 0x3e : 0x90 + i);
+  all.add("splat_records", "two.splat", records);
 }
 
 // ---- Torch
@@ -426,6 +446,7 @@ std::vector<Fixture> fixtures() {
   add_glb(all);
   all.add("gltf", "foreign.gltf", foreign_gltf());
   add_text_meshes(all);
+  add_splats(all);
   add_torch(all);
   add_cameras(all);
   add_images(all);

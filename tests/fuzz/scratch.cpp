@@ -14,7 +14,8 @@ void require_whole(const Scene& scene) {
   for (const Layer& layer : scene.layers) {
     auto reason = defect(layer);
     if (!reason)
-      reason = std::visit([](const auto& each) { return defect(each); }, layer.primitives);
+      reason =
+          std::visit([](const auto& primitives) { return defect(primitives); }, layer.primitives);
     if (!reason) continue;
     std::fprintf(stderr, "a reader returned a scene with a defect: %s\n", reason->c_str());
     std::abort();

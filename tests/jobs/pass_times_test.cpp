@@ -129,7 +129,7 @@ TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
   Renderer renderer = renderer_of(
       context, only_soup(scene), origin_of(only_layer(scene)),
       {.plan = {.site = ShadingSite::nowhere}, .background = glm::vec4(0.2f, 0.4f, 0.6f, 1.0f)});
-  EXPECT_EQ(renderer.plan().layers[0].site, ShadingSite::nowhere);
+  EXPECT_EQ(renderer.plan().soup(0).site, ShadingSite::nowhere);
   renderer.draw({scene.cameras[0]});
   const Image8 image = renderer.read_color();
   EXPECT_THAT(image.pixels, testing::Each(glm::u8vec4(51, 102, 153, 255)));

@@ -178,7 +178,7 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
   Renderer without =
       renderer_of(context, soup, glm::dvec3(0),
                   {.plan = {.specialisations = all.without(Specialisation::small_triangles)}});
-  ASSERT_FALSE(without.plan().layers[0].drops_small_triangles);
+  ASSERT_FALSE(without.plan().soup(0).drops_small_triangles);
   int showing = 0;
   for (int i = 0; i < 4; ++i) {
     Camera camera = random_camera(random, 200 + 37 * i, 150);
@@ -188,7 +188,7 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
     }
     // A new renderer for each view: after a frame that shows most faces, the search pauses.
     Renderer with = renderer_of(context, soup, glm::dvec3(0), {.plan = {.specialisations = all}});
-    ASSERT_TRUE(with.plan().layers[0].drops_small_triangles);
+    ASSERT_TRUE(with.plan().soup(0).drops_small_triangles);
     with.draw({camera});
     without.draw({camera});
     const Image8 a = with.read_color(), b = without.read_color();
@@ -220,8 +220,8 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
         renderer_of(context, soup, glm::dvec3(0),
                     {.plan = {.specialisations = all.without(Specialisation::small_triangles),
                               .quality = quality}});
-    ASSERT_TRUE(with.plan().layers[0].drops_small_triangles);
-    ASSERT_FALSE(without.plan().layers[0].drops_small_triangles);
+    ASSERT_TRUE(with.plan().soup(0).drops_small_triangles);
+    ASSERT_FALSE(without.plan().soup(0).drops_small_triangles);
     const Camera camera = random_camera(random, 211, 150);
     with.draw({camera});
     without.draw({camera});

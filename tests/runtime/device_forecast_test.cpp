@@ -23,7 +23,7 @@ TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
     RenderOptions render;
     render.plan.specialise = specialise;
     const Renderer renderer = renderer_of(context, soup, glm::dvec3(0), render);
-    const DeviceForecast forecast = device_forecast(soup, renderer.plan().layers[0]);
+    const DeviceForecast forecast = device_forecast(soup, renderer.plan().soup(0));
     // Stores of this size fill at most one layer. The padding of each is less than a row, with at
     // most 16 bytes per texel. No appearance has more than six stores.
     const auto row_bytes =
@@ -52,7 +52,7 @@ TEST(DeviceForecast, IsRightForManyTexels) {
     RenderOptions options;
     options.plan.specialise = specialise;
     const Renderer renderer = renderer_of(context, soup, origin_of(only_layer(cloud)), options);
-    const std::uint64_t forecast = device_forecast(soup, renderer.plan().layers[0]).bytes;
+    const std::uint64_t forecast = device_forecast(soup, renderer.plan().soup(0)).bytes;
     // Three stores of four bytes per texel, each padded by less than a row: 49,152 of 13 million
     // bytes, of which 5504 are used.
     const std::uint64_t padding = 3 * row_texels(context) * 4;
@@ -65,8 +65,8 @@ TEST(DeviceForecast, IsRightWhereFacesBetweenPixelsAreFound) {
   const gl::Context context = gl::Context::create(test::osmesa);
   const TriangleSoup soup = test::random_soup(3, {.faces = 40000});
   const Renderer renderer = renderer_of(context, soup, glm::dvec3(0));
-  ASSERT_TRUE(renderer.plan().layers[0].drops_small_triangles);
-  const std::uint64_t forecast = device_forecast(soup, renderer.plan().layers[0]).bytes;
+  ASSERT_TRUE(renderer.plan().soup(0).drops_small_triangles);
+  const std::uint64_t forecast = device_forecast(soup, renderer.plan().soup(0)).bytes;
   // One store of 16 bytes per texel is padded by less than a row: 32,160 of 65,536 bytes are used.
   EXPECT_GE(renderer.device_bytes(), forecast);
   EXPECT_LE(renderer.device_bytes(), forecast + row_texels(context) * 16);

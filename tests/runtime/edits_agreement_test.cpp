@@ -83,7 +83,7 @@ TEST_P(EditedSoup, TakesTheBytesThatTheForecastSays) {
   context().make_current();
   const Renderer renderer = renderer_of(context(), drawn, glm::dvec3(0), {.plan = plan});
   const auto forecast = device_forecast(
-      drawn, make_plan(drawn, device_limits(context().capabilities()), plan).layers[0]);
+      drawn, make_plan(drawn, device_limits(context().capabilities()), plan).soup(0));
   // Stores are padded to whole rows: each by at most one row of 4096 texels with 16 bytes.
   EXPECT_GE(renderer.device_bytes(), forecast.bytes);
   EXPECT_LE(renderer.device_bytes(), forecast.bytes + 6 * 4096 * 16);

@@ -13,15 +13,14 @@ TEST(PlanDescription, HasASentenceForEachFact) {
   RenderPlan plan;
   plan.reversed_depth = true;
   plan.layers.emplace_back();
-  plan.layers[0].faces = {4, 2, 0};
-  plan.layers[0].clusters.resize(1);
-  plan.layers[0].color_mlp = true;
-  plan.layers[0].appearance = "lattice texture";
-  plan.layers[0].soup_faces = 6;
-  plan.layers[0].undrawable_faces = 2;
-  plan.layers[0].applied = {{Specialisation::transparent_faces, 1, 4},
-                            {Specialisation::background}};
-  plan.requested_stage = plan.layers[0].shading_stage = ShadingStage::compute;
+  plan.soup(0).faces = {4, 2, 0};
+  plan.soup(0).clusters.resize(1);
+  plan.soup(0).color_mlp = true;
+  plan.soup(0).appearance = "lattice texture";
+  plan.soup(0).soup_faces = 6;
+  plan.soup(0).undrawable_faces = 2;
+  plan.soup(0).applied = {{Specialisation::transparent_faces, 1, 4}, {Specialisation::background}};
+  plan.requested_stage = plan.soup(0).shading_stage = ShadingStage::compute;
   EXPECT_THAT(
       describe(plan),
       ElementsAre(

@@ -45,31 +45,31 @@ TEST(Plan, OpaqueFacesNeedNoAlphaTest) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
   for_each_texel(soup, [](std::uint8_t* texel) { texel[7] = 128; });
   const RenderPlan plan = plan_of(soup);
-  EXPECT_EQ(plan.layers[0].opaque_count, plan.layers[0].faces.size());
-  EXPECT_THAT(plan.layers[0].applied, Contains(AppliedSpecialisation{Specialisation::alpha_test,
-                                                                     plan.layers[0].faces.size(),
-                                                                     plan.layers[0].faces.size()}));
+  EXPECT_EQ(plan.soup(0).opaque_count, plan.soup(0).faces.size());
+  EXPECT_THAT(plan.soup(0).applied,
+              Contains(AppliedSpecialisation{Specialisation::alpha_test, plan.soup(0).faces.size(),
+                                             plan.soup(0).faces.size()}));
 }
 
 TEST(Plan, TransparentFacesAreNotDrawn) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
   for_each_texel(soup, [](std::uint8_t* texel) { texel[7] = 127; });
   const RenderPlan plan = plan_of(soup);
-  EXPECT_TRUE(plan.layers[0].faces.empty());
+  EXPECT_TRUE(plan.soup(0).faces.empty());
   const std::size_t all = soup.triangles.size();
-  EXPECT_THAT(plan.layers[0].applied,
+  EXPECT_THAT(plan.soup(0).applied,
               Contains(AppliedSpecialisation{Specialisation::transparent_faces, all, all}));
 }
 
 TEST(Plan, ANetworkThatNeverBlendsInDoesNotRun) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
-  ASSERT_TRUE(plan_of(soup).layers[0].color_mlp);
+  ASSERT_TRUE(plan_of(soup).soup(0).color_mlp);
   for_each_texel(soup, [](std::uint8_t* texel) { texel[3] = 0; });
   const RenderPlan plan = plan_of(soup);
-  EXPECT_FALSE(plan.layers[0].color_mlp);
-  EXPECT_THAT(plan.layers[0].applied, Contains(AppliedSpecialisation{Specialisation::color_mlp}));
+  EXPECT_FALSE(plan.soup(0).color_mlp);
+  EXPECT_THAT(plan.soup(0).applied, Contains(AppliedSpecialisation{Specialisation::color_mlp}));
   for_each_texel(soup, [](std::uint8_t* texel) { texel[3] = 1; });
-  EXPECT_TRUE(plan_of(soup).layers[0].color_mlp) << "1/255 is above the half step allowed";
+  EXPECT_TRUE(plan_of(soup).soup(0).color_mlp) << "1/255 is above the half step allowed";
 }
 
 TEST(Plan, ConstantFacesBecomeFaceColoursAndAffineOnesKeepTheirCorners) {
@@ -83,7 +83,7 @@ TEST(Plan, ConstantFacesBecomeFaceColoursAndAffineOnesKeepTheirCorners) {
       for (int c = 0; c < 7; ++c) texel[c] = std::uint8_t(20 * c + int(t % 50));
       texel[7] = 255;
     }
-  EXPECT_TRUE(plan_of(soup).layers[0].flat_colors);
+  EXPECT_TRUE(plan_of(soup).soup(0).flat_colors);
 
   // 8 x + 16 y at level 3 is affine in bytes without rounding.
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
@@ -93,11 +93,11 @@ TEST(Plan, ConstantFacesBecomeFaceColoursAndAffineOnesKeepTheirCorners) {
           std::uint8_t(8 * at.x + 16 * at.y);
     }
   const RenderPlan plan = plan_of(soup);
-  EXPECT_FALSE(plan.layers[0].flat_colors);
-  EXPECT_EQ(plan.layers[0].lattice.uniform_level, 0);
-  EXPECT_THAT(plan.layers[0].applied, Contains(AppliedSpecialisation{Specialisation::affine_texels,
-                                                                     plan.layers[0].faces.size(),
-                                                                     plan.layers[0].faces.size()}));
+  EXPECT_FALSE(plan.soup(0).flat_colors);
+  EXPECT_EQ(plan.soup(0).lattice.uniform_level, 0);
+  EXPECT_THAT(plan.soup(0).applied, Contains(AppliedSpecialisation{Specialisation::affine_texels,
+                                                                   plan.soup(0).faces.size(),
+                                                                   plan.soup(0).faces.size()}));
 }
 
 TEST(Plan, AnAffineFaceThatIsCutOutKeepsItsLatticeUnlessItsAlphaIsAffineToo) {
@@ -105,23 +105,23 @@ TEST(Plan, AnAffineFaceThatIsCutOutKeepsItsLatticeUnlessItsAlphaIsAffineToo) {
   for_each_texel(soup, [](std::uint8_t* texel) { std::fill(texel, texel + 7, std::uint8_t(90)); });
   // The random alphas stay: only opaque faces may lose their texels.
   const RenderPlan plan = plan_of(soup);
-  for (std::size_t slot = plan.layers[0].opaque_count; slot < plan.layers[0].faces.size(); ++slot)
-    if (!plan.layers[0].lattice.levels.empty()) {
-      EXPECT_EQ(plan.layers[0].lattice.levels[slot], 3) << slot;
+  for (std::size_t slot = plan.soup(0).opaque_count; slot < plan.soup(0).faces.size(); ++slot)
+    if (!plan.soup(0).lattice.levels.empty()) {
+      EXPECT_EQ(plan.soup(0).lattice.levels[slot], 3) << slot;
     }
-  EXPECT_NE(plan.layers[0].lattice.uniform_level, 0);
+  EXPECT_NE(plan.soup(0).lattice.uniform_level, 0);
 }
 
 TEST(Plan, InvisibleHarmonicsBandsAreDropped) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::face_harmonics, .degree = 3});
-  EXPECT_EQ(plan_of(soup).layers[0].harmonics_degree, 3);
+  EXPECT_EQ(plan_of(soup).soup(0).harmonics_degree, 3);
   auto& sh = std::get<Harmonics>(soup.appearance);
   for (std::size_t i = 0; i < sh.coefficients.size(); ++i)
     if (i % 16 >= 4) sh.coefficients[i] = glm::vec3(1e-5f);
   const RenderPlan plan = plan_of(soup);
-  EXPECT_EQ(plan.layers[0].harmonics_degree, 1);
-  ASSERT_EQ(plan.layers[0].applied.back().what, Specialisation::background);
-  const AppliedSpecialisation& bands = plan.layers[0].applied[plan.layers[0].applied.size() - 2];
+  EXPECT_EQ(plan.soup(0).harmonics_degree, 1);
+  ASSERT_EQ(plan.soup(0).applied.back().what, Specialisation::background);
+  const AppliedSpecialisation& bands = plan.soup(0).applied[plan.soup(0).applied.size() - 2];
   EXPECT_EQ(bands.what, Specialisation::harmonics_bands);
   EXPECT_EQ(bands.count, 2u);
   EXPECT_EQ(bands.total, 3u);
@@ -134,7 +134,7 @@ TEST(Plan, DeadNeuronsAreFoundByTheirBound) {
   ColorMlp& mlp = *lattice_of(soup).mlp;
   for (int i = 0; i < 16; ++i) mlp.layers[0].weights[std::size_t(i)] = i < 7 ? -0.1f : 0.0f;
   mlp.layers[0].biases[0] = -0.5f;  // -0.5 - 0.1 (f0 + .. + f6) never reaches 0
-  EXPECT_THAT(plan_of(soup).layers[0].applied,
+  EXPECT_THAT(plan_of(soup).soup(0).applied,
               Contains(AppliedSpecialisation{Specialisation::dead_neurons, 1, 32}));
 }
 
@@ -166,23 +166,23 @@ TEST(Plan, AFaceWithAnAlphaThatIsNoNumberIsTested) {
 TEST(Plan, TexelsSharedInPartAreNotCopied) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .faces = 50, .level = 3});
   unshare_texels(soup, 3);
-  EXPECT_EQ(plan_of(soup).layers[0].lattice.uniform_level, 3);
+  EXPECT_EQ(plan_of(soup).soup(0).lattice.uniform_level, 3);
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
     lattice_of(soup).patches[t].first_texel = t;
-  EXPECT_EQ(plan_of(soup).layers[0].lattice.uniform_level, -1);
-  EXPECT_TRUE(plan_of(soup).layers[0].lattice.levels.empty());
+  EXPECT_EQ(plan_of(soup).soup(0).lattice.uniform_level, -1);
+  EXPECT_TRUE(plan_of(soup).soup(0).lattice.levels.empty());
 }
 
 TEST(Plan, WithoutSpecialisationNothingIsOmitted) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
   for_each_texel(soup, [](std::uint8_t* texel) { texel[3] = texel[7] = 0; });
   const RenderPlan plan = make_plan(soup, DeviceLimits{}, {.specialise = false});
-  EXPECT_EQ(plan.layers[0].faces.size(), soup.triangles.size());
-  EXPECT_EQ(plan.layers[0].opaque_count, 0u);
-  EXPECT_TRUE(plan.layers[0].color_mlp);
-  EXPECT_EQ(plan.layers[0].mlp_weights, MlpWeights::uniforms);
-  EXPECT_TRUE(plan.layers[0].applied.empty());
-  EXPECT_FALSE(plan.layers[0].depth_rejects_background);
+  EXPECT_EQ(plan.soup(0).faces.size(), soup.triangles.size());
+  EXPECT_EQ(plan.soup(0).opaque_count, 0u);
+  EXPECT_TRUE(plan.soup(0).color_mlp);
+  EXPECT_EQ(plan.soup(0).mlp_weights, MlpWeights::uniforms);
+  EXPECT_TRUE(plan.soup(0).applied.empty());
+  EXPECT_FALSE(plan.soup(0).depth_rejects_background);
 }
 
 TEST(Plan, CoincidentFacesShareAClusterAndABucket) {
@@ -195,10 +195,10 @@ TEST(Plan, CoincidentFacesShareAClusterAndABucket) {
     colors.push_back(colors[7]);
   }
   const RenderPlan plan = plan_of(soup);
-  for (const Cluster& cluster : plan.layers[0].clusters) {
+  for (const Cluster& cluster : plan.soup(0).clusters) {
     const std::uint32_t end = cluster.first_slot + cluster.slot_count;
-    if (end < plan.layers[0].faces.size()) {
-      EXPECT_FALSE(coincident(soup, plan.layers[0].faces[end - 1], plan.layers[0].faces[end]));
+    if (end < plan.soup(0).faces.size()) {
+      EXPECT_FALSE(coincident(soup, plan.soup(0).faces[end - 1], plan.soup(0).faces[end]));
     }
   }
 }
@@ -264,7 +264,7 @@ TEST(Specialised, DroppedHarmonicsMoveNoColourByMoreThanAStep) {
   for (std::size_t i = 0; i < sh.coefficients.size(); ++i)
     // Just below the bound: the sum of three channels in bands 2 and 3.
     if (i % 16 >= 4) sh.coefficients[i] = 3e-4f * glm::vec3(random.direction());
-  ASSERT_LT(plan_of(soup).layers[0].harmonics_degree, 3);
+  ASSERT_LT(plan_of(soup).soup(0).harmonics_degree, 3);
   EXPECT_LE(specialised_against_generic(soup, four_views(5)).largest, 1);
 }
 

@@ -244,9 +244,9 @@ TEST(Renderer, AlphaByTheTexelIsAlphaByTheCell) {
       lean.plan.max_alpha_cell_bytes = 1000;
       Renderer by_cell = renderer_of(context, soup, {});
       Renderer by_texel = renderer_of(context, soup, {}, lean);
-      EXPECT_TRUE(by_cell.plan().layers[0].lattice.alpha_by_cell);
-      ASSERT_FALSE(by_texel.plan().layers[0].lattice.alpha_by_cell);
-      EXPECT_GT(by_texel.plan().layers[0].lattice.refused_alpha_cell_bytes, 1000u);
+      EXPECT_TRUE(by_cell.plan().soup(0).lattice.alpha_by_cell);
+      ASSERT_FALSE(by_texel.plan().soup(0).lattice.alpha_by_cell);
+      EXPECT_GT(by_texel.plan().soup(0).lattice.refused_alpha_cell_bytes, 1000u);
       EXPECT_LT(by_texel.device_bytes(), by_cell.device_bytes());
       by_cell.draw({camera});
       by_texel.draw({camera});

@@ -106,9 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Contexts, ShadingStages, testing::ValuesIn(contexts),
 TEST(ShadingStagePlan, IsTheFragmentStageUnlessComputeIsAskedFor) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const auto planned = [&](bool compute_shaders, const PlanPreferences& preferences) {
-    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences)
-        .layers[0]
-        .shading_stage;
+    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences).soup(0).shading_stage;
   };
   EXPECT_EQ(planned(true, {}), ShadingStage::fragment);
   EXPECT_EQ(planned(true, deferred(ShadingStage::compute)), ShadingStage::compute);
@@ -123,9 +121,9 @@ TEST(ShadingStagePlan, IsComputeOnlyWhereThePlanIsDeferred) {
     return make_plan(soup, limits, preferences);
   };
   const RenderPlan forward = plan_of({.site = ShadingSite::forward});
-  EXPECT_EQ(forward.layers[0].shading_stage, ShadingStage::fragment);
+  EXPECT_EQ(forward.soup(0).shading_stage, ShadingStage::fragment);
   EXPECT_EQ(forward.requested_stage, ShadingStage::compute);
-  EXPECT_EQ(plan_of({}).layers[0].shading_stage, ShadingStage::compute);
+  EXPECT_EQ(plan_of({}).soup(0).shading_stage, ShadingStage::compute);
 }
 
 }  // namespace shading_stage_test

@@ -136,7 +136,7 @@ TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
       rgba.resize(more.triangles.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     }
     ASSERT_EQ(defect(more), std::nullopt);
-    EXPECT_EQ(plan_of(more).layers[0].undrawable_faces, 600u);
+    EXPECT_EQ(plan_of(more).soup(0).undrawable_faces, 600u);
     const std::vector<Camera> views = four_views(seed);
     const Difference found = difference(images(more, views, {}), images(soup, views, {}));
     EXPECT_EQ(found.channels, 0u);

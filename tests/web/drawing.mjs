@@ -30,14 +30,15 @@ export async function drawingPage(page) {
         await viewer.load({ files: await Promise.all(given.map(async ({ path, base64 }) => ({ path, data: await bytes(base64) }))) });
       }, files);
     },
-    /** `from`: the number of a recorded camera, or a pose. */
-    async image({ from, width, height, look = 'color', features }) {
-      const base64 = await page.evaluate(async ([at, size, what, which]) => {
+    /** `from`: the number of a recorded camera, or a pose. `background`: by default the scene's. */
+    async image({ from, width, height, look = 'color', features, background }) {
+      const base64 = await page.evaluate(async ([at, size, what, which, color]) => {
+        if (color) viewer.background = color;
         if (typeof at === 'number') viewer.showCamera(at); else viewer.setView(at);
         await viewer.show(what, which);
         const bytes = new Uint8Array(await (await viewer.screenshot(size)).arrayBuffer());
         return btoa(bytes.reduce((text, byte) => text + String.fromCharCode(byte), ''));
-      }, [from, { width, height }, look, features]);
+      }, [from, { width, height }, look, features, background]);
       return readPng(Buffer.from(base64, 'base64'));
     },
   };

@@ -1,14 +1,15 @@
 // The page draws the same images as the program. On llvmpipe they are compared with the goldens that `./dev
 // golden` approves, with the same bounds; on SwiftShader they must be similar.
 
+import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { writeMobileNerf } from './mobilenerf_scene.mjs';
 import { assertAlike, assertSame } from './images.mjs';
-import { readPng } from './png.mjs';
+import { readPng, writePng } from './png.mjs';
 import { programs, scratch, source, stage } from './support.mjs';
 
 const scenes = scratch();
@@ -39,6 +40,21 @@ test('the example on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
 test('several layers on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(scenes, ['layers.glb']);
   assertSame('layers', golden('layers'), await image({ from: 0, width: 320, height: 240 }));
+}));
+
+// The bounds of Layers.AgreeWithTheOracle (tests/runtime/layers_test.cpp): rounding to 8 bits gives 58.9 dB.
+test('several layers agree with the oracle on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+  await load(scenes, ['layers.glb']);
+  const files = [];
+  for (const level of [0, 1]) {
+    const drawn = await image({ from: 0, width: 320, height: 240, background: [level, level, level] });
+    files.push(join(scenes, `layers-over-${level}.png`));
+    writeFileSync(files[level], writePng(drawn));
+  }
+  const text = execFileSync(join(programs, 'compare_with_oracle'), [join(scenes, 'layers.glb'), ...files], { encoding: 'utf8' });
+  const { psnr_db, p999_abs, coverage_mismatch, compared } = JSON.parse(text);
+  console.log(text.trim());
+  assert.ok(psnr_db >= 57 && p999_abs <= 1 / 255 && coverage_mismatch < 1e-4 && compared >= 0.05, text);
 }));
 
 test('every debug view on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {

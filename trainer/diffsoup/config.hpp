@@ -1,6 +1,6 @@
-// All constants of training. The defaults are ours for Preset::object, but for near and far, which
-// preset() sets. `preset` and `published` return the other sets; a --config file or an option
-// overrides single constants.
+// All constants of training. The defaults are Tureen's constants for Preset::object, except near
+// and far; preset() sets those. `preset` and `published` return the other sets; a --config file or
+// an option overrides single constants.
 //
 // Source: DiffSoup (arXiv 2603.27151), its supplement and its code. Comments explain where our
 // values differ; docs/benchmarks.md has the gains.
@@ -70,8 +70,9 @@ struct Config {
   bool baseline = true;         // published: false. Subtracts a running mean from the score's loss
   float baseline_rate = 0.25f;  // update rate of that mean, an exponential average per pixel
 
-  /// If corners move, the texture slides inside the face. Both pixels of a neighbouring pair add
-  /// this derivative, so each is multiplied by one half; published: 1.
+  /// Factor of one part of the gradient of the corners: when corners move, the texture slides
+  /// inside the face. Both pixels of each neighbouring pair add this part, so one half is exact;
+  /// published: 1.
   float texture_slide = 0.5f;
 
   // --- Optimisation
@@ -109,8 +110,9 @@ struct Config {
   // --- The image
   float near = 0.01f;
   float far = 100.0f;
-  /// Published: false. Removes faces that lie partly inside a training view in front of its near
-  /// plane. The runtime's near plane is closer, and would show these untrained parts.
+  /// Published: false. Removes a face if a part of it lies in the image of a training view and
+  /// nearer to the camera than the near plane. The runtime's near plane is closer, and would show
+  /// these untrained parts.
   bool clear_near = false;
   float background[3] = {1, 1, 1};
 };

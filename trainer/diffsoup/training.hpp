@@ -22,14 +22,14 @@ struct TrainingRequest {
   int threads = 0;         // 0: one per core
   SessionOptions session;  // `test_views` and `seconds_before` are set by train()
 
-  // Each may be empty, and may throw to end the run.
+  // Each of the following callbacks may be empty. A callback may throw to end the run.
 
   /// Before the first step. `visible`: some training image shows a triangle.
   std::function<void(const Backend&, bool visible)> begun = {};
   /// Stores the finished scene. If it throws, train() writes a checkpoint and then passes the error
   /// on.
   std::function<void(const Scene&)> finished = {};
-  /// Fraction done of drawing the test views with the trainer's own renderer.
+  /// Progress, 0..1, while the trainer's own renderer draws the test views.
   std::function<void(double fraction)> measuring = {};
   /// Measures the finished scene, for example with the runtime (jobs/eval).
   std::function<void(const Scene&)> evaluate = {};

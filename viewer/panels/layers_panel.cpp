@@ -21,7 +21,7 @@ bool layer_row(StageLayer& layer, bool selected, bool& clicked) {
   const bool changed = ImGui::Checkbox("##visible", &layer.visible);
   tip("visible");
   ImGui::SameLine();
-  const std::string count = fmt::format("{}", layer.soup->triangles.size());
+  const std::string count = fmt::format("{}", layer.primitive_count());
   const float count_left = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(count.c_str()).x;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   clicked =
@@ -125,7 +125,7 @@ void layers_panel(State& state) {
     editing.numbers = similarity_of(editing.matrix);
   }
   // Otherwise a field that is being edited would pass its number on to the next selected layer.
-  ImGui::PushID(layer.soup.get());
+  ImGui::PushID(layer.primitives.get());
   if (place_rows(editing.numbers, state.controls.radius())) {
     const glm::dmat4 matrix = matrix_of(editing.numbers);
     // A typed number may be too large for a double.

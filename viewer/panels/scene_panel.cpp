@@ -24,13 +24,18 @@ void scene_panel(State& state) {
   const Scene& scene = *stage.scene;
   for (const std::filesystem::path& path : stage.paths()) paragraph(path.string());
   if (stage.layers.size() == 1) {
-    const TriangleSoup& soup = *stage.layers.front().soup;
-    paragraph(
-        fmt::format("{} triangles, {}", soup.triangles.size(), appearance_name(soup.appearance)));
+    const StageLayer& layer = stage.layers.front();
+    paragraph(layer.soup() ? fmt::format("{} triangles, {}", layer.primitive_count(),
+                                         appearance_name(layer.soup()->appearance))
+                           : describe(std::get<Splats>(*layer.primitives)));
   } else {
-    std::size_t triangles = 0;
-    for (const StageLayer& layer : stage.layers) triangles += layer.soup->triangles.size();
-    text("{} triangles in {} layers", triangles, stage.layers.size());
+    std::size_t triangles = 0, splats = 0;
+    for (const StageLayer& layer : stage.layers)
+      (layer.soup() ? triangles : splats) += layer.primitive_count();
+    if (splats == 0)
+      text("{} triangles in {} layers", triangles, stage.layers.size());
+    else
+      text("{} triangles and {} splats in {} layers", triangles, splats, stage.layers.size());
   }
   text("{:.1f} MiB on the device", double(stage.renderer.device_bytes()) / (1 << 20));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,

@@ -1,5 +1,6 @@
-// The only interface from JavaScript to this program: named commands with JSON as input and output,
-// and a buffer for bytes. web/viewer/engine.ts is the other side.
+// The interface from JavaScript to this program: named commands with JSON as input and output, and
+// a buffer for bytes. Files of a scene come through Emscripten's file system; commands get their
+// paths. web/viewer/engine.ts is the other side.
 #pragma once
 
 #include <cstddef>

@@ -23,9 +23,9 @@ namespace {
 
 struct Loader {
   std::optional<Scene> scene;
-  std::deque<TriangleSoup> reduced;       // lower lattice levels, to save memory; stays in place
-  std::vector<PlacedSoup> placed;         // the scene's soups, or their reductions
-  std::optional<PreparedScene> prepared;  // reads the placed soups
+  std::deque<Primitives> reduced;         // lower lattice levels, to save memory; stays in place
+  std::vector<PlacedLayer> placed;        // the scene's layers, or their reductions
+  std::optional<PreparedScene> prepared;  // reads the placed layers
 };
 
 Loader& loader() {
@@ -33,14 +33,22 @@ Loader& loader() {
   return one;
 }
 
+const TriangleSoup* soup_of(const PlacedLayer& layer) {
+  return std::get_if<TriangleSoup>(&layer.primitives);
+}
+
 /// The reason of the first layer without this debug view, or nullopt.
-std::optional<std::string> why_not_all(DebugView what, std::span<const PlacedSoup> layers) {
-  for (const PlacedSoup& layer : layers)
-    if (auto reason = why_not(what, layer.soup)) return reason;
+std::optional<std::string> why_not_all(DebugView what, std::span<const PlacedLayer> layers) {
+  if (what == DebugView::color) return {};
+  for (const PlacedLayer& layer : layers) {
+    const TriangleSoup* soup = soup_of(layer);
+    if (!soup) return "debug views show triangles, not splats";
+    if (auto reason = why_not(what, *soup)) return reason;
+  }
   return {};
 }
 
-Json debug_views_of(std::span<const PlacedSoup> layers) {
+Json debug_views_of(std::span<const PlacedLayer> layers) {
   Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not_all(name.what, layers);
@@ -59,12 +67,14 @@ Json notes_of(const Scene& scene) {
   return notes;
 }
 
-/// The appearances of all layers, each once: "lattice texture, face colours".
-std::string appearances_of(std::span<const PlacedSoup> layers) {
+/// The appearances and kernels of all layers, each once: "lattice texture, Gaussians".
+std::string appearances_of(std::span<const PlacedLayer> layers) {
   std::vector<std::string> known;
   std::string names;
-  for (const PlacedSoup& layer : layers) {
-    const std::string name = appearance_name(layer.soup.appearance);
+  for (const PlacedLayer& layer : layers) {
+    const TriangleSoup* soup = soup_of(layer);
+    const std::string name = soup ? appearance_name(soup->appearance)
+                                  : kernel_name(std::get<Splats>(layer.primitives).kernel);
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     known.push_back(name);
     names += (names.empty() ? "" : ", ") + name;
@@ -73,18 +83,22 @@ std::string appearances_of(std::span<const PlacedSoup> layers) {
 }
 
 Json describe(const Scene& scene) {
-  const std::vector<PlacedSoup> layers = placed_soups(scene);
-  std::size_t triangles = 0;
+  const std::vector<PlacedLayer> layers = placed_layers(scene);
+  std::size_t triangles = 0, splats = 0;
   int features = layers.empty() ? 0 : std::numeric_limits<int>::max();
-  for (const PlacedSoup& layer : layers) {
-    triangles += layer.soup.triangles.size();
-    features = std::min(features, feature_count(layer.soup));
+  for (const PlacedLayer& layer : layers) {
+    const TriangleSoup* soup = soup_of(layer);
+    if (soup)
+      triangles += soup->triangles.size();
+    else
+      splats += count(std::get<Splats>(layer.primitives));
+    features = std::min(features, soup ? feature_count(*soup) : 0);
   }
   Subject subject = tureen::subject_of(scene);
   const UpGuess up = guess_up(evidence_of(scene, subject));
   subject.up = up.axis;
   Json names = Json::array();
-  for (const PlacedSoup& layer : layers) names.push_back(layer.name);
+  for (const PlacedLayer& layer : layers) names.push_back(layer.name);
   Json cameras = Json::array();
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
   return {{"name", scene.info.name},
@@ -92,6 +106,7 @@ Json describe(const Scene& scene) {
           {"notes", notes_of(scene)},
           {"layer_names", names},
           {"triangles", triangles},
+          {"splats", splats},
           {"appearance", appearances_of(layers)},
           {"cameras", cameras},
           {"background", to_json(glm::dvec3(scene.info.background))},
@@ -106,7 +121,6 @@ Json take(Scene scene) {
   loader().placed.clear();
   loader().reduced.clear();
   loader().scene = std::move(scene);
-  make_opaque(*loader().scene);
   return describe(*loader().scene);
 }
 
@@ -130,17 +144,18 @@ Json preview(const Json& arguments) {
   return scene ? take(std::move(*scene)) : Json();
 }
 
-/// The scene's soups, with lattices of at most this level.
-void place_soups(std::optional<int> level) {
+/// The scene's layers, with lattices of at most this level.
+void place_layers(std::optional<int> level) {
   const Scene& scene = loader().scene.value();
   loader().placed.clear();
   loader().reduced.clear();
-  for (const PlacedSoup& layer : placed_soups(scene)) {
-    const TriangleSoup* soup = &layer.soup;
-    if (level && std::holds_alternative<LatticeTexture>(soup->appearance))
-      soup =
+  for (const PlacedLayer& layer : placed_layers(scene)) {
+    const Primitives* primitives = &layer.primitives;
+    const TriangleSoup* soup = soup_of(layer);
+    if (level && soup && std::holds_alternative<LatticeTexture>(soup->appearance))
+      primitives =
           &loader().reduced.emplace_back(edited(*soup, {.lattice_level = *level}, report_progress));
-    loader().placed.push_back({*soup, layer.world_from_layer, layer.name, layer.visible});
+    loader().placed.push_back({*primitives, layer.world_from_layer, layer.name, layer.visible});
   }
 }
 
@@ -149,8 +164,8 @@ void place_soups(std::optional<int> level) {
 Json prepare(const Json& arguments) {
   loader().prepared.reset();
   const auto level = arguments.find("level"), layer = arguments.find("layer");
-  place_soups(level == arguments.end() ? std::nullopt : std::optional(level->get<int>()));
-  std::span<const PlacedSoup> chosen = loader().placed;
+  place_layers(level == arguments.end() ? std::nullopt : std::optional(level->get<int>()));
+  std::span<const PlacedLayer> chosen = loader().placed;
   if (layer != arguments.end()) chosen = chosen.subspan(layer->get<std::size_t>(), 1);
   loader().prepared =
       prepare_scene(chosen, limits_of(arguments.at("limits")), page_options(*loader().scene));
@@ -167,10 +182,15 @@ Json prepare(const Json& arguments) {
 Json forecast(const Json& arguments) {
   const Scene& scene = loader().scene.value();
   Json layers = Json::array();
-  for (const PlacedSoup& layer : placed_soups(scene)) {
+  for (const PlacedLayer& layer : placed_layers(scene)) {
+    if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
+      layers.push_back(device_forecast(*splats, make_splat_plan(*splats)).bytes);
+      continue;
+    }
+    const TriangleSoup& soup = *soup_of(layer);
     const RenderPlan plan =
-        make_plan(layer.soup, limits_of(arguments.at("limits")), page_options(scene).plan);
-    layers.push_back(device_forecast(layer.soup, plan.layers[0]).bytes);
+        make_plan(soup, limits_of(arguments.at("limits")), page_options(scene).plan);
+    layers.push_back(device_forecast(soup, plan.soup(0)).bytes);
   }
   return layers;
 }

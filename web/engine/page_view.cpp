@@ -22,17 +22,19 @@ std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
   std::vector<ShownLayer> layers;
   for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
     const PreparedLayer& layer = prepared.layers[i];
+    const LayerPlan& plan = prepared.plan.layers[i];
+    const auto* splats = std::get_if<SplatPlan>(&plan);
     layers.push_back({.box = {layer.bounds, layer.world_from_layer},
                       .visible = layer.visible,
-                      .triangles = prepared.plan.layers[i].soup_faces});
+                      .triangles = splats ? 0 : std::get<SoupPlan>(plan).soup_faces,
+                      .splats = splats ? splats->splats : 0});
   }
   return layers;
 }
 
 /// Notes the memory of the layers of an ordinary frame's renderer.
 void weigh(std::vector<ShownLayer>& layers, const Renderer& renderer) {
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    layers[i].device_bytes = renderer.soups()[i]->device_bytes();
+  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].device_bytes = renderer.layer_bytes(i);
 }
 
 }  // namespace

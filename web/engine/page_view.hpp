@@ -18,8 +18,8 @@ namespace tureen::web {
 struct ShownLayer {
   PlacedBounds box;
   bool visible = true;
-  std::size_t triangles = 0;
-  std::size_t device_bytes = 0;  // of ordinary frames
+  std::size_t triangles = 0, splats = 0;  // one of them is 0
+  std::size_t device_bytes = 0;           // of ordinary frames
 };
 
 /// The data of a scene that its renderer does not have.

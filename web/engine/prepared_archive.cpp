@@ -37,6 +37,47 @@ void archive_layer_plan(Archive& archive, Value& value) {
 }
 
 template <class Archive, class Value>
+void archive_profile(Archive& archive, Value& value) {
+  auto& [projection, low_pass, max_alpha, min_alpha, stop_transmittance] = value;
+  archive(projection, low_pass, max_alpha, min_alpha, stop_transmittance);
+}
+
+template <class Archive, class Value>
+void archive_splat_plan(Archive& archive, Value& value) {
+  auto& [shaders, profile, harmonics_degree, drawn, kernel, splats, stored_degree] = value;
+  archive(shaders);
+  archive_profile(archive, profile);
+  archive(harmonics_degree, drawn, kernel, splats, stored_degree);
+}
+
+template <class Archive, class Value>
+void archive_plan(Archive& archive, Value& value) {
+  bool of_splats = std::holds_alternative<SplatPlan>(value);
+  archive(of_splats);
+  if constexpr (!std::is_const_v<Value>)
+    if (of_splats) value = SplatPlan{};
+  if (of_splats)
+    archive_splat_plan(archive, std::get<SplatPlan>(value));
+  else
+    archive_layer_plan(archive, std::get<SoupPlan>(value));
+}
+
+template <class Archive, class Value>
+void archive_store(Archive& archive, Value& value) {
+  auto& [format, count, what, fill] = value;  // `fill` reads a blob
+  archive(format, count, what);
+}
+
+template <class Archive, class Value>
+void archive_splats(Archive& archive, Value& value) {
+  auto& [layout, kernel, coefficients, centers, omega] = value;
+  archive(layout);
+  archive_store(archive, kernel);
+  archive_store(archive, coefficients);
+  archive(centers, omega);
+}
+
+template <class Archive, class Value>
 void archive_network(Archive& archive, Value& value) {
   auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] =
       value;
@@ -46,8 +87,8 @@ void archive_network(Archive& archive, Value& value) {
 template <class Archive, class Value>
 void archive_sampler(Archive& archive, Value& value) {
   auto& [name, source] = value;
-  auto& [format, count, what, fill] = source;  // `fill` reads a blob
-  archive(name, format, count, what);
+  archive(name);
+  archive_store(archive, source);
 }
 
 /// Archives the number of elements, so that reading creates them, and each of them.
@@ -73,11 +114,21 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  auto& [name, bounds, world_from_layer, visible, soup] = value;
+  auto& [name, bounds, world_from_layer, visible, soup, splats] = value;
   archive(name, bounds, world_from_layer, visible);
-  if constexpr (!std::is_const_v<Value>) soup.emplace();
-  assert(soup && "the page's instance makes no passes from outside runtime/");
-  archive_soup(archive, *soup);
+  bool of_splats = splats.has_value();
+  archive(of_splats);
+  if constexpr (!std::is_const_v<Value>) {
+    if (of_splats)
+      splats.emplace();
+    else
+      soup.emplace();
+  }
+  assert((soup || splats) && "the page's instance makes no passes from outside runtime/");
+  if (of_splats)
+    archive_splats(archive, *splats);
+  else
+    archive_soup(archive, *soup);
 }
 
 template <class Archive, class Value>
@@ -87,12 +138,12 @@ void archive_scene(Archive& archive, Value& value) {
   archive(reversed_depth);
   archive_quality(archive, quality);
   archive(specialise, requested_stage);
-  archive_list(archive, layer_plans, [](auto& to, auto& layer) { archive_layer_plan(to, layer); });
+  archive_list(archive, layer_plans, [](auto& to, auto& layer) { archive_plan(to, layer); });
   archive(description);
   archive_list(archive, layers, [](auto& to, auto& layer) { archive_layer(to, layer); });
 }
 
-/// The contents of a blob: a store of a soup's appearance or, without one, its corners.
+/// The contents of a blob: a texel store or, without one, the corners of a soup.
 struct Blob {
   const PreparedSoup* soup;
   const TexelSource* store;
@@ -100,15 +151,19 @@ struct Blob {
 
 /// Blobs of a layer.
 std::size_t blobs_of(const PreparedLayer& layer) {
-  return 1 + layer.soup->appearance.samplers.size();
+  return layer.splats ? 2 : 1 + layer.soup->appearance.samplers.size();
+}
+
+Blob blob_of(const PreparedLayer& layer, std::size_t index) {
+  if (layer.splats)
+    return {nullptr, index == 0 ? &layer.splats->kernel : &layer.splats->coefficients};
+  return {&*layer.soup, index == 0 ? nullptr : &layer.soup->appearance.samplers[index - 1].source};
 }
 
 Blob blob_at(const PreparedScene& prepared, std::size_t index) {
   for (const PreparedLayer& layer : prepared.layers) {
     const std::size_t count = blobs_of(layer);
-    if (index < count)
-      return {&*layer.soup,
-              index == 0 ? nullptr : &layer.soup->appearance.samplers[index - 1].source};
+    if (index < count) return blob_of(layer, index);
     index -= count;
   }
   assert(!"no such blob");
@@ -157,18 +212,25 @@ PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read) {
   ArchiveReader archive(head);
   archive_scene(archive, prepared);
   std::size_t blob = 0;
+  const auto fill_from = [&](TexelSource& source) {
+    source.fill = [&read, blob, each = source.format.bytes](std::uint64_t first,
+                                                            std::span<std::byte> out) {
+      read(blob, first * each, out);
+    };
+    ++blob;
+  };
   for (PreparedLayer& layer : prepared.layers) {
+    if (layer.splats) {
+      fill_from(layer.splats->kernel);
+      fill_from(layer.splats->coefficients);
+      continue;
+    }
     layer.soup->geometry.fill = [&read, blob](std::size_t first, std::span<FaceCorners> out) {
       read(blob, first * sizeof(FaceCorners), std::as_writable_bytes(out));
     };
     ++blob;
-    for (AppearanceSource::Sampler& sampler : layer.soup->appearance.samplers) {
-      sampler.source.fill = [&read, blob, each = sampler.source.format.bytes](
-                                std::uint64_t first, std::span<std::byte> out) {
-        read(blob, first * each, out);
-      };
-      ++blob;
-    }
+    for (AppearanceSource::Sampler& sampler : layer.soup->appearance.samplers)
+      fill_from(sampler.source);
   }
   return prepared;
 }

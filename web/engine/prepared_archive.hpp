@@ -16,7 +16,8 @@ namespace tureen::web {
 /// Everything except the blobs and make_passes, which the drawing instance has.
 std::vector<std::byte> pack_head(const PreparedScene& prepared);
 
-/// The blobs of each layer in turn: the corners of its faces, then its appearance's stores.
+/// The blobs of each layer in turn: the corners of its faces, then its appearance's stores; for
+/// splats, the stores of kernel and coefficients.
 std::size_t blob_count(const PreparedScene& prepared);
 std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob);
 

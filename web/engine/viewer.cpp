@@ -44,8 +44,9 @@ ShownScene scene_of(const Json& scene) {
 
 Json layers() {
   Json list = Json::array();
-  for (const auto& [box, visible, triangles, device_bytes] : view().layers())
+  for (const auto& [box, visible, triangles, splats, device_bytes] : view().layers())
     list.push_back({{"triangles", triangles},
+                    {"splats", splats},
                     {"visible", visible},
                     {"transform", to_json(box.world_from_layer)},
                     {"placement", to_json(similarity_of(box.world_from_layer))},
@@ -55,7 +56,10 @@ Json layers() {
 
 Json facts() {
   std::size_t drawn = 0;
-  for (const SoupPlan& layer : view().renderer().plan().layers) drawn += layer.faces.size();
+  for (const LayerPlan& layer : view().renderer().plan().layers) {
+    const auto* soup = std::get_if<SoupPlan>(&layer);
+    drawn += soup ? soup->faces.size() : std::get<SplatPlan>(layer).drawn.size();
+  }
   return {{"plan", describe(view().renderer().plan())},
           {"drawn", drawn},
           {"device_bytes", view().renderer().device_bytes()},

@@ -3,8 +3,8 @@
 //   layers=2;1.3,hidden;1.1,at:2.5:0:0,turn:0:90:0,scale:1.5,mirror
 //
 // An entry for each layer, in their order: the number of its scene in the link, and its own number in a scene
-// of several layers, both from 1. `at`, `turn` (degrees about x, then y, then z) and `scale` are the new place
-// of a layer that was moved. Layers without an entry are removed.
+// of several layers, both from 1. `at`, `turn` (degrees about x, then y, then z), `scale` and `mirror` are the
+// new place of a layer that was moved. `shown`: hidden in the file, but visible now. Layers without an entry are removed.
 
 import type { Placement, SceneLayer, SceneSource, Vec3 } from '../viewer/types.js';
 import { degreesPerRadian } from './numbers.js';

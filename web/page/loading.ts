@@ -5,7 +5,7 @@ import { nameOf } from '../viewer/addresses.js';
 import type { LoadProgress, LoadStage, SceneLayer, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import { block, button } from './dom.js';
 import type { Messages } from './messages.js';
-import { bytesText, trianglesText } from './numbers.js';
+import { bytesText, primitivesText } from './numbers.js';
 
 const stageText: Readonly<Record<LoadStage, string>> = {
   download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'uploading to the graphics device',
@@ -26,8 +26,8 @@ export class Loading {
   constructor(private readonly viewer: Viewer, private readonly messages: Messages) {
     button('cancel').addEventListener('click', () => this.cancel());
     viewer.on('progress', (progress) => this.show(progress));
-    viewer.on('preview', ({ triangles }) => {
-      this.preview = `; preview with ${trianglesText(triangles)}`;
+    viewer.on('preview', (preview) => {
+      this.preview = `; preview with ${primitivesText(preview)}`;
       this.show(this.progressNow);  // a stalled download would not update the text
     });
   }

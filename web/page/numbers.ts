@@ -12,6 +12,13 @@ export const countText = (count: number) => counts.format(count);
 /** "15,000 triangles", "1 triangle" */
 export const trianglesText = (count: number) => `${countText(count)} ${count === 1 ? 'triangle' : 'triangles'}`;
 
+/** "15,000 triangles", "90,854 splats", "7,000 triangles and 90,854 splats" */
+export function primitivesText({ triangles, splats }: { readonly triangles: number; readonly splats: number }): string {
+  const splatsText = `${countText(splats)} ${splats === 1 ? 'splat' : 'splats'}`;
+  if (splats === 0) return trianglesText(triangles);
+  return triangles === 0 ? splatsText : `${trianglesText(triangles)} and ${splatsText}`;
+}
+
 /** "640 bytes", "9.4 MB": powers of 1000, as usual for networks and disks. */
 export function bytesText(bytes: number): string {
   if (bytes < 1000) return `${bytes}\u00a0bytes`;

@@ -18,6 +18,7 @@ export interface SceneDescription {
   /** The names of the layers in the file, which may be empty. */
   readonly layer_names: readonly string[];
   readonly triangles: number;
+  readonly splats: number;
   readonly appearance: string;
   readonly cameras: readonly { readonly name: string; readonly width: number; readonly height: number }[];
   readonly background: Vec3;

@@ -6,6 +6,7 @@ import type { DebugViewChoice, Placement, SceneSummary } from './types.js';
 /** A layer on the device: web/engine/viewer.cpp. */
 export interface ShownLayer {
   readonly triangles: number;
+  readonly splats: number;
   readonly visible: boolean;
   readonly transform: readonly number[];
   readonly placement: Placement;
@@ -15,7 +16,7 @@ export interface ShownLayer {
 /** The result of the commands "show", "add_layers", "remove_layer" and "move_layer": web/engine/viewer.cpp. */
 export interface ShownFacts {
   readonly plan: readonly string[];
-  /** Number of drawn triangles. */
+  /** Number of drawn triangles and splats. */
   readonly drawn: number;
   readonly device_bytes: number;
   readonly layers: readonly ShownLayer[];
@@ -24,7 +25,7 @@ export interface ShownFacts {
 export const lowerLevelSentence = (level: number) =>
   `This device has not enough memory for the whole scene. The scene is drawn with lattice level ${level}.`;
 
-export const nothingDrawn = 'The scene cannot be drawn: it has no triangles with finite corners and an area.';
+export const nothingDrawn = 'The scene cannot be drawn: it has no triangles with finite corners and an area, and no visible splats.';
 
 /** "76 MB" */
 const megabytes = (bytes: number) => `${(bytes / 1e6).toFixed(bytes < 9.95e6 ? 1 : 0)}\u00a0MB`;
@@ -49,6 +50,7 @@ export function sceneSummary(first: SceneDescription, sources: readonly SceneDes
     source: distinct(sources.map(({ source }) => source)).join('; '),
     notes: distinct([...sources.flatMap(({ notes }) => notes), facts.drawn ? '' : nothingDrawn]),
     triangles: facts.layers.reduce((sum, layer) => sum + layer.triangles, 0),
+    splats: facts.layers.reduce((sum, layer) => sum + layer.splats, 0),
     appearance: distinct(sources.map(({ appearance }) => appearance)).join(', '),
     background,
     plan: facts.plan,

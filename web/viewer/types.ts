@@ -34,7 +34,8 @@ export interface SceneSummary {
   /** Assumptions and losses of the reader, one sentence each. */
   readonly notes: readonly string[];
   readonly triangles: number;
-  /** "lattice texture", "face colours", .. */
+  readonly splats: number;
+  /** "lattice texture", "face colours", "Gaussians", .. */
   readonly appearance: string;
   /** The drawing plan and its specialisations, one sentence each. */
   readonly plan: readonly string[];
@@ -65,11 +66,12 @@ export interface Placement {
   readonly mirror: boolean;
 }
 
-/** A set of triangles of the current scene. At equal depth the earlier layer is visible. */
+/** A set of triangles or splats of the current scene. At equal depth the earlier layer is visible. */
 export interface SceneLayer {
   /** Unique among the layers: "fox", "fox 2". */
   readonly name: string;
   readonly triangles: number;
+  readonly splats: number;
   readonly visible: boolean;
   /** From the layer's coordinates to the world's. */
   readonly transform: Matrix;
@@ -158,7 +160,7 @@ export interface ViewerEvents {
   /** Progress of a load. */
   progress: LoadProgress;
   /** A first image with mean colours is shown, while the load continues. */
-  preview: { readonly triangles: number };
+  preview: { readonly triangles: number; readonly splats: number };
   /** The current scene changed, or layers were added or removed; null for none. */
   scene: SceneSummary | null;
   /** The list of layers, or a member of it, changed. */

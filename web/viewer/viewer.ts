@@ -264,7 +264,7 @@ class CanvasViewer implements Viewer {
     }
     if (!this.previewed) this.backgroundBefore = before;
     this.previewed = true;
-    this.emit('preview', { triangles: scene.description.triangles });
+    this.emit('preview', { triangles: scene.description.triangles, splats: scene.description.splats });
   }
 
   /** Whether the context is lost, even before the event arrives. */

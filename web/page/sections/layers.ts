@@ -2,7 +2,7 @@
 
 import type { Placement, SceneLayer, Vec3, Viewer } from '../../viewer/types.js';
 import { block, icon, input, make } from '../dom.js';
-import { bytesText, degreesPerRadian, plainNumber, trianglesText } from '../numbers.js';
+import { bytesText, degreesPerRadian, plainNumber, primitivesText } from '../numbers.js';
 
 const axes = ['x', 'y', 'z'] as const;
 /** Decimals of the shown numbers: enough for a place on the screen, few enough to read. */
@@ -106,12 +106,12 @@ export class LayersSection {
       controls.find((control) => control.matches('[aria-pressed=true]')))?.focus();
   }
 
-  private row({ name, triangles, visible, deviceBytes }: SceneLayer, index: number, count: number): HTMLElement {
+  private row({ name, triangles, splats, visible, deviceBytes }: SceneLayer, index: number, count: number): HTMLElement {
     const shown = make('input', { type: 'checkbox', 'aria-label': `Show ${name}`, checked: visible, 'data-control': `show ${name}` });
     shown.addEventListener('change', () => this.viewer.setLayer(index, { visible: shown.checked }));
     const choose = make('button', {
       type: 'button', class: 'plain go', 'aria-pressed': String(index === this.selected), 'data-control': `select ${name}`,
-    }, make('span', {}, name), make('small', {}, `${trianglesText(triangles)} · ${bytesText(deviceBytes)}`));
+    }, make('span', {}, name), make('small', {}, `${primitivesText({ triangles, splats })} · ${bytesText(deviceBytes)}`));
     choose.addEventListener('click', () => this.select(index));
     const action = (control: string, symbol: string, label: string, disabled: boolean, run: () => void) => {
       const made = make('button', {

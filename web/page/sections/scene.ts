@@ -3,7 +3,7 @@
 import type { SceneSummary, Viewer } from '../../viewer/types.js';
 import { block, fillFacts, fillSentences } from '../dom.js';
 import type { Loading } from '../loading.js';
-import { bytesText, trianglesText } from '../numbers.js';
+import { bytesText, primitivesText } from '../numbers.js';
 
 export class SceneSection {
   private notices: string[] = [];
@@ -27,7 +27,7 @@ export class SceneSection {
     fillFacts(block('facts'), scene ? [
       ['Name', scene.name],
       ['Source', scene.source || null],
-      ['Size', trianglesText(scene.triangles)],
+      ['Size', primitivesText(scene)],
       ['Appearance', scene.appearance],
       ['GPU memory', bytesText(scene.deviceBytes)],
     ] : [['Name', 'no scene is open']]);

@@ -1,0 +1,119 @@
+#include "formats/splat/splat_ply_layout.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace tureen {
+
+namespace {
+
+[[noreturn]] void fail_element(const Input& input, const PlyElement& element,
+                               const std::string& reason) {
+  throw InputError({input.name(), {}, element.line}, "element '" + element.name + "' " + reason);
+}
+
+/// All properties of a file of this layout, which are all required.
+PlySlots required_slots(const SplatPlyLayout& layout) {
+  namespace slot = splat_slot;
+  PlySlots slots{{"x", slot::center}, {"y", slot::center + 1}, {"z", slot::center + 2}};
+  add_slots(slots, "scale_", slot::scale, layout.scales);
+  add_slots(slots, "rot_", slot::rotation, 4);
+  add_slots(slots, "f_dc_", slot::color, 3);
+  for (int k = 0; k < 3 * (harmonics::count(layout.degree) - 1); ++k)
+    slots["f_rest_" + std::to_string(k)] = slot::color + 3 + place_of_rest(k, layout.degree);
+  if (layout.kind != SplatBuilder::Kind::neural_densities) {
+    slots["opacity"] = slot::opacity;
+    return slots;
+  }
+  constexpr int width = NeuralDensities::width;
+  for (int k = 0; k < 3 * width; ++k)
+    slots["frequencies_" + std::to_string(k)] = slot::network + 3 * (k % width) + k / width;
+  add_slots(slots, "phases_", slot::network + 3 * width, width);
+  add_slots(slots, "amplitudes_", slot::network + 4 * width, width);
+  slots["offsets"] = slot::network + 5 * width;
+  return slots;
+}
+
+}  // namespace
+
+void add_slots(PlySlots& slots, const char* prefix, int first, int count) {
+  for (int i = 0; i < count; ++i) slots[prefix + std::to_string(i)] = first + i;
+}
+
+std::vector<int> find_slots(const Input& input, const PlyElement& element, PlySlots required) {
+  constexpr int found = splat_slot::none;
+  std::vector<int> slots(element.properties.size(), splat_slot::none);
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    const auto known = required.find(property.name);
+    if (known == required.end()) continue;
+    if (property.count_type) fail_element(input, element, "has a list '" + property.name + "'");
+    if (known->second == found)
+      fail_element(input, element, "has a second property '" + property.name + "'");
+    slots[i] = known->second;
+    known->second = found;
+  }
+  for (const auto& [name, slot] : required)
+    if (slot != found) fail_element(input, element, "lacks '" + name + "'");
+  return slots;
+}
+
+int degree_of_rest(const Input& input, const PlyElement& element, std::size_t properties) {
+  for (int degree = 0; degree <= harmonics::max_degree; ++degree)
+    if (properties == std::size_t(3 * (harmonics::count(degree) - 1))) return degree;
+  fail_element(input, element,
+               "has " + std::to_string(properties) +
+                   " properties 'f_rest_..', which fit no degree of harmonics; supported: 0, 9, "
+                   "24, 45 and 72");
+}
+
+std::size_t count_rest(const PlyElement& element) {
+  const auto is_rest = [](const PlyProperty& p) {
+    return std::string_view(p.name).substr(0, 7) == "f_rest_";
+  };
+  return std::size_t(std::count_if(element.properties.begin(), element.properties.end(), is_rest));
+}
+
+int place_of_rest(int k, int degree) {
+  const int per_channel = harmonics::count(degree) - 1;
+  return 3 * (k % per_channel) + k / per_channel;
+}
+
+SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
+  SplatPlyLayout layout;
+  if (vertex.find("frequencies_0")) {
+    layout.kind = SplatBuilder::Kind::neural_densities;
+  } else if (!vertex.find("scale_2")) {
+    layout.kind = SplatBuilder::Kind::flat_gaussians;
+    layout.scales = 2;
+  }
+  layout.degree = degree_of_rest(input, vertex, count_rest(vertex));
+  layout.slots = find_slots(input, vertex, required_slots(layout));
+  return layout;
+}
+
+SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind kind) {
+  if (kind == SplatBuilder::Kind::neural_densities) return {.profile = *profile_named("splatnet")};
+  std::string_view mode;
+  for (std::string_view rest = header.comments; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    if (line == "SplatRenderMode: default" || line == "antialiased 0") mode = "default";
+    if (line == "SplatRenderMode: mip" || line == "antialiased 1") mode = "mip";
+    if (line == "SplatRenderMode: 2dgs") mode = "2dgs";
+    if (line == "TureenSplatProfile: redisplats") mode = "redisplats";
+  }
+  const bool is_flat = kind == SplatBuilder::Kind::flat_gaussians;
+  if (mode == "2dgs" || (is_flat && mode.empty()))
+    return {
+        .profile = *profile_named("2dgs"), .is_flat = true, .assumed = mode.empty() ? "2dgs" : ""};
+  if (mode == "redisplats" && is_flat)
+    return {.profile = *profile_named("redisplats"), .is_flat = true, .normal_first = true};
+  return {.profile = *profile_named(mode == "mip" ? "mip"
+                                    : is_flat     ? "games"
+                                                  : "3dgs"),
+          .is_flat = is_flat,
+          .normal_first = is_flat};
+}
+
+}  // namespace tureen

@@ -1,0 +1,120 @@
+#include <array>
+#include <optional>
+
+#include "formats/mesh/plain_mesh.hpp"
+#include "formats/mesh/ply_values.hpp"
+#include "formats/splat/splat_activation.hpp"
+#include "formats/splat/splat_ply.hpp"
+#include "formats/splat/splat_ply_layout.hpp"
+
+namespace tureen {
+
+namespace {
+
+using SplatRow = std::array<double, splat_slot::count>;
+
+class SplatPlyReader {
+ public:
+  SplatPlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
+      : input_(input), header_(header), values_(input, header), meter_(options) {}
+
+  Scene read() {
+    const PlyElement& vertex = *header_.find("vertex");
+    SplatPlyLayout layout = splat_ply_layout(input_, vertex);
+    const SplatPlyProfile profile = splat_ply_profile(header_, layout.kind);
+    if (profile.is_flat) layout.kind = SplatBuilder::Kind::flat_gaussians;
+    SplatBuilder builder(input_, layout.kind, layout.degree, vertex.count);
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;  // it has no bytes in the body
+      for (std::uint64_t i = 0; i < element.count; ++i) {
+        meter_.step([&] { return double(values_.position()) / double(input_.size()); });
+        values_.begin_row(element.name.c_str());
+        if (&element == &vertex)
+          read_splat(element, layout, profile, builder);
+        else
+          for (const PlyProperty& property : element.properties) values_.skip(property);
+        values_.end_row();
+      }
+    }
+    std::optional<Remark> trailing;
+    if (values_.anything_left())
+      trailing = Remark{Remark::Kind::bytes_ignored, {values_.remaining()}};
+    Scene scene = builder.finish(profile.profile, "PLY");
+    std::vector<Remark>& remarks = scene.info.remarks;
+    if (!profile.assumed.empty())
+      remarks.push_back({.kind = Remark::Kind::profile_assumed, .names = {profile.assumed}});
+    if (trailing) remarks.push_back(*trailing);
+    if (has_doubles(vertex, layout)) remarks.push_back({Remark::Kind::coordinates_rounded});
+    return scene;
+  }
+
+ private:
+  void read_splat(const PlyElement& element, const SplatPlyLayout& layout,
+                  const SplatPlyProfile& profile, SplatBuilder& builder) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (layout.slots[i] == splat_slot::none)
+        values_.skip(property);
+      else
+        row_[std::size_t(layout.slots[i])] = values_.read(property.type);
+    }
+    add_row(layout, profile, builder);
+  }
+
+  void add_row(const SplatPlyLayout& layout, const SplatPlyProfile& profile,
+               SplatBuilder& builder) const {
+    namespace slot = splat_slot;
+    SplatValues splat;
+    splat.center = {row_[slot::center], row_[slot::center + 1], row_[slot::center + 2]};
+    splat.rotation = {row_[slot::rotation], row_[slot::rotation + 1], row_[slot::rotation + 2],
+                      row_[slot::rotation + 3]};
+    // The cyclic exchange of axes: our x, y, z are the file's y, z, x.
+    if (profile.normal_first) splat.rotation = splat.rotation * glm::dquat(0.5, 0.5, 0.5, 0.5);
+    splat.scales = {std::exp(row_[slot::scale]), std::exp(row_[slot::scale + 1]), 0.0};
+    if (layout.kind != SplatBuilder::Kind::flat_gaussians)
+      splat.scales.z = std::exp(row_[slot::scale + 2]);
+    splat.opacity = sigmoid(row_[slot::opacity]);
+    std::array<glm::vec3, harmonics::count(harmonics::max_degree)> coefficients;
+    const auto used = static_cast<std::size_t>(harmonics::count(layout.degree));
+    for (std::size_t i = 0; i < used; ++i) {
+      const double* rgb = &row_[slot::color + 3 * i];
+      coefficients[i] = {rgb[0], rgb[1], rgb[2]};
+    }
+    std::array<float, NeuralDensities::parameters> parameters{};
+    const bool is_neural = layout.kind == SplatBuilder::Kind::neural_densities;
+    for (std::size_t i = 0; is_neural && i < parameters.size(); ++i)
+      parameters[i] = static_cast<float>(row_[slot::network + i]);
+    builder.add(splat, std::span(coefficients).first(used),
+                std::span(parameters).first(is_neural ? parameters.size() : 0));
+  }
+
+  bool has_doubles(const PlyElement& vertex, const SplatPlyLayout& layout) const {
+    if (header_.encoding == PlyHeader::Encoding::ascii) return false;
+    for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+      if (layout.slots[i] != splat_slot::none && layout.slots[i] < splat_slot::center + 3 &&
+          vertex.properties[i].type == PlyType::float64)
+        return true;
+    return false;
+  }
+
+  Input& input_;
+  const PlyHeader& header_;
+  PlyValues values_;
+  ProgressMeter meter_;
+  SplatRow row_{};
+};
+
+}  // namespace
+
+bool is_splat_ply(const PlyHeader& header) {
+  for (const char* name : {"face", "tristrips"})
+    if (const PlyElement* faces = header.find(name); faces && faces->count > 0) return false;
+  const PlyElement* vertex = header.find("vertex");
+  return vertex && vertex->find("scale_0") && vertex->find("rot_0");
+}
+
+Scene read_splat_ply(Input& input, const PlyHeader& header, const ReadOptions& options) {
+  return SplatPlyReader(input, header, options).read();
+}
+
+}  // namespace tureen

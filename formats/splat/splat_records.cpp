@@ -1,0 +1,69 @@
+#include "formats/splat/splat_records.hpp"
+
+#include <array>
+#include <system_error>
+
+#include "base/extension.hpp"
+#include "formats/mesh/plain_mesh.hpp"
+#include "formats/splat/little_endian.hpp"
+#include "formats/splat/splat_builder.hpp"
+#include "scene/spherical_harmonics.hpp"
+
+namespace tureen {
+
+namespace {
+
+constexpr std::size_t splat_record_size = 32;
+
+/// 0 is b = 127.5, which no byte has: writers round it up to 128.
+double rotation_part(std::byte byte) { return std::to_integer<int>(byte) / 127.5 - 1.0; }
+
+double byte_fraction(std::byte byte) { return std::to_integer<int>(byte) / 255.0; }
+
+}  // namespace
+
+bool is_splat_records(const std::filesystem::path& path) {
+  if (extension_of(path) != ".splat") return false;
+  std::error_code failed;
+  const auto size = std::filesystem::file_size(path, failed);
+  return !failed && size > 0 && size % splat_record_size == 0;
+}
+
+Scene read_splat_records(Input& input, const ReadOptions& options) {
+  if (input.size() % splat_record_size != 0)
+    input.fail_at(input.size() / splat_record_size * splat_record_size,
+                  "a .splat file has records of 32 bytes, but its last one has " +
+                      std::to_string(input.size() % splat_record_size));
+  SplatBuilder builder(input, SplatBuilder::Kind::gaussians, 0, input.size() / splat_record_size);
+  ProgressMeter meter(options);
+  std::array<std::byte, 256 * splat_record_size> block;
+  input.seek(0);
+  while (input.remaining() > 0) {
+    const std::size_t size = input.read_some(block);
+    if (size % splat_record_size != 0) input.fail("the file ends within a record");
+    for (std::size_t at = 0; at < size; at += splat_record_size) {
+      meter.step([&] { return double(input.position()) / double(input.size()); });
+      const auto record = std::span(block).subspan(at, splat_record_size);
+      SplatValues splat;
+      for (int k = 0; k < 3; ++k) {
+        splat.center[k] = little_float(record, std::size_t(4 * k));
+        splat.scales[k] = little_float(record, std::size_t(12 + 4 * k));
+      }
+      glm::vec3 color;
+      for (int k = 0; k < 3; ++k)
+        color[k] = float((byte_fraction(record[std::size_t(24 + k)]) - 0.5) / harmonics::y00);
+      splat.opacity = byte_fraction(record[27]);
+      splat.rotation = {rotation_part(record[28]), rotation_part(record[29]),
+                        rotation_part(record[30]), rotation_part(record[31])};
+      builder.add(splat, std::span(&color, 1));
+    }
+  }
+  return builder.finish(*profile_named("3dgs"), ".splat");
+}
+
+Scene read_splat_records(const std::filesystem::path& path, const ReadOptions& options) {
+  Input input = Input::open(path);
+  return read_splat_records(input, options);
+}
+
+}  // namespace tureen

@@ -1,0 +1,25 @@
+// .splat files (antimatter15/splat), read: records of 32 bytes, little endian, without a header.
+//   bytes 0..11   centre: three floats
+//   12..23        standard deviations: three floats
+//   24..27        red, green, blue (1/2 + Y_00 f_dc) and opacity; a byte is a 255th
+//   28..31        quaternion (w, x, y, z); a byte b is b / 127.5 - 1
+#pragma once
+
+#include <filesystem>
+
+#include "base/input.hpp"
+#include "formats/scene_file.hpp"
+#include "scene/scene.hpp"
+
+namespace tureen {
+
+/// Whether the path is a file with the extension .splat whose size is a multiple of 32, and not 0.
+/// The content has no signature.
+bool is_splat_records(const std::filesystem::path& path);
+
+/// Gaussians of degree 0 with the profile 3dgs. Throws InputError if the size is not a multiple of
+/// 32.
+Scene read_splat_records(Input& input, const ReadOptions& options = {});
+Scene read_splat_records(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace tureen

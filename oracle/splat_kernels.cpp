@@ -1,0 +1,56 @@
+#include "oracle/splat_kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scene/spherical_harmonics.hpp"
+
+namespace tureen::oracle {
+
+std::optional<SplatInView> project(const Splats& splats, std::size_t i, const SplatView& view) {
+  const SplatProfile& profile = splats.profile;
+  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
+    return WindowInView::project(*windows, i, profile, view);
+  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
+    return NeuralDensityInView::project(*densities, i, profile, view);
+  const auto& gaussians = std::get<Gaussians>(splats.kernel);
+  if (profile.projection == SplatProfile::Projection::plane)
+    return DiscInView::project(gaussians, i, profile, view);
+  return EwaInView::project(gaussians, i, profile, view);
+}
+
+SplatSample sample(const SplatInView& splat, const glm::dvec2& pixel, double opaque_depth) {
+  SplatSample result;
+  if (const auto* density = std::get_if<NeuralDensityInView>(&splat))
+    result = density->at(pixel, opaque_depth);
+  else if (const auto* ewa = std::get_if<EwaInView>(&splat))
+    result = ewa->at(pixel);
+  else if (const auto* disc = std::get_if<DiscInView>(&splat))
+    result = disc->at(pixel);
+  else
+    result = std::get<WindowInView>(splat).at(pixel);
+  // The negations also remove NaN, which only overflow can give.
+  if (!(result.depth < opaque_depth) || !(result.alpha > 0) || !(result.order <= result.order))
+    return {};
+  return result;
+}
+
+const ImageBox& box_of(const SplatInView& splat) {
+  return std::visit([](const auto& each) -> const ImageBox& { return each.box(); }, splat);
+}
+
+glm::dvec3 splat_color(const Splats& splats, std::size_t i, const glm::dvec3& eye) {
+  const glm::dvec3 from_eye = center(splats, i) - eye;
+  const double distance = glm::length(from_eye);
+  const auto basis = harmonics::basis(distance > 0 ? from_eye / distance : glm::dvec3(0, 0, 1));
+  const std::size_t bands = harmonics::count(splats.color.degree);
+  glm::dvec3 sum(0.5);
+  for (std::size_t k = 0; k < bands; ++k)
+    sum += basis[k] * glm::dvec3(splats.color.coefficients[i * bands + k]);
+  // This order of the arguments turns NaN into 0.
+  for (int c = 0; c < 3; ++c) sum[c] = std::max(0.0, sum[c]);
+  return sum;
+}
+
+}  // namespace tureen::oracle

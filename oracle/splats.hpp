@@ -1,0 +1,68 @@
+// Blends all splats of a scene over its opaque surfaces, front to back, in double precision.
+//
+// Each sample has a colour and a transmittance, at first 0 and 1. A splat of alpha a adds a *
+// transmittance * its colour, and the transmittance is multiplied by 1 - a. The profile of a
+// splat's own layer decides its alpha limits and whether it ends the sample
+// (SplatProfile::stop_transmittance).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "scene/splats.hpp"
+
+namespace tureen::oracle {
+
+/// Which splat is in front of another. Ties go to the earlier layer, then to the lower index.
+enum class SplatOrder {
+  /// By the view depth of the centres, over all layers: the order of the authors' renderers, and
+  /// ours.
+  centre,
+  /// At each sample by depth along its ray: of a window or disc, the depth of its plane; of a
+  /// Gaussian by EWA, the depth of its largest density; of a neural density, the middle of its
+  /// chord.
+  exact,
+};
+
+/// A layer of splats at its place in the world. The splats must outlive this object and have no
+/// defect().
+struct PlacedSplats {
+  const Splats* splats;
+  glm::dmat4 world_from_layer;
+};
+
+struct SplatBlending {
+  SplatOrder order = SplatOrder::centre;
+  bool stop = true;  // false: stop_transmittance is ignored
+  /// Samples per pixel along each axis. Low passes are in pixels, whatever the number of samples.
+  int supersampling = 1;
+  double near = 0;  // of the frame's clip range
+  /// Called with the fraction done, 0..1; may throw to cancel.
+  std::function<void(double)> progress = {};
+};
+
+/// The splats at one sample.
+struct BlendedSample {
+  glm::dvec3 color{0.0};  // premultiplied: the sum over the splats
+  double transmittance = 1;
+  /// The depth of the splat at which the transmittance falls to 0.5 or below; infinity if it stays
+  /// above.
+  double median_depth = std::numeric_limits<double>::infinity();
+  bool ended = false;  // no further splat is blended
+};
+
+/// All samples, row by row from the top; a row has width * supersampling samples. Only splats in
+/// front of the opaque surface count: `opaque_depth` has its depth for each sample, infinity
+/// without one. Memory is that of the result and a few numbers a splat; for SplatOrder::exact also
+/// the splats at the samples of a band of rows.
+std::vector<BlendedSample> blend(std::span<const PlacedSplats> layers, const Camera& camera,
+                                 std::span<const double> opaque_depth,
+                                 const SplatBlending& options);
+
+}  // namespace tureen::oracle

@@ -1,0 +1,40 @@
+// The plan of one layer of splats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/splats.hpp"
+
+namespace tureen {
+
+/// The shaders that draw a kernel.
+enum class SplatShaders {
+  windows,         // TriangleWindows
+  gaussians,       // Gaussians by EWA, flat or not
+  discs,           // flat Gaussians on their plane
+  neural_density,  // NeuralDensities
+};
+
+/// The method of drawing one layer of splats.
+struct SplatPlan {
+  SplatShaders shaders = SplatShaders::windows;
+  SplatProfile profile;
+  /// Of the highest band with a coefficient other than 0, up to the scene's degree.
+  int harmonics_degree = 0;
+  /// Drawn splats, in the scene's order: those whose opacity reaches the profile's min_alpha.
+  std::vector<std::uint32_t> drawn;
+
+  // Facts about the splats, for messages.
+
+  std::string kernel;      // kernel_name()
+  std::size_t splats = 0;  // all
+  int stored_degree = 0;   // of the scene's harmonics
+};
+
+/// O(data). The splats have no defect(). Without `specialise`, every splat is drawn with all bands.
+SplatPlan make_splat_plan(const Splats& splats, bool specialise = true);
+
+}  // namespace tureen

@@ -1,0 +1,213 @@
+#include "runtime/splats/device_splats.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "runtime/gl/state.hpp"
+#include "runtime/passes/geometry.hpp"
+#include "runtime/passes/shader_source.hpp"
+#include "runtime/passes/targets.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Columns of the textures with one texel a splat: PROJECTED_COLUMNS.
+constexpr int projected_columns = 1024;
+
+constexpr TargetFormat projected_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+
+/// A float as a GLSL constant, in the locale of GLSL.
+std::string constant(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::scientific << std::setprecision(std::numeric_limits<float>::max_digits10) << value;
+  return text.str();
+}
+
+struct Files {
+  const char *projection, *vertex, *fragment;
+  /// Samplers of the further targets of splat_project.frag, from location 1 on.
+  std::vector<const char*> projected;
+};
+
+Files files_of(SplatShaders shaders) {
+  switch (shaders) {
+    case SplatShaders::windows:
+      return {"splat_project_windows.glsl", "splat_windows.vert", "splat_windows.frag", {}};
+    case SplatShaders::gaussians:
+      return {"splat_project_gaussians.glsl",
+              "splat_gaussians.vert",
+              "splat_gaussians.frag",
+              {"places", "axes_of_splats"}};
+    case SplatShaders::discs:
+      return {"splat_project_discs.glsl",
+              "splat_discs.vert",
+              "splat_discs.frag",
+              {"planes_xy", "planes_w", "places"}};
+    case SplatShaders::neural_density:
+      return {"splat_project_neural.glsl", "splat_neural.vert", "splat_neural.frag", {}};
+  }
+  assert(!"a kind of splats without shaders");
+  return {};
+}
+
+}  // namespace
+
+std::size_t projected_bytes(SplatShaders shaders) {
+  return (1 + files_of(shaders).projected.size()) * std::size_t(projected_format.bytes);
+}
+
+bool DeviceSplats::tests_depth() const {
+  return shaders_ == SplatShaders::discs || shaders_ == SplatShaders::neural_density;
+}
+
+DeviceSplats::Constants DeviceSplats::constants() const {
+  const SplatProfile::LowPass low_pass = profile_.low_pass;
+  const bool dilates =
+      low_pass == SplatProfile::LowPass::dilation || low_pass == SplatProfile::LowPass::mip;
+  return {{"TEXEL_ROW_BITS", std::to_string(layout_.row_bits)},
+          {"TEXEL_LAYER_BITS", std::to_string(layout_.layer_bits)},
+          {"KERNEL_TEXELS", std::to_string(kernel_texels(shaders_))},
+          {"HARMONICS_DEGREE", std::to_string(harmonics_degree_)},
+          {"PROJECTED_COLUMNS", std::to_string(projected_columns)},
+          {"ORDER_COLUMNS", std::to_string(order_columns)},
+          {"MIN_ALPHA", constant(double(profile_.min_alpha))},
+          {"MAX_ALPHA", constant(double(profile_.max_alpha))},
+          {"DILATION", dilates ? "1" : "0"},
+          {"DILATION_VARIANCE", constant(dilation_variance)},
+          {"SCREEN_FILTER", low_pass == SplatProfile::LowPass::screen ? "1" : "0"},
+          {"SCREEN_VARIANCE", constant(screen_variance)},
+          {"KEEP_INTEGRAL", low_pass == SplatProfile::LowPass::mip ? "1" : "0"}};
+}
+
+DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
+                           const SplatPlan& plan)
+    : device_(device),
+      shaders_(plan.shaders),
+      profile_(plan.profile),
+      harmonics_degree_(plan.harmonics_degree),
+      centers_(std::move(source.centers)),
+      layout_(source.layout),
+      kernel_(source.layout, source.kernel),
+      coefficients_(source.layout, source.coefficients) {
+  if (!device.float_targets)
+    throw DeviceLimitError(
+        "splats need textures of floats as targets (EXT_color_buffer_float), which this device "
+        "lacks");
+  const Files files = files_of(shaders_);
+  projection_ = gl::Program(
+      assemble({.file = "full_screen.vert"}, device.api),
+      assemble({.file = "splat_project.frag",
+                .constants = constants(),
+                .generated = {{"splat_project_kernel.glsl",
+                               "#include \"" + std::string(files.projection) + "\"\n"}}},
+               device.api));
+  drawing_ = gl::Program(assemble({.file = files.vertex, .constants = constants()}, device.api),
+                         assemble({.file = files.fragment, .constants = constants()}, device.api));
+  const auto rows = static_cast<int>((centers_.size() + projected_columns - 1) / projected_columns);
+  if (rows > device.max_texture_size)
+    throw DeviceLimitError(
+        "the layer has " + std::to_string(centers_.size()) + " splats; this device draws at most " +
+        std::to_string(std::size_t(device.max_texture_size) * std::size_t(projected_columns)));
+  for (std::size_t i = 0; i < 1 + files.projected.size(); ++i)
+    projected_.push_back(make_target(projected_format, projected_columns, std::max(rows, 1)));
+  gl::check("DeviceSplats");
+}
+
+void DeviceSplats::bind(const gl::Program& program, int unit, const char* name, GLenum kind,
+                        GLuint texture) {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(kind, texture);
+  gl::use_texture_sampling(static_cast<unsigned>(unit));
+  program.set(name, unit);
+}
+
+void DeviceSplats::project(const Frame& frame) {
+  if (centers_.empty()) return;
+  if (!projected_framebuffer_) {
+    std::vector<GLuint> targets;
+    for (const gl::Texture& texture : projected_) targets.push_back(texture.id());
+    projected_framebuffer_ = make_framebuffer(targets);
+  }
+  const auto count = static_cast<int>(centers_.size());
+  gl::use_plain_rasterisation(projected_columns,
+                              (count + projected_columns - 1) / projected_columns);
+  glDisable(GL_DEPTH_TEST);
+  glBindFramebuffer(GL_FRAMEBUFFER, projected_framebuffer_.id());
+  projection_.use();
+  bind(projection_, 0, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
+  bind(projection_, 1, "coefficients", GL_TEXTURE_2D_ARRAY, coefficients_.texture());
+  projection_.set("splat_count", count);
+  set_view(projection_, frame);
+  full_screen_.draw(projection_);
+}
+
+/// Uniforms of the camera, for both programs; each ignores those that it does not use.
+void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) const {
+  const FrameCamera& in_layer = frame.layers[layer_];
+  const Camera& camera = in_layer.camera;
+  set_eye(program, in_layer.eye);
+  program.set("view_from_layer", glm::mat3(glm::dmat3(camera.view_from_world)));
+  program.set("focal", glm::vec2(camera.fx, camera.fy));
+  program.set("principal_point", glm::vec2(camera.cx, camera.height - camera.cy));
+  program.set("slope_range", ewa_slope_range(camera));
+  program.set("near", static_cast<float>(in_layer.range.near));
+  program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
+}
+
+void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLuint order) {
+  const FrameCamera& in_layer = frame.layers[layer_];
+  drawing_.use();
+  bind(drawing_, 0, "order", GL_TEXTURE_2D, order);
+  bind(drawing_, 1, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
+  bind(drawing_, 2, "colors", GL_TEXTURE_2D, projected_[0].id());
+  int unit = 3;
+  for (const char* name : files_of(shaders_).projected) {
+    bind(drawing_, unit, name, GL_TEXTURE_2D, projected_[std::size_t(unit - 2)].id());
+    ++unit;
+  }
+  if (tests_depth()) bind(drawing_, unit, "depth_texture", GL_TEXTURE_2D, target.depth_texture());
+  set_view(drawing_, frame);
+  set_rays(drawing_, in_layer.camera);
+  const glm::dmat4 clip_from_view = target.clip_from_view(in_layer.camera, in_layer.range);
+  const glm::dmat4 rotation(glm::dmat3(in_layer.camera.view_from_world));
+  drawing_.set("clip_from_camera", glm::mat4(clip_from_view * rotation));
+  drawing_.set("depth_of_z", glm::vec2(clip_from_view[2][2], clip_from_view[3][2]));
+  drawing_.set("ndc_from_stored",
+               target.reversed_depth() ? glm::vec2(1.0f, 0.0f) : glm::vec2(2.0f, -1.0f));
+  drawing_.set("far_stored", target.far_depth());
+  nothing_.bind();
+}
+
+void DeviceSplats::draw_run(std::uint32_t first, std::uint32_t count) {
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * first), static_cast<GLsizei>(3 * count));
+}
+
+std::size_t DeviceSplats::device_bytes() const {
+  const std::size_t rows = (centers_.size() + projected_columns - 1) / projected_columns;
+  return kernel_.device_bytes() + coefficients_.device_bytes() +
+         projected_.size() * rows * projected_columns * std::size_t(projected_format.bytes);
+}
+
+void DeviceSplats::leave_context() {
+  full_screen_.leave_context();
+  nothing_.forget();
+  projected_framebuffer_ = {};
+}
+
+glm::vec4 ewa_slope_range(const Camera& camera) {
+  // 3DGS clamps at 1.3 times the half field of view, about the principal point of a centred image.
+  // Beyond the image, the same margin of 0.3 times half the image is left on either side.
+  const glm::dvec2 margin = 0.3 * 0.5 * glm::dvec2(camera.width, camera.height);
+  const glm::dvec2 focal(camera.fx, camera.fy);
+  const glm::dvec2 low(-camera.cx, camera.cy - camera.height),
+      high(camera.width - camera.cx, camera.cy);
+  return glm::vec4((low - margin) / focal, (high + margin) / focal);
+}
+
+}  // namespace tureen

@@ -1,0 +1,83 @@
+// One layer of splats on the device.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/gl/context.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/passes/frame_target.hpp"
+#include "runtime/passes/full_screen.hpp"
+#include "runtime/passes/pass.hpp"
+#include "runtime/plan/splat_plan.hpp"
+#include "runtime/splats/splat_source.hpp"
+
+namespace tureen {
+
+/// Bytes per splat of the textures that hold what all pixels of a splat share.
+std::size_t projected_bytes(SplatShaders shaders);
+
+class DeviceSplats {
+ public:
+  /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
+  static constexpr int order_columns = 2048;
+
+  /// Uploads; of the plan, only `shaders`, `profile`, `harmonics_degree` and the number of drawn
+  /// splats are used. The source's texels are not needed afterwards. Throws DeviceLimitError.
+  DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
+
+  /// The layer's index in Frame::layers.
+  void set_layer(std::size_t layer) { layer_ = layer; }
+  std::size_t layer() const { return layer_; }
+
+  /// Centres of the drawn splats, in layer coordinates.
+  std::span<const glm::vec3> centers() const { return centers_; }
+
+  /// Computes colours, and for Gaussians their places in the image, for later draw_run() of this
+  /// frame. Changes the framebuffer and the viewport.
+  void project(const Frame& frame);
+  /// Prepares draw_run(): program, textures and uniforms. `order` holds indices of splats, row by
+  /// row.
+  void begin_runs(const Frame& frame, const FrameTarget& target, GLuint order);
+  /// Draws `count` splats of the order from `first` on, as three vertices each.
+  void draw_run(std::uint32_t first, std::uint32_t count);
+
+  /// Whether the fragment shader tests depth, because it differs from pixel to pixel. The caller
+  /// then binds a framebuffer without the depth texture.
+  bool tests_depth() const;
+
+  std::size_t device_bytes() const;
+  /// See Renderer::leave_context().
+  void leave_context();
+
+ private:
+  using Constants = std::map<std::string, std::string>;
+
+  Constants constants() const;
+  void set_view(const gl::Program& program, const Frame& frame) const;
+  void bind(const gl::Program& program, int unit, const char* name, GLenum kind, GLuint texture);
+
+  gl::Capabilities device_;
+  SplatShaders shaders_;
+  SplatProfile profile_;
+  int harmonics_degree_;
+  std::size_t layer_ = 0;
+  std::vector<glm::vec3> centers_;
+  TexelLayout layout_;
+  TexelStore kernel_, coefficients_;
+  gl::Program projection_, drawing_;
+  std::vector<gl::Texture> projected_;  // colours and, for some kernels, more
+  gl::Framebuffer projected_framebuffer_;
+  FullScreen full_screen_;
+  gl::LocalVertexArray nothing_;
+};
+
+/// The range of x/depth and y/depth, in the camera's view space with y upwards, to which EWA
+/// splatting clamps the centre in its Jacobian: the smallest x and y, then the largest.
+glm::vec4 ewa_slope_range(const Camera& camera);
+
+}  // namespace tureen

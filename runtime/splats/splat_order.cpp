@@ -1,0 +1,79 @@
+#include "runtime/splats/splat_order.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+namespace tureen {
+
+namespace {
+
+/// Unsigned integers in the order of the floats. -0 equals 0, so that ties stay ties.
+std::uint32_t key_of(float depth) {
+  if (depth == 0.0f) depth = 0.0f;  // of -0
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &depth, sizeof bits);  // Emscripten's library lacks std::bit_cast
+  return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+// Three passes over 11 bits were the fastest of 8, 11 and 16 bits for 100,000 splats.
+constexpr int digit_bits = 11;
+constexpr int digits = 3;
+constexpr std::uint32_t digit_values = 1u << digit_bits;
+
+std::uint32_t digit(std::uint32_t key, int place) {
+  return (key >> (place * digit_bits)) & (digit_values - 1);
+}
+
+}  // namespace
+
+/// Least significant digit first, which keeps the order of equal keys.
+void SplatOrder::sort_by_key() {
+  std::array<std::array<std::uint32_t, digit_values>, digits> counts{};
+  for (const Entry& entry : entries_)
+    for (int place = 0; place < digits; ++place)
+      ++counts[std::size_t(place)][digit(entry.key, place)];
+  scratch_.resize(entries_.size());
+  for (int place = 0; place < digits; ++place) {
+    std::array<std::uint32_t, digit_values>& next = counts[std::size_t(place)];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : next) sum += std::exchange(count, sum);
+    for (const Entry& entry : entries_) scratch_[next[digit(entry.key, place)]++] = entry;
+    entries_.swap(scratch_);
+  }
+}
+
+void SplatOrder::make_runs(std::span<const SplatsInView> layers) {
+  std::vector<std::uint32_t> ends;  // of the layers' places
+  std::uint32_t end = 0;
+  for (const SplatsInView& layer : layers)
+    ends.push_back(end += static_cast<std::uint32_t>(layer.centers.size()));
+  splats_.resize(entries_.size());
+  runs_.clear();
+  for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+    const std::uint32_t place = entries_[i].place;
+    std::uint32_t layer = runs_.empty() ? 0 : runs_.back().layer;
+    while (place >= ends[layer]) ++layer;
+    while (layer > 0 && place < ends[layer - 1]) --layer;
+    splats_[i] = place - (layer > 0 ? ends[layer - 1] : 0);
+    if (runs_.empty() || runs_.back().layer != layer) runs_.push_back({layer, i, 0});
+    ++runs_.back().count;
+  }
+}
+
+void SplatOrder::sort(std::span<const SplatsInView> layers) {
+  entries_.clear();
+  std::uint32_t place = 0;
+  for (const SplatsInView& layer : layers)
+    for (const glm::vec3& center : layer.centers) {
+      const auto depth =
+          static_cast<float>(glm::dot(layer.axis, glm::dvec3(center)) - layer.offset);
+      if (std::isfinite(depth)) entries_.push_back({key_of(depth), place});
+      ++place;
+    }
+  sort_by_key();
+  make_runs(layers);
+}
+
+}  // namespace tureen

@@ -1,0 +1,50 @@
+// The order in which splats are blended: by the view depth of their centres, near ones first.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace tureen {
+
+/// Splats of one layer and the view depth of a centre: dot(axis, center) - offset.
+struct SplatsInView {
+  std::span<const glm::vec3> centers;
+  glm::dvec3 axis;
+  double offset = 0;
+};
+
+/// Consecutive splats of one layer in an order.
+struct SplatRun {
+  std::uint32_t layer = 0;  // index into the sorted layers
+  std::uint32_t first = 0;  // in the order
+  std::uint32_t count = 0;
+};
+
+class SplatOrder {
+ public:
+  /// Sorts the splats of all layers together. The depth is computed in double precision and rounded
+  /// to a float. At equal depth the earlier layer comes first, then the lower index. Splats without
+  /// a finite depth are dropped.
+  void sort(std::span<const SplatsInView> layers);
+
+  /// Indices in their layers, near ones first.
+  std::span<const std::uint32_t> splats() const { return splats_; }
+  /// The order in runs, from near to far.
+  std::span<const SplatRun> runs() const { return runs_; }
+
+ private:
+  struct Entry {
+    std::uint32_t key;
+    std::uint32_t place;  // of the splat, if the layers are numbered consecutively
+  };
+  void sort_by_key();
+  void make_runs(std::span<const SplatsInView> layers);
+
+  std::vector<Entry> entries_, scratch_;
+  std::vector<std::uint32_t> splats_;
+  std::vector<SplatRun> runs_;
+};
+
+}  // namespace tureen

@@ -1,0 +1,29 @@
+// Splats before a device exists: the contents of their texel stores and their centres.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "runtime/passes/texel_store.hpp"
+#include "runtime/plan/splat_plan.hpp"
+#include "scene/splats.hpp"
+
+namespace tureen {
+
+/// Texels per splat in the store `kernel`: KERNEL_TEXELS of
+/// shaders/splats/splat_kernel_texels.glsl.
+int kernel_texels(SplatShaders shaders);
+
+struct SplatSource {
+  TexelLayout layout;              // of both stores
+  TexelSource kernel;              // kernel_texels() RGBA texels a drawn splat
+  TexelSource coefficients;        // harmonics::count(degree) RGB texels a drawn splat
+  std::vector<glm::vec3> centers;  // of the drawn splats, in layer coordinates
+  float omega = 0;                 // NeuralDensities::omega
+};
+
+/// The sources read the splats and plan.drawn. Both must outlive them without moving; the plan
+/// object itself may be moved. Throws DeviceLimitError.
+SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const TexelLayout& layout);
+
+}  // namespace tureen

@@ -1,0 +1,111 @@
+#include "scene/edit/morton_order.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "scene/spherical_harmonics.hpp"
+
+namespace tureen {
+
+namespace {
+
+constexpr int morton_bits = 21;  // an axis; three axes fit in 63 bits
+
+struct MortonKey {
+  std::uint64_t code;
+  std::uint32_t splat;
+};
+
+bool is_finite_center(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The 21 low bits of `value`, each moved to three times its position.
+std::uint64_t spread(std::uint64_t value) {
+  value = (value | value << 32) & 0x001f00000000ffffu;
+  value = (value | value << 16) & 0x001f0000ff0000ffu;
+  value = (value | value << 8) & 0x100f00f00f00f00fu;
+  value = (value | value << 4) & 0x10c30c30c30c30c3u;
+  value = (value | value << 2) & 0x1249249249249249u;
+  return value;
+}
+
+std::vector<MortonKey> morton_keys(const Splats& splats) {
+  const std::size_t splat_count = count(splats);
+  assert(splat_count <= std::numeric_limits<std::uint32_t>::max());
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  for (std::size_t i = 0; i < splat_count; ++i)
+    if (const glm::dvec3 p = center(splats, i); is_finite_center(p)) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  const glm::dvec3 size = high - low;
+  const double edge = std::max({size.x, size.y, size.z});
+  const double cells = double(1 << morton_bits);
+  std::vector<MortonKey> keys(splat_count);
+  for (std::size_t i = 0; i < splat_count; ++i) {
+    const glm::dvec3 p = center(splats, i);
+    std::uint64_t code = std::numeric_limits<std::uint64_t>::max();
+    if (is_finite_center(p)) {
+      code = 0;
+      for (int axis = 0; axis < 3 && edge > 0; ++axis) {
+        const double cell = std::min((p[axis] - low[axis]) / edge * cells, cells - 1);
+        code |= spread(std::uint64_t(cell)) << axis;
+      }
+    }
+    keys[i] = {code, std::uint32_t(i)};
+  }
+  return keys;
+}
+
+/// Moves the `each` values of every splat to its new place.
+template <class T>
+void reorder(std::vector<T>& values, std::size_t each, const std::vector<MortonKey>& keys) {
+  assert(values.size() == each * keys.size());
+  std::vector<T> sorted;
+  sorted.reserve(values.size());
+  for (const MortonKey& key : keys)
+    sorted.insert(sorted.end(), values.begin() + std::ptrdiff_t(each * key.splat),
+                  values.begin() + std::ptrdiff_t(each * (key.splat + std::size_t(1))));
+  values = std::move(sorted);
+}
+
+}  // namespace
+
+void sort_in_morton_order(Splats& splats) {
+  std::vector<MortonKey> keys = morton_keys(splats);
+  std::sort(keys.begin(), keys.end(), [](const MortonKey& a, const MortonKey& b) {
+    return a.code != b.code ? a.code < b.code : a.splat < b.splat;
+  });
+  if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
+    reorder(windows->corners, 3, keys);
+    reorder(windows->sigma, 1, keys);
+    reorder(windows->opacity, 1, keys);
+  } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
+    reorder(gaussians->centers, 1, keys);
+    reorder(gaussians->scales, 1, keys);
+    reorder(gaussians->rotations, 1, keys);
+    reorder(gaussians->opacity, 1, keys);
+  } else {
+    auto& densities = std::get<NeuralDensities>(splats.kernel);
+    reorder(densities.centers, 1, keys);
+    reorder(densities.semi_axes, 1, keys);
+    reorder(densities.rotations, 1, keys);
+    reorder(densities.networks, NeuralDensities::parameters, keys);
+  }
+  reorder(splats.color.coefficients, std::size_t(harmonics::count(splats.color.degree)), keys);
+}
+
+std::size_t morton_order_bytes(const Splats& splats) {
+  std::size_t largest = std::max(sizeof(glm::quat), 3 * sizeof(glm::vec3));
+  if (std::holds_alternative<NeuralDensities>(splats.kernel))
+    largest = NeuralDensities::parameters * sizeof(float);
+  largest =
+      std::max(largest, std::size_t(harmonics::count(splats.color.degree)) * sizeof(glm::vec3));
+  return count(splats) * (sizeof(MortonKey) + largest);
+}
+
+}  // namespace tureen

@@ -1,0 +1,17 @@
+// Triangles that cover a splat in the image.
+
+// The range of one image coordinate of the quadric {H x + H_c : |x| <= 1}, relative to the centre.
+// `along` are the coordinates of H's columns and `w` their depths; `center_w` is the depth of the
+// centre, and the quadric lies in front of the eye.
+vec2 range_of(vec3 along, vec3 w, float center_w) {
+  float a = dot(w, w) - center_w * center_w;  // < 0
+  float b = dot(along, w);
+  float root = sqrt(max(b * b - a * dot(along, along), 0.0));
+  return vec2(b + root, b - root) / a;
+}
+
+// A right-angled triangle around the rectangle.
+vec2 corner_around(vec2 low, vec2 high, int corner) {
+  vec2 size = 2.0 * (high - low);
+  return low + vec2(corner == 1 ? size.x : 0.0, corner == 2 ? size.y : 0.0);
+}

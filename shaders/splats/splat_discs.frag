@@ -1,0 +1,32 @@
+// Alpha of a disc where the pixel's ray meets its plane.
+flat in vec4 color;
+flat in vec4 plane_xy;
+flat in vec3 plane_w;
+flat in vec4 place;
+
+uniform float near;
+
+#include "splat_blended.glsl"
+#include "splat_depth_behind.glsl"
+
+void main() {
+  vec2 pixel = gl_FragCoord.xy - place.xy;
+  // (u, v, 1) is orthogonal to both.
+  vec3 k = vec3(plane_xy.xy - pixel.x * plane_w.xy, place.z - pixel.x * plane_w.z);
+  vec3 l = vec3(plane_xy.zw - pixel.y * plane_w.xy, place.w - pixel.y * plane_w.z);
+  vec3 point = cross(k, l);
+  vec2 uv = point.xy / point.z;
+  float depth = plane_w.z + dot(uv, plane_w.xy);
+  float squared = dot(uv, uv);
+  // False for a plane that contains the ray.
+  if (!(depth > near && squared < infinity)) squared = infinity;
+#if SCREEN_FILTER
+  float on_screen = dot(pixel, pixel) / SCREEN_VARIANCE;
+  if (on_screen < squared) {
+    squared = on_screen;
+    depth = plane_w.z;
+  }
+#endif
+  float alpha = color.a * exp(-0.5 * squared);
+  blended = depth < depth_behind() ? blended_color(color.rgb, alpha) : vec4(0.0);
+}

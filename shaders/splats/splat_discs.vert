@@ -1,0 +1,45 @@
+// A disc as the triangle around the box of its image, and around the disc of the screen's low pass.
+#include "splat_cover.glsl"
+#include "splat_order.glsl"
+#include "splat_projected.glsl"
+
+uniform sampler2D colors, planes_xy, planes_w, places;
+uniform vec2 half_size;  // of the image, in pixels
+uniform float near;
+
+flat out vec4 color;
+flat out vec4 plane_xy;
+flat out vec3 plane_w;
+flat out vec4 place;
+
+void main() {
+  ivec2 at = projected_position(ordered_splat());
+  color = texelFetch(colors, at, 0);
+  plane_xy = texelFetch(planes_xy, at, 0);
+  vec4 plane_w_and_drawn = texelFetch(planes_w, at, 0);
+  plane_w = plane_w_and_drawn.xyz;
+  place = texelFetch(places, at, 0);
+  float excess = 2.0 * log(color.a / MIN_ALPHA);
+  gl_Position = nowhere;
+  if (!(plane_w_and_drawn.w > 0.0 && excess > 0.0)) return;
+  float radius = sqrt(excess);
+  vec3 w = vec3(radius * plane_w.xy, 0.0);
+  if (!(plane_w.z + length(w) > near)) return;
+  // A disc that reaches the near plane may cover any pixel.
+  vec2 low = vec2(0.0), high = 2.0 * half_size;
+  if (plane_w.z - length(w) > near) {
+    vec2 x = range_of(vec3(radius * plane_xy.xy, 0.0), w, plane_w.z);
+    vec2 y = range_of(vec3(radius * plane_xy.zw, 0.0), w, plane_w.z);
+    // One pixel more, for rounding.
+    vec2 margin = vec2(1.0);
+#if SCREEN_FILTER
+    float screen = radius * sqrt(SCREEN_VARIANCE) + 1.0;
+    low = place.xy + min(vec2(x.x, y.x) - margin, -screen);
+    high = place.xy + max(vec2(x.y, y.y) + margin, screen);
+#else
+    low = place.xy + vec2(x.x, y.x) - margin;
+    high = place.xy + vec2(x.y, y.y) + margin;
+#endif
+  }
+  gl_Position = vec4(corner_around(low, high, splat_corner()) / half_size - 1.0, 0.0, 1.0);
+}

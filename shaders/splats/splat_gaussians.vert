@@ -1,0 +1,26 @@
+// A Gaussian in the image as the smallest regular triangle around the circle, in standard
+// deviations, outside of which alpha is below MIN_ALPHA.
+#include "splat_order.glsl"
+#include "splat_projected.glsl"
+
+uniform sampler2D colors, places, axes_of_splats;
+uniform vec2 half_size;   // of the image, in pixels
+uniform vec2 depth_of_z;  // clip z of the view's z: depth_of_z.x * z + depth_of_z.y; clip w is -z
+
+out vec2 deviations;
+flat out vec4 color;
+
+void main() {
+  ivec2 at = projected_position(ordered_splat());
+  vec4 place = texelFetch(places, at, 0);
+  vec4 axes = texelFetch(axes_of_splats, at, 0);
+  color = texelFetch(colors, at, 0);
+  const float root_3 = 1.7320508075688772;
+  int corner = splat_corner();
+  deviations = place.w * (corner == 0 ? vec2(-root_3, -1.0)
+                          : corner == 1 ? vec2(root_3, -1.0) : vec2(0.0, 2.0));
+  vec2 pixel = place.xy + deviations.x * axes.xy + deviations.y * axes.zw;
+  gl_Position = place.w > 0.0 ? vec4(pixel / half_size - 1.0,
+                                     (depth_of_z.x * place.z + depth_of_z.y) / -place.z, 1.0)
+                              : nowhere;
+}

@@ -1,0 +1,14 @@
+// Blended splats over the colours behind them.
+uniform sampler2D splats;  // premultiplied
+uniform sampler2D behind;  // not premultiplied
+
+layout(location = 0) out vec4 color;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 front = texelFetch(splats, pixel, 0), back = texelFetch(behind, pixel, 0);
+  float through = 1.0 - front.a;
+  float alpha = front.a + through * back.a;
+  // Where nothing is visible, the colour behind stays, as for soups.
+  color = alpha > 0.0 ? vec4((front.rgb + through * back.a * back.rgb) / alpha, alpha) : back;
+}

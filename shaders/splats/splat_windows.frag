@@ -1,0 +1,12 @@
+in vec3 distances;
+flat in vec4 color;
+flat in float sigma;
+
+#include "splat_blended.glsl"
+
+void main() {
+  float rho = clamp(min(distances.x, min(distances.y, distances.z)) * gl_FragCoord.w, 0.0, 1.0);
+  // pow(0, sigma) may be undefined; there alpha is 0.
+  float window = rho > 0.0 ? pow(rho, sigma) : 0.0;
+  blended = blended_color(color.rgb, color.a * window);
+}

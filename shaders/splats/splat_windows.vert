@@ -1,0 +1,65 @@
+// Triangle windows (arXiv 2505.19175) as the triangles themselves. With the corners' homogeneous
+// image points Q_k and N_k = Q_i x Q_j, W = sum_k w_k |N_k.xy|, component k of `distances` is
+// W / |N_k.xy| at vertex k and 0 elsewhere. Times gl_FragCoord.w, the interpolated components are the
+// distances from the edges over the inradius. No division by a w near 0 occurs, so the hardware
+// may clip the triangle (docs/numerics.md, W14).
+#include "eye.glsl"
+#include "splat_kernel_texels.glsl"
+#include "splat_order.glsl"
+#include "splat_projected.glsl"
+
+uniform mat4 clip_from_camera;  // rotation and projection, no translation
+uniform vec2 half_size;         // of the image, in pixels
+uniform sampler2D colors;
+
+out vec3 distances;
+flat out vec4 color;
+flat out float sigma;
+
+// Vertices are rounded to a grid of 1/256 of a pixel, or 1/16 at worst, which moves the edges. The
+// triangle is therefore enlarged by this many pixels, so that the distances alone decide where alpha
+// is 0. With a small sigma, alpha is about 1/2 close to an edge (docs/numerics.md, W16).
+const float margin = 1.0 / 16.0;
+
+void main() {
+  uint splat = ordered_splat();
+  int corner = splat_corner();
+  vec4 texels[3];
+  vec4 clip[3];
+  for (int k = 0; k < 3; ++k) {
+    texels[k] = kernel_texel(splat, k);
+    clip[k] = clip_from_camera * vec4((texels[k].xyz - eye_high) - eye_low, 1.0);
+  }
+  vec3 lengths;  // |N_k.xy|
+  float total = 0.0, doubled_area = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
+    // The difference of the stored positions is more exact than that of the image points.
+    vec4 edge = clip_from_camera * vec4(texels[j].xyz - texels[i].xyz, 0.0);
+    vec2 normal = half_size.yx * vec2(clip[i].y * edge.w - clip[i].w * edge.y,
+                                      clip[i].w * edge.x - clip[i].x * edge.w);
+    lengths[k] = length(normal);
+    total += clip[k].w * lengths[k];
+    if (k == 0) {
+      vec4 other = clip_from_camera * vec4(texels[0].xyz - texels[1].xyz, 0.0);
+      doubled_area = abs(dot(normal, half_size * (other.xy * clip[1].w - clip[1].xy * other.w)));
+    }
+  }
+  color = texelFetch(colors, projected_position(splat), 0);
+  sigma = texels[0].w;
+  // Behind the eye, or without area in the image.
+  bool visible = total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
+
+  // Corner k moves by e (2 c_k - c_i - c_j), and the edges by e times the heights. The limit keeps
+  // needles short. Triangles that cross the eye's plane are large, and stay.
+  float w = min(clip[0].w, min(clip[1].w, clip[2].w));
+  float e = 0.0;
+  if (w > 0.0) {
+    vec3 heights = doubled_area / clip[1].w / (vec3(clip[0].w, clip[1].w, clip[2].w) * lengths);
+    e = min(margin / min(heights.x, min(heights.y, heights.z)), 1.0);
+  }
+  vec4 sum = clip[0] + clip[1] + clip[2];
+  gl_Position = visible ? clip[corner] + e * (3.0 * clip[corner] - sum) : nowhere;
+  distances = visible ? -e * total / lengths : vec3(0.0);
+  if (visible) distances[corner] = (1.0 + 2.0 * e) * total / lengths[corner];
+}

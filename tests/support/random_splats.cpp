@@ -1,0 +1,107 @@
+#include "tests/support/random_splats.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scene/spherical_harmonics.hpp"
+#include "tests/support/random.hpp"
+
+namespace tureen::test {
+
+namespace {
+
+glm::dvec3 point_in_ball(Random& random) {
+  return std::cbrt(random.uniform()) * random.direction();
+}
+
+glm::quat random_rotation(Random& random) {
+  glm::dquat q(random.normal(), random.normal(), random.normal(), random.normal());
+  return glm::quat(glm::normalize(q));
+}
+
+/// A size that varies by a factor of about 3, and each axis by another.
+glm::vec3 random_axes(Random& random, double size) {
+  const double own = size * std::exp(0.5 * random.normal());
+  return glm::vec3(own * glm::dvec3(std::exp(0.5 * random.normal()),
+                                    std::exp(0.5 * random.normal()),
+                                    std::exp(0.5 * random.normal())));
+}
+
+TriangleWindows windows(Random& random, std::size_t count, double size) {
+  constexpr float sigmas[] = {0.1f, 1.16f, 3.0f};
+  TriangleWindows result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 center = point_in_ball(random);
+    const double own = 2 * size * std::exp(0.5 * random.normal());
+    for (int corner = 0; corner < 3; ++corner)
+      result.corners.emplace_back(center + own * random.direction());
+    result.sigma.push_back(sigmas[random.below(3)]);
+    result.opacity.push_back(float(random.uniform(0.1, 1)));
+  }
+  return result;
+}
+
+Gaussians gaussians(Random& random, std::size_t count, double size, bool flat) {
+  Gaussians result;
+  result.flat = flat;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.centers.emplace_back(point_in_ball(random));
+    result.scales.push_back(random_axes(random, 0.5 * size));
+    result.rotations.push_back(random_rotation(random));
+    result.opacity.push_back(float(random.uniform(0.01, 1)));
+  }
+  return result;
+}
+
+NeuralDensities densities(Random& random, std::size_t count, double size) {
+  NeuralDensities result;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.centers.emplace_back(point_in_ball(random));
+    result.semi_axes.push_back(random_axes(random, size));
+    result.rotations.push_back(random_rotation(random));
+    constexpr int width = NeuralDensities::width;
+    for (int k = 0; k < 4 * width; ++k)
+      result.networks.push_back(float(random.uniform(-1.0 / 3, 1.0 / 3)));
+    for (int k = 0; k < width; ++k) result.networks.push_back(float(random.uniform(-0.3, 0.3)));
+    result.networks.push_back(float(random.uniform(0, 1)));
+  }
+  return result;
+}
+
+SplatKernel kernel_of(const SplatKind& kind, Random& random, std::size_t count, double size) {
+  switch (kind.kernel) {
+    case SplatKind::Kernel::windows:
+      return windows(random, count, size);
+    case SplatKind::Kernel::gaussians:
+      return gaussians(random, count, size, false);
+    case SplatKind::Kernel::flat:
+      return gaussians(random, count, size, true);
+    case SplatKind::Kernel::neural:
+      break;
+  }
+  return densities(random, count, size);
+}
+
+}  // namespace
+
+Splats random_splats(const SplatKind& kind, std::size_t count, double size, std::uint64_t seed) {
+  Random random(seed);
+  Splats splats{.kernel = kernel_of(kind, random, count, size),
+                .profile = *profile_named(kind.profile)};
+  splats.color.degree = 2;
+  for (std::size_t i = 0; i < count * harmonics::count(2); ++i) {
+    const bool constant = i % harmonics::count(2) == 0;
+    const double reach = constant ? 2.0 : 0.3;
+    splats.color.coefficients.emplace_back(random.uniform(-reach, reach),
+                                           random.uniform(-reach, reach),
+                                           random.uniform(-reach, reach));
+  }
+  return splats;
+}
+
+Camera camera_of_ball(double distance, int width, int height) {
+  return look_at(distance * glm::normalize(glm::dvec3(1, 2, -1)), glm::dvec3(0), {0, 1, 0}, 0.8,
+                 width, height);
+}
+
+}  // namespace tureen::test

@@ -1,0 +1,35 @@
+// Random splats of every kernel and profile, for comparisons of renderers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "scene/splats.hpp"
+
+namespace tureen::test {
+
+/// A kernel with a profile that it supports.
+struct SplatKind {
+  const char* name;     // of a test parameter
+  const char* profile;  // in named_profiles
+  enum class Kernel { windows, gaussians, flat, neural } kernel;
+};
+inline constexpr SplatKind splat_kinds[] = {
+    {"windows", "triangle-splatting", SplatKind::Kernel::windows},
+    {"gaussians_3dgs", "3dgs", SplatKind::Kernel::gaussians},
+    {"gaussians_mip", "mip", SplatKind::Kernel::gaussians},
+    {"flat_games", "games", SplatKind::Kernel::flat},
+    {"discs_2dgs", "2dgs", SplatKind::Kernel::flat},
+    {"discs_redisplats", "redisplats", SplatKind::Kernel::flat},
+    {"neural", "splatnet", SplatKind::Kernel::neural}};
+
+/// `count` splats of mean size `size` in the ball of radius 1 about the origin, with harmonics of
+/// degree 2 whose colours exceed 1 in places.
+Splats random_splats(const SplatKind& kind, std::size_t count, double size, std::uint64_t seed);
+
+/// A camera that sees the ball from `distance` of its centre; below 1 it is inside.
+Camera camera_of_ball(double distance, int width, int height);
+
+}  // namespace tureen::test
