@@ -185,6 +185,15 @@ TEST(TureenGlbLayers, HaveOnlyKeysOfTheSchema) {
   expect_in_schema(json["extensions"][tureen_extension], names);
   for (std::size_t i = 1; i < json["nodes"].size(); ++i)
     expect_in_schema(json["nodes"][i]["extensions"][tureen_extension], names);
+  std::size_t points = 0;
+  for (const auto& mesh : json["meshes"]) {
+    const auto& primitive = mesh["primitives"][0];
+    if (primitive["mode"] != 0) continue;
+    ++points;
+    expect_in_schema(
+        primitive["extensions"]["KHR_gaussian_splatting"]["extensions"]["TUREEN_splats"], names);
+  }
+  EXPECT_EQ(points, 6u);
 }
 
 TEST(TureenGlbLayers, OfFalseFilesAreRefusedWithTheirPlace) {

@@ -167,7 +167,7 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   };
   const char* x = tureen_extension;
   for (const int version : {0, 2, 6})
-    expect_refusal([&](auto& j) { j["extensions"][x]["version"] = version; }, version, 1, 3, 4, 5);
+    expect_refusal([&](auto& j) { j["extensions"][x]["version"] = version; }, version, 3, 4, 5);
   expect_refusal([&](auto& j) { j["extensions"][x].erase("up"); }, "up");
   expect_refusal([&](auto& j) { j["extensions"][x]["face_count"] = 3; }, 9, 6);
   expect_refusal([&](auto& j) { j["extensions"][x]["vertex_count"] = 7; }, 6, 7);
