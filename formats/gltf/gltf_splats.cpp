@@ -6,6 +6,7 @@
 #include <span>
 
 #include "formats/gltf/gltf_accessor.hpp"
+#include "scene/edit/morton_order.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -202,6 +203,8 @@ Splats GltfSplatBuilder::read(const tinygltf::Primitive& primitive, const std::s
                                                      plane[3 * i + 2]};
     }
   drop_invalid(splats, rotations);
+  document_.take_memory(morton_order_bytes(splats), 1, where);
+  sort_in_morton_order(splats);
   return splats;
 }
 

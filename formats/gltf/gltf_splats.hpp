@@ -34,7 +34,8 @@ class GltfSplatBuilder {
   /// an opacity is outside 0..1, or a rotation is 0. Throws InputError.
   void add_mesh(int index, const Node& node, const std::string& where);
 
-  /// The layers so far, in the order of the nodes. Their splats have no defect().
+  /// The layers so far, in the order of the nodes. Their splats are in Morton order and have no
+  /// defect().
   std::vector<Layer>& layers() { return layers_; }
 
   std::vector<Remark> remarks() const;

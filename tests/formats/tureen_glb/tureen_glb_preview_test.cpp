@@ -228,9 +228,9 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
     const std::size_t index = j["extensions"][x]["triangles"];
     return j["accessors"][index];
   };
-  for (const int version : {0, 2, 5})
-    expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = version; }, version, 1, 3,
-                        4);
+  for (const int version : {0, 2, 6})
+    expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = version; }, version, 3, 4,
+                        5);
   expect_refused_json([&](auto& j) { color(j)["count"] = 14; }, "COLOR_0", 14, 15);
   expect_refused_json([&](auto& j) { color(j)["componentType"] = 5126; }, 5123);
   expect_refused_json([&](auto& j) { color(j)["count"] = 4000000000u; }, "4000000000", 8);
