@@ -28,6 +28,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "soft_triangles_opaque",
     "soft_triangles_dropped",
     "splats_dropped",
+    "splat_colors_linear",
     "profile_assumed",
     "color_components_clamped",
     "face_colors_dropped",
@@ -137,6 +138,9 @@ std::string sentence_of(const Remark& remark) {
              " splats have a value that is not a number, a size that is not finite, or no "
              "rotation: "
              "dropped";
+    case Kind::splat_colors_linear:
+      return "the splats were trained and are blended in linear light; they are drawn as if their "
+             "colours were display-referred, and look different";
     case Kind::profile_assumed:
       return "the file does not store how its splats are rendered: the profile " + names[0] +
              " is assumed";

@@ -82,6 +82,7 @@ class GlbArrays {
   void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
     input_.take_memory(elements, each, what);
   }
+  MemoryBudget budget() const { return input_.budget(); }
 
   static std::size_t index(const JsonView& view) {
     return static_cast<std::size_t>(view.natural(max_count));

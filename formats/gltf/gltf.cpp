@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "formats/gltf/gltf_soup.hpp"
+#include "formats/gltf/gltf_splats.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
 
@@ -38,16 +39,24 @@ class Importer {
       : document_(document),
         options_(options),
         generator_(document.model().asset.generator),
-        builder_(document, color_space()) {}
+        builder_(document, color_space()),
+        splats_(document) {}
 
   Scene scene() {
     walk();
+    const bool has_soup = builder_.has_faces() || splats_.layers().empty();
     TriangleSoup soup = builder_.finish();
     if (const auto reason = defect(soup)) document_.fail("", *reason);
     if (builder_.has_vertex_colors()) builder_.remarks.push_back({color_remark()});
     if (!document_.model().animations.empty())
       builder_.remarks.push_back({Remark::Kind::animations_dropped});
-    Scene scene = scene_of(std::move(soup));
+    Scene scene;
+    if (has_soup) scene = scene_of(std::move(soup));
+    for (Layer& layer : splats_.layers()) scene.layers.push_back(std::move(layer));
+    if (scene.layers.size() > max_layers)
+      document_.fail("", std::to_string(scene.layers.size()) + " layers; at most " +
+                             std::to_string(max_layers) + " are supported");
+    for (Remark& remark : splats_.remarks()) builder_.remarks.push_back(std::move(remark));
     scene.cameras = std::move(cameras_);
     scene.info.source = generator_.empty() ? "glTF" : "glTF by " + generator_;
     if (contains_ignoring_case(generator_, "trimesh")) {
@@ -126,6 +135,7 @@ class Importer {
       if (node.mesh != -1) {
         if (node.skin != -1) builder_.remarks.push_back({Remark::Kind::skins_dropped});
         builder_.add_mesh(node.mesh, world_from_node);
+        splats_.add_mesh(node.mesh, {node.name, world_from_node}, where);
       }
       if (node.camera != -1) add_camera(node.camera, world_from_node, where);
       for (auto it = node.children.rbegin(); it != node.children.rend(); ++it)
@@ -205,6 +215,7 @@ class Importer {
   const ReadOptions& options_;
   std::string generator_;
   GltfSoupBuilder builder_;
+  GltfSplatBuilder splats_;
   std::vector<Camera> cameras_;
 };
 

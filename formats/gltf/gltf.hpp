@@ -6,9 +6,11 @@
 // (COLOR_0); the base colour's factor and texture with its sampler, KHR_texture_transform and alpha
 // mode; perspective cameras. Materials are drawn unlit, with or without KHR_materials_unlit, since
 // a trained soup has its light baked in.
-// Not supported: lines and points, animation, skins, morph targets, lights, emission, normal maps,
-// mip levels. A remark reports them if they matter. BLEND is drawn as MASK with a cutoff of 0.5. A
-// file that requires an unsupported extension is rejected with the extension's name.
+// Gaussian splats (KHR_gaussian_splatting) become a layer for each primitive of a node:
+// formats/gltf/gltf_splats.hpp.
+// Not supported: lines and other points, animation, skins, morph targets, lights, emission, normal
+// maps, mip levels. A remark reports them if they matter. BLEND is drawn as MASK with a cutoff of
+// 0.5. A file that requires an unsupported extension is rejected with the extension's name.
 //
 // No file outside the scene's folder is opened, and all values are checked against the available
 // bytes. Instancing may create at most as many vertices as the larger of 2^24 and the file's bytes.
@@ -28,9 +30,10 @@ namespace tureen {
 /// early "asset".
 bool is_gltf(std::span<const std::byte> head);
 
-/// Reads a .gltf, or a .glb of ours or of others, detected by content. The soup has VertexColors if
-/// no material has a texture, otherwise UvTextures. Throws InputError; its reason begins with the
-/// place in the JSON, as in "accessors[3]: ..".
+/// Reads a .gltf, or a .glb of ours or of others, detected by content. All triangles of a foreign
+/// file are one soup, the first layer; a file with splats only has no such layer. The soup has
+/// VertexColors if no material has a texture, otherwise UvTextures. Throws InputError; its reason
+/// begins with the place in the JSON, as in "accessors[3]: ..".
 Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same for bytes from any source; files that they name lie in `folder`.

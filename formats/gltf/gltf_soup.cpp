@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "formats/gltf/gltf_accessor.hpp"
+#include "formats/gltf/gltf_splats.hpp"
 #include "image/srgb.hpp"
 
 namespace tureen {
@@ -41,9 +42,10 @@ void GltfSoupBuilder::add_mesh(int index, const glm::dmat4& world_from_mesh) {
                                  std::to_string(meshes.size()));
   const tinygltf::Mesh& mesh = meshes[std::size_t(index)];
   for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
-    add_primitive(mesh.primitives[i],
-                  "meshes[" + std::to_string(index) + "].primitives[" + std::to_string(i) + "]",
-                  world_from_mesh);
+    if (!has_splats(mesh.primitives[i]))
+      add_primitive(mesh.primitives[i],
+                    "meshes[" + std::to_string(index) + "].primitives[" + std::to_string(i) + "]",
+                    world_from_mesh);
 }
 
 std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive& primitive,

@@ -20,12 +20,13 @@ class GltfSoupBuilder {
   GltfSoupBuilder(GltfDocument& document, VertexColorSpace colors)
       : document_(document), color_space_(colors) {}
 
-  /// Adds meshes[index], placed by `world_from_mesh`.
+  /// Adds the primitives of meshes[index] without splats, placed by `world_from_mesh`.
   void add_mesh(int index, const glm::dmat4& world_from_mesh);
 
   /// VertexColors if no material has a texture, otherwise UvTextures.
   TriangleSoup finish();
 
+  bool has_faces() const { return !soup_.triangles.empty(); }
   bool has_vertex_colors() const { return !vertex_colors_.empty(); }
   /// Differences between the file and the rendering; remarks may repeat.
   std::vector<Remark> remarks;

@@ -26,10 +26,14 @@ inline constexpr int tureen_compressed_version = 3;
 /// Version of files with several layers, or with one layer that is hidden, named, rotated, scaled
 /// or mirrored.
 inline constexpr int tureen_layers_version = 4;
+/// Version of files with a layer of Gaussians or neural densities, or of triangle windows with
+/// another profile than Triangle Splatting's. Otherwise like version 4.
+inline constexpr int tureen_splats_version = 5;
 
 /// Reads the binary chunk in file order, directly into the scene's vectors. Additional memory: one
-/// strip of texels. Every count is checked against the available bytes before any allocation. The
-/// scene equals the written one bit by bit; no layer and no soup has a defect(). Throws InputError.
+/// strip of texels or one harmonics coefficient of all splats. Every count is checked against the
+/// available bytes before any allocation. The scene equals the written one bit by bit; no layer, no
+/// soup and no splats have a defect(). Throws InputError.
 Scene read_tureen_glb(Input& input, const ReadOptions& options = {});
 
 /// The same for a container that has already been read.
@@ -37,16 +41,16 @@ Scene read_tureen_glb(Input& input, const GlbContainer& glb, const ReadOptions& 
 
 bool is_tureen_glb(const GlbContainer& glb);
 
-/// Writes soups and triangle windows, and the scene's quality. Returns one sentence for
+/// Writes every kind of scene, including splats, and its quality. Returns one sentence for
 /// each loss; the only possible loss is a text that is not UTF-8. Throws UsageError for a scene
-/// that has no layer, more than max_layers, a layer, soup or quality with a defect(),
-/// splats with a defect() or another kernel, or no up axis. It also throws UsageError for an
-/// image that is too large, a camera without pixels or with a side above 65,536, non-finite numbers
-/// in a camera, material, up axis or background, and a file above 4 GiB. Throws OutputError if the
-/// file cannot be written.
+/// that has no layer, more than max_layers, a layer, soup, splats or quality with a defect(), or no
+/// up axis. It also throws UsageError for an image that is too large, a camera without pixels or
+/// with a side above 65,536, non-finite numbers in a camera, material, up axis or background, and a
+/// file above 4 GiB. Throws OutputError if the file cannot be written.
 ///
 /// Memory in addition to the scene: the vertex colours for other glTF viewers (8 bytes a vertex of
-/// the glTF mesh) and the encoded images. The scene's arrays are written without a copy.
+/// the glTF mesh, and as many a splat), the encoded images, and a second copy of the harmonics of
+/// Gaussians and neural densities. Other arrays of the scene are written without a copy.
 std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

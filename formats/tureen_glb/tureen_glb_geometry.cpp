@@ -37,17 +37,18 @@ JsonView tureen_extension_of(const GlbArrays& arrays) {
   const std::uint64_t version = extension["version"].natural();
   if (version != std::uint64_t(tureen_extension_version) &&
       version != std::uint64_t(tureen_compressed_version) &&
-      version != std::uint64_t(tureen_layers_version))
-    extension["version"].fail("this file has version " + std::to_string(version) + " of " +
-                              tureen_extension + "; only versions " +
-                              std::to_string(tureen_extension_version) + ", " +
-                              std::to_string(tureen_compressed_version) + " and " +
-                              std::to_string(tureen_layers_version) + " are supported");
+      version != std::uint64_t(tureen_layers_version) &&
+      version != std::uint64_t(tureen_splats_version))
+    extension["version"].fail(
+        "this file has version " + std::to_string(version) + " of " + tureen_extension +
+        "; only versions " + std::to_string(tureen_extension_version) + ", " +
+        std::to_string(tureen_compressed_version) + ", " + std::to_string(tureen_layers_version) +
+        " and " + std::to_string(tureen_splats_version) + " are supported");
   return extension;
 }
 
 bool has_layers(const JsonView& extension) {
-  return extension["version"].natural() == std::uint64_t(tureen_layers_version);
+  return extension["version"].natural() >= std::uint64_t(tureen_layers_version);
 }
 
 void read_info(const JsonView& extension, Scene& scene) {

@@ -11,7 +11,8 @@ namespace tureen {
 /// version.
 JsonView tureen_extension_of(const GlbArrays& arrays);
 
-/// Whether the file has the layers of version 4. Otherwise the extension itself is the only layer.
+/// Whether the file has the layers of versions 4 and 5. Otherwise the extension itself is the only
+/// layer.
 bool has_layers(const JsonView& extension);
 
 /// Name, source, notes, up, background and cameras.

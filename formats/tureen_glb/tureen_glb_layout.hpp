@@ -15,6 +15,10 @@ inline constexpr int float32 = 5126;
 /// The glTF extension by which a node, and so a layer, is hidden. Ratified by Khronos.
 inline constexpr const char visibility_extension[] = "KHR_node_visibility";
 
+/// The glTF extension of Gaussian splats, ratified by Khronos, and ours within it.
+inline constexpr const char splatting_extension[] = "KHR_gaussian_splatting";
+inline constexpr const char splats_extension[] = "TUREEN_splats";
+
 // A strip of lattice texels is two images of the same size, filled row by row. Its maximum size is
 // 8 MiB decoded; a streaming reader holds at most one strip.
 inline constexpr std::uint32_t strip_width = 1024;
@@ -27,6 +31,9 @@ inline constexpr const char* view_conventions[] = {"surface_to_eye", "eye_to_sur
 inline constexpr const char* domains[] = {"face", "vertex"};
 inline constexpr const char* wraps[] = {"repeat", "mirror", "clamp"};
 inline constexpr const char* filters[] = {"nearest", "linear"};
+inline constexpr const char* splat_kernels[] = {"gaussian", "flat_gaussian", "neural_density"};
+inline constexpr const char* splat_projections[] = {"ewa", "plane"};
+inline constexpr const char* splat_low_passes[] = {"none", "dilation", "mip", "screen"};
 inline constexpr const char* colors[] = {"network", "harmonics", "base"};
 inline constexpr const char* sites[] = {"automatic", "deferred", "forward"};
 

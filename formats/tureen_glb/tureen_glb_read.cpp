@@ -13,6 +13,7 @@
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
+#include "formats/tureen_glb/tureen_glb_splats.hpp"
 #include "image/png.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -56,7 +57,7 @@ class Reader {
       scene.info.remarks.push_back({Remark::Kind::preset_dropped});
   }
 
-  /// Version 4: each layer is a node with an extension.
+  /// Versions 4 and 5: each layer is a node with an extension.
   void read_layers(Scene& scene) {
     if (const auto preset = extension_.find("preset"))
       scene.quality = tureen::read_preset(*preset).quality;
@@ -81,6 +82,10 @@ class Reader {
     if (const auto reason = defect(result)) matrix.fail(*reason);
     result.visible = is_visible(node);
     const JsonView extension = node["extensions"][tureen_extension];
+    if (extension.find("splat_count")) {
+      result.primitives = read_splats(arrays_, node, extension["splat_count"]);
+      return result;
+    }
     TriangleSoup soup;
     tureen::read_geometry(arrays_, geometry_layout(arrays_, extension), soup);
     result.primitives = primitives(extension, std::move(soup));
@@ -236,6 +241,7 @@ class Reader {
     const std::size_t faces = soup.triangles.size();
     if (extension.find("triangles")) extension.fail("soft triangles share no vertices");
     Splats splats{.profile = *profile_named("triangle-splatting")};
+    if (const auto profile = view.find("profile")) splats.profile = read_splat_profile(*profile);
     splats.color.degree = degree(view);
     splats.color.coefficients = coefficients(view, splats.color.degree, faces);
     TriangleWindows& windows = splats.kernel.emplace<TriangleWindows>();

@@ -12,6 +12,7 @@
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
+#include "formats/tureen_glb/tureen_glb_splats.hpp"
 #include "formats/tureen_glb/tureen_glb_writing.hpp"
 #include "image/png.hpp"
 #include "image/srgb.hpp"
@@ -186,28 +187,6 @@ bool is_unshared(const TriangleSoup& soup) {
   return true;
 }
 
-struct Range {
-  glm::vec3 low{std::numeric_limits<float>::infinity()};
-  glm::vec3 high{-std::numeric_limits<float>::infinity()};
-};
-
-/// glTF's min and max of an accessor, coordinate by coordinate.
-Range finite_range(const std::vector<glm::vec3>& positions) {
-  Range range;
-  for (const glm::vec3& p : positions)
-    for (int k = 0; k < 3; ++k)
-      if (std::isfinite(p[k])) {
-        range.low[k] = std::min(range.low[k], p[k]);
-        range.high[k] = std::max(range.high[k], p[k]);
-      }
-  return range;
-}
-
-glm::u16vec4 linear_unorm16(const glm::vec3& display) {
-  const glm::dvec3 linear = linear_from_srgb(glm::dvec3(display));
-  return glm::u16vec4(glm::dvec4(linear, 1.0) * 65535.0 + 0.5);
-}
-
 /// The mesh for other glTF viewers. If faces share vertices but not a colour, the mesh is an
 /// unshared copy, and the soup's own vertices and triangles follow it.
 json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
@@ -234,12 +213,8 @@ json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
     plan.accessor(extension, "triangles", bytes_of(soup.triangles), scalar_u32);
   }
   if (faces == 0 || !attributes.contains("POSITION")) return nullptr;
-  const auto [low, high] = finite_range(corners.empty() ? soup.positions : corners);
-  if (low.x <= high.x && low.y <= high.y && low.z <= high.z) {
-    json& accessor = plan.accessors[attributes["POSITION"].get<std::size_t>()];
-    accessor["min"] = {low.x, low.y, low.z};
-    accessor["max"] = {high.x, high.y, high.z};
-  }
+  add_range(plan.accessors[attributes["POSITION"].get<std::size_t>()],
+            corners.empty() ? soup.positions : corners);
 
   std::vector<glm::u16vec4> colors;
   if (vertex_colors) {
@@ -299,12 +274,31 @@ json windows_json(BinaryPlan& plan, const Splats& splats) {
   plan.accessor(result, "coefficients", bytes_of(splats.color.coefficients), vec3_float);
   plan.accessor(result, "sigma", bytes_of(windows.sigma), scalar_float);
   plan.accessor(result, "opacity", bytes_of(windows.opacity), scalar_float);
+  if (needs_splat_version(splats)) result["profile"] = profile_json(splats.profile);
   return result;
 }
 
 }  // namespace
 
 namespace glb_writing {
+
+void add_range(json& accessor, const std::vector<glm::vec3>& positions) {
+  glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+  for (const glm::vec3& p : positions)
+    for (int k = 0; k < 3; ++k)
+      if (std::isfinite(p[k])) {
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
+      }
+  if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return;
+  accessor["min"] = {low.x, low.y, low.z};
+  accessor["max"] = {high.x, high.y, high.z};
+}
+
+glm::u16vec4 linear_unorm16(const glm::vec3& display, double alpha) {
+  const glm::dvec3 linear = linear_from_srgb(glm::dvec3(display));
+  return glm::u16vec4(glm::dvec4(linear, alpha) * 65535.0 + 0.5);
+}
 
 json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
   json layers = json::array();
@@ -398,6 +392,14 @@ void write_glb(json document, const BinaryPlan& plan, const std::filesystem::pat
 
 namespace {
 
+/// Whether a layer needs version 5.
+bool has_splat_layers(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(), [](const Layer& layer) {
+    const auto* splats = std::get_if<Splats>(&layer.primitives);
+    return splats && needs_splat_version(*splats);
+  });
+}
+
 /// Whether versions 1 and 3 can store everything about the layer except its primitives.
 bool is_plain(const Layer& layer) {
   return layer.name.empty() && layer.visible && is_translation(layer);
@@ -410,6 +412,10 @@ class Document {
   /// index, or null for a layer without faces: glTF does not allow an empty mesh.
   json add_primitives(json& extension, const Layer& layer) {
     const auto* splats = std::get_if<Splats>(&layer.primitives);
+    if (splats && !std::holds_alternative<TriangleWindows>(splats->kernel)) {
+      any_points_ = true;
+      return add_mesh_of(add_splats(plan_, extension, *splats));
+    }
     const TriangleSoup& soup = splats ? shapes_.emplace_back(checked_shapes(*splats))
                                       : std::get<TriangleSoup>(layer.primitives);
     if (const auto reason = defect(soup))
@@ -419,9 +425,7 @@ class Document {
     json primitive = add_mesh(plan_, extension, soup);
     extension["appearance"] =
         splats ? windows_json(plan_, *splats) : std::visit(AddAppearance{plan_}, soup.appearance);
-    if (primitive.is_null()) return nullptr;
-    meshes_.push_back({{"primitives", json::array({std::move(primitive)})}});
-    return meshes_.size() - 1;
+    return add_mesh_of(std::move(primitive));
   }
 
   /// Adds the layer as a node, and its index to `indices`.
@@ -459,6 +463,10 @@ class Document {
       document["materials"] = json::array({unlit_material()});
       document["extensionsUsed"].push_back("KHR_materials_unlit");
     }
+    if (any_points_) {
+      document["extensionsUsed"].push_back(layout::splatting_extension);
+      document["extensionsUsed"].push_back(layout::splats_extension);
+    }
     if (any_hidden_) document["extensionsUsed"].push_back(layout::visibility_extension);
     document["extensionsUsed"].push_back(tureen_extension);
     write_glb(std::move(document), plan_, path);
@@ -467,10 +475,14 @@ class Document {
   json nodes = json::array();  // the first is the root of the scene
 
  private:
+  /// Returns the index of the new mesh; null if the primitive is null.
+  json add_mesh_of(json primitive) {
+    if (primitive.is_null()) return nullptr;
+    meshes_.push_back({{"primitives", json::array({std::move(primitive)})}});
+    return meshes_.size() - 1;
+  }
+
   static TriangleSoup checked_shapes(const Splats& splats) {
-    if (!std::holds_alternative<TriangleWindows>(splats.kernel))
-      throw UsageError("the scene cannot be written: it holds " +
-                       std::string(kernel_name(splats.kernel)));
     if (const auto reason = defect(splats))
       throw UsageError("the scene cannot be written: " + *reason);
     return hard_shapes(splats);
@@ -488,6 +500,7 @@ class Document {
   std::deque<TriangleSoup> shapes_;  // the plan refers to them; a deque never moves its elements
   json meshes_ = json::array();
   bool any_hidden_ = false;
+  bool any_points_ = false;  // a layer of Gaussians or neural densities
 };
 
 }  // namespace
@@ -499,14 +512,15 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
   std::vector<std::string> losses;
   json extension = info_json(scene, losses);
   Document document;
-  if (scene.layers.size() <= 1 && is_plain(only_layer(scene))) {
+  const bool splats = has_splat_layers(scene);
+  if (scene.layers.size() <= 1 && is_plain(only_layer(scene)) && !splats) {
     extension["version"] = tureen_extension_version;
     add_origin(extension, only_layer(scene));
     const json mesh = document.add_primitives(extension, only_layer(scene));
     if (!mesh.is_null())
       document.nodes.push_back({{"mesh", mesh}, {"rotation", upright(scene.info.up)}});
   } else {
-    extension["version"] = tureen_layers_version;
+    extension["version"] = splats ? tureen_splats_version : tureen_layers_version;
     extension["layers"] = json::array();
     document.nodes.push_back({{"rotation", upright(scene.info.up)}});
     for (const Layer& layer : scene.layers) document.add_node(extension["layers"], layer, losses);

@@ -106,6 +106,12 @@ json info_json(const Scene& scene, std::vector<std::string>& losses);
 /// The layer's place in versions 1 and 3. Throws UsageError if a number is not finite.
 void add_origin(json& extension, const Layer& layer);
 
+/// Sets glTF's min and max of an accessor of positions, from their finite coordinates.
+void add_range(json& accessor, const std::vector<glm::vec3>& positions);
+
+/// A display-referred colour in 0..1 as linear 16-bit values, for COLOR_0.
+glm::u16vec4 linear_unorm16(const glm::vec3& display, double alpha = 1.0);
+
 /// The JSON of a color MLP; its weights are added to the plan.
 json mlp_json(BinaryPlan& plan, const ColorMlp& mlp);
 

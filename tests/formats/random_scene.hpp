@@ -136,6 +136,40 @@ class RandomScene {
     return {std::move(windows), std::move(color), *profile_named("triangle-splatting")};
   }
 
+  /// Splats with Gaussians, flat ones if the profile needs them.
+  Splats gaussians(std::size_t splats, int degree, const char* profile, bool flat) {
+    Gaussians gaussians;
+    gaussians.flat = flat;
+    for (std::size_t i = 0; i < splats; ++i) {
+      gaussians.centers.emplace_back(real(-2, 2), real(-2, 2), real(-2, 2));
+      gaussians.scales.emplace_back(real(), real(0, 1e-3f), flat ? 0.0f : real(0, 100));
+      gaussians.rotations.push_back(rotation());
+      gaussians.opacity.push_back(real());
+    }
+    return {std::move(gaussians), splat_color(splats, degree), *profile_named(profile)};
+  }
+
+  Splats neural_densities(std::size_t splats, int degree) {
+    NeuralDensities densities;
+    densities.omega = real(1, 60);
+    for (std::size_t i = 0; i < splats; ++i) {
+      densities.centers.emplace_back(real(-2, 2), real(-2, 2), real(-2, 2));
+      densities.semi_axes.emplace_back(real(0.1f, 1), real(0.1f, 1), real(0.1f, 1));
+      densities.rotations.push_back(rotation());
+    }
+    for (std::size_t k = 0; k < splats * NeuralDensities::parameters; ++k)
+      densities.networks.push_back(real(-3, 3));
+    return {std::move(densities), splat_color(splats, degree), *profile_named("splatnet")};
+  }
+
+  glm::quat rotation() {
+    return glm::normalize(glm::quat(real(0.1f, 1), real(-1, 1), real(-1, 1), real(-1, 1)));
+  }
+
+  SplatColor splat_color(std::size_t splats, int degree) {
+    return {degree, harmonics(splats, Harmonics::Domain::face, degree).coefficients};
+  }
+
   /// A scene with one layer, an empty soup; all other members have values.
   Scene scene() {
     Scene result = scene_of(TriangleSoup{}, {1e6 + 1.0 / 3.0, -0.1, 1e-300});

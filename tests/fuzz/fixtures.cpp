@@ -96,6 +96,9 @@ void add_glb(Collection& all) {
   const Scene layers = test::layered_scene(
       test::glb_kinds_named({"face_bytes_shared", "lattice_bytes_mlp", "soft_triangles"}), 4, 2);
   all.add("gltf", "layers.glb", test::glb_bytes(layers, "layers"));
+  for (const test::GlbKind& kind : test::splat_glb_kinds())
+    all.add("gltf", std::string(kind.name) + ".glb",
+            test::glb_bytes(test::random_scene(kind, 1, 2), kind.name));
   const Scene scene = compressed_scene();
   const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   all.add_file("gltf", "compressed.glb",

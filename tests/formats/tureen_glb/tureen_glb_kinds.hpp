@@ -32,7 +32,8 @@ inline void fill_soup(Scene& scene, TriangleSoup soup, Appearance appearance) {
   only_layer(scene).primitives = std::move(soup);
 }
 
-/// Each kind of colour appearance, with shared and unshared vertices.
+/// Each kind that has a mesh of triangles: the colour appearances, with shared and unshared
+/// vertices, and triangle windows.
 inline std::vector<GlbKind> glb_kinds() {
   std::vector<GlbKind> all;
   for (const bool shared : {false, true}) {
@@ -91,6 +92,37 @@ inline std::vector<GlbKind> glb_kinds() {
   return all;
 }
 
+/// Splats that need version 5, in every kernel, profile and degree. `faces` is their number.
+inline std::vector<GlbKind> splat_glb_kinds() {
+  std::vector<GlbKind> all;
+  const auto add = [&](const char* name, auto splats) {
+    all.push_back({name, [=](RandomScene& random, Scene& scene, std::size_t faces) {
+                     only_layer(scene).primitives = splats(random, faces);
+                   }});
+  };
+  add("gaussians_3dgs",
+      [](RandomScene& r, std::size_t n) { return r.gaussians(n, 3, "3dgs", false); });
+  add("gaussians_mip",
+      [](RandomScene& r, std::size_t n) { return r.gaussians(n, 0, "mip", false); });
+  add("flat_2dgs", [](RandomScene& r, std::size_t n) { return r.gaussians(n, 1, "2dgs", true); });
+  add("flat_games", [](RandomScene& r, std::size_t n) { return r.gaussians(n, 4, "games", true); });
+  add("flat_redisplats",
+      [](RandomScene& r, std::size_t n) { return r.gaussians(n, 2, "redisplats", true); });
+  add("neural_densities", [](RandomScene& r, std::size_t n) { return r.neural_densities(n, 2); });
+  add("windows_of_another_profile", [](RandomScene& r, std::size_t n) {
+    Splats splats = r.windows(n, 1);
+    splats.profile.min_alpha = 0.1f;
+    return splats;
+  });
+  return all;
+}
+
+inline std::vector<GlbKind> every_glb_kind() {
+  std::vector<GlbKind> all = glb_kinds();
+  for (GlbKind& kind : splat_glb_kinds()) all.push_back(std::move(kind));
+  return all;
+}
+
 inline Scene random_scene(const GlbKind& kind, unsigned seed, std::size_t faces) {
   RandomScene random(seed);
   Scene scene = random.scene();
@@ -127,7 +159,7 @@ inline Scene layered_scene(std::span<const GlbKind> kinds, unsigned seed, std::s
 /// The kinds with these names.
 inline std::vector<GlbKind> glb_kinds_named(std::initializer_list<const char*> names) {
   std::vector<GlbKind> found;
-  for (const GlbKind& kind : glb_kinds())
+  for (const GlbKind& kind : every_glb_kind())
     for (const std::string name : names)
       if (name == kind.name) found.push_back(kind);
   return found;
@@ -146,6 +178,16 @@ inline std::vector<std::byte> glb_bytes(const Scene& scene, const std::string& n
   std::vector<std::byte> bytes = input.read_rest();
   std::filesystem::remove(path);
   return bytes;
+}
+
+/// Why readers must not return this scene, or nullopt.
+inline std::optional<std::string> scene_defect(const Scene& scene) {
+  for (const Layer& layer : scene.layers) {
+    if (auto reason = defect(layer)) return reason;
+    if (auto reason = std::visit([](const auto& p) { return defect(p); }, layer.primitives))
+      return reason;
+  }
+  return {};
 }
 
 inline nlohmann::json glb_json(std::span<const std::byte> bytes) {

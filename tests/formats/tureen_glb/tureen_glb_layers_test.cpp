@@ -57,6 +57,18 @@ TEST(TureenGlbLayers, ComeBackToTheBit) {
     }
 }
 
+TEST(TureenGlbLayers, OfSplatsComeBackToTheBit) {
+  const auto kinds = test::every_glb_kind();
+  for (const unsigned seed : {1u, 2u})
+    for (const std::size_t faces : {std::size_t(0), std::size_t(1), std::size_t(9)}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", faces " + std::to_string(faces));
+      const Scene scene = test::layered_scene(kinds, seed, faces);
+      const auto bytes = test::glb_bytes(scene, "splat_layers");
+      EXPECT_EQ(version_of(bytes), 5);
+      EXPECT_EQ(test::difference(scene, read_bytes(bytes)), "");
+    }
+}
+
 TEST(TureenGlbLayers, WithoutFacesComeBackToo) {
   Scene scene = three_layers();
   scene.layers.insert(scene.layers.begin() + 1, {.name = "empty"});
@@ -168,11 +180,20 @@ TEST(TureenGlbLayers, HaveOnlyKeysOfTheSchema) {
   std::ifstream file(TUREEN_SOURCE_DIR "/docs/TUREEN_triangle_soup.schema.json");
   std::set<std::string> names;
   schema_names(nlohmann::json::parse(file), names);
-  const auto kinds = test::glb_kinds();
+  const auto kinds = test::every_glb_kind();
   const auto json = test::glb_json(test::glb_bytes(test::layered_scene(kinds, 3, 2), "schema"));
   expect_in_schema(json["extensions"][tureen_extension], names);
   for (std::size_t i = 1; i < json["nodes"].size(); ++i)
     expect_in_schema(json["nodes"][i]["extensions"][tureen_extension], names);
+  std::size_t points = 0;
+  for (const auto& mesh : json["meshes"]) {
+    const auto& primitive = mesh["primitives"][0];
+    if (primitive["mode"] != 0) continue;
+    ++points;
+    expect_in_schema(
+        primitive["extensions"]["KHR_gaussian_splatting"]["extensions"]["TUREEN_splats"], names);
+  }
+  EXPECT_EQ(points, 6u);
 }
 
 TEST(TureenGlbLayers, OfFalseFilesAreRefusedWithTheirPlace) {
@@ -252,12 +273,7 @@ TEST(TureenGlbLayers, SurviveTruncationAndDamage) {
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_bytes(damaged);
     EXPECT_LE(back.layers.size(), max_layers);
-    for (const Layer& layer : back.layers) {
-      EXPECT_FALSE(defect(layer));
-      if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives)) {
-        EXPECT_FALSE(defect(*soup));
-      }
-    }
+    EXPECT_FALSE(test::scene_defect(back));
   };
   EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
   // The frame and the JSON: all later bytes are values and images, as in a file of one layer.

@@ -50,6 +50,15 @@ TriangleSoup soup_of(const Scene& scene) {
   return splats ? to_opaque(*splats, 0.0f).soup : only_soup(scene);
 }
 
+TEST(GlbPreviewOfSplats, DoesNotExist) {
+  for (const test::GlbKind& kind : test::splat_glb_kinds()) {
+    const std::vector<std::byte> bytes = test::glb_bytes(test::random_scene(kind, 1, 3), kind.name);
+    EXPECT_EQ(size_of(bytes), 0u) << kind.name;
+    EXPECT_EQ(size_of(Bytes(bytes).first(beginning_of(bytes))), 0u) << kind.name;
+    EXPECT_FALSE(preview_of(bytes)) << kind.name;
+  }
+}
+
 class GlbPreview : public ::testing::TestWithParam<test::GlbKind> {};
 
 TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
@@ -219,9 +228,9 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
     const std::size_t index = j["extensions"][x]["triangles"];
     return j["accessors"][index];
   };
-  for (const int version : {0, 2, 5})
-    expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = version; }, version, 1, 3,
-                        4);
+  for (const int version : {0, 2, 6})
+    expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = version; }, version, 3, 4,
+                        5);
   expect_refused_json([&](auto& j) { color(j)["count"] = 14; }, "COLOR_0", 14, 15);
   expect_refused_json([&](auto& j) { color(j)["componentType"] = 5126; }, 5123);
   expect_refused_json([&](auto& j) { color(j)["count"] = 4000000000u; }, "4000000000", 8);

@@ -1,0 +1,237 @@
+#include "formats/gltf/gltf_splats.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "formats/gltf/gltf_accessor.hpp"
+#include "scene/edit/morton_order.hpp"
+#include "scene/spherical_harmonics.hpp"
+
+namespace tureen {
+
+namespace {
+
+constexpr char splatting[] = "KHR_gaussian_splatting";
+
+/// The last degree of KHR_gaussian_splatting.
+constexpr int last_khr_degree = 3;
+
+std::string splatting_attribute(const std::string& name) {
+  return std::string(splatting) + ":" + name;
+}
+
+std::string coefficient_name(int degree, int order) {
+  return splatting_attribute("SH_DEGREE_" + std::to_string(degree) + "_COEF_" +
+                             std::to_string(order));
+}
+
+bool is_all_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The quaternion x, y, z, w with length 1. The bits stay if they already have this length up to
+/// rounding: four squares of floats, and half a step of 2^-24 each.
+glm::quat unit_rotation(const glm::vec4& xyzw) {
+  const glm::dvec4 q(xyzw);
+  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const double scale = std::abs(squared - 1.0) <= 1e-6 ? 1.0 : 1.0 / std::sqrt(squared);
+  return glm::quat(float(q.w * scale), float(q.x * scale), float(q.y * scale), float(q.z * scale));
+}
+
+/// Three floats a splat as vectors.
+std::vector<glm::vec3> as_vec3(const std::vector<float>& values) {
+  std::vector<glm::vec3> result(values.size() / 3);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return result;
+}
+
+bool is_valid_splat(const Gaussians& gaussians, const glm::vec4& rotation,
+                    std::span<const glm::vec3> coefficients, std::size_t i) {
+  const glm::vec3& scales = gaussians.scales[i];
+  const glm::dvec4 q(rotation);
+  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  return is_all_finite(gaussians.centers[i]) && is_all_finite(scales) && scales.x >= 0 &&
+         scales.y >= 0 && scales.z >= 0 && squared > 0 && std::isfinite(squared) &&
+         gaussians.opacity[i] >= 0 && gaussians.opacity[i] <= 1 &&
+         std::all_of(coefficients.begin(), coefficients.end(), is_all_finite);
+}
+
+}  // namespace
+
+bool has_splats(const tinygltf::Primitive& primitive) {
+  return primitive.extensions.contains(splatting);
+}
+
+void GltfSplatBuilder::add_mesh(int index, const Node& node, const std::string& where) {
+  const tinygltf::Mesh& mesh = document_.model().meshes[std::size_t(index)];
+  for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+    if (!has_splats(mesh.primitives[i])) continue;
+    if (layers_.size() == max_layers)
+      document_.fail(where, "more than " + std::to_string(max_layers) + " primitives with splats");
+    Layer layer{.name = node.name, .world_from_layer = node.world_from_node};
+    if (const auto reason = defect(layer))
+      document_.fail(where, "splats need a node that neither stretches nor shears: " + *reason);
+    const std::string place =
+        "meshes[" + std::to_string(index) + "].primitives[" + std::to_string(i) + "]";
+    Splats splats = read(mesh.primitives[i], place);
+    if (const auto reason = defect(splats)) document_.fail(place, *reason);
+    layer.primitives = std::move(splats);
+    layers_.push_back(std::move(layer));
+  }
+}
+
+std::vector<Remark> GltfSplatBuilder::remarks() const {
+  std::vector<Remark> result;
+  if (dropped_ > 0)
+    result.push_back({.kind = Remark::Kind::splats_dropped, .counts = {dropped_, total_}});
+  if (is_linear_) result.push_back({Remark::Kind::splat_colors_linear});
+  return result;
+}
+
+/// Checks the values of the extension's object.
+void GltfSplatBuilder::check_method(const tinygltf::Primitive& primitive,
+                                    const std::string& where) {
+  const tinygltf::Value& object = primitive.extensions.at(splatting);
+  const std::string place = where + ".extensions." + splatting;
+  const auto text = [&](const char* key, const std::string& missing) {
+    if (!object.IsObject() || !object.Has(key)) {
+      if (missing.empty()) document_.fail(place, std::string("lacks \"") + key + "\"");
+      return missing;
+    }
+    if (!object.Get(key).IsString()) document_.fail(place + "." + key, "expected a string");
+    return object.Get(key).Get<std::string>();
+  };
+  if (primitive.mode != TINYGLTF_MODE_POINTS)
+    document_.fail(where, "splats need mode 0 (points), not " + std::to_string(primitive.mode));
+  if (primitive.indices >= 0) document_.fail(where, "splats with indices are not supported");
+  if (const std::string kernel = text("kernel", ""); kernel != "ellipse")
+    document_.fail(place + ".kernel",
+                   "the kernel \"" + kernel + "\" is not supported; only \"ellipse\" is");
+  const std::string space = text("colorSpace", "");
+  if (space != "srgb_rec709_display" && space != "lin_rec709_display")
+    document_.fail(place + ".colorSpace",
+                   "the colour space \"" + space +
+                       "\" is not supported; only srgb_rec709_display and lin_rec709_display are");
+  if (const std::string projection = text("projection", "perspective"); projection != "perspective")
+    document_.fail(place + ".projection", "the projection \"" + projection +
+                                              "\" is not supported; only \"perspective\" is");
+  is_linear_ = is_linear_ || space == "lin_rec709_display";
+}
+
+std::vector<float> GltfSplatBuilder::attribute(const tinygltf::Primitive& primitive,
+                                               const std::string& name, int components,
+                                               const std::string& where) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end())
+    document_.fail(where, "splats need the attribute " + name + ", which is missing");
+  const std::size_t elements = accessor_count(document_, found->second);
+  if (elements != accessor_count(document_, primitive.attributes.at("POSITION")))
+    document_.fail(where + ".attributes." + name, "does not have as many elements as POSITION");
+  return read_float_elements(document_, found->second, {components}, all_).values;
+}
+
+void GltfSplatBuilder::require_normalized(const tinygltf::Primitive& primitive,
+                                          const std::string& name, const std::string& where) const {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return;
+  const tinygltf::Accessor& accessor =
+      document_.model().accessors[std::size_t(found->second)];  // attribute() has checked it
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized)
+    document_.fail(where + ".attributes." + name, "holds integers that are not normalised");
+}
+
+/// The degree whose coefficients, and those of all degrees below, are there.
+int GltfSplatBuilder::degree_of(const tinygltf::Primitive& primitive,
+                                const std::string& where) const {
+  int degree = 0;
+  for (int l = 1; l <= last_khr_degree; ++l) {
+    int there = 0;
+    for (int order = 0; order < 2 * l + 1; ++order)
+      there += primitive.attributes.contains(coefficient_name(l, order)) ? 1 : 0;
+    if (there == 0) continue;
+    if (there < 2 * l + 1 || degree < l - 1)
+      document_.fail(where, "the harmonics of degree " + std::to_string(l) +
+                                " or of a lower one are incomplete");
+    degree = l;
+  }
+  return degree;
+}
+
+Splats GltfSplatBuilder::read(const tinygltf::Primitive& primitive, const std::string& where) {
+  check_method(primitive, where);
+  if (!primitive.attributes.contains("POSITION"))
+    document_.fail(where, "splats need the attribute POSITION, which is missing");
+  const std::size_t count = accessor_count(document_, primitive.attributes.at("POSITION"));
+  total_ += count;
+  if (count > all_.size()) document_.make_room_in(all_, count - all_.size(), where);
+  all_.resize(count);
+  std::iota(all_.begin(), all_.end(), 0u);
+  if (total_ > document_.vertex_budget())
+    document_.fail(where, "the scene's nodes repeat its meshes to more than " +
+                              std::to_string(document_.vertex_budget()) + " splats");
+
+  Splats splats{.profile = *profile_named("3dgs")};
+  splats.color.degree = degree_of(primitive, where);
+  const std::size_t stride = harmonics::count(splats.color.degree);
+  document_.take_memory(count, sizeof(glm::vec3) * (2 + stride) + sizeof(glm::quat) + sizeof(float),
+                        where);
+  PassingMemory passing(document_.budget());
+  document_.take_memory(count, sizeof(glm::vec4), where);
+  Gaussians& gaussians = splats.kernel.emplace<Gaussians>();
+  gaussians.centers = as_vec3(attribute(primitive, "POSITION", 3, where));
+  gaussians.scales = as_vec3(attribute(primitive, splatting_attribute("SCALE"), 3, where));
+  gaussians.opacity = attribute(primitive, splatting_attribute("OPACITY"), 1, where);
+  require_normalized(primitive, splatting_attribute("OPACITY"), where);
+  std::vector<glm::vec4> rotations(count);
+  const std::vector<float> xyzw = attribute(primitive, splatting_attribute("ROTATION"), 4, where);
+  require_normalized(primitive, splatting_attribute("ROTATION"), where);
+  for (std::size_t i = 0; i < count; ++i)
+    rotations[i] = {xyzw[4 * i], xyzw[4 * i + 1], xyzw[4 * i + 2], xyzw[4 * i + 3]};
+
+  splats.color.coefficients.resize(count * stride);
+  std::size_t k = 0;
+  for (int degree = 0; degree <= splats.color.degree; ++degree)
+    for (int order = 0; order < 2 * degree + 1; ++order, ++k) {
+      PassingMemory one(document_.budget());
+      const std::vector<float> plane =
+          attribute(primitive, coefficient_name(degree, order), 3, where);
+      for (std::size_t i = 0; i < count; ++i)
+        splats.color.coefficients[stride * i + k] = {plane[3 * i], plane[3 * i + 1],
+                                                     plane[3 * i + 2]};
+    }
+  drop_invalid(splats, rotations);
+  document_.take_memory(morton_order_bytes(splats), 1, where);
+  sort_in_morton_order(splats);
+  return splats;
+}
+
+void GltfSplatBuilder::drop_invalid(Splats& splats, std::vector<glm::vec4>& rotations) {
+  auto& gaussians = std::get<Gaussians>(splats.kernel);
+  std::vector<glm::vec3>& coefficients = splats.color.coefficients;
+  const std::size_t count = gaussians.centers.size(),
+                    stride = harmonics::count(splats.color.degree);
+  gaussians.rotations.reserve(count);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_valid_splat(gaussians, rotations[i],
+                        std::span(coefficients).subspan(stride * i, stride), i))
+      continue;
+    gaussians.centers[kept] = gaussians.centers[i];
+    gaussians.scales[kept] = gaussians.scales[i];
+    gaussians.opacity[kept] = gaussians.opacity[i];
+    gaussians.rotations.push_back(unit_rotation(rotations[i]));
+    std::copy_n(coefficients.begin() + std::ptrdiff_t(stride * i), stride,
+                coefficients.begin() + std::ptrdiff_t(stride * kept));
+    ++kept;
+  }
+  gaussians.centers.resize(kept);
+  gaussians.scales.resize(kept);
+  gaussians.opacity.resize(kept);
+  coefficients.resize(kept * stride);
+  dropped_ += count - kept;
+}
+
+}  // namespace tureen
