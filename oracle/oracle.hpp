@@ -30,8 +30,8 @@ struct OracleOptions {
   /// the pixel. If false, every splat is blended.
   bool splat_stop = true;
   /// The colour behind the scene; alpha is then 1. If absent, alpha is the mean coverage of the
-  /// pixel's rays, and the colour is that of the covered part. The coverage of a ray is 1 if it hits
-  /// a face, otherwise the alpha of its splats. A pixel with coverage 0 is 0 in all channels.
+  /// pixel's rays, and the colour is that of the covered part. The coverage of a ray is 1 if it
+  /// hits a face, otherwise the alpha of its splats. A pixel with coverage 0 is 0 in all channels.
   std::optional<glm::vec3> background = glm::vec3(0.0f);
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
