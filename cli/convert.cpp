@@ -116,7 +116,7 @@ void apply(const Edits& edits, Scene& scene) {
   if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
     throw UsageError(std::string("--lattice-level, --color and --texel-bits change lattice "
                                  "textures; this scene has ") +
-                     (soup ? appearance_name(soup->appearance) : "soft triangles"));
+                     (soup ? appearance_name(soup->appearance) : "splats"));
   const Edits changes = effective(edits, *soup);
   if (changes == Edits{}) {
     say("the edits change nothing: the scene is already within these limits");

@@ -240,7 +240,7 @@ Json contents_json(const LayerFacts& facts) {
   if (const Splats* splats = facts.splats)
     return {{"splats", count(*splats)},
             {"kernel", kernel_name(splats->kernel)},
-            {"profile", name_of(splats->profile)},
+            {"profile", profile_name(*splats)},
             {"degree", splats->color.degree},
             {"soft_triangles", std::holds_alternative<TriangleWindows>(splats->kernel)}};
   Json json = {{"triangles", facts.soup->triangles.size()},

@@ -48,7 +48,8 @@ void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandS
     Image8 band(camera.width, rows);
     for (int column = 0; column < camera.width; column += width) {
       const glm::ivec2 size(std::min(width, camera.width - column), rows);
-      const Image8 tile = tiles.draw({cut_out_of(camera, {column, row}, size), input.time});
+      const Image8 tile = tiles.draw(
+          {.camera = cut_out_of(camera, {column, row}, size), .time = input.time, .whole = camera});
       assert(tile.width == size.x && tile.height == size.y);
       copy_rows(tile, column, band);
       if (tiles.progress)

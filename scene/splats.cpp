@@ -242,8 +242,16 @@ const char* kernel_name(const SplatKernel& kernel) {
 
 std::string describe(const Splats& splats) {
   return std::to_string(count(splats)) + " " + kernel_name(splats.kernel) + ", profile " +
-         std::string(name_of(splats.profile)) + ", harmonics of degree " +
+         std::string(profile_name(splats)) + ", harmonics of degree " +
          std::to_string(splats.color.degree);
+}
+
+std::string_view profile_name(const Splats& splats) {
+  const std::string_view name = name_of(splats.profile);
+  if (std::holds_alternative<NeuralDensities>(splats.kernel) && name == "triangle-splatting")
+    return "splatnet";
+  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  return gaussians && gaussians->flat && name == "3dgs" ? "games" : name;
 }
 
 glm::dvec3 center(const Splats& splats, std::size_t i) {

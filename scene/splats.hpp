@@ -111,6 +111,10 @@ std::optional<SplatProfile> profile_named(std::string_view name);
 /// The first name of this profile, or "custom".
 std::string_view name_of(const SplatProfile& profile);
 
+struct Splats;
+/// The name of the splats' profile. Several methods have equal profiles; the kernel decides.
+std::string_view profile_name(const Splats& splats);
+
 struct Splats {
   SplatKernel kernel = {};
   SplatColor color = {};

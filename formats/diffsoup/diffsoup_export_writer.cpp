@@ -262,7 +262,7 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
   const Layer& layer = only_layer(scene);
   const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
   if (!soup)
-    throw UsageError("a DiffSoup export cannot hold soft triangles: make them opaque first");
+    throw UsageError("a DiffSoup export cannot hold splats");
   assert(!defect(*soup));
   if (!is_translation(layer) && depends_on_view(layer))
     throw UsageError(

@@ -219,7 +219,7 @@ CompressResult compress(const Scene& scene, const CompressRequest& request) {
   const auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives);
   if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
     throw UsageError("a compressed file supports only lattice textures; this scene has " +
-                     std::string(soup ? appearance_name(soup->appearance) : "soft triangles"));
+                     std::string(soup ? appearance_name(soup->appearance) : "splats"));
   return Search(scene, request).run();
 }
 

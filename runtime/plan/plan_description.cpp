@@ -77,8 +77,8 @@ std::string describe_frame(const SoupPlan& plan, const RenderPlan& common) {
 
 template <class Add>
 void add_splats(const SplatPlan& plan, const Add& add) {
-  add("draws " + part_of(plan.drawn.size(), plan.splats) + "splats (" + plan.kernel + ", profile " +
-      std::string(name_of(plan.profile)) + "), blended from near to far");
+  add("draws " + part_of(plan.drawn.size(), plan.splats) + "splats (" + plan.kernel +
+      "), blended from near to far");
   if (plan.drawn.size() < plan.splats)
     add(std::to_string(plan.splats - plan.drawn.size()) +
         " splats never reach the smallest blended alpha and are not drawn (exact)");

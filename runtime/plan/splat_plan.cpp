@@ -36,7 +36,8 @@ SplatPlan make_splat_plan(const Splats& splats, bool specialise) {
   SplatPlan plan;
   plan.shaders = shaders_of(splats);
   plan.profile = splats.profile;
-  plan.kernel = kernel_name(splats.kernel);
+  plan.kernel =
+      std::string(kernel_name(splats.kernel)) + ", profile " + std::string(profile_name(splats));
   plan.splats = count(splats);
   plan.stored_degree = splats.color.degree;
   plan.harmonics_degree = specialise ? degree_in_use(splats.color) : splats.color.degree;

@@ -29,7 +29,7 @@ struct SplatPlan {
 
   // Facts about the splats, for messages.
 
-  std::string kernel;      // kernel_name()
+  std::string kernel;      // kernel_name() and the name of the profile
   std::size_t splats = 0;  // all
   int stored_degree = 0;   // of the scene's harmonics
 };

@@ -152,7 +152,7 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   program.set("view_from_layer", glm::mat3(glm::dmat3(camera.view_from_world)));
   program.set("focal", glm::vec2(camera.fx, camera.fy));
   program.set("principal_point", glm::vec2(camera.cx, camera.height - camera.cy));
-  program.set("slope_range", ewa_slope_range(camera));
+  program.set("slope_range", ewa_slope_range(frame.input.whole.value_or(camera)));
   program.set("near", static_cast<float>(in_layer.range.near));
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }

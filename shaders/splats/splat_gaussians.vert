@@ -7,6 +7,10 @@ uniform sampler2D colors, places, axes_of_splats;
 uniform vec2 half_size;   // of the image, in pixels
 uniform vec2 depth_of_z;  // clip z of the view's z: depth_of_z.x * z + depth_of_z.y; clip w is -z
 
+// Splats that reach farther than this, in pixels, are drawn as a triangle around the image: the
+// rasteriser rounds coordinates far outside the image.
+const float farthest = 8192.0;
+
 out vec2 deviations;
 flat out vec4 color;
 
@@ -20,6 +24,13 @@ void main() {
   deviations = place.w * (corner == 0 ? vec2(-root_3, -1.0)
                           : corner == 1 ? vec2(root_3, -1.0) : vec2(0.0, 2.0));
   vec2 pixel = place.xy + deviations.x * axes.xy + deviations.y * axes.zw;
+  float squared_1 = dot(axes.xy, axes.xy), squared_2 = dot(axes.zw, axes.zw);
+  if (place.w * place.w * max(squared_1, squared_2) > farthest * farthest) {
+    pixel = 2.0 * half_size * vec2(corner == 1 ? 2.0 : 0.0, corner == 2 ? 2.0 : 0.0);
+    vec2 from_center = pixel - place.xy;
+    // The axes are orthogonal.
+    deviations = vec2(dot(from_center, axes.xy) / squared_1, dot(from_center, axes.zw) / squared_2);
+  }
   gl_Position = place.w > 0.0 ? vec4(pixel / half_size - 1.0,
                                      (depth_of_z.x * place.z + depth_of_z.y) / -place.z, 1.0)
                               : nowhere;

@@ -175,6 +175,36 @@ TEST_P(SplatsIn, ATransparentBackgroundKeepsTheirColour) {
   EXPECT_NEAR(pixel.a, 255 * 0.25, 1);
 }
 
+/// EWA limits the centre's slope by the size of the whole image: tiles show no seams.
+TEST_P(SplatsIn, TilesShowTheWholeImage) {
+  const Scene scene = scene_of(random_splats(splat_kinds[1], 2000, 0.2, 7));
+  Renderer renderer = renderer_of_scene(context, scene);
+  const Camera whole = camera_of_ball(0.9, 128, 96);
+  renderer.draw({whole});
+  const Image8 expected = renderer.read_color();
+  Camera right = whole;
+  right.width = 64;
+  right.cx -= 64;
+  renderer.draw({.camera = right, .whole = whole});
+  const Image8 tile = renderer.read_color();
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        ASSERT_NEAR(tile.at(x, y)[channel], expected.at(64 + x, y)[channel], 1) << x << ", " << y;
+}
+
+/// Triangles with corners far outside the image are rounded away by rasterisers.
+TEST_P(SplatsIn, EnormousSplatsFillTheImage) {
+  for (const float scale : {1e2f, 1e6f, 1e8f, 1e12f}) {
+    Scene scene = one_gaussian(0.5f, glm::vec3(1));
+    std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel).scales[0] =
+        glm::vec3(scale);
+    Renderer renderer = renderer_of_scene(context, scene);
+    renderer.draw({look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.5, 64, 48)});
+    for (const glm::vec4& pixel : renderer.read_splats()) ASSERT_NEAR(pixel.a, 0.5, 1e-3) << scale;
+  }
+}
+
 TEST_P(SplatsIn, SmallNumbersOfSplatsAreDrawn) {
   for (const std::size_t count : {0u, 1u, 1023u, 1024u, 1025u, 2047u, 2048u, 2049u}) {
     const Scene scene = scene_of(random_splats(splat_kinds[1], count, 0.3, 6));

@@ -132,7 +132,7 @@ TEST(Scene, OnlyTriangleWindowsBecomeOpaque) {
     make_opaque(scene);
     ADD_FAILURE();
   } catch (const UsageError& error) {
-    EXPECT_EQ(error.reason(), "only triangles are supported here; cloud holds Gaussians");
+    EXPECT_EQ(error.reason(), "this command supports only triangles; cloud holds Gaussians");
   }
 }
 
