@@ -21,7 +21,8 @@ float project(uint splat, out vec3 from_eye) {
   axes = vec4(0.0);
   if (!(depth > near)) return 0.0;
 
-  vec3 scales = kernel_texel(splat, 1).xyz;
+  // Beyond 1e7 pixels a splat is constant over the image, and the fourth powers below overflow.
+  vec3 scales = min(kernel_texel(splat, 1).xyz, 1e7 * depth / max(focal.x, focal.y));
   mat3 rotation = view_from_layer * rotation_of(kernel_texel(splat, 2));
   // Rows of the Jacobian times the scaled axes: a 2 x 3 matrix M, with covariance M M^T.
   vec2 slope = clamp(center.xy / depth, slope_range.xy, slope_range.zw);
