@@ -261,8 +261,7 @@ void write_files(const NewFolder& target, const Luts& luts, const ColorMlp& mlp,
 std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::path& folder) {
   const Layer& layer = only_layer(scene);
   const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
-  if (!soup)
-    throw UsageError("a DiffSoup export cannot hold splats");
+  if (!soup) throw UsageError("a DiffSoup export cannot hold splats");
   assert(!defect(*soup));
   if (!is_translation(layer) && depends_on_view(layer))
     throw UsageError(

@@ -193,9 +193,10 @@ TEST_P(SplatsIn, TilesShowTheWholeImage) {
         ASSERT_NEAR(tile.at(x, y)[channel], expected.at(64 + x, y)[channel], 1) << x << ", " << y;
 }
 
-/// Triangles with corners far outside the image are rounded away by rasterisers.
+/// Rasterisers round away triangles with corners far outside the image. From a scale of 2e9 on, the
+/// near plane, a billionth of the radius, cuts this splat.
 TEST_P(SplatsIn, EnormousSplatsFillTheImage) {
-  for (const float scale : {1e2f, 1e6f, 1e8f, 1e12f}) {
+  for (const float scale : {1e2f, 1e6f, 1e8f, 1e9f}) {
     Scene scene = one_gaussian(0.5f, glm::vec3(1));
     std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel).scales[0] =
         glm::vec3(scale);
