@@ -48,6 +48,7 @@ export class Loading {
               private readonly role: LoadRole = 'scene') {
     this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
     this.shown.catch(() => {});  // run() returns the error
+    limits.catch(() => {});  // begin() awaits it later, after the worker
     this.begin(assets, program, limits, source).catch((error: unknown) => this.end(error));
   }
 
