@@ -9,7 +9,7 @@ namespace tureen::oracle {
 
 namespace {
 
-/// Of the image's size, at each side: half of the 30 % in the 1.3 of 3DGS.
+/// Fraction of the image's size, at each side: half of the 30 % in the 1.3 of 3DGS.
 constexpr double jacobian_margin = 0.15;
 
 /// One row of M, and the column of the low pass that belongs to it.

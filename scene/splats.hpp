@@ -67,8 +67,8 @@ struct SplatColor {
   std::vector<glm::vec3> coefficients = {};
 };
 
-/// The rules by which a method renders its splats. A file stores them; device, oracle and trainer
-/// follow them.
+/// The rules by which a method renders its splats. GLB files store them; tags of PLY files choose
+/// them.
 struct SplatProfile {
   /// Where the kernel of a Gaussian is measured.
   enum class Projection {
@@ -88,7 +88,7 @@ struct SplatProfile {
   float max_alpha = 0.99f;          // larger values are clamped
   float min_alpha = 1.0f / 255.0f;  // smaller values are not blended
   /// A splat that would lower the transmittance of a pixel below this value ends the pixel and is
-  /// not blended. 0: every splat is blended.
+  /// not blended. 0: every splat is blended. The device does not follow this rule, only the oracle.
   float stop_transmittance = 1e-4f;
 
   bool operator==(const SplatProfile&) const = default;

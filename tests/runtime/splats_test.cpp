@@ -116,9 +116,9 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleAmongOtherLayers) {
 }
 
 TEST_P(SplatsOfKind, AreTheSameInEveryFrame) {
-  Splats splats = random_splats(kind, 300, 0.2, 5);
-  // Equal depths: the second half repeats the first.
-  const Scene scene = scene_of(splats);
+  // Equal depths: the second layer repeats the first.
+  Scene scene = scene_of(random_splats(kind, 300, 0.2, 5));
+  scene.layers.push_back(scene.layers.front());
   Renderer renderer = renderer_of_scene(context, scene);
   const Camera camera = camera_of_ball(2.5, 64, 48);
   renderer.draw({camera});
