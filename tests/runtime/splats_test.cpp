@@ -117,7 +117,7 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleAmongOtherLayers) {
 
 TEST_P(SplatsOfKind, AreTheSameInEveryFrame) {
   // Equal depths: the second layer repeats the first.
-  Scene scene = scene_of(random_splats(kind, 300, 0.2, 5));
+  Scene scene = scene_of(random_splats(kind, 50, 0.3, 5));
   scene.layers.push_back(scene.layers.front());
   Renderer renderer = renderer_of_scene(context, scene);
   const Camera camera = camera_of_ball(2.5, 64, 48);
