@@ -84,8 +84,7 @@ DeviceSplats::Constants DeviceSplats::constants() const {
 
 DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
                            const SplatPlan& plan)
-    : device_(device),
-      shaders_(plan.shaders),
+    : shaders_(plan.shaders),
       profile_(plan.profile),
       harmonics_degree_(plan.harmonics_degree),
       centers_(std::move(source.centers)),

@@ -61,7 +61,6 @@ class DeviceSplats {
   void set_view(const gl::Program& program, const Frame& frame) const;
   void bind(const gl::Program& program, int unit, const char* name, GLenum kind, GLuint texture);
 
-  gl::Capabilities device_;
   SplatShaders shaders_;
   SplatProfile profile_;
   int harmonics_degree_;

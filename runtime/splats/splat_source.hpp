@@ -19,7 +19,6 @@ struct SplatSource {
   TexelSource kernel;              // kernel_texels() RGBA texels a drawn splat
   TexelSource coefficients;        // harmonics::count(degree) RGB texels a drawn splat
   std::vector<glm::vec3> centers;  // of the drawn splats, in layer coordinates
-  float omega = 0;                 // NeuralDensities::omega
 };
 
 /// The sources read the splats and plan.drawn. Both must outlive them without moving; the plan

@@ -70,11 +70,11 @@ void archive_store(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_splats(Archive& archive, Value& value) {
-  auto& [layout, kernel, coefficients, centers, omega] = value;
+  auto& [layout, kernel, coefficients, centers] = value;
   archive(layout);
   archive_store(archive, kernel);
   archive_store(archive, coefficients);
-  archive(centers, omega);
+  archive(centers);
 }
 
 template <class Archive, class Value>
