@@ -9,6 +9,8 @@
 #include "runtime/renderer.hpp"
 #include "runtime/splats/splat_order.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/golden.hpp"
+#include "tests/support/golden_scenes.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
 
@@ -242,6 +244,19 @@ TEST_P(SplatsIn, LayersAreHiddenMovedAndRemoved) {
 
 INSTANTIATE_TEST_SUITE_P(, SplatsIn, testing::ValuesIn(every_context),
                          [](const auto& each) { return std::string(each.param.name); });
+
+TEST(SplatsGolden, EachKernelBesideASoup) {
+  const Scene scene = golden_splats();
+  for (const NamedContext& named : every_context) {
+    const gl::Context context = gl::Context::create(named.request);
+    Renderer renderer = renderer_of_scene(
+        context, scene,
+        {.plan = {.reversed_depth = false}, .background = glm::vec4(scene.info.background, 1.0f)});
+    renderer.draw({scene.cameras.front()});
+    const bool is_reference = named.request.backend == gl::Backend::osmesa;
+    expect_golden(renderer.read_color(), "splats", is_reference ? "" : named.name);
+  }
+}
 
 TEST(SplatOrder, IsThatOfTheDepthsWithTiesByLayerAndIndex) {
   const std::vector<glm::vec3> a = {{0, 0, 3}, {0, 0, -1}, {0, 0, 0}, {0, 0, 3}};

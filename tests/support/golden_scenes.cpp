@@ -3,6 +3,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
+#include "tests/support/random_splats.hpp"
+
 namespace tureen::test {
 
 Scene golden_scene(Kind kind) {
@@ -41,6 +43,23 @@ Scene layered_scene(std::uint64_t seed) {
       {.name = "turned", .world_from_layer = turned, .primitives = soup(Kind::lattice_mlp, 1)});
   scene.cameras.push_back(random_camera(random, 320, 240));
   scene.info.name = "layers";
+  scene.info.background = {0.95f, 0.95f, 0.9f};
+  return scene;
+}
+
+Scene golden_splats() {
+  Scene scene = scene_of(random_soup(12, {.kind = Kind::face_colors, .faces = 60, .size = 0.6}));
+  scene.layers[0].name = "soup";
+  // Triangle windows, Gaussians, discs and neural densities.
+  for (const int kind : {0, 1, 4, 6}) {
+    const std::size_t place = scene.layers.size() - 1;
+    const glm::dvec3 at(place % 2 == 0 ? -1.1 : 1.1, place < 2 ? 0.9 : -0.9, 0.3);
+    scene.layers.push_back({.name = splat_kinds[kind].name,
+                            .world_from_layer = at_origin(at),
+                            .primitives = random_splats(splat_kinds[kind], 300, 0.15, 13)});
+  }
+  scene.cameras.push_back(look_at({0.4, 0.6, 6}, {0, 0, 0}, {0, 1, 0}, 0.7, 320, 240));
+  scene.info.name = "splats";
   scene.info.background = {0.95f, 0.95f, 0.9f};
   return scene;
 }

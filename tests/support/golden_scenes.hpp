@@ -21,6 +21,9 @@ inline constexpr std::size_t golden_example_camera = 40;
 /// The last layer is rotated, mirrored and scaled. One camera.
 Scene layered_scene(std::uint64_t seed);
 
+/// A ball of splats of each kernel, in front of and behind a soup. One camera.
+Scene golden_splats();
+
 /// The example, a textured mesh beside it, and the example again: turned, mirrored and smaller.
 Scene golden_layers(Scene example);
 

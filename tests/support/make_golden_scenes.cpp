@@ -18,6 +18,7 @@ void write_all(const std::filesystem::path& example, const std::filesystem::path
 
   write_scene(golden_debug_view_scene(read_scene(example)), folder / "debug_views.glb");
 
+  write_scene(golden_splats(), folder / "splats.glb");
   write_scene(golden_layers(read_scene(example)), folder / "layers.glb");
 
   // An export has one lattice level.

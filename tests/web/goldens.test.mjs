@@ -42,6 +42,11 @@ test('several layers on llvmpipe', drawing(llvmpipe, async ({ load, image }) => 
   assertSame('layers', golden('layers'), await image({ from: 0, width: 320, height: 240 }));
 }));
 
+test('splats on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+  await load(scenes, ['splats.glb']);
+  assertSame('splats', golden('splats'), await image({ from: 0, width: 320, height: 240 }));
+}));
+
 // The bounds of Layers.AgreeWithTheOracle (tests/runtime/layers_test.cpp): rounding to 8 bits gives 58.9 dB.
 test('several layers agree with the oracle on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(scenes, ['layers.glb']);
