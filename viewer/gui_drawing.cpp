@@ -67,7 +67,7 @@ void GuiDrawing::draw(const ImDrawData& data) {
   program_.set("extent", glm::vec2(data.DisplaySize.x, data.DisplaySize.y));
   program_.set("image", 0);
   glActiveTexture(GL_TEXTURE0);
-  gl::use_texture_sampling(0);
+  glBindSampler(0, 0);  // no sampler object overrides the filters
   glBindVertexArray(vertex_array_.id());
   for (int i = 0; i < data.CmdListsCount; ++i) draw_list(*data.CmdLists[i], data);
   glDisable(GL_SCISSOR_TEST);

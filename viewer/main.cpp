@@ -47,7 +47,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program
       .add_option(
           "SCENE", arguments.paths,
-          "scenes: .glb, .gltf, .off, .coff, .ply, .obj, .pt, or a folder; several are drawn "
+          "scenes: .glb, .gltf, .off, .coff, .ply, .splat, .obj, .pt, or a folder; several are "
+          "drawn "
           "together, each as a layer. One argument after the first scene can be a DATASET: a .json "
           "file, or a folder that is not a scene, with photographs for comparison (COLMAP or NeRF)")
       ->option_text(".. [DATASET]");
@@ -152,7 +153,7 @@ int run(const Arguments& arguments) {
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message
 int main(int argc, char** argv) {
   using namespace tureen::viewer;
-  CLI::App program("Shows trained triangle soups in a window.", "tureen view");
+  CLI::App program("Shows triangle soups and splats in a window.", "tureen view");
   program.footer(R"(Without SCENE, drop scenes on the window or press Ctrl+O. F1 lists the keys.
 
 Examples:

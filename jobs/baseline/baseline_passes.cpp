@@ -9,7 +9,6 @@
 
 #include "base/error.hpp"
 #include "jobs/baseline/baseline.hpp"
-#include "runtime/gl/state.hpp"
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/geometry.hpp"
 #include "runtime/passes/pass.hpp"
@@ -23,12 +22,6 @@ namespace tureen {
 namespace {
 
 constexpr int lut_width = 4096;
-
-void bind_texture(int unit, GLuint texture) {
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  glBindTexture(GL_TEXTURE_2D, texture);
-  gl::use_texture_sampling(static_cast<unsigned>(unit));
-}
 
 /// Draws the eight interpolated features of the visible faces into two targets.
 class FeaturesPass final : public Pass {
@@ -68,10 +61,8 @@ class FeaturesPass final : public Pass {
     program_.use();
     const FrameCamera& view = frame.layers.front();
     Geometry::set_camera(program_, view, target.clip_from_view(view.camera, view.range));
-    bind_texture(0, lookup_[0].id());
-    bind_texture(1, lookup_[1].id());
-    program_.set("lut0", 0);
-    program_.set("lut1", 1);
+    program_.set_texture("lut0", 0, lookup_[0].id());
+    program_.set_texture("lut1", 1, lookup_[1].id());
     program_.set("lut_width", lut_width);
     geometry_.bind();
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * face_count_));
@@ -163,10 +154,8 @@ class NetworkPass final : public Pass {
     target.overwrite_color();
     const FrameCamera& view = frame.layers.front();
     program_.use();
-    bind_texture(0, features_.features(0));
-    bind_texture(1, features_.features(1));
-    program_.set("target0", 0);
-    program_.set("target1", 1);
+    program_.set_texture("target0", 0, features_.features(0));
+    program_.set_texture("target1", 1, features_.features(1));
     glm::dmat4 view_from_layer = view.camera.view_from_world;
     view_from_layer[3] = glm::dvec4(glm::dmat3(view_from_layer) * -view.eye, 1.0);
     const glm::dmat4 projection = target.clip_from_view(view.camera, view.range);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/gl/state.hpp"
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/soup_passes.hpp"
@@ -149,10 +148,7 @@ class OverdrawPass final : public Pass {
   void draw(const Frame& frame, FrameTarget& target) override {
     target.overwrite_color();
     program_.use();
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, counts_.texture());
-    gl::use_texture_sampling(0);
-    program_.set("counts", 0);
+    program_.set_texture("counts", 0, counts_.texture());
     program_.set("background", frame.background);
     full_screen_.draw(program_);
   }

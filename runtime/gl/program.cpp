@@ -134,4 +134,11 @@ void Program::set(const char* name, std::span<const glm::vec4> values) const {
   glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
 }
 
+void Program::set_texture(const char* name, int unit, GLuint texture, GLenum kind) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(kind, texture);
+  glBindSampler(static_cast<GLuint>(unit), 0);
+  set(name, unit);
+}
+
 }  // namespace tureen::gl

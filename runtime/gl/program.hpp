@@ -39,6 +39,10 @@ class Program {
   void set(const char* name, std::span<const glm::mat4> values) const;
   void set(const char* name, std::span<const glm::vec4> values) const;
 
+  /// Binds a texture to a unit, without a sampler object that would override its filters, and sets
+  /// the sampler `name` of the program in use to this unit.
+  void set_texture(const char* name, int unit, GLuint texture, GLenum kind = GL_TEXTURE_2D) const;
+
  private:
   void link();
   void look_up_uniforms();

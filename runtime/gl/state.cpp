@@ -29,8 +29,6 @@ void use_plain_pixel_transfer() {
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
 }
 
-void use_texture_sampling(unsigned unit) { glBindSampler(unit, 0); }
-
 void wait_for_device(unsigned framebuffer) {
 #ifdef __EMSCRIPTEN__
   std::uint8_t pixel[4];

@@ -13,9 +13,6 @@ void use_plain_rasterisation(int width, int height);
 /// Pixel transfers use main memory, rows without gaps and no pixel buffer.
 void use_plain_pixel_transfer();
 
-/// No sampler object overrides the texture's filters on this unit.
-void use_texture_sampling(unsigned unit);
-
 /// Maps clip space's z to depth from [0, 1], for reversed depth, or from [-1, 1], GL's default.
 /// Requires Capabilities::clip_control.
 void use_zero_to_one_depth(Api api, bool zero_to_one);

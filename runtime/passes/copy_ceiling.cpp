@@ -58,10 +58,7 @@ void CopyCeiling::draw(int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, state.to_framebuffer.id());
   state.program.use();
   state.program.set("background_depth", 0.0f);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, state.from.id());
-  gl::use_texture_sampling(0);
-  state.program.set("image", 0);
+  state.program.set_texture("image", 0, state.from.id());
   glBindVertexArray(state.nothing.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   gl::check("CopyCeiling");

@@ -20,10 +20,7 @@ float DepthProbe::read(GLuint depth_texture, glm::ivec2 pixel) {
   glDisable(GL_DEPTH_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   program_.use();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, depth_texture);
-  gl::use_texture_sampling(0);
-  program_.set("depth", 0);
+  program_.set_texture("depth", 0, depth_texture);
   program_.set("pixel", pixel);
   program_.set("background_depth", 0.0f);
   glBindVertexArray(nothing_.id());

@@ -1,6 +1,5 @@
 #include "runtime/passes/device_appearance.hpp"
 
-#include "runtime/gl/state.hpp"
 
 namespace tureen {
 
@@ -21,12 +20,9 @@ std::size_t DeviceAppearance::device_bytes() const {
 }
 
 void DeviceAppearance::bind(const gl::Program& program) const {
-  for (std::size_t unit = 0; unit < samplers.size(); ++unit) {
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(GL_TEXTURE_2D_ARRAY, samplers[unit].store.texture());
-    gl::use_texture_sampling(static_cast<unsigned>(unit));
-    program.set(samplers[unit].name.c_str(), static_cast<int>(unit));
-  }
+  int unit = 0;
+  for (const Sampler& sampler : samplers)
+    program.set_texture(sampler.name.c_str(), unit++, sampler.store.texture(), GL_TEXTURE_2D_ARRAY);
   if (!mlp.weights.empty()) {
     program.set("mlp_weights", std::span<const glm::mat4>(mlp.weights));
     program.set("mlp_biases", std::span<const glm::vec4>(mlp.biases));

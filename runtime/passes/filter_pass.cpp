@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "runtime/gl/state.hpp"
 #include "runtime/passes/shader_source.hpp"
 
 namespace tureen {
@@ -42,10 +41,7 @@ void FilterPass::draw(const Frame&, FrameTarget& target) {
   glDisable(GL_DEPTH_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   program_.use();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, target.color_texture());
-  gl::use_texture_sampling(0);
-  program_.set("samples", 0);
+  program_.set_texture("samples", 0, target.color_texture());
   program_.set("samples_per_pixel", glm::vec2(target.size()) / glm::vec2(size_));
   full_screen_.draw(program_);
 }

@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "runtime/gl/state.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
@@ -108,10 +107,7 @@ void FrameTarget::use_depth() {
 }
 
 void FrameTarget::bind_visibility(const gl::Program& program, int unit) const {
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  glBindTexture(GL_TEXTURE_2D, visible_.id());
-  gl::use_texture_sampling(static_cast<unsigned>(unit));
-  program.set("visible", unit);
+  program.set_texture("visible", unit, visible_.id());
 }
 
 glm::dmat4 FrameTarget::clip_from_view(const Camera& camera, const ClipRange& range) const {

@@ -115,14 +115,6 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
   gl::check("DeviceSplats");
 }
 
-void DeviceSplats::bind(const gl::Program& program, int unit, const char* name, GLenum kind,
-                        GLuint texture) {
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  glBindTexture(kind, texture);
-  gl::use_texture_sampling(static_cast<unsigned>(unit));
-  program.set(name, unit);
-}
-
 void DeviceSplats::project(const Frame& frame) {
   if (centers_.empty()) return;
   if (!projected_framebuffer_) {
@@ -136,8 +128,8 @@ void DeviceSplats::project(const Frame& frame) {
   glDisable(GL_DEPTH_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, projected_framebuffer_.id());
   projection_.use();
-  bind(projection_, 0, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
-  bind(projection_, 1, "coefficients", GL_TEXTURE_2D_ARRAY, coefficients_.texture());
+  projection_.set_texture("kernel", 0, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
+  projection_.set_texture("coefficients", 1, coefficients_.texture(), GL_TEXTURE_2D_ARRAY);
   projection_.set("splat_count", count);
   set_view(projection_, frame);
   full_screen_.draw(projection_);
@@ -159,15 +151,15 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
 void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLuint order) {
   const FrameCamera& in_layer = frame.layers[layer_];
   drawing_.use();
-  bind(drawing_, 0, "order", GL_TEXTURE_2D, order);
-  bind(drawing_, 1, "kernel", GL_TEXTURE_2D_ARRAY, kernel_.texture());
-  bind(drawing_, 2, "colors", GL_TEXTURE_2D, projected_[0].id());
+  drawing_.set_texture("order", 0, order);
+  drawing_.set_texture("kernel", 1, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
+  drawing_.set_texture("colors", 2, projected_[0].id());
   int unit = 3;
   for (const char* name : files_of(shaders_).projected) {
-    bind(drawing_, unit, name, GL_TEXTURE_2D, projected_[std::size_t(unit - 2)].id());
+    drawing_.set_texture(name, unit, projected_[std::size_t(unit - 2)].id());
     ++unit;
   }
-  if (tests_depth()) bind(drawing_, unit, "depth_texture", GL_TEXTURE_2D, target.depth_texture());
+  if (tests_depth()) drawing_.set_texture("depth_texture", unit, target.depth_texture());
   set_view(drawing_, frame);
   set_rays(drawing_, in_layer.camera);
   const glm::dmat4 clip_from_view = target.clip_from_view(in_layer.camera, in_layer.range);

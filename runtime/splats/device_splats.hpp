@@ -59,7 +59,6 @@ class DeviceSplats {
 
   Constants constants() const;
   void set_view(const gl::Program& program, const Frame& frame) const;
-  void bind(const gl::Program& program, int unit, const char* name, GLenum kind, GLuint texture);
 
   SplatShaders shaders_;
   SplatProfile profile_;

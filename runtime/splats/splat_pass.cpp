@@ -129,14 +129,8 @@ void SplatPass::resolve(FrameTarget& target) {
   blit_color(target.color_framebuffer(), behind_framebuffer_.id(), size_);
   target.overwrite_color();
   resolve_.use();
-  const auto bind = [&](int unit, const char* name, const gl::Texture& texture) {
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(GL_TEXTURE_2D, texture.id());
-    gl::use_texture_sampling(static_cast<unsigned>(unit));
-    resolve_.set(name, unit);
-  };
-  bind(0, "splats", blended_);
-  bind(1, "behind", behind_);
+  resolve_.set_texture("splats", 0, blended_.id());
+  resolve_.set_texture("behind", 1, behind_.id());
   full_screen_.draw(resolve_);
 }
 
