@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "camera/angles.hpp"
+#include "scene/finite.hpp"
 
 namespace tureen {
 
@@ -30,10 +31,6 @@ constexpr double max_steps = 1000, max_pixels = 1e7;
 // Gliding ends below this difference: 1e-5 radians are a twentieth of a pixel at a focal length of
 // 5,000 pixels.
 constexpr double arrived = 1e-5;
-
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 bool is_delta(double x, double y) {
   return std::isfinite(x) && std::isfinite(y) && (x != 0 || y != 0);

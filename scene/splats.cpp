@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -23,10 +24,6 @@ std::size_t vector_bytes(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-bool has_finite_parts(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool is_fraction(float value) { return value >= 0 && value <= 1; }
 
 /// Readers normalise in single precision; the rounding is below 1e-6.
@@ -37,7 +34,7 @@ struct SplatBox {
   glm::vec3 high{std::numeric_limits<float>::lowest()};
 
   void add(const glm::vec3& point) {
-    if (!has_finite_parts(point)) return;
+    if (!is_finite(point)) return;
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
@@ -107,7 +104,7 @@ struct FindKernelDefect {
              " opacities";
     for (std::size_t i = 0; i < splats; ++i) {
       for (std::size_t corner = 0; corner < 3; ++corner)
-        if (!has_finite_parts(windows.corners[3 * i + corner]))
+        if (!is_finite(windows.corners[3 * i + corner]))
           return at(i, "a corner that is not finite");
       if (!(windows.sigma[i] > 0) || !std::isfinite(windows.sigma[i]))
         return at(i, "a sigma that is not positive and finite");
@@ -128,9 +125,9 @@ struct FindKernelDefect {
              std::to_string(gaussians.opacity.size()) + " opacities for " + std::to_string(splats) +
              " centres";
     for (std::size_t i = 0; i < splats; ++i) {
-      if (!has_finite_parts(gaussians.centers[i])) return at(i, "a centre that is not finite");
+      if (!is_finite(gaussians.centers[i])) return at(i, "a centre that is not finite");
       const glm::vec3& scales = gaussians.scales[i];
-      if (!has_finite_parts(scales) || scales.x < 0 || scales.y < 0 || scales.z < 0)
+      if (!is_finite(scales) || scales.x < 0 || scales.y < 0 || scales.z < 0)
         return at(i, "a scale that is negative or not finite");
       if (!has_unit_length(gaussians.rotations[i]))
         return at(i, "a rotation that is not of unit length");
@@ -157,9 +154,9 @@ struct FindKernelDefect {
              std::to_string(densities.networks.size()) + " network parameters for " +
              std::to_string(splats) + " centres";
     for (std::size_t i = 0; i < splats; ++i) {
-      if (!has_finite_parts(densities.centers[i])) return at(i, "a centre that is not finite");
+      if (!is_finite(densities.centers[i])) return at(i, "a centre that is not finite");
       const glm::vec3& axes = densities.semi_axes[i];
-      if (!has_finite_parts(axes) || !(axes.x > 0 && axes.y > 0 && axes.z > 0))
+      if (!is_finite(axes) || !(axes.x > 0 && axes.y > 0 && axes.z > 0))
         return at(i, "a semi-axis that is not positive and finite");
       if (!has_unit_length(densities.rotations[i]))
         return at(i, "a rotation that is not of unit length");
@@ -194,7 +191,7 @@ SplatDefect find_splat_defect(const SplatColor& color, std::size_t splats) {
     return std::to_string(color.coefficients.size()) + " harmonics coefficients, expected " +
            std::to_string(per_splat * splats);
   const auto bad =
-      std::find_if_not(color.coefficients.begin(), color.coefficients.end(), has_finite_parts);
+      std::find_if_not(color.coefficients.begin(), color.coefficients.end(), is_finite<float>);
   if (bad == color.coefficients.end()) return {};
   return at(std::size_t(bad - color.coefficients.begin()) / per_splat,
             "a harmonics coefficient that is not finite");

@@ -7,6 +7,7 @@
 
 #include "formats/gltf/gltf_accessor.hpp"
 #include "scene/edit/morton_order.hpp"
+#include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -25,10 +26,6 @@ std::string splatting_attribute(const std::string& name) {
 std::string coefficient_name(int degree, int order) {
   return splatting_attribute("SH_DEGREE_" + std::to_string(degree) + "_COEF_" +
                              std::to_string(order));
-}
-
-bool is_all_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// The quaternion x, y, z, w with length 1. The bits stay if they already have this length up to
@@ -53,10 +50,10 @@ bool is_valid_splat(const Gaussians& gaussians, const glm::vec4& rotation,
   const glm::vec3& scales = gaussians.scales[i];
   const glm::dvec4 q(rotation);
   const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  return is_all_finite(gaussians.centers[i]) && is_all_finite(scales) && scales.x >= 0 &&
-         scales.y >= 0 && scales.z >= 0 && squared > 0 && std::isfinite(squared) &&
-         gaussians.opacity[i] >= 0 && gaussians.opacity[i] <= 1 &&
-         std::all_of(coefficients.begin(), coefficients.end(), is_all_finite);
+  return is_finite(gaussians.centers[i]) && is_finite(scales) && scales.x >= 0 && scales.y >= 0 &&
+         scales.z >= 0 && squared > 0 && std::isfinite(squared) && gaussians.opacity[i] >= 0 &&
+         gaussians.opacity[i] <= 1 &&
+         std::all_of(coefficients.begin(), coefficients.end(), is_finite<float>);
 }
 
 }  // namespace

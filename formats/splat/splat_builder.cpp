@@ -7,15 +7,12 @@
 #include <limits>
 
 #include "scene/edit/morton_order.hpp"
+#include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
 namespace {
-
-bool is_finite_splat_vector(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// The quaternion of unit length, or zeros if its length is 0 or not finite.
 glm::quat unit_rotation(const glm::dquat& q) {
@@ -62,13 +59,12 @@ SplatBuilder::SplatBuilder(Input& input, Kind kind, int degree, std::uint64_t co
 bool SplatBuilder::is_valid(const SplatValues& splat, std::span<const glm::vec3> coefficients,
                             std::span<const float> network) const {
   const glm::vec3 scales(splat.scales);
-  if (!is_finite_splat_vector(glm::vec3(splat.center)) || !is_finite_splat_vector(scales))
-    return false;
+  if (!is_finite(glm::vec3(splat.center)) || !is_finite(scales)) return false;
   if (!(scales.x >= 0 && scales.y >= 0 && scales.z >= 0)) return false;
   if (kind_ == Kind::neural_densities && !(scales.x > 0 && scales.y > 0 && scales.z > 0))
     return false;
   return !std::isnan(splat.opacity) &&
-         std::all_of(coefficients.begin(), coefficients.end(), is_finite_splat_vector) &&
+         std::all_of(coefficients.begin(), coefficients.end(), is_finite<float>) &&
          std::all_of(network.begin(), network.end(), [](float v) { return std::isfinite(v); });
 }
 

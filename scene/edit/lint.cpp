@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "scene/finite.hpp"
 #include "scene/lattice.hpp"
 
 namespace tureen {
@@ -15,10 +16,6 @@ namespace {
 
 void count(LintFinding& finding, std::size_t index) {
   if (finding.count++ < LintFinding::shown) finding.first.push_back(std::uint32_t(index));
-}
-
-bool is_finite(const glm::vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {

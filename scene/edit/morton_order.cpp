@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -18,10 +19,6 @@ struct MortonKey {
   std::uint64_t code;
   std::uint32_t splat;
 };
-
-bool is_finite_center(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// The 21 low bits of `value`, each moved to three times its position.
 std::uint64_t spread(std::uint64_t value) {
@@ -38,7 +35,7 @@ std::vector<MortonKey> morton_keys(const Splats& splats) {
   assert(splat_count <= std::numeric_limits<std::uint32_t>::max());
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (std::size_t i = 0; i < splat_count; ++i)
-    if (const glm::dvec3 p = center(splats, i); is_finite_center(p)) {
+    if (const glm::dvec3 p = center(splats, i); is_finite(p)) {
       low = glm::min(low, p);
       high = glm::max(high, p);
     }
@@ -49,7 +46,7 @@ std::vector<MortonKey> morton_keys(const Splats& splats) {
   for (std::size_t i = 0; i < splat_count; ++i) {
     const glm::dvec3 p = center(splats, i);
     std::uint64_t code = std::numeric_limits<std::uint64_t>::max();
-    if (is_finite_center(p)) {
+    if (is_finite(p)) {
       code = 0;
       for (int axis = 0; axis < 3 && edge > 0; ++axis) {
         const double cell = std::min((p[axis] - low[axis]) / edge * cells, cells - 1);
