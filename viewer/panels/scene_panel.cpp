@@ -35,7 +35,8 @@ void scene_panel(State& state) {
     if (splats == 0)
       text("{} triangles in {} layers", triangles, stage.layers.size());
     else
-      text("{} triangles and {} splats in {} layers", triangles, splats, stage.layers.size());
+      paragraph(fmt::format("{} triangles and {} splats in {} layers", triangles, splats,
+                            stage.layers.size()));
   }
   text("{:.1f} MiB on the device", double(stage.renderer.device_bytes()) / (1 << 20));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
