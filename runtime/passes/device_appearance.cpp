@@ -1,6 +1,5 @@
 #include "runtime/passes/device_appearance.hpp"
 
-
 namespace tureen {
 
 DeviceAppearance::DeviceAppearance(AppearanceSource source)
