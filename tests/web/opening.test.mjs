@@ -105,9 +105,9 @@ async function drop(page, path) {
   const client = await page.context().newCDPSession(page);
   const data = { items: [], files: [path], dragOperationsMask: 1 };
   for (const type of ['dragEnter', 'dragOver']) await client.send('Input.dispatchDragEvent', { type, x, y, data });
-  assert.ok(await page.isVisible('#drop-here'), 'the page accepts the drop');
+  await page.locator('#drop-here').waitFor();  // the page accepts the drop, soon after the system's event
   await client.send('Input.dispatchDragEvent', { type: 'drop', x, y, data });
-  assert.ok(await page.isHidden('#drop-here'));
+  await page.locator('#drop-here').waitFor({ state: 'hidden' });
 }
 
 test('a link without an up direction takes the scene\'s', () => visit('?scene=soup.glb#eye=4,-6,3&target=0,0,0', async (page) => {
