@@ -82,6 +82,7 @@ struct Renderer::State {
   bool layered = false;                   // the passes are those of several soups
   bool draws_layers = true;               // otherwise `passes` are all passes
   std::vector<SoupPasses> soup_passes;    // one for each layer, if they are drawn
+  std::unique_ptr<SplatSorter> splat_sorter;
   std::unique_ptr<SplatPass> splat_pass;  // of all layers of splats
   Passes passes;                          // from outside
   std::optional<FilterPass> filter;       // for other than one sample a pixel
@@ -164,6 +165,7 @@ void Renderer::State::arrange() {
                 (splat_target == SplatTarget::automatic && !device.float_blending)
             ? SplatPass::Precision::half
             : SplatPass::Precision::single);
+    splat_pass->sort_with(splat_sorter.get());
     size = glm::ivec2(0);  // the next frame calls its resize()
   }
   const bool all_made = !draws_layers || soup_passes.size() == soups.size();
@@ -324,13 +326,14 @@ void Renderer::set_passes(Passes passes) {
 
 std::span<const std::unique_ptr<DeviceSoup>> Renderer::soups() const { return state_->soups; }
 
-void Renderer::draw(const FrameInput& input) {
+void Renderer::draw(const FrameInput& input, SplatOrdering order) {
   State& state = *state_;
   const glm::ivec2 size(input.camera.width, input.camera.height);
   assert(size.x > 0 && size.y > 0);
   require_drawable(size.x, size.y, state.device.max_image_side);
   if (size != state.size) state.resize(size);
   state.set_frame(input);
+  state.frame.may_use_earlier_order = order == SplatOrdering::earlier;
   state.target.begin(state.background);
   if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, true);
   const auto draw_pass = [&](Pass& pass) {
@@ -344,6 +347,15 @@ void Renderer::draw(const FrameInput& input) {
   if (state.filter) draw_pass(*state.filter);
   if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, false);
   gl::check("draw");
+}
+
+void Renderer::sort_splats_with(std::unique_ptr<SplatSorter> sorter) {
+  if (state_->splat_pass) state_->splat_pass->sort_with(sorter.get());
+  state_->splat_sorter = std::move(sorter);
+}
+
+bool Renderer::splats_in_order() const {
+  return !state_->splat_pass || state_->splat_pass->in_order();
 }
 
 void Renderer::finish() const {

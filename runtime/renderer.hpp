@@ -30,6 +30,7 @@ namespace tureen {
 namespace gl {
 class PassTimer;
 }
+class SplatSorter;
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
@@ -94,7 +95,17 @@ class Renderer {
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
   /// has finished. Asserts a positive size. Throws DeviceLimitError if the size, in pixels or in
   /// samples, exceeds Capabilities::max_image_side.
-  void draw(const FrameInput& input);
+  ///
+  /// Splats are blended in the order of their depths in this view. With `order` `earlier` and a
+  /// sorter, many splats may have the order of an earlier view, so that no frame waits for sorting.
+  enum class SplatOrdering { exact, earlier };
+  void draw(const FrameInput& input, SplatOrdering order = SplatOrdering::exact);
+
+  /// Sorts splats for frames with SplatOrdering::earlier (runtime/splats/splat_sorter.hpp).
+  void sort_splats_with(std::unique_ptr<SplatSorter> sorter);
+  /// Whether the last frame shows all splats in the order of its own view. Otherwise, draw the view
+  /// again until it does.
+  bool splats_in_order() const;
 
   /// Waits for the device.
   void finish() const;

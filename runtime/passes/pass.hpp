@@ -36,6 +36,8 @@ struct Frame {
   ClipRange range;                  // in world units
   glm::vec4 background;             // display-referred colour and alpha
   std::vector<FrameCamera> layers;  // for each layer of the scene
+  /// Whether splats may be blended in the order of an earlier view.
+  bool may_use_earlier_order = false;
 };
 
 class Pass {

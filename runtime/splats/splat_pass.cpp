@@ -34,6 +34,23 @@ bool same_order(std::span<const SplatsInView> a, std::span<const SplatsInView> b
       });
 }
 
+bool same_splats(std::span<const SplatsInView> a, std::span<const SplatsInView> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const SplatsInView& x, const SplatsInView& y) {
+                      return x.centers.data() == y.centers.data() &&
+                             x.centers.size() == y.centers.size();
+                    });
+}
+
+/// Sorting fewer splats takes less than a millisecond.
+constexpr std::size_t many_splats = 100'000;
+
+bool has_many(std::span<const SplatsInView> views) {
+  std::size_t splats = 0;
+  for (const SplatsInView& view : views) splats += view.centers.size();
+  return splats >= many_splats;
+}
+
 }  // namespace
 
 SplatPass::SplatPass(const gl::Capabilities& device,
@@ -43,6 +60,18 @@ SplatPass::SplatPass(const gl::Capabilities& device,
                assemble({.file = "splat_resolve.frag"}, device.api)) {
   for (const std::unique_ptr<DeviceSplats>& layer : layers)
     if (layer) layers_.push_back(layer.get());
+}
+
+SplatPass::~SplatPass() { stop_sorting(); }
+
+void SplatPass::sort_with(SplatSorter* sorter) {
+  stop_sorting();
+  sorter_ = sorter;
+}
+
+void SplatPass::stop_sorting() {
+  if (sorter_) sorter_->forget();
+  sorting_.reset();
 }
 
 const TargetFormat& SplatPass::blended_format() const {
@@ -73,10 +102,32 @@ void SplatPass::update_order(const Frame& frame) {
     views.push_back(in_view(*layer, camera));
     if (!camera.visible) views.back().centers = {};
   }
-  if (order_texture_ && same_order(views, ordered_)) return;
+  in_order_ = order_texture_ && same_order(views, ordered_);
+  if (in_order_) return;
+  if (sorter_ && frame.may_use_earlier_order && has_many(views) && same_splats(views, ordered_))
+    continue_sorting(views);
+  else
+    sort_now(std::move(views));
+}
+
+void SplatPass::sort_now(std::vector<SplatsInView> views) {
+  stop_sorting();
   order_.sort(views);
   ordered_ = std::move(views);
+  in_order_ = true;
   upload_order();
+}
+
+void SplatPass::continue_sorting(const std::vector<SplatsInView>& views) {
+  if (sorting_ && sorter_->take(order_)) {
+    ordered_ = std::move(*sorting_);
+    sorting_.reset();
+    in_order_ = same_order(views, ordered_);
+    upload_order();
+  }
+  if (in_order_ || sorting_) return;
+  sorting_ = views;
+  sorter_->begin(views);
 }
 
 void SplatPass::upload_order() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "runtime/passes/targets.hpp"
 #include "runtime/splats/device_splats.hpp"
 #include "runtime/splats/splat_order.hpp"
+#include "runtime/splats/splat_sorter.hpp"
 
 namespace tureen {
 
@@ -24,6 +26,13 @@ class SplatPass final : public Pass {
   /// `layers` outlive the pass; null for layers without splats.
   SplatPass(const gl::Capabilities& device, std::span<const std::unique_ptr<DeviceSplats>> layers,
             Precision precision);
+  ~SplatPass() override;
+
+  /// `sorter` sorts for frames with Frame::may_use_earlier_order. It outlives the pass and serves
+  /// no other one. Null: all frames are sorted as they are drawn.
+  void sort_with(SplatSorter* sorter);
+  /// Whether the last frame was drawn in the order of its own view.
+  bool in_order() const { return in_order_; }
 
   const char* name() const override { return "splats"; }
   void resize(const FrameTarget& target) override;
@@ -38,6 +47,9 @@ class SplatPass final : public Pass {
 
  private:
   void update_order(const Frame& frame);
+  void sort_now(std::vector<SplatsInView> views);
+  void continue_sorting(const std::vector<SplatsInView>& views);
+  void stop_sorting();
   void upload_order();
   void blend(const Frame& frame, FrameTarget& target);
   void resolve(FrameTarget& target);
@@ -54,7 +66,10 @@ class SplatPass final : public Pass {
   gl::Framebuffer depthless_framebuffer_;  // of the same colours
 
   SplatOrder order_;
-  std::vector<SplatsInView> ordered_;  // the views of the last order
+  std::vector<SplatsInView> ordered_;  // the views of the order
+  bool in_order_ = true;
+  SplatSorter* sorter_ = nullptr;
+  std::optional<std::vector<SplatsInView>> sorting_;  // the views of the sorter's order
   gl::Texture order_texture_;
   int order_rows_ = 0;
 };

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "oracle/oracle.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/splats/splat_order.hpp"
+#include "runtime/splats/splat_sorter.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/golden_scenes.hpp"
@@ -240,6 +244,76 @@ TEST_P(SplatsIn, LayersAreHiddenMovedAndRemoved) {
   EXPECT_EQ(mean_alpha(), shown);
   renderer.remove_layer(0);  // the soup
   EXPECT_EQ(mean_alpha(), shown);
+}
+
+/// Completes a sort when the test says so.
+class HeldSorter final : public SplatSorter {
+ public:
+  explicit HeldSorter(const bool& may_finish) : may_finish_(may_finish) {}
+  void begin(std::vector<SplatsInView> views) override { order_.emplace().sort(views); }
+  bool take(SplatOrder& order) override {
+    if (!may_finish_ || !order_) return false;
+    order = *std::exchange(order_, std::nullopt);
+    return true;
+  }
+  void forget() override { order_.reset(); }
+
+ private:
+  const bool& may_finish_;
+  std::optional<SplatOrder> order_;
+};
+
+/// 100,000 splats, of which a sorter sorts.
+Scene many_gaussians() { return scene_of(random_splats(splat_kinds[1], 100'000, 0.01, 6)); }
+
+TEST_P(SplatsIn, FramesDoNotWaitForTheSorter) {
+  const Scene scene = many_gaussians();
+  Renderer renderer = renderer_of_scene(context, scene);
+  const Camera first = camera_of_ball(3, 64, 48), other = camera_of_ball(-3, 64, 48);
+  renderer.draw({other});
+  const Image8 expected = renderer.read_color();
+  bool may_finish = false;
+  renderer.sort_splats_with(std::make_unique<HeldSorter>(may_finish));
+  const auto draw = [&](const Camera& camera) {
+    renderer.draw({camera}, Renderer::SplatOrdering::earlier);
+    return renderer.read_color().pixels;
+  };
+  renderer.draw({first});
+  EXPECT_TRUE(renderer.splats_in_order());
+  for (int frame = 0; frame < 3; ++frame) {
+    EXPECT_NE(draw(other), expected.pixels);
+    EXPECT_FALSE(renderer.splats_in_order());
+  }
+  may_finish = true;
+  EXPECT_EQ(draw(other), expected.pixels);
+  EXPECT_TRUE(renderer.splats_in_order());
+  // An exact frame does not wait for the sorter either, and discards what it sorts.
+  may_finish = false;
+  draw(first);
+  renderer.draw({other});
+  EXPECT_TRUE(renderer.splats_in_order());
+  EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
+  may_finish = true;
+  EXPECT_EQ(draw(other), expected.pixels);
+}
+
+TEST_P(SplatsIn, AThreadSortsUntilTheOrderIsThatOfTheView) {
+  Scene scene = many_gaussians();
+  scene.layers.push_back({.primitives = random_splats(splat_kinds[0], 100, 0.1, 7)});
+  Renderer renderer = renderer_of_scene(context, scene);
+  const Camera camera = camera_of_ball(-3, 64, 48);
+  renderer.draw({camera});
+  const Image8 expected = renderer.read_color();
+  renderer.draw({camera_of_ball(3, 64, 48)});
+  renderer.sort_splats_with(std::make_unique<ThreadSplatSorter>());
+  do renderer.draw({camera}, Renderer::SplatOrdering::earlier);
+  while (!renderer.splats_in_order());
+  EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
+  // Layers may be removed while the thread sorts.
+  renderer.draw({camera_of_ball(3, 64, 48)}, Renderer::SplatOrdering::earlier);
+  renderer.remove_layer(0);
+  renderer.draw({camera}, Renderer::SplatOrdering::earlier);
+  EXPECT_TRUE(renderer.splats_in_order());
 }
 
 INSTANTIATE_TEST_SUITE_P(, SplatsIn, testing::ValuesIn(every_context),
