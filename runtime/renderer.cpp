@@ -79,9 +79,9 @@ struct Renderer::State {
   // One for each layer; null for layers of the other kind.
   std::vector<std::unique_ptr<DeviceSoup>> soups;
   std::vector<std::unique_ptr<DeviceSplats>> splats;
-  bool layered = false;                   // the passes are those of several soups
-  bool draws_layers = true;               // otherwise `passes` are all passes
-  std::vector<SoupPasses> soup_passes;    // one for each layer, if they are drawn
+  bool layered = false;                 // the passes are those of several soups
+  bool draws_layers = true;             // otherwise `passes` are all passes
+  std::vector<SoupPasses> soup_passes;  // one for each layer, if they are drawn
   std::unique_ptr<SplatSorter> splat_sorter;
   std::unique_ptr<SplatPass> splat_pass;  // of all layers of splats
   Passes passes;                          // from outside

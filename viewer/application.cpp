@@ -335,7 +335,8 @@ void Application::draw_scene() {
   }
   drawn_debug_view_ = debug_view;
   drawn_camera_ = camera;
-  image_is_current_ = true;
+  image_is_current_ = stage.renderer.splats_in_order();
+  if (!image_is_current_) frames_wanted_ = std::max(frames_wanted_, 1);
   stage.renderer.blit_to(0);
 }
 

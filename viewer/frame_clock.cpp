@@ -23,7 +23,7 @@ FrameClock::FrameClock(const gl::Context& context, std::function<double()> clock
 void FrameClock::draw(Renderer& renderer, const FrameInput& input) {
   const double begin = clock_();
   if (timers_.empty()) {
-    renderer.draw(input);
+    renderer.draw(input, Renderer::SplatOrdering::earlier);
     const double asked = clock_();
     renderer.finish();
     note({1e3 * (asked - begin), 1e3 * (clock_() - asked)});
@@ -37,7 +37,7 @@ void FrameClock::draw(Renderer& renderer, const FrameInput& input) {
   }
   renderer.time_passes(&timer);
   const double asking = clock_();
-  renderer.draw(input);
+  renderer.draw(input, Renderer::SplatOrdering::earlier);
   renderer.time_passes(nullptr);
   note({1e3 * (clock_() - asking), device_ms});
 }

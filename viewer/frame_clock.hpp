@@ -28,7 +28,8 @@ class FrameClock {
   /// `clock` returns seconds; in a replayed session it stands still within a frame.
   FrameClock(const gl::Context& context, std::function<double()> clock);
 
-  /// Draws a frame with the renderer and records its times.
+  /// Draws a frame with the renderer, perhaps with an earlier order of splats, and records its
+  /// times.
   void draw(Renderer& renderer, const FrameInput& input);
 
   /// Oldest first, at most frames_kept.

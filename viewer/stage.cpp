@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/device_forecast.hpp"
+#include "runtime/splats/splat_sorter.hpp"
 #include "viewer/names.hpp"
 
 namespace tureen::viewer {
@@ -317,11 +318,14 @@ std::string describe(const RefusedLayer& layer) {
 
 Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
   const RenderOptions options = render_options(request.choice, *source.scene);
-  if (request.choice.pipeline == PipelineKind::tureen)
-    return Renderer(request.context,
-                    prepare_scene(placed_layers(source),
-                                  device_limits(request.context.capabilities()), options),
-                    options);
+  if (request.choice.pipeline == PipelineKind::tureen) {
+    Renderer renderer(request.context,
+                      prepare_scene(placed_layers(source),
+                                    device_limits(request.context.capabilities()), options),
+                      options);
+    renderer.sort_splats_with(std::make_unique<ThreadSplatSorter>());
+    return renderer;
+  }
   const std::vector<PlacedSoup> layers = placed_soups(source);
   if (layers.size() > 1)
     throw UsageError("the baseline draws scenes of one layer; this scene has " +

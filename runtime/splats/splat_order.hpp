@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tureen {
@@ -24,6 +25,11 @@ struct SplatRun {
 
 class SplatOrder {
  public:
+  SplatOrder() = default;
+  /// An order that another SplatOrder made.
+  SplatOrder(std::vector<std::uint32_t> splats, std::vector<SplatRun> runs)
+      : splats_(std::move(splats)), runs_(std::move(runs)) {}
+
   /// Sorts the splats of all layers together. The depth is computed in double precision and rounded
   /// to a float. At equal depth the earlier layer comes first, then the lower index. Splats without
   /// a finite depth are dropped.

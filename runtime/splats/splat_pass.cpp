@@ -35,11 +35,10 @@ bool same_order(std::span<const SplatsInView> a, std::span<const SplatsInView> b
 }
 
 bool same_splats(std::span<const SplatsInView> a, std::span<const SplatsInView> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const SplatsInView& x, const SplatsInView& y) {
-                      return x.centers.data() == y.centers.data() &&
-                             x.centers.size() == y.centers.size();
-                    });
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const SplatsInView& x, const SplatsInView& y) {
+        return x.centers.data() == y.centers.data() && x.centers.size() == y.centers.size();
+      });
 }
 
 /// Sorting fewer splats takes less than a millisecond.

@@ -6,8 +6,8 @@
 namespace tureen {
 
 void ThreadSplatSorter::begin(std::vector<SplatsInView> views) {
-  running_ = std::async(std::launch::async,
-                        [this, views = std::move(views)] { order_.sort(views); });
+  running_ =
+      std::async(std::launch::async, [this, views = std::move(views)] { order_.sort(views); });
 }
 
 bool ThreadSplatSorter::take(SplatOrder& order) {

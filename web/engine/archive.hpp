@@ -35,6 +35,12 @@ class ArchiveWriter {
     else
       for (const T& value : values) put(value);
   }
+  template <class T>
+  void put(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(values.size());
+    append(values.data(), values.size_bytes());
+  }
   void put(const std::string& text) {
     put(text.size());
     append(text.data(), text.size());

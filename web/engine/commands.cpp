@@ -5,6 +5,7 @@
 #include <new>
 
 #include "base/error.hpp"
+#include "web/engine/splat_sorting.hpp"
 
 namespace tureen::web {
 
@@ -43,6 +44,7 @@ Commands all_commands() {
   Commands commands = loader_commands();
   commands.merge(viewer_commands());
   commands.merge(bench_commands());
+  commands.merge(sorting_commands());
   return commands;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "runtime/gl/api.hpp"
+#include "web/engine/splat_sorting.hpp"
 
 namespace tureen::web {
 
@@ -68,6 +69,7 @@ void PageView::show(PreparedScene prepared, ShownScene scene) {
   drop_preview();
   drop_scene();
   stage_.emplace(std::move(stage));
+  stage_->renderer->sort_splats_with(make_page_sorter());
 }
 
 void PageView::set_viewport(int width, int height) {
@@ -206,6 +208,7 @@ void PageView::prepare_renderer(bool for_debug_views) {
   const DeviceLimits limits = device_limits(capabilities());
   stage.renderer.emplace(context_, for_debug_views ? prepare_debug_views(layers, limits, options)
                                                    : prepare_scene(layers, limits, options));
+  stage.renderer->sort_splats_with(make_page_sorter());
   if (for_debug_views) stage.debug_views.emplace(layers);
   stage.renderer->set_background(glm::vec4(background_, 1.0f));
 }
@@ -241,8 +244,12 @@ void PageView::set_background(glm::vec3 background) {
 void PageView::draw(int width, int height, double seconds) {
   controls().advance(seconds, flight_);
   if (!shows_scene()) return clear_canvas(width, height);
-  current()->renderer->draw({controls().camera(width, height)});
+  current()->renderer->draw({controls().camera(width, height)}, Renderer::SplatOrdering::earlier);
   current()->renderer->blit_to(0);
+}
+
+void PageView::sort_in_frames() {
+  if (stage_) stage_->renderer->sort_splats_with(nullptr);
 }
 
 void PageView::clear_canvas(int width, int height) const {

@@ -95,7 +95,12 @@ class PageView {
 
   /// Advances the controls by `seconds`, draws, and copies the image to the canvas. `width`,
   /// `height`: size of the canvas's drawing buffer.
+  ///
+  /// Splats may be drawn in the order of an earlier view, until their sorter has the view's order
+  /// (web/engine/splat_sorting.hpp) and draw() is called again.
   void draw(int width, int height, double seconds);
+  /// Sorts splats in draw(), for pages whose worker cannot.
+  void sort_in_frames();
 
   void clear_canvas(int width, int height) const;
 

@@ -335,6 +335,11 @@ Commands viewer_commands() {
        {"remove_layer", remove_layer},
        {"move_layer", move_layer},
        {"draw", draw},
+       {"sort_in_frames",
+        [](const Json&) {
+          view().sort_in_frames();
+          return Json();
+        }},
        {"picture", image},
        {"background", background},
        {"is_read_for_debug_views", [](const Json&) { return Json(view().has_read_scene()); }},

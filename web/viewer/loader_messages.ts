@@ -58,11 +58,28 @@ export type ToLoader =
   /** The device's memory is too small: prepare the scene with a lower lattice level. */
   | { readonly kind: 'lower'; readonly why: string }
   /** Prepare the next layer: the page holds no more than one at a time. */
-  | { readonly kind: 'next' };
+  | { readonly kind: 'next' }
+  | SortMessage;
+
+/** A task for a worker that sorts splats, and does nothing else (splat_sorting.ts). */
+export interface SortMessage {
+  readonly kind: 'sort';
+  readonly program: WebAssembly.Module;
+  readonly task: SortTask;
+  /** Empty if they are those of the last task. */
+  readonly centers: Uint8Array<ArrayBuffer>;
+}
+
+/** web/engine/splat_sorting.cpp */
+export interface SortTask {
+  readonly number: number;
+  readonly layers: readonly { readonly count: number; readonly axis: Vec3; readonly offset: number }[];
+}
 
 export type FromLoader =
   | { readonly kind: 'progress'; readonly progress: LoadProgress }
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
+  | { readonly kind: 'sorted'; readonly number: number; readonly order: Uint8Array<ArrayBuffer> }
   | { readonly kind: 'error'; readonly error: { readonly kind: ViewerError['kind']; readonly message: string } };

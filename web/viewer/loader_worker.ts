@@ -1,10 +1,10 @@
-// Loads one scene in a worker: fetches it, reads it, prepares the device's data and transfers them. The
+// The script of all workers. A worker sorts splats (splat_sorting.ts), or loads one scene: fetches it, reads it, prepares the device's data and transfers them. The
 // end of the worker frees all its memory, so a load is cancelled by ending it.
 
 import { download } from './download.js';
 import { Engine, type Parcel } from './engine.js';
 import type {
-  FilesToLoad, FromLoader, LoadRole, PreparedScene, SceneDescription, SourceToLoad, ToLoader,
+  FilesToLoad, FromLoader, LoadRole, PreparedScene, SceneDescription, SortMessage, SourceToLoad, ToLoader,
 } from './loader_messages.js';
 import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
@@ -132,8 +132,19 @@ function post(message: FromLoader): void {
   } else if (message.kind === 'layer') {
     const { head, blobs } = message.layer.parcel;
     transferred.push(head, ...blobs);
+  } else if (message.kind === 'sorted') {
+    transferred.push(message.order.buffer);
   }
   self.postMessage(message, { transfer: transferred });
+}
+
+let sorter: Promise<Engine> | null = null;
+
+async function sortSplats({ program, task, centers }: SortMessage): Promise<void> {
+  const engine = await (sorter ??= Engine.create(program));
+  engine.setBuffer(centers);
+  engine.call('sort', task);
+  post({ kind: 'sorted', number: task.number, order: engine.buffer().slice() });
 }
 
 let loader: Loader | null = null;
@@ -149,6 +160,7 @@ async function obey(message: ToLoader): Promise<void> {
     case 'limits': return giveLimits(message.limits);
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
+    case 'sort': return sortSplats(message);
   }
 }
 

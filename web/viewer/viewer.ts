@@ -12,6 +12,7 @@ import { isShortage, Loading } from './loading.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
+import { SplatSorting } from './splat_sorting.js';
 import {
   lowerLevelSentence, nothingDrawn, othersDrawn, sceneSummary, tooLargeSentence, type ShownFacts, type ShownLayer,
 } from './scene_summary.js';
@@ -85,6 +86,7 @@ class CanvasViewer implements Viewer {
   /** The load of the expected scene, before load() is called. */
   private expected: { readonly source: SceneSource; readonly loading: Loading } | null = null;
   private engine!: Engine;
+  private sorting: SplatSorting | null = null;
   private device!: Device;
   private readonly listeners: Listeners = {};
   private readonly times = new FrameTimes();
@@ -149,6 +151,8 @@ class CanvasViewer implements Viewer {
     engine.takeCanvas(this.canvas);
     this.engine = engine;
     this.device = engine.call<Device>('start');
+    this.sorting?.end();
+    this.sorting = new SplatSorting(this.assets, this.program, engine, () => this.ask());
     this.lost = false;
     engine.call('background', this.background_);
     engine.call('gliding', this.gliding_);
@@ -709,6 +713,7 @@ class CanvasViewer implements Viewer {
     const seconds = this.lastFrame === null ? 0 : Math.max(now - this.lastFrame, 0) / 1000;
     const before = performance.now();
     const goesOn = this.engine.call<boolean>('draw', { width: this.canvas.width, height: this.canvas.height, seconds });
+    void this.sorting!.send();
     this.times.add(now, performance.now() - before);
     if (this.lastFrame !== null) this.resolutionKeeper.add(now - this.lastFrame);
     this.emit('frame', this.stats);
@@ -744,6 +749,7 @@ class CanvasViewer implements Viewer {
     this.observer.disconnect();
     this.loading?.cancel();
     this.expected?.loading.cancel();
+    this.sorting?.end();
     cancelAnimationFrame(this.frameAsked);
     if (!this.lost) this.engine.call('clear');
   }

@@ -1,0 +1,70 @@
+// Many splats are sorted in a worker: moving does not wait, and at rest the order is that of the view.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { drawingPage, drawingRoutes } from './drawing.mjs';
+import { stage } from './support.mjs';
+
+/** A splat PLY of `count` Gaussians in a ball. */
+function manyGaussians(count) {
+  const names = ['x', 'y', 'z', 'f_dc_0', 'f_dc_1', 'f_dc_2', 'opacity', 'scale_0', 'scale_1', 'scale_2',
+                 'rot_0', 'rot_1', 'rot_2', 'rot_3'];
+  const head = ['ply', 'format binary_little_endian 1.0', `element vertex ${count}`,
+                ...names.map((name) => `property float ${name}`), 'end_header', ''].join('\n');
+  const values = new Float32Array(names.length * count);
+  let state = 1;
+  const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 31 - 1;
+  for (let i = 0; i < count; ++i)
+    values.set([random(), random(), random(), 2 * random(), 2 * random(), 2 * random(), 1, -4, -4, -4, 1, 0, 0, 0],
+               names.length * i);
+  return Buffer.concat([Buffer.from(head), Buffer.from(values.buffer)]);
+}
+
+const scene = manyGaussians(120_000);  // SplatPass sorts 100,000 and more beside the frames
+const { visit } = await stage({ routes: {
+  ...drawingRoutes,
+  '/many.ply': (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene),
+} });
+
+/** Shows the ball from behind, where the order of the view before it is the reverse. Returns the numbers of channels
+ *  that differ from an exact image: in the first frame, and in that after the next change of the order. */
+const differences = (page) => page.evaluate(async () => {
+  const size = { width: 64, height: 48 }, pose = (z) => ({ eye: [0, 0, z], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 });
+  const pixelsOf = (image) => {
+    const canvas = new OffscreenCanvas(size.width, size.height), context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return context.getImageData(0, 0, size.width, size.height).data;
+  };
+  const exact = async (z) => {
+    viewer.setView(pose(z));
+    return pixelsOf(await createImageBitmap(await viewer.screenshot(size)));
+  };
+  const expected = await exact(-4);
+  await exact(4);
+  viewer.setView(pose(-4));
+  const different = () => pixelsOf(viewer.canvas).reduce((sum, value, at) => sum + (value !== expected[at]), 0);
+  viewer.draw();
+  const first = different();
+  const second = await new Promise((resolve) => { viewer.on('frame', () => resolve(different())); });
+  return { first, second };
+});
+
+test('many splats are sorted in a worker until the order is that of the view', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  await page.evaluate(() => viewer.load({ url: '/many.ply' }));
+  const { first, second } = await differences(page);
+  assert.equal(page.workers().length, 1);
+  assert.ok(first > 1000, `the first frame has the earlier order: ${first} channels differ`);
+  assert.equal(second, 0, 'the frame after it has the order of the view');
+}));
+
+test('without a worker, frames sort', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  await page.evaluate(async () => {
+    await viewer.load({ url: '/many.ply' });
+    window.Worker = class { constructor() { throw new Error('no workers'); } };
+  });
+  const { second } = await differences(page);
+  assert.equal(page.workers().length, 0);
+  assert.equal(second, 0);
+}));
