@@ -56,34 +56,26 @@ glm::dvec3 extent_of(const glm::quat& rotation, const glm::dvec3& semi_axes) {
   return glm::sqrt(squared);
 }
 
-struct FindKernelBounds {
+/// Adds what splat `i` covers to a box.
+struct AddToBox {
   const Profile& profile;
+  SplatBox& box;
 
-  SplatBox operator()(const TriangleWindows& windows) const {
-    SplatBox box;
-    for (std::size_t i = 0; i < windows.opacity.size(); ++i)
-      if (windows.opacity[i] >= profile.min_alpha)
-        for (std::size_t corner = 0; corner < 3; ++corner) box.add(windows.corners[3 * i + corner]);
-    return box;
+  void operator()(const TriangleWindows& windows, std::size_t i) const {
+    if (windows.opacity[i] >= profile.min_alpha)
+      for (std::size_t corner = 0; corner < 3; ++corner) box.add(windows.corners[3 * i + corner]);
   }
 
-  SplatBox operator()(const Gaussians& gaussians) const {
-    SplatBox box;
-    for (std::size_t i = 0; i < gaussians.opacity.size(); ++i) {
-      const double squared = 2 * std::log(double(gaussians.opacity[i]) / double(profile.min_alpha));
-      if (!(squared >= 0)) continue;
-      glm::dvec3 axes(gaussians.scales[i]);
-      if (gaussians.flat) axes.z = 0;
-      box.add(gaussians.centers[i], extent_of(gaussians.rotations[i], std::sqrt(squared) * axes));
-    }
-    return box;
+  void operator()(const Gaussians& gaussians, std::size_t i) const {
+    const double squared = 2 * std::log(double(gaussians.opacity[i]) / double(profile.min_alpha));
+    if (!(squared >= 0)) return;
+    glm::dvec3 axes(gaussians.scales[i]);
+    if (gaussians.flat) axes.z = 0;
+    box.add(gaussians.centers[i], extent_of(gaussians.rotations[i], std::sqrt(squared) * axes));
   }
 
-  SplatBox operator()(const NeuralDensities& densities) const {
-    SplatBox box;
-    for (std::size_t i = 0; i < densities.centers.size(); ++i)
-      box.add(densities.centers[i], extent_of(densities.rotations[i], densities.semi_axes[i]));
-    return box;
+  void operator()(const NeuralDensities& densities, std::size_t i) const {
+    box.add(densities.centers[i], extent_of(densities.rotations[i], densities.semi_axes[i]));
   }
 };
 
@@ -261,7 +253,23 @@ glm::dvec3 center(const Splats& splats, std::size_t i) {
 }
 
 Bounds bounds(const Splats& splats) {
-  return std::visit(FindKernelBounds{splats.profile}, splats.kernel).bounds();
+  SplatBox box;
+  std::visit(
+      [add = AddToBox{splats.profile, box}, all = count(splats)](const auto& kernel) {
+        for (std::size_t i = 0; i < all; ++i) add(kernel, i);
+      },
+      splats.kernel);
+  return box.bounds();
+}
+
+Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which) {
+  SplatBox box;
+  std::visit(
+      [add = AddToBox{splats.profile, box}, which](const auto& kernel) {
+        for (const std::uint32_t i : which) add(kernel, i);
+      },
+      splats.kernel);
+  return box.bounds();
 }
 
 std::size_t byte_size(const Splats& splats) {

@@ -11,6 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -136,6 +137,8 @@ glm::dvec3 center(const Splats& splats, std::size_t i);
 /// The box around every point at which a splat's alpha, without a low pass, reaches
 /// SplatProfile::min_alpha; zeros without such points. Splats that are not finite are ignored.
 Bounds bounds(const Splats& splats);
+/// The same for the splats with these indices.
+Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which);
 
 /// Bytes in the vectors.
 std::size_t byte_size(const Splats& splats);

@@ -1,5 +1,8 @@
 #include "runtime/plan/splat_plan.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -46,6 +49,10 @@ SplatPlan make_splat_plan(const Splats& splats, bool specialise) {
   for (std::size_t i = 0; i < plan.splats; ++i)
     if (!opacity || (*opacity)[i] >= splats.profile.min_alpha)
       plan.drawn.push_back(std::uint32_t(i));
+  const std::span<const std::uint32_t> drawn(plan.drawn);
+  for (std::size_t i = 0; i < drawn.size(); i += splats_per_chunk)
+    plan.chunks.push_back(
+        bounds(splats, drawn.subspan(i, std::min(splats_per_chunk, drawn.size() - i))));
   return plan;
 }
 

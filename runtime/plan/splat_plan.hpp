@@ -18,6 +18,8 @@ enum class SplatShaders {
   neural_density,  // NeuralDensities
 };
 
+inline constexpr std::size_t splats_per_chunk = 65'536;
+
 /// The method of drawing one layer of splats.
 struct SplatPlan {
   SplatShaders shaders = SplatShaders::windows;
@@ -26,6 +28,9 @@ struct SplatPlan {
   int harmonics_degree = 0;
   /// Drawn splats, in the scene's order: those whose opacity reaches the profile's min_alpha.
   std::vector<std::uint32_t> drawn;
+  /// bounds() of each chunk of `drawn`: splats_per_chunk splats, the last one fewer. Readers sort
+  /// splats along the Morton curve, so chunks are small in space.
+  std::vector<Bounds> chunks;
 
   // Facts about the splats, for messages.
 

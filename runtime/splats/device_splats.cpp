@@ -88,6 +88,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
       profile_(plan.profile),
       harmonics_degree_(plan.harmonics_degree),
       centers_(std::move(source.centers)),
+      chunks_(plan.chunks),
       layout_(source.layout),
       kernel_(source.layout, source.kernel),
       coefficients_(source.layout, source.coefficients) {

@@ -26,8 +26,9 @@ class DeviceSplats {
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
   static constexpr int order_columns = 2048;
 
-  /// Uploads; of the plan, only `shaders`, `profile`, `harmonics_degree` and the number of drawn
-  /// splats are used. The source's texels are not needed afterwards. Throws DeviceLimitError.
+  /// Uploads; of the plan, only `shaders`, `profile`, `harmonics_degree`, `chunks` and the number
+  /// of drawn splats are used. The source's texels are not needed afterwards. Throws
+  /// DeviceLimitError.
   DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
 
   /// The layer's index in Frame::layers.
@@ -36,6 +37,8 @@ class DeviceSplats {
 
   /// Centres of the drawn splats, in layer coordinates.
   std::span<const glm::vec3> centers() const { return centers_; }
+  /// SplatPlan::chunks.
+  std::span<const Bounds> chunks() const { return chunks_; }
 
   /// Computes colours, and for Gaussians their places in the image, for later draw_run() of this
   /// frame. Changes the framebuffer and the viewport.
@@ -65,6 +68,7 @@ class DeviceSplats {
   int harmonics_degree_;
   std::size_t layer_ = 0;
   std::vector<glm::vec3> centers_;
+  std::vector<Bounds> chunks_;
   TexelLayout layout_;
   TexelStore kernel_, coefficients_;
   gl::Program projection_, drawing_;

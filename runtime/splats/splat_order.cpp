@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "runtime/plan/splat_plan.hpp"
+
 namespace tureen {
 
 namespace {
@@ -28,6 +30,27 @@ std::uint32_t digit(std::uint32_t key, int place) {
 }
 
 }  // namespace
+
+bool has_splats_of(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views) {
+  return std::equal(sorted.begin(), sorted.end(), views.begin(), views.end(),
+                    [](const SplatsInView& has, const SplatsInView& needs) {
+                      if (has.centers.data() != needs.centers.data() ||
+                          has.centers.size() != needs.centers.size())
+                        return false;
+                      for (std::size_t chunk = 0; chunk < has.behind.size(); ++chunk)
+                        if (has.skips(chunk) && !needs.skips(chunk)) return false;
+                      return true;
+                    });
+}
+
+bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views) {
+  // Differences of offsets matter only between layers.
+  return has_splats_of(sorted, views) &&
+         std::equal(sorted.begin(), sorted.end(), views.begin(),
+                    [&](const SplatsInView& a, const SplatsInView& b) {
+                      return a.axis == b.axis && (views.size() == 1 || a.offset == b.offset);
+                    });
+}
 
 /// Least significant digit first, which keeps the order of equal keys.
 void SplatOrder::sort_by_key() {
@@ -66,13 +89,15 @@ void SplatOrder::make_runs(std::span<const SplatsInView> layers) {
 void SplatOrder::sort(std::span<const SplatsInView> layers) {
   entries_.clear();
   std::uint32_t place = 0;
-  for (const SplatsInView& layer : layers)
-    for (const glm::vec3& center : layer.centers) {
+  for (const SplatsInView& layer : layers) {
+    for (std::size_t i = 0; i < layer.centers.size(); ++i) {
+      if (layer.skips(i / splats_per_chunk)) continue;
       const auto depth =
-          static_cast<float>(glm::dot(layer.axis, glm::dvec3(center)) - layer.offset);
-      if (std::isfinite(depth)) entries_.push_back({key_of(depth), place});
-      ++place;
+          static_cast<float>(glm::dot(layer.axis, glm::dvec3(layer.centers[i])) - layer.offset);
+      if (std::isfinite(depth)) entries_.push_back({key_of(depth), place + std::uint32_t(i)});
     }
+    place += static_cast<std::uint32_t>(layer.centers.size());
+  }
   sort_by_key();
   make_runs(layers);
 }

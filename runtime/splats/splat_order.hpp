@@ -14,7 +14,17 @@ struct SplatsInView {
   std::span<const glm::vec3> centers;
   glm::dvec3 axis;
   double offset = 0;
+  /// For each chunk of splats_per_chunk centres, whether it is left out of the order. Empty: none.
+  std::vector<bool> behind = {};
+
+  bool skips(std::size_t chunk) const { return chunk < behind.size() && behind[chunk]; }
 };
+
+/// Whether the order for the views `sorted` also serves `views`: it is their order, and has at
+/// least their splats.
+bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
+/// Whether that order has at least the splats of `views`.
+bool has_splats_of(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
 
 /// Consecutive splats of one layer in an order.
 struct SplatRun {

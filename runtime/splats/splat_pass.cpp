@@ -19,26 +19,16 @@ constexpr TargetFormat order_format{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4
 /// The view depth in world units.
 SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera) {
   const glm::dmat3 view_from_layer(camera.camera.view_from_world);
-  const glm::dvec3 backward = glm::transpose(view_from_layer)[2];
-  return {.centers = splats.centers(),
-          .axis = -camera.scale * backward,
-          .offset = glm::dot(-camera.scale * backward, camera.eye)};
-}
-
-/// Whether the order is the same: differences of offsets matter only between layers.
-bool same_order(std::span<const SplatsInView> a, std::span<const SplatsInView> b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(), [&](const SplatsInView& x, const SplatsInView& y) {
-        return x.centers.data() == y.centers.data() && x.centers.size() == y.centers.size() &&
-               x.axis == y.axis && (a.size() == 1 || x.offset == y.offset);
-      });
-}
-
-bool same_splats(std::span<const SplatsInView> a, std::span<const SplatsInView> b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(), [](const SplatsInView& x, const SplatsInView& y) {
-        return x.centers.data() == y.centers.data() && x.centers.size() == y.centers.size();
-      });
+  const glm::dvec3 axis = -camera.scale * glm::transpose(view_from_layer)[2];
+  SplatsInView view{
+      .centers = splats.centers(), .axis = axis, .offset = glm::dot(axis, camera.eye)};
+  for (const Bounds& box : splats.chunks()) {
+    const glm::dvec3 half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
+    const double farthest =
+        glm::dot(axis, box.centre() - camera.eye) + glm::dot(glm::abs(axis), half);
+    view.behind.push_back(farthest < 0);  // of the eye, and so of the near plane
+  }
+  return view;
 }
 
 /// Sorting fewer splats takes less than a millisecond.
@@ -99,11 +89,11 @@ void SplatPass::update_order(const Frame& frame) {
   for (const DeviceSplats* layer : layers_) {
     const FrameCamera& camera = frame.layers[layer->layer()];
     views.push_back(in_view(*layer, camera));
-    if (!camera.visible) views.back().centers = {};
+    if (!camera.visible) views.back() = {};
   }
-  in_order_ = order_texture_ && same_order(views, ordered_);
+  in_order_ = order_texture_ && serves(ordered_, views);
   if (in_order_) return;
-  if (sorter_ && frame.may_use_earlier_order && has_many(views) && same_splats(views, ordered_))
+  if (sorter_ && frame.may_use_earlier_order && has_many(views) && has_splats_of(ordered_, views))
     continue_sorting(views);
   else
     sort_now(std::move(views));
@@ -121,7 +111,7 @@ void SplatPass::continue_sorting(const std::vector<SplatsInView>& views) {
   if (sorting_ && sorter_->take(order_)) {
     ordered_ = std::move(*sorting_);
     sorting_.reset();
-    in_order_ = same_order(views, ordered_);
+    in_order_ = serves(ordered_, views);
     upload_order();
   }
   if (in_order_ || sorting_) return;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oracle/oracle.hpp"
+#include "runtime/plan/splat_plan.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/splats/splat_order.hpp"
 #include "runtime/splats/splat_sorter.hpp"
@@ -345,6 +346,21 @@ TEST(SplatOrder, IsThatOfTheDepthsWithTiesByLayerAndIndex) {
   EXPECT_EQ(order.runs()[1].layer, 0u);
   EXPECT_EQ(order.runs()[1].count, 2u);
   EXPECT_EQ(order.runs()[3].first, 5u);
+}
+
+TEST(SplatOrder, LeavesOutChunksBehindTheEye) {
+  std::vector<glm::vec3> centers(2 * splats_per_chunk + 1, glm::vec3(0, 0, 1));
+  centers[splats_per_chunk].z = 0.5f;
+  SplatsInView view{.centers = centers, .axis = {0, 0, 1}, .behind = {true, false, true}};
+  SplatOrder order;
+  order.sort(std::span(&view, 1));
+  ASSERT_EQ(order.splats().size(), splats_per_chunk);
+  EXPECT_EQ(order.splats().front(), splats_per_chunk);
+  const SplatsInView sorted = view;
+  view.behind = {true, true, true};
+  EXPECT_TRUE(serves(std::span(&sorted, 1), std::span(&view, 1)));
+  view.behind = {true, false, false};
+  EXPECT_FALSE(serves(std::span(&sorted, 1), std::span(&view, 1)));
 }
 
 /// Far from the origin the depth is rounded after the offset is subtracted (docs/numerics.md, Z3).

@@ -48,7 +48,7 @@ class PageSplatSorter final : public SplatSorter {
   }
 };
 
-/// Returns the next task, {"number", "layers": [{"count", "axis", "offset"}]}, or null. Writes the
+/// Returns the next task, {"number", "layers": [{"axis", "offset", "behind"}]}, or null. Writes the
 /// centres to the buffer; nothing if the worker has them.
 Json sort_task(const Json&) {
   SortTasks& all = tasks();
@@ -57,7 +57,7 @@ Json sort_task(const Json&) {
   ArchiveWriter centers;
   for (const SplatsInView& view : all.current->views) {
     layers.push_back(
-        {{"count", view.centers.size()}, {"axis", to_json(view.axis)}, {"offset", view.offset}});
+        {{"axis", to_json(view.axis)}, {"offset", view.offset}, {"behind", view.behind}});
     if (!all.sent_centers) centers(view.centers);
   }
   buffer() = centers.take();
@@ -94,7 +94,8 @@ Json sort(const Json& task) {
   for (std::size_t i = 0; i < layers.size(); ++i)
     views.push_back({.centers = centers.at(i),
                      .axis = vector_of(layers[i].at("axis")),
-                     .offset = layers[i].at("offset")});
+                     .offset = layers[i].at("offset"),
+                     .behind = layers[i].at("behind").get<std::vector<bool>>()});
   order.sort(views);
   ArchiveWriter archive;
   archive(order.splats(), order.runs());

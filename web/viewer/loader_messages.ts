@@ -73,7 +73,7 @@ export interface SortMessage {
 /** web/engine/splat_sorting.cpp */
 export interface SortTask {
   readonly number: number;
-  readonly layers: readonly { readonly count: number; readonly axis: Vec3; readonly offset: number }[];
+  readonly layers: readonly { readonly axis: Vec3; readonly offset: number; readonly behind: readonly boolean[] }[];
 }
 
 export type FromLoader =
