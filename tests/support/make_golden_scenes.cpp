@@ -1,13 +1,18 @@
 // make_golden_scenes EXAMPLE OUT: writes the scenes of support/golden_scenes.hpp into the folder
 // OUT, for other programs that draw them. NAME.glb belongs to tests/golden/NAME.png.
-// debug_views.glb is the scene of the debug views, and the folder diffsoup is one soup as a
+// debug_views.glb is the scene of the debug views,
+// example_KIND.glb is the example as splats, and the folder diffsoup is one soup as a
 // DiffSoup export.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <string_view>
 
 #include "formats/scene_file.hpp"
 #include "tests/support/golden_scenes.hpp"
+#include "tests/support/soup_splats.hpp"
 
 namespace tureen::test {
 namespace {
@@ -20,6 +25,23 @@ void write_all(const std::filesystem::path& example, const std::filesystem::path
 
   write_scene(golden_splats(), folder / "splats.glb");
   write_scene(golden_layers(read_scene(example)), folder / "layers.glb");
+
+  // The images in docs/splats.md.
+  Scene around = read_scene(example);
+  glm::dvec3 place(-4.0, 2.2, 1.0);  // behind, then inside, then in front
+  for (const char* name : {"windows", "discs_2dgs", "neural"}) {
+    Scene splats = read_scene(example);
+    for (const SplatKind& kind : splat_kinds)
+      if (std::string_view(kind.name) == name)
+        splats.layers[0].primitives = splats_of(only_soup(splats), kind);
+    write_scene(splats, folder / ("example_" + std::string(name) + ".glb"));
+    around.layers.push_back(splats.layers[0]);
+    around.layers.back().world_from_layer =
+        glm::scale(glm::translate(glm::dmat4(1.0), place), glm::dvec3(0.7)) *
+        splats.layers[0].world_from_layer;
+    place += glm::dvec3(3.0, -2.1, 0.1);
+  }
+  write_scene(around, folder / "example_around.glb");
 
   // An export has one lattice level.
   Scene exported = golden_scene(Kind::lattice_mlp);
