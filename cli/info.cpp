@@ -242,6 +242,7 @@ Json contents_json(const LayerFacts& facts) {
             {"kernel", kernel_name(splats->kernel)},
             {"profile", profile_name(*splats)},
             {"degree", splats->color.degree},
+            {"per_corner", splats->color.per_corner},
             {"soft_triangles", std::holds_alternative<TriangleWindows>(splats->kernel)}};
   Json json = {{"triangles", facts.soup->triangles.size()},
                {"vertices", facts.soup->positions.size()},

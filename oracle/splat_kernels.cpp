@@ -40,17 +40,38 @@ const ImageBox& box_of(const SplatInView& splat) {
   return std::visit([](const auto& each) -> const ImageBox& { return each.box(); }, splat);
 }
 
-glm::dvec3 splat_color(const Splats& splats, std::size_t i, const glm::dvec3& eye) {
-  const glm::dvec3 from_eye = center(splats, i) - eye;
+namespace {
+
+/// The colour of `element`, a splat or a corner, whose place is `from_eye`.
+glm::dvec3 color_of(const SplatColor& color, std::size_t element, const glm::dvec3& from_eye) {
   const double distance = glm::length(from_eye);
   const auto basis = harmonics::basis(distance > 0 ? from_eye / distance : glm::dvec3(0, 0, 1));
-  const std::size_t bands = harmonics::count(splats.color.degree);
+  const std::size_t bands = harmonics::count(color.degree);
   glm::dvec3 sum(0.5);
   for (std::size_t k = 0; k < bands; ++k)
-    sum += basis[k] * glm::dvec3(splats.color.coefficients[i * bands + k]);
+    sum += basis[k] * glm::dvec3(color.coefficients[element * bands + k]);
   // This order of the arguments turns NaN into 0.
   for (int c = 0; c < 3; ++c) sum[c] = std::max(0.0, sum[c]);
   return sum;
+}
+
+}  // namespace
+
+SplatColorInView::SplatColorInView(const Splats& splats, std::size_t i, const glm::dvec3& eye)
+    : per_corner_(splats.color.per_corner) {
+  if (!per_corner_) {
+    colors_[0] = color_of(splats.color, i, center(splats, i) - eye);
+    return;
+  }
+  const glm::vec3* corners = &std::get<TriangleWindows>(splats.kernel).corners[3 * i];
+  for (std::size_t k = 0; k < 3; ++k)
+    colors_[k] = color_of(splats.color, 3 * i + k, glm::dvec3(corners[k]) - eye);
+}
+
+glm::dvec3 SplatColorInView::at(const SplatInView& splat, const glm::dvec2& pixel) const {
+  if (!per_corner_) return colors_[0];
+  const std::array<double, 3> weights = std::get<WindowInView>(splat).corner_weights(pixel);
+  return weights[0] * colors_[0] + weights[1] * colors_[1] + weights[2] * colors_[2];
 }
 
 }  // namespace tureen::oracle

@@ -2,6 +2,7 @@
 // with its equations.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -32,7 +33,17 @@ SplatSample sample(const SplatInView& splat, const glm::dvec2& pixel, double opa
 const ImageBox& box_of(const SplatInView& splat);
 
 /// The colour of splat `i` seen from `eye`, in layer coordinates: 0 or more, may exceed 1. A centre
-/// at the eye uses the direction (0, 0, 1), as soups do.
-glm::dvec3 splat_color(const Splats& splats, std::size_t i, const glm::dvec3& eye);
+/// or corner at the eye uses the direction (0, 0, 1), as soups do.
+class SplatColorInView {
+ public:
+  SplatColorInView(const Splats& splats, std::size_t i, const glm::dvec3& eye);
+
+  /// At an image point where `splat`, the same splat, has a sample.
+  glm::dvec3 at(const SplatInView& splat, const glm::dvec2& pixel) const;
+
+ private:
+  bool per_corner_;
+  std::array<glm::dvec3, 3> colors_;  // of the corners; otherwise, the first is the splat's
+};
 
 }  // namespace tureen::oracle

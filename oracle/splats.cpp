@@ -111,14 +111,15 @@ class Blender {
       const SplatView& view = views_[key.layer];
       const std::optional<SplatInView> splat = project(splats, key.index, view);
       if (!splat) continue;
-      const glm::dvec3 color = splat_color(splats, key.index, view.eye());
+      const SplatColorInView color(splats, key.index, view.eye());
       const SampleRange range = range_of(box_of(*splat));
       for (int row = range.first_row; row < range.end_row; ++row)
         for (int column = range.first_column; column < range.end_column; ++column) {
           const std::size_t i = index(column, row);
           if (samples_[i].ended) continue;
-          const SplatSample there = sample(*splat, pixel(column, row), opaque_depth_[i]);
-          if (there.alpha > 0) add(samples_[i], there, color, splats.profile);
+          const glm::dvec2 point = pixel(column, row);
+          const SplatSample there = sample(*splat, point, opaque_depth_[i]);
+          if (there.alpha > 0) add(samples_[i], there, color.at(*splat, point), splats.profile);
         }
     }
   }
@@ -128,6 +129,7 @@ class Blender {
     std::size_t sample;
     SplatSample splat;
     std::uint32_t layer, index;
+    glm::dvec3 color;
 
     bool operator<(const Candidate& other) const {
       return std::tie(sample, splat.order, layer, index) <
@@ -154,9 +156,7 @@ class Blender {
       for (const Candidate& each : candidates) {
         BlendedSample& to = samples_[each.sample];
         if (to.ended) continue;
-        const Splats& splats = *layers_[each.layer].splats;
-        add(to, each.splat, splat_color(splats, each.index, views_[each.layer].eye()),
-            splats.profile);
+        add(to, each.splat, each.color, layers_[each.layer].splats->profile);
       }
     }
   }
@@ -165,13 +165,16 @@ class Blender {
                std::vector<Candidate>& candidates) const {
     const auto splat = project(splats_of(key), key.index, views_[key.layer]);
     if (!splat) return;
+    const SplatColorInView color(splats_of(key), key.index, views_[key.layer].eye());
     const SampleRange range = range_of(box_of(*splat));
     for (int row = std::max(first_row, range.first_row); row < std::min(end_row, range.end_row);
          ++row)
       for (int column = range.first_column; column < range.end_column; ++column) {
         const std::size_t i = index(column, row);
-        const SplatSample there = sample(*splat, pixel(column, row), opaque_depth_[i]);
-        if (there.alpha > 0) candidates.push_back({i, there, key.layer, key.index});
+        const glm::dvec2 point = pixel(column, row);
+        const SplatSample there = sample(*splat, point, opaque_depth_[i]);
+        if (there.alpha > 0)
+          candidates.push_back({i, there, key.layer, key.index, color.at(*splat, point)});
       }
   }
 

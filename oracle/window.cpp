@@ -26,6 +26,7 @@ std::optional<WindowInView> WindowInView::project(const TriangleWindows& windows
     result.start_[k] = pixels * points[from];
     result.edge_[k] = pixels * view.direction(corners[to] - corners[from]);
     lengths[k] = glm::length(glm::dvec2(glm::cross(result.start_[k], result.edge_[k])));
+    result.corner_depths_[k] = points[k].z;
     w_sum += points[k].z * lengths[k];
   }
   result.normal_ = glm::cross(result.edge_[0], result.edge_[1]);
@@ -55,13 +56,27 @@ double WindowInView::rho(const glm::dvec2& pixel) const {
   const glm::dvec2 p = pixel - principal_point_;
   if (!(depth(p) >= near_)) return 0;
   double nearest = 1;
-  for (int k = 0; k < 3; ++k) {
-    // p . (start x edge), with both relative to p first: this cancels only near the edge's line.
-    const glm::dvec2 a = glm::dvec2(start_[k]) - p * start_[k].z;
-    const glm::dvec2 b = glm::dvec2(edge_[k]) - p * edge_[k].z;
-    nearest = std::min(nearest, scale_[k] * (a.x * b.y - a.y * b.x));
-  }
+  for (int k = 0; k < 3; ++k) nearest = std::min(nearest, scale_[k] * edge_product(k, p));
   return nearest > 0 ? nearest : 0;
+}
+
+double WindowInView::edge_product(int k, const glm::dvec2& p) const {
+  // p . (start x edge), with both relative to p first: this cancels only near the edge's line.
+  const glm::dvec2 a = glm::dvec2(start_[k]) - p * start_[k].z;
+  const glm::dvec2 b = glm::dvec2(edge_[k]) - p * edge_[k].z;
+  return a.x * b.y - a.y * b.x;
+}
+
+std::array<double, 3> WindowInView::corner_weights(const glm::dvec2& pixel) const {
+  std::array<double, 3> weights;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    // The common factor depth / D cancels.
+    weights[k] = std::max(corner_depths_[k], 0.0) * edge_product(k, pixel - principal_point_);
+    sum += weights[k];
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
 }
 
 SplatSample WindowInView::at(const glm::dvec2& pixel) const {

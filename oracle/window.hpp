@@ -31,15 +31,22 @@ class WindowInView {
 
   /// rho, or 0 where the window does not exist: outside, or nearer than the near plane.
   double rho(const glm::dvec2& pixel) const;
+  /// Barycentrics of the image point among the images of the corners. The barycentric of corner k
+  /// is w_k (p . N_k) / D times the depth at p; with k behind the eye, 0 takes its place, and the
+  /// others are scaled to the sum 1. Defined where rho() is above 0.
+  std::array<double, 3> corner_weights(const glm::dvec2& pixel) const;
   /// Depth and order are those of the triangle's plane.
   SplatSample at(const glm::dvec2& pixel) const;
   const ImageBox& box() const { return box_; }
 
  private:
   double depth(const glm::dvec2& from_principal_point) const;
+  /// p . N_k.
+  double edge_product(int k, const glm::dvec2& from_principal_point) const;
 
   std::array<glm::dvec3, 3> start_, edge_;  // N_k = start_[k] x edge_[k]
   std::array<double, 3> scale_;             // W / (|N_k.xy| D)
+  std::array<double, 3> corner_depths_;     // w_k
   glm::dvec3 normal_;                       // N_0 + N_1 + N_2: w = D / (p . normal)
   double determinant_ = 0;                  // D
   double sigma_ = 1, opacity_ = 0, near_ = 0;

@@ -150,7 +150,7 @@ DeviceForecast device_forecast(const Splats& splats, const SplatPlan& plan) {
       source.kernel.count > source.coefficients.count ? source.kernel : source.coefficients;
   return {.bytes = source.kernel.count * source.kernel.format.bytes +
                    source.coefficients.count * source.coefficients.format.bytes +
-                   plan.drawn.size() * projected_bytes(plan.shaders),
+                   plan.drawn.size() * projected_bytes(plan),
           .largest_store_texels = largest.count,
           .largest_store = largest.what};
 }

@@ -18,9 +18,9 @@ struct OpaqueResult {
   std::vector<Remark> remarks;  // what was lost
 };
 
-/// Opaque faces with the same harmonics. Keeps every triangle with an opacity of at least
-/// `minimum_opacity`. Triangle Splatting itself skips triangles below 0.01. The kernel of `splats`
-/// is TriangleWindows.
+/// Opaque faces with the same harmonics, of faces or of vertices. Keeps every triangle with an
+/// opacity of at least `minimum_opacity`. Triangle Splatting itself skips triangles below 0.01. The
+/// kernel of `splats` is TriangleWindows.
 OpaqueResult to_opaque(Splats splats, float minimum_opacity = 0.01f);
 
 }  // namespace tureen

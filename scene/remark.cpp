@@ -51,7 +51,6 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "primitives_without_positions_dropped",
     "other_projections_dropped",
     "blind_cameras_dropped",
-    "window_parameters_dropped",
     "screen_interpolation_dropped",
     "shapes_missing",
     "shapes_untextured",
@@ -192,8 +191,6 @@ std::string sentence_of(const Remark& remark) {
       return "cameras that are not perspective are skipped";
     case Kind::blind_cameras_dropped:
       return "cameras that see nothing are skipped";
-    case Kind::window_parameters_dropped:
-      return "vertex weights and sigma are ignored: after full training every triangle is opaque";
     case Kind::screen_interpolation_dropped:
       return "colours are interpolated in perspective, but in screen space by the original "
              "renderer: large triangles near the camera differ";

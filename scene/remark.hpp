@@ -57,8 +57,7 @@ struct Remark {
     primitives_without_positions_dropped,
     other_projections_dropped,  // cameras
     blind_cameras_dropped,
-    window_parameters_dropped,     // vertex weights and sigma in a checkpoint
-    screen_interpolation_dropped,  // for the colours in a checkpoint
+    screen_interpolation_dropped,  // for the colours of soft triangles' corners
     shapes_missing,                // counts: indices of missing shapes; last: number of all
     shapes_untextured,             // counts: likewise
     preset_dropped,                // it selects among soft triangles

@@ -175,10 +175,13 @@ SplatDefect find_splat_defect(const Profile& profile) {
   return {};
 }
 
-SplatDefect find_splat_defect(const SplatColor& color, std::size_t splats) {
+SplatDefect find_splat_defect(const SplatColor& color, const SplatKernel& kernel,
+                              std::size_t splats) {
+  if (color.per_corner && !std::holds_alternative<TriangleWindows>(kernel))
+    return "only triangle windows have colours of corners";
   if (color.degree < 0 || color.degree > harmonics::max_degree)
     return "harmonics of degree " + std::to_string(color.degree) + " are outside 0..4";
-  const std::size_t per_splat = harmonics::count(color.degree);
+  const std::size_t per_splat = coefficients_per_splat(color);
   if (color.coefficients.size() != per_splat * splats)
     return std::to_string(color.coefficients.size()) + " harmonics coefficients, expected " +
            std::to_string(per_splat * splats);
@@ -191,7 +194,11 @@ SplatDefect find_splat_defect(const SplatColor& color, std::size_t splats) {
 
 }  // namespace
 
-const std::array<NamedProfile, 7> named_profiles{{
+std::size_t coefficients_per_splat(const SplatColor& color) {
+  return std::size_t(harmonics::count(color.degree)) * (color.per_corner ? 3 : 1);
+}
+
+const std::array<NamedProfile, 8> named_profiles{{
     {"3dgs", gaussians_3d},
     {"mip", {.low_pass = Profile::LowPass::mip}},
     {"2dgs", gaussians_2d},
@@ -199,6 +206,7 @@ const std::array<NamedProfile, 7> named_profiles{{
     {"redisplats",
      {.projection = Profile::Projection::plane, .max_alpha = 1.0f, .stop_transmittance = 0.0f}},
     {"triangle-splatting", triangle_splatting},
+    {"mesh-splatting", {.max_alpha = 0.999f}},
     {"splatnet", triangle_splatting},
 }};
 
@@ -232,7 +240,7 @@ const char* kernel_name(const SplatKernel& kernel) {
 std::string describe(const Splats& splats) {
   return std::to_string(count(splats)) + " " + kernel_name(splats.kernel) + ", profile " +
          std::string(profile_name(splats)) + ", harmonics of degree " +
-         std::to_string(splats.color.degree);
+         std::to_string(splats.color.degree) + (splats.color.per_corner ? " per corner" : "");
 }
 
 std::string_view profile_name(const Splats& splats) {
@@ -285,11 +293,33 @@ std::size_t byte_size(const Splats& splats) {
          vector_bytes(densities.rotations) + vector_bytes(densities.networks);
 }
 
+std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>& keeps) {
+  auto& [corners, sigma, opacity] = std::get<TriangleWindows>(splats.kernel);
+  std::vector<glm::vec3>& coefficients = splats.color.coefficients;
+  const std::size_t each = coefficients_per_splat(splats.color);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < opacity.size(); ++i) {
+    if (!keeps(i)) continue;
+    if (kept != i) {
+      std::copy_n(&corners[3 * i], 3, &corners[3 * kept]);
+      sigma[kept] = sigma[i];
+      opacity[kept] = opacity[i];
+      std::copy_n(&coefficients[each * i], each, &coefficients[each * kept]);
+    }
+    ++kept;
+  }
+  corners.resize(3 * kept);
+  sigma.resize(kept);
+  opacity.resize(kept);
+  coefficients.resize(each * kept);
+  return kept;
+}
+
 std::optional<std::string> defect(const Splats& splats) {
   if (SplatDefect reason = find_splat_defect(splats.profile)) return reason;
   if (SplatDefect reason = std::visit(FindKernelDefect{splats.profile}, splats.kernel))
     return reason;
-  return find_splat_defect(splats.color, count(splats));
+  return find_splat_defect(splats.color, splats.kernel, count(splats));
 }
 
 }  // namespace tureen

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -64,9 +65,17 @@ using SplatKernel = std::variant<TriangleWindows, Gaussians, NeuralDensities>;
 /// centre. It may exceed 1; only pixels are clamped.
 struct SplatColor {
   int degree = 0;  // 0..4
-  /// For each splat: harmonics::count(degree) RGB coefficients.
+  /// For each splat, or each corner of each splat: harmonics::count(degree) RGB coefficients.
   std::vector<glm::vec3> coefficients = {};
+  /// Only triangle windows: each corner has a colour of its own, with d from the eye to the corner.
+  /// In between, the colour is the mean of the corners' by the barycentrics in the image: affine
+  /// there, not perspective (Triangle Splatting+, arXiv 2509.25122; MeshSplatting, 2512.06818). A
+  /// corner behind the eye has no image, and weight 0.
+  bool per_corner = false;
 };
+
+/// Coefficients a splat: harmonics::count(degree), or three times as many.
+std::size_t coefficients_per_splat(const SplatColor& color);
 
 /// The rules by which a method renders its splats. GLB files store them; tags of PLY files choose
 /// them.
@@ -105,8 +114,9 @@ struct NamedProfile {
   std::string_view name;  // in files and options
   SplatProfile profile;
 };
-/// "3dgs", "mip", "2dgs", "games", "redisplats", "triangle-splatting", "splatnet".
-extern const std::array<NamedProfile, 7> named_profiles;
+/// "3dgs", "mip", "2dgs", "games", "redisplats", "triangle-splatting", "mesh-splatting",
+/// "splatnet".
+extern const std::array<NamedProfile, 8> named_profiles;
 /// The profile of this name, or nullopt.
 std::optional<SplatProfile> profile_named(std::string_view name);
 /// The first name of this profile, or "custom".
@@ -128,7 +138,7 @@ std::size_t count(const Splats& splats);
 /// "triangle windows", "Gaussians", "flat Gaussians" or "neural densities".
 const char* kernel_name(const SplatKernel& kernel);
 
-/// "90854 Gaussians, profile 3dgs, harmonics of degree 0".
+/// "90854 Gaussians, profile 3dgs, harmonics of degree 0"; with colours of corners, " per corner".
 std::string describe(const Splats& splats);
 
 /// The centre of splat `i` in double precision, in layer coordinates.
@@ -142,6 +152,10 @@ Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which);
 
 /// Bytes in the vectors.
 std::size_t byte_size(const Splats& splats);
+
+/// Removes the windows for which `keeps` returns false, and their colours. It is called once for
+/// each window, in order, before that window moves. Returns the number that remain.
+std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>& keeps);
 
 /// The reason why these splats cannot be drawn (a size that does not match, a value outside its
 /// range or not finite, a profile that its kernel does not support), or nullopt. Readers return

@@ -1,5 +1,6 @@
 #include "formats/torch/checkpoint.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "formats/torch/torch_archive.hpp"
+#include "scene/finite.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -40,7 +42,7 @@ std::vector<glm::vec3> read_vectors(TorchArchive& archive, const TorchTensor& te
 std::vector<glm::uvec3> read_triangles(TorchArchive& archive, std::string_view key,
                                        std::size_t vertices) {
   const TorchTensor tensor = archive.tensor(key);
-  archive.expect_shape(tensor, {0, 3});
+  archive.expect_shape(tensor, {any_size, 3});
   PassingMemory passing(archive.budget());
   const auto indices = archive.read_integers(tensor);
   archive.take_memory(tensor, indices.size(), sizeof(std::uint32_t));
@@ -112,9 +114,9 @@ void spread(TorchArchive& archive, const TorchTensor& from, std::size_t count, s
 
 Scene read_diffsoup(TorchArchive& archive, const ReadOptions& options) {
   const TorchTensor vertices = archive.tensor("V");
-  archive.expect_shape(vertices, {0, 3});
+  archive.expect_shape(vertices, {any_size, 3});
   const TorchTensor features = archive.tensor("feat_acc");
-  archive.expect_shape(features, {0, 0, LatticeTexture::features});
+  archive.expect_shape(features, {any_size, any_size, LatticeTexture::features});
   const std::uint64_t faces = features.shape[0], per_face = features.shape[1];
   const TorchTensor alpha = archive.tensor("alpha_acc");
   archive.expect_shape(alpha, {faces, per_face, 1});
@@ -183,7 +185,7 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
     return result;
   }
   const TorchTensor others = archive.tensor("features_rest");
-  archive.expect_shape(others, {elements, 0, 3});
+  archive.expect_shape(others, {elements, any_size, 3});
   const auto stored = static_cast<std::size_t>(others.shape[1]);
   if (stored + 1 < count)
     archive.fail("\"features_rest\" has " + std::to_string(stored) +
@@ -202,69 +204,135 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
   return result;
 }
 
-void assume_up(Scene& scene) {
+double sigmoid(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+
+/// Whether defect() accepts the values of window `i`.
+bool is_valid_window(const Splats& splats, std::size_t i) {
+  const auto& windows = std::get<TriangleWindows>(splats.kernel);
+  const auto finite = [](const glm::vec3* first, std::size_t count) {
+    return std::all_of(first, first + count, is_finite<float>);
+  };
+  const std::size_t each = coefficients_per_splat(splats.color);
+  return finite(&windows.corners[3 * i], 3) && windows.sigma[i] > 0 &&
+         std::isfinite(windows.sigma[i]) && !std::isnan(windows.opacity[i]) &&
+         finite(&splats.color.coefficients[each * i], each);
+}
+
+/// The scene of the valid windows.
+Scene scene_of_windows(Splats splats) {
+  const std::size_t all = count(splats);
+  const std::size_t kept =
+      keep_windows(splats, [&](std::size_t i) { return is_valid_window(splats, i); });
+  Scene scene = scene_of(std::move(splats));
+  if (kept < all) scene.info.remarks.push_back({Remark::Kind::splats_dropped, {all - kept, all}});
   scene.info.up = colmap_up;
   scene.info.up_is_assumed = true;
   scene.info.remarks.push_back({Remark::Kind::up_unknown_to_checkpoint});
+  return scene;
 }
 
 Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options) {
   const TorchTensor points = archive.tensor("triangles_points");
-  archive.expect_shape(points, {0, 3, 3});
+  archive.expect_shape(points, {any_size, 3, 3});
   const std::uint64_t count = points.shape[0];
   expect_at_most(archive, count * 3, "vertices");
   const TorchTensor sigma = archive.tensor("sigma"), opacity = archive.tensor("opacity");
   archive.expect_shape(sigma, {count, 1});
   archive.expect_shape(opacity, {count, 1});
 
-  TriangleWindows windows;
+  Splats splats;
+  splats.profile = *profile_named("triangle-splatting");
+  auto& windows = splats.kernel.emplace<TriangleWindows>();
   windows.corners = read_vectors(archive, points);
   windows.sigma = archive.read_floats(sigma);
   windows.opacity = archive.read_floats(opacity);
-  for (std::size_t t = 0; t < count; ++t) {
-    // In double. Sigma fails if it is NaN or exceeds a float, opacity only if it is NaN.
-    const double s = 0.01 + std::exp(double(windows.sigma[t]));
-    const double o = 1.0 / (1.0 + std::exp(-double(windows.opacity[t])));
-    if (!(s <= std::numeric_limits<float>::max()) || std::isnan(o))
-      archive.fail("triangle " + std::to_string(t) + " has sigma " +
-                   std::to_string(windows.sigma[t]) + " and opacity " +
-                   std::to_string(windows.opacity[t]) + " before activation: not finite");
-    windows.sigma[t] = static_cast<float>(s);
-    windows.opacity[t] = static_cast<float>(o);
-  }
+  for (float& s : windows.sigma) s = static_cast<float>(0.01 + std::exp(double(s)));
+  for (float& o : windows.opacity) o = static_cast<float>(sigmoid(double(o)));
   if (options.progress) options.progress(0.3);
   HarmonicsOf sh = read_harmonics(archive, count);
 
-  Scene scene = scene_of(Splats{.kernel = std::move(windows),
-                                .color = {sh.degree, std::move(sh.coefficients)},
-                                .profile = *profile_named("triangle-splatting")});
+  splats.color.degree = sh.degree;
+  splats.color.coefficients = std::move(sh.coefficients);
+  Scene scene = scene_of_windows(std::move(splats));
   scene.info.source = "Triangle Splatting checkpoint";
-  assume_up(scene);
   return scene;
 }
 
-Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options) {
-  const TorchTensor points = archive.tensor("triangles_points");
-  archive.expect_shape(points, {0, 3});
-  expect_at_most(archive, points.shape[0], "vertices");
-  TriangleSoup soup;
-  soup.positions = read_vectors(archive, points);
-  soup.triangles = read_triangles(archive, "_triangle_indices", soup.positions.size());
-  expect_at_most(archive, soup.triangles.size(), "faces");
-  if (options.progress) options.progress(0.3);
-  HarmonicsOf sh = read_harmonics(archive, points.shape[0]);
-  soup.appearance = Harmonics{.domain = Harmonics::Domain::vertex,
-                              .degree = sh.degree,
-                              .view = ViewConvention::eye_to_surface,
-                              .coefficients = std::move(sh.coefficients)};
+/// The `each` values of every corner, from those of the vertices.
+std::vector<glm::vec3> at_corners(TorchArchive& archive, const TorchTensor& origin,
+                                  const std::vector<glm::vec3>& of_vertices, std::size_t each,
+                                  const std::vector<glm::uvec3>& triangles) {
+  archive.take_memory(origin, 3 * triangles.size(), each * sizeof of_vertices[0]);
+  std::vector<glm::vec3> result;
+  result.reserve(3 * each * triangles.size());
+  for (const glm::uvec3& triangle : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const auto first = of_vertices.begin() + std::ptrdiff_t(each * triangle[k]);
+      result.insert(result.end(), first, first + std::ptrdiff_t(each));
+    }
+  return result;
+}
 
-  Scene scene = scene_of(std::move(soup));
-  // MeshSplatting saves the same keys plus a pixel count.
+/// The opacity of a triangle is the least of its vertices': floor + (1 - floor) sigmoid(weight).
+std::vector<float> least_opacity(TorchArchive& archive, std::uint64_t vertices, double floor,
+                                 const std::vector<glm::uvec3>& triangles) {
+  const TorchTensor tensor = archive.tensor("vertex_weight");
+  archive.expect_shape(tensor, {vertices, 1});
+  archive.take_memory(tensor, triangles.size(), sizeof(float));
+  PassingMemory passing(archive.budget());
+  const std::vector<float> weights = archive.read_floats(tensor);
+  std::vector<float> opacity;
+  opacity.reserve(triangles.size());
+  for (const glm::uvec3& triangle : triangles) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const double weight = weights[triangle[k]];
+      // NaN stays: std::min returns its first argument unless the second is less.
+      least = std::isnan(weight) ? weight : std::min(least, weight);
+    }
+    opacity.push_back(static_cast<float>(floor + (1.0 - floor) * sigmoid(least)));
+  }
+  return opacity;
+}
+
+Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options) {
+  // MeshSplatting saves the same keys as Triangle Splatting+, plus a pixel count.
+  const bool mesh_splatting = archive.find("pixel_count") != nullptr;
+  // Neither saves the floor of the opacity; these are the values that their own readers set.
+  const double opacity_floor = mesh_splatting ? 0.999 : 0.9999;
+  const TorchTensor points = archive.tensor("triangles_points");
+  archive.expect_shape(points, {any_size, 3});
+  expect_at_most(archive, points.shape[0], "vertices");
+  const auto sigma = static_cast<float>(std::exp(archive.number("sigma")));
+  if (!(sigma > 0 && std::isfinite(sigma)))
+    archive.fail("\"sigma\" is " + std::to_string(archive.number("sigma")) +
+                 ", the logarithm of a number that is not positive and finite");
+
+  Splats splats;
+  splats.profile = *profile_named(mesh_splatting ? "mesh-splatting" : "triangle-splatting");
+  auto& windows = splats.kernel.emplace<TriangleWindows>();
+  SplatColor& color = splats.color;
+  color.per_corner = true;
+  {
+    PassingMemory passing(archive.budget());
+    const std::vector<glm::vec3> vertices = read_vectors(archive, points);
+    const auto triangles = read_triangles(archive, "_triangle_indices", vertices.size());
+    expect_at_most(archive, 3 * triangles.size(), "corners");
+    windows.corners = at_corners(archive, points, vertices, 1, triangles);
+    archive.take_memory(points, triangles.size(), sizeof sigma);
+    windows.sigma.assign(triangles.size(), sigma);
+    windows.opacity = least_opacity(archive, vertices.size(), opacity_floor, triangles);
+    if (options.progress) options.progress(0.3);
+    const HarmonicsOf sh = read_harmonics(archive, vertices.size());
+    color.degree = sh.degree;
+    color.coefficients = at_corners(archive, archive.tensor("features_dc"), sh.coefficients,
+                                    std::size_t(harmonics::count(sh.degree)), triangles);
+    passing.keep(triangles.size() * (3 * sizeof(glm::vec3) + 2 * sizeof(float) +
+                                     coefficients_per_splat(color) * sizeof color.coefficients[0]));
+  }
+  Scene scene = scene_of_windows(std::move(splats));
   scene.info.source =
-      archive.find("pixel_count") ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";
-  scene.info.remarks.push_back({Remark::Kind::window_parameters_dropped});
-  scene.info.remarks.push_back({Remark::Kind::screen_interpolation_dropped});
-  assume_up(scene);
+      mesh_splatting ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";
   return scene;
 }
 

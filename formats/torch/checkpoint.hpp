@@ -20,10 +20,12 @@ namespace tureen {
 /// the older one. read_checkpoint rejects the older one with a hint.
 bool is_checkpoint(std::span<const std::byte> head);
 
-/// DiffSoup becomes a LatticeTexture with float texels and its color MLP. Triangle Splatting
-/// becomes TriangleWindows, after activation. Triangle Splatting+ and MeshSplatting become
-/// harmonics on shared vertices: their final models are opaque, since their own readers set an
-/// opacity of at least 0.9999. Assumptions are in info.remarks. Throws InputError.
+/// DiffSoup becomes a LatticeTexture with float texels and its color MLP. The others become
+/// TriangleWindows, after activation: those of Triangle Splatting have one colour each, those of
+/// Triangle Splatting+ and MeshSplatting one a corner, one sigma for all, and the least opacity of
+/// their vertices. Their opacity is at least 0.9999 or 0.999, as in their own readers. Windows with
+/// a value that is not finite are dropped. Assumptions and losses are in info.remarks. Throws
+/// InputError.
 Scene read_checkpoint(const std::filesystem::path& path, const ReadOptions& options = {});
 Scene read_checkpoint(Input input, const ReadOptions& options = {});
 

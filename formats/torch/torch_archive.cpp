@@ -130,7 +130,7 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
   std::string text = "[";
   for (const std::uint64_t size : shape) {
     if (text.size() > 1) text += ", ";
-    text += size == 0 ? "any" : std::to_string(size);
+    text += size == any_size ? "any" : std::to_string(size);
   }
   return text + "]";
 }
@@ -252,7 +252,7 @@ void TorchArchive::expect_shape(const TorchTensor& tensor,
                                 const std::vector<std::uint64_t>& wanted) const {
   bool fits = tensor.shape.size() == wanted.size();
   for (std::size_t d = 0; fits && d < wanted.size(); ++d)
-    fits = wanted[d] == 0 || tensor.shape[d] == wanted[d];
+    fits = wanted[d] == any_size || tensor.shape[d] == wanted[d];
   if (!fits)
     pickle().fail(*tensor.origin, "\"" + tensor.name + "\" is of shape " +
                                       shape_text(tensor.shape) + ", expected " +
@@ -316,6 +316,15 @@ std::int64_t TorchArchive::integer(std::string_view key) const {
     pickle().fail(value, "\"" + std::string(key) + "\" is " + kind_name(value.kind) +
                              ", expected an integer");
   return value.integer;
+}
+
+double TorchArchive::number(std::string_view key) const {
+  const Value& value = at(key);
+  if (value.kind == Kind::integer) return double(value.integer);
+  if (value.kind != Kind::real)
+    pickle().fail(
+        value, "\"" + std::string(key) + "\" is " + kind_name(value.kind) + ", expected a number");
+  return value.real;
 }
 
 void TorchArchive::fail(const std::string& reason) const {

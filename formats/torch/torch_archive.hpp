@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,7 +33,10 @@ struct TorchTensor {
   std::uint64_t elements() const;
 };
 
-/// "[15000, 561, 7]"
+/// In the wanted shape of a tensor.
+inline constexpr std::uint64_t any_size = std::numeric_limits<std::uint64_t>::max();
+
+/// "[15000, 561, 7]", "[any, 3]"
 std::string shape_text(const std::vector<std::uint64_t>& shape);
 
 class TorchArchive {
@@ -50,7 +54,7 @@ class TorchArchive {
   /// Shape, strides and offset of the tensor `value`, checked against its storage.
   TorchTensor tensor(const Pickle::Value& value, std::string name) const;
   TorchTensor tensor(std::string_view key) const { return tensor(at(key), std::string(key)); }
-  /// Throws InputError if the shape differs; 0 matches any size.
+  /// Throws InputError if the shape differs; any_size matches every size.
   void expect_shape(const TorchTensor& tensor, const std::vector<std::uint64_t>& wanted) const;
 
   /// All elements in row-major order, converted from any type.
@@ -60,6 +64,8 @@ class TorchArchive {
 
   /// An integer (or boolean) value. Throws InputError for any other kind.
   std::int64_t integer(std::string_view key) const;
+  /// A float or integer value. Throws InputError for any other kind.
+  double number(std::string_view key) const;
 
   /// Counts the memory for a tensor's values. Throws InputError beyond the budget.
   void take_memory(const TorchTensor& tensor, std::uint64_t elements, std::size_t each) const;

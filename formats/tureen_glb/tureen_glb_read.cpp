@@ -243,7 +243,11 @@ class Reader {
     Splats splats{.profile = *profile_named("triangle-splatting")};
     if (const auto profile = view.find("profile")) splats.profile = read_splat_profile(*profile);
     splats.color.degree = degree(view);
-    splats.color.coefficients = coefficients(view, splats.color.degree, faces);
+    if (const auto domain = view.find("domain"))
+      splats.color.per_corner =
+          Harmonics::Domain(domain->one_of(layout::domains)) == Harmonics::Domain::vertex;
+    splats.color.coefficients =
+        coefficients(view, splats.color.degree, splats.color.per_corner ? 3 * faces : faces);
     TriangleWindows& windows = splats.kernel.emplace<TriangleWindows>();
     windows.corners = std::move(soup.positions);
     windows.sigma = arrays_.read<float>(view, "sigma", faces, glb_formats::scalar_float);

@@ -21,8 +21,8 @@ namespace glb_writing {
 
 class BinaryPlan;
 
-/// Whether version 4 cannot store the splats: Gaussians, neural densities, or a profile that
-/// differs from Triangle Splatting's.
+/// Whether version 4 cannot store the splats: Gaussians, neural densities, colours of corners, or a
+/// profile that differs from Triangle Splatting's.
 bool needs_splat_version(const Splats& splats);
 
 nlohmann::json profile_json(const SplatProfile& profile);

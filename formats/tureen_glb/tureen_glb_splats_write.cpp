@@ -111,7 +111,7 @@ const char* stored_kernel(const SplatKernel& kernel) {
 }  // namespace
 
 bool needs_splat_version(const Splats& splats) {
-  return !std::holds_alternative<TriangleWindows>(splats.kernel) ||
+  return !std::holds_alternative<TriangleWindows>(splats.kernel) || splats.color.per_corner ||
          splats.profile != *profile_named("triangle-splatting");
 }
 

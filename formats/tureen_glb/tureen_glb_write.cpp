@@ -261,16 +261,18 @@ TriangleSoup hard_shapes(const Splats& splats) {
   soup.triangles.resize(count(splats));
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
-  soup.appearance = Harmonics{.domain = Harmonics::Domain::face,
-                              .degree = splats.color.degree,
-                              .view = ViewConvention::eye_to_surface,
-                              .coefficients = splats.color.coefficients};
+  soup.appearance = Harmonics{
+      .domain = splats.color.per_corner ? Harmonics::Domain::vertex : Harmonics::Domain::face,
+      .degree = splats.color.degree,
+      .view = ViewConvention::eye_to_surface,
+      .coefficients = splats.color.coefficients};
   return soup;
 }
 
 json windows_json(BinaryPlan& plan, const Splats& splats) {
   const auto& windows = std::get<TriangleWindows>(splats.kernel);
   json result = {{"type", "soft_triangles"}, {"degree", splats.color.degree}};
+  if (splats.color.per_corner) result["domain"] = layout::domains[int(Harmonics::Domain::vertex)];
   plan.accessor(result, "coefficients", bytes_of(splats.color.coefficients), vec3_float);
   plan.accessor(result, "sigma", bytes_of(windows.sigma), scalar_float);
   plan.accessor(result, "opacity", bytes_of(windows.opacity), scalar_float);

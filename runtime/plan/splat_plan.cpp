@@ -24,11 +24,11 @@ const std::vector<float>* opacity_of(const SplatKernel& kernel) {
 }
 
 int degree_in_use(const SplatColor& color) {
-  const std::size_t per_splat = harmonics::count(color.degree);
+  const std::size_t per_color = harmonics::count(color.degree);
   int degree = 0;
   for (std::size_t i = 0; i < color.coefficients.size() && degree < color.degree; ++i) {
     if (color.coefficients[i] == glm::vec3(0.0f)) continue;
-    while (i % per_splat >= std::size_t(harmonics::count(degree))) ++degree;
+    while (i % per_color >= std::size_t(harmonics::count(degree))) ++degree;
   }
   return degree;
 }
@@ -44,6 +44,7 @@ SplatPlan make_splat_plan(const Splats& splats, bool specialise) {
   plan.splats = count(splats);
   plan.stored_degree = splats.color.degree;
   plan.harmonics_degree = specialise ? degree_in_use(splats.color) : splats.color.degree;
+  plan.colors_per_splat = splats.color.per_corner ? 3 : 1;
   const std::vector<float>* opacity = specialise ? opacity_of(splats.kernel) : nullptr;
   plan.drawn.reserve(plan.splats);
   for (std::size_t i = 0; i < plan.splats; ++i)

@@ -26,6 +26,7 @@ struct SplatPlan {
   SplatProfile profile;
   /// Of the highest band with a coefficient other than 0, up to the scene's degree.
   int harmonics_degree = 0;
+  int colors_per_splat = 1;  // or 3, with SplatColor::per_corner
   /// Drawn splats, in the scene's order: those whose opacity reaches the profile's min_alpha.
   std::vector<std::uint32_t> drawn;
   /// bounds() of each chunk of `drawn`: splats_per_chunk splats, the last one fewer. Readers sort

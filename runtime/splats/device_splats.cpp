@@ -14,7 +14,7 @@ namespace tureen {
 
 namespace {
 
-/// Columns of the textures with one texel a splat: PROJECTED_COLUMNS.
+/// Columns of the textures with one texel a splat, or a colour of a splat: PROJECTED_COLUMNS.
 constexpr int projected_columns = 1024;
 
 constexpr TargetFormat projected_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
@@ -55,8 +55,13 @@ Files files_of(SplatShaders shaders) {
 
 }  // namespace
 
-std::size_t projected_bytes(SplatShaders shaders) {
-  return (1 + files_of(shaders).projected.size()) * std::size_t(projected_format.bytes);
+std::size_t projected_bytes(const SplatPlan& plan) {
+  return (1 + files_of(plan.shaders).projected.size()) * std::size_t(plan.colors_per_splat) *
+         std::size_t(projected_format.bytes);
+}
+
+std::size_t DeviceSplats::projected_rows() const {
+  return (projected_texels() + projected_columns - 1) / projected_columns;
 }
 
 bool DeviceSplats::tests_depth() const {
@@ -71,6 +76,7 @@ DeviceSplats::Constants DeviceSplats::constants() const {
           {"TEXEL_LAYER_BITS", std::to_string(layout_.layer_bits)},
           {"KERNEL_TEXELS", std::to_string(kernel_texels(shaders_))},
           {"HARMONICS_DEGREE", std::to_string(harmonics_degree_)},
+          {"COLORS_PER_SPLAT", std::to_string(colors_per_splat_)},
           {"PROJECTED_COLUMNS", std::to_string(projected_columns)},
           {"ORDER_COLUMNS", std::to_string(order_columns)},
           {"MIN_ALPHA", constant(double(profile_.min_alpha))},
@@ -87,6 +93,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
     : shaders_(plan.shaders),
       profile_(plan.profile),
       harmonics_degree_(plan.harmonics_degree),
+      colors_per_splat_(plan.colors_per_splat),
       centers_(std::move(source.centers)),
       chunks_(plan.chunks),
       layout_(source.layout),
@@ -106,11 +113,12 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
                device.api));
   drawing_ = gl::Program(assemble({.file = files.vertex, .constants = constants()}, device.api),
                          assemble({.file = files.fragment, .constants = constants()}, device.api));
-  const auto rows = static_cast<int>((centers_.size() + projected_columns - 1) / projected_columns);
+  const auto rows = static_cast<int>(projected_rows());
   if (rows > device.max_texture_size)
     throw DeviceLimitError(
         "the layer has " + std::to_string(centers_.size()) + " splats; this device draws at most " +
-        std::to_string(std::size_t(device.max_texture_size) * std::size_t(projected_columns)));
+        std::to_string(std::size_t(device.max_texture_size) * std::size_t(projected_columns) /
+                       std::size_t(colors_per_splat_)));
   for (std::size_t i = 0; i < 1 + files.projected.size(); ++i)
     projected_.push_back(make_target(projected_format, projected_columns, std::max(rows, 1)));
   gl::check("DeviceSplats");
@@ -123,15 +131,13 @@ void DeviceSplats::project(const Frame& frame) {
     for (const gl::Texture& texture : projected_) targets.push_back(texture.id());
     projected_framebuffer_ = make_framebuffer(targets);
   }
-  const auto count = static_cast<int>(centers_.size());
-  gl::use_plain_rasterisation(projected_columns,
-                              (count + projected_columns - 1) / projected_columns);
+  gl::use_plain_rasterisation(projected_columns, static_cast<int>(projected_rows()));
   glDisable(GL_DEPTH_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, projected_framebuffer_.id());
   projection_.use();
   projection_.set_texture("kernel", 0, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
   projection_.set_texture("coefficients", 1, coefficients_.texture(), GL_TEXTURE_2D_ARRAY);
-  projection_.set("splat_count", count);
+  projection_.set("projected_count", static_cast<int>(projected_texels()));
   set_view(projection_, frame);
   full_screen_.draw(projection_);
 }
@@ -178,9 +184,9 @@ void DeviceSplats::draw_run(std::uint32_t first, std::uint32_t count) {
 }
 
 std::size_t DeviceSplats::device_bytes() const {
-  const std::size_t rows = (centers_.size() + projected_columns - 1) / projected_columns;
   return kernel_.device_bytes() + coefficients_.device_bytes() +
-         projected_.size() * rows * projected_columns * std::size_t(projected_format.bytes);
+         projected_.size() * projected_rows() * projected_columns *
+             std::size_t(projected_format.bytes);
 }
 
 void DeviceSplats::leave_context() {

@@ -19,16 +19,16 @@
 namespace tureen {
 
 /// Bytes per splat of the textures that hold what all pixels of a splat share.
-std::size_t projected_bytes(SplatShaders shaders);
+std::size_t projected_bytes(const SplatPlan& plan);
 
 class DeviceSplats {
  public:
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
   static constexpr int order_columns = 2048;
 
-  /// Uploads; of the plan, only `shaders`, `profile`, `harmonics_degree`, `chunks` and the number
-  /// of drawn splats are used. The source's texels are not needed afterwards. Throws
-  /// DeviceLimitError.
+  /// Uploads; of the plan, only `shaders`, `profile`, `harmonics_degree`, `colors_per_splat`,
+  /// `chunks` and the number of drawn splats are used. The source's texels are not needed
+  /// afterwards. Throws DeviceLimitError.
   DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
 
   /// The layer's index in Frame::layers.
@@ -62,10 +62,13 @@ class DeviceSplats {
 
   Constants constants() const;
   void set_view(const gl::Program& program, const Frame& frame) const;
+  /// Texels that projection_ computes, one a colour, and their rows.
+  std::size_t projected_texels() const { return centers_.size() * std::size_t(colors_per_splat_); }
+  std::size_t projected_rows() const;
 
   SplatShaders shaders_;
   SplatProfile profile_;
-  int harmonics_degree_;
+  int harmonics_degree_, colors_per_splat_;
   std::size_t layer_ = 0;
   std::vector<glm::vec3> centers_;
   std::vector<Bounds> chunks_;

@@ -68,17 +68,21 @@ TexelSource kernel_source(const Splats& splats, const SplatPlan& plan) {
 
 TexelSource coefficient_source(const Splats& splats, const SplatPlan& plan) {
   const std::size_t each = harmonics::count(plan.harmonics_degree);
+  const auto colors = std::size_t(plan.colors_per_splat);
   const std::uint32_t* drawn = plan.drawn.data();
-  return {
-      .format = texel_formats::rgb32f,
-      .count = each * plan.drawn.size(),
-      .what = "harmonics",
-      .fill = [&color = splats.color, drawn, each](std::uint64_t first, std::span<std::byte> out) {
-        const std::size_t stored = harmonics::count(color.degree);
-        for (std::size_t at = 0; at < out.size(); at += sizeof(glm::vec3), ++first)
-          std::memcpy(&out[at], &color.coefficients[drawn[first / each] * stored + first % each],
-                      sizeof(glm::vec3));
-      }};
+  return {.format = texel_formats::rgb32f,
+          .count = each * colors * plan.drawn.size(),
+          .what = "harmonics",
+          .fill = [&color = splats.color, drawn, each, colors](std::uint64_t first,
+                                                               std::span<std::byte> out) {
+            const std::size_t stored = harmonics::count(color.degree);
+            for (std::size_t at = 0; at < out.size(); at += sizeof(glm::vec3), ++first) {
+              const std::uint64_t place = first / each;
+              const std::size_t of_color = drawn[place / colors] * colors + place % colors;
+              std::memcpy(&out[at], &color.coefficients[of_color * stored + first % each],
+                          sizeof(glm::vec3));
+            }
+          }};
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ int kernel_texels(SplatShaders shaders);
 struct SplatSource {
   TexelLayout layout;              // of both stores
   TexelSource kernel;              // kernel_texels() RGBA texels a drawn splat
-  TexelSource coefficients;        // harmonics::count(degree) RGB texels a drawn splat
+  TexelSource coefficients;        // harmonics::count(degree) RGB texels a colour of a drawn splat
   std::vector<glm::vec3> centers;  // of the drawn splats, in layer coordinates
 };
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "scene/finite.hpp"
-#include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
@@ -93,15 +92,14 @@ void sort_in_morton_order(Splats& splats) {
     reorder(densities.rotations, 1, keys);
     reorder(densities.networks, NeuralDensities::parameters, keys);
   }
-  reorder(splats.color.coefficients, std::size_t(harmonics::count(splats.color.degree)), keys);
+  reorder(splats.color.coefficients, coefficients_per_splat(splats.color), keys);
 }
 
 std::size_t morton_order_bytes(const Splats& splats) {
   std::size_t largest = std::max(sizeof(glm::quat), 3 * sizeof(glm::vec3));
   if (std::holds_alternative<NeuralDensities>(splats.kernel))
     largest = NeuralDensities::parameters * sizeof(float);
-  largest =
-      std::max(largest, std::size_t(harmonics::count(splats.color.degree)) * sizeof(glm::vec3));
+  largest = std::max(largest, coefficients_per_splat(splats.color) * sizeof(glm::vec3));
   return count(splats) * (sizeof(MortonKey) + largest);
 }
 

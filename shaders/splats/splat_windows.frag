@@ -1,6 +1,9 @@
 in vec3 distances;
 flat in vec4 color;
 flat in float sigma;
+#if COLORS_PER_SPLAT == 3
+in vec4 weighted_color;
+#endif
 
 #include "splat_blended.glsl"
 
@@ -8,5 +11,10 @@ void main() {
   float rho = clamp(min(distances.x, min(distances.y, distances.z)) * gl_FragCoord.w, 0.0, 1.0);
   // pow(0, sigma) may be undefined; there alpha is 0.
   float window = rho > 0.0 ? pow(rho, sigma) : 0.0;
-  blended = blended_color(color.rgb, color.a * window);
+#if COLORS_PER_SPLAT == 3
+  vec3 rgb = weighted_color.rgb / weighted_color.w;
+#else
+  vec3 rgb = color.rgb;
+#endif
+  blended = blended_color(rgb, color.a * window);
 }

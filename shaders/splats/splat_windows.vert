@@ -3,6 +3,10 @@
 // W / |N_k.xy| at vertex k and 0 elsewhere. Times gl_FragCoord.w, the interpolated components are the
 // distances from the edges over the inradius. No division by a w near 0 occurs, so the hardware
 // may clip the triangle (docs/numerics.md, W14).
+//
+// Colours of corners are interpolated in the image, without perspective, for which GLSL ES has no
+// qualifier: rgb and 1, both times w, are interpolated with perspective and divided. A corner behind the
+// eye has weight 0; otherwise colours would grow without limit near the eye's plane.
 #include "eye.glsl"
 #include "splat_kernel_texels.glsl"
 #include "splat_order.glsl"
@@ -15,6 +19,9 @@ uniform sampler2D colors;
 out vec3 distances;
 flat out vec4 color;
 flat out float sigma;
+#if COLORS_PER_SPLAT == 3
+out vec4 weighted_color;
+#endif
 
 // Vertices are rounded to a grid of 1/256 of a pixel, or 1/16 at worst, which moves the edges. The
 // triangle is therefore enlarged by this many pixels, so that the distances alone decide where alpha
@@ -45,7 +52,7 @@ void main() {
       doubled_area = abs(dot(normal, half_size * (other.xy * clip[1].w - clip[1].xy * other.w)));
     }
   }
-  color = texelFetch(colors, projected_position(splat), 0);
+  color = texelFetch(colors, projected_position(splat * uint(COLORS_PER_SPLAT)), 0);
   sigma = texels[0].w;
   // Behind the eye, or without area in the image.
   bool visible = total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
@@ -62,4 +69,13 @@ void main() {
   gl_Position = visible ? clip[corner] + e * (3.0 * clip[corner] - sum) : nowhere;
   distances = visible ? -e * total / lengths : vec3(0.0);
   if (visible) distances[corner] = (1.0 + 2.0 * e) * total / lengths[corner];
+#if COLORS_PER_SPLAT == 3
+  vec4 weighted[3];
+  for (int k = 0; k < 3; ++k) {
+    vec3 rgb = texelFetch(colors, projected_position(3u * splat + uint(k)), 0).rgb;
+    weighted[k] = vec4(rgb, 1.0) * max(clip[k].w, 0.0);
+  }
+  vec4 weighted_sum = weighted[0] + weighted[1] + weighted[2];
+  weighted_color = weighted[corner] + e * (3.0 * weighted[corner] - weighted_sum);
+#endif
 }

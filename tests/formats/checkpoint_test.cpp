@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <random>
 
 #include "scene/lattice.hpp"
@@ -273,38 +275,205 @@ TEST(Checkpoint, TriangleSplattingIsActivated) {
                 .color.coefficients.size(),
             2u);
   EXPECT_THAT(refusal(triangle_splatting(3, 8)), ErrorAt("scene.pt", 8));
+  TorchFixture none;
+  none.add("triangles_points", TensorFixture::floats({0, 3, 3}, {}));
+  none.add("sigma", TensorFixture::floats({2, 1}, {1, 1}));
+  none.add("opacity", TensorFixture::floats({2, 1}, {1, 1}));
+  EXPECT_THAT(refusal(none),
+              ErrorAt("scene.pt: archive/data.pkl@338", "sigma", "[2, 1]", "[0, 1]"));
   EXPECT_THAT(refusal(triangle_splatting(5, 15)), ErrorAt("scene.pt", "active_sh_degree", 5));
 }
 
-TEST(Checkpoint, ConnectedTrianglesShareVertices) {
-  TorchFixture torch;
-  torch.add("triangles_points", TensorFixture::floats({4, 3}, ramp(12)));
-  torch.add("_triangle_indices", TensorFixture::ints({2, 3}, {0, 1, 2, 2, 1, 3}));
-  torch.add("vertex_weight", TensorFixture::floats({4, 1}, ramp(4)));
-  torch.add("sigma", -9.2).add("active_sh_degree", 1);
-  torch.add("features_dc", TensorFixture::floats({4, 1, 3}, ramp(12)));
-  torch.add("features_rest", TensorFixture::floats({4, 15, 3}, ramp(180, 1)));
+/// Two triangles of Triangle Splatting+ with four vertices; tests replace a part.
+struct Connected {
+  TensorFixture points = TensorFixture::floats({4, 3}, ramp(12));
+  TensorFixture indices = TensorFixture::ints({2, 3}, {0, 1, 2, 2, 1, 3});
+  TensorFixture weights = TensorFixture::floats({4, 1}, {3, 1, 2, -1});
+  double sigma = -9.2;
+  TensorFixture constant = TensorFixture::floats({4, 1, 3}, ramp(12));
+
+  TorchFixture file() const {
+    TorchFixture torch;
+    torch.add("triangles_points", points).add("_triangle_indices", indices);
+    torch.add("vertex_weight", weights).add("sigma", sigma).add("active_sh_degree", 1);
+    torch.add("features_dc", constant);
+    torch.add("features_rest", TensorFixture::floats({4, 15, 3}, ramp(180, 1)));
+    return torch;
+  }
+};
+
+const Splats& only_splats(const Scene& scene) {
+  return std::get<Splats>(only_layer(scene).primitives);
+}
+
+TEST(Checkpoint, ConnectedTrianglesHaveColoursOfCorners) {
+  TorchFixture torch = Connected().file();
   const Scene scene = read(torch);
-  const auto& soup = only_soup(scene);
-  ASSERT_EQ(defect(soup), std::nullopt);
-  EXPECT_EQ(soup.positions.size(), 4u);
-  const auto& harmonics = std::get<Harmonics>(soup.appearance);
-  EXPECT_EQ(harmonics.domain, Harmonics::Domain::vertex);
-  EXPECT_EQ(harmonics.view, ViewConvention::eye_to_surface);
-  EXPECT_EQ(harmonics.coefficients[3 * 4], glm::vec3(0.001f * 9, 0.001f * 10, 0.001f * 11));
-  EXPECT_EQ(harmonics.coefficients[3 * 4 + 3].z, 1 + 0.001f * (135 + 8));
+  const Splats& splats = only_splats(scene);
+  ASSERT_EQ(defect(splats), std::nullopt);
+  EXPECT_EQ(profile_name(splats), "triangle-splatting");
+  const auto& windows = std::get<TriangleWindows>(splats.kernel);
+  const glm::vec3 third(0.001f * 9, 0.001f * 10, 0.001f * 11);
+  EXPECT_EQ(windows.corners.size(), 6u);
+  EXPECT_EQ(windows.corners[5], third);
+  EXPECT_EQ(windows.sigma, std::vector<float>(2, float(std::exp(-9.2))));
+  EXPECT_EQ(windows.opacity[0], float(0.9999 + 0.0001 / (1 + std::exp(-1.0))));
+  EXPECT_EQ(windows.opacity[1], float(0.9999 + 0.0001 / (1 + std::exp(1.0))));
+  EXPECT_TRUE(splats.color.per_corner);
+  EXPECT_EQ(splats.color.degree, 1);
+  // Four coefficients a corner of the sixteen that are stored.
+  ASSERT_EQ(splats.color.coefficients.size(), 24u);
+  EXPECT_EQ(splats.color.coefficients[5 * 4], third);
+  EXPECT_EQ(splats.color.coefficients[5 * 4 + 3].z, 1 + 0.001f * (135 + 8));
+  EXPECT_EQ(splats.color.coefficients[3 * 4 + 1].x, 1 + 0.001f * 90);
   EXPECT_EQ(scene.info.source, "Triangle Splatting+ checkpoint");
-  EXPECT_EQ(read(torch.add("pixel_count", 1)).info.source, "MeshSplatting checkpoint");
+  EXPECT_THAT(scene.info.remarks,
+              ::testing::ElementsAre(Remark{Remark::Kind::up_unknown_to_checkpoint}));
+
+  const Scene mesh = read(torch.add("pixel_count", 1));
+  EXPECT_EQ(mesh.info.source, "MeshSplatting checkpoint");
+  EXPECT_EQ(profile_name(only_splats(mesh)), "mesh-splatting");
+  EXPECT_EQ(std::get<TriangleWindows>(only_splats(mesh).kernel).opacity[1],
+            float(0.999 + 0.001 / (1 + std::exp(1.0))));
+}
+
+TEST(Checkpoint, FalseConnectedTrianglesAreRefused) {
+  const auto changed = [](auto change) {
+    Connected connected;
+    change(connected);
+    return refusal(connected.file());
+  };
+  EXPECT_THAT(changed([](Connected& c) { c.indices.storage[20] = 4; }),
+              ErrorAt("scene.pt", "_triangle_indices", 1, 4));
+  EXPECT_THAT(changed([](Connected& c) {
+                c.weights.shape = {1, 4};
+              }),
+              ErrorAt("scene.pt: archive/data.pkl@503", "vertex_weight", "[1, 4]", "[4, 1]"));
+  EXPECT_THAT(changed([](Connected& c) {
+                c.constant.shape = {1, 4, 3};
+              }),
+              ErrorAt("scene.pt: archive/data.pkl@721", "features_dc", "[1, 4, 3]", "[4, 1, 3]"));
+  for (const double sigma : {-800.0, 100.0, double(NAN)})
+    EXPECT_THAT(changed([&](Connected& c) { c.sigma = sigma; }), ErrorAt("scene.pt", "sigma"));
+  TorchFixture text;
+  text.add("triangles_points", Connected().points).add("_triangle_indices", Connected().indices);
+  text.add("sigma", Connected().weights);
+  EXPECT_THAT(refusal(text), ErrorAt("scene.pt: archive/data.pkl@495", "sigma", "number"));
+}
+
+TEST(Checkpoint, WindowsWithoutFiniteValuesAreDropped) {
+  const auto set = [](TensorFixture& tensor, std::size_t i, float value) {
+    std::memcpy(&tensor.storage[4 * i], &value, 4);
+  };
+  const auto expect_second_dropped = [](const Connected& connected) {
+    const Scene scene = read(connected.file());
+    EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
+    EXPECT_EQ(count(only_splats(scene)), 1u);
+    EXPECT_EQ(std::get<TriangleWindows>(only_splats(scene).kernel).corners[1],
+              glm::vec3(0.001f * 3, 0.001f * 4, 0.001f * 5));
+    EXPECT_THAT(scene.info.remarks,
+                ::testing::Contains(Remark{Remark::Kind::splats_dropped, {1, 2}}));
+  };
+  Connected connected;
+  set(connected.points, 10, INFINITY);
+  expect_second_dropped(connected);
+  connected = {};
+  set(connected.weights, 3, NAN);
+  expect_second_dropped(connected);
+  connected = {};
+  set(connected.constant, 11, NAN);
+  expect_second_dropped(connected);
+
+  TorchFixture soft;
+  soft.add("triangles_points", TensorFixture::floats({4, 3, 3}, ramp(36)));
+  soft.add("sigma", TensorFixture::floats({4, 1}, {0, NAN, 0, 1000}));
+  soft.add("opacity", TensorFixture::floats({4, 1}, {NAN, 0, -INFINITY, 0}));
+  soft.add("active_sh_degree", 0);
+  soft.add("features_dc", TensorFixture::floats({4, 1, 3}, ramp(12)));
+  const Scene scene = read(soft);
+  const auto& windows = std::get<TriangleWindows>(only_splats(scene).kernel);
+  EXPECT_EQ(windows.opacity, std::vector<float>{0});
+  EXPECT_EQ(windows.corners[0].x, 0.001f * 18);
+  EXPECT_EQ(only_splats(scene).color.coefficients[0].x, 0.001f * 6);
+  EXPECT_THAT(scene.info.remarks,
+              ::testing::Contains(Remark{Remark::Kind::splats_dropped, {3, 4}}));
+}
+
+/// Vector `i` of a parameter by data/write_checkpoints.py.
+glm::vec3 of_parameter(float start, float step, std::size_t i) {
+  const auto number = [&](std::size_t k) { return start + step * float(89 * k * k % 257); };
+  return {number(3 * i), number(3 * i + 1), number(3 * i + 2)};
+}
+
+const std::filesystem::path checkpoints = TUREEN_SOURCE_DIR "/tests/formats/data";
+
+// The next three files were written by torch: data/write_checkpoints.py.
+
+TEST(Checkpoint, OfTriangleSplattingByTorchIsRead) {
+  const Scene scene = read_checkpoint(checkpoints / "triangle_splatting.pt");
+  const Splats& splats = only_splats(scene);
+  ASSERT_EQ(defect(splats), std::nullopt);
+  const auto& windows = std::get<TriangleWindows>(splats.kernel);
+  ASSERT_EQ(windows.opacity.size(), 6u);
+  EXPECT_EQ(splats.color.degree, 3);
+  EXPECT_FALSE(splats.color.per_corner);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double s = -3 + 0.5 * double(i), o = -4 + 1.5 * double(i);
+    EXPECT_EQ(windows.sigma[i], float(0.01 + std::exp(s)));
+    EXPECT_EQ(windows.opacity[i], float(1 / (1 + std::exp(-o))));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(windows.corners[3 * i + k], of_parameter(-2, 1 / 64.0f, 3 * i + k));
+    EXPECT_EQ(splats.color.coefficients[16 * i], of_parameter(-1, 1 / 128.0f, i));
+    for (std::size_t k = 0; k < 15; ++k)
+      EXPECT_EQ(splats.color.coefficients[16 * i + 1 + k],
+                of_parameter(-1 / 8.0f, 1 / 1024.0f, 15 * i + k));
+  }
+}
+
+void expect_connected(const Scene& scene, double opacity_floor, int degree) {
+  const Splats& splats = only_splats(scene);
+  ASSERT_EQ(defect(splats), std::nullopt);
+  const auto& windows = std::get<TriangleWindows>(splats.kernel);
+  EXPECT_EQ(windows.sigma, std::vector<float>(3, float(std::exp(std::log(1e-4)))));
+  EXPECT_EQ(splats.color.degree, degree);
+  EXPECT_TRUE(splats.color.per_corner);
+  const std::size_t vertices[] = {0, 1, 2, 2, 1, 3, 3, 4, 2};
+  const double least_weights[] = {0, -1, -2};
+  ASSERT_EQ(windows.corners.size(), std::size(vertices));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(windows.opacity[i],
+              float(opacity_floor + (1 - opacity_floor) / (1 + std::exp(-least_weights[i]))));
+  const auto each = std::size_t((degree + 1) * (degree + 1));
+  for (std::size_t corner = 0; corner < 9; ++corner) {
+    const std::size_t vertex = vertices[corner];
+    EXPECT_EQ(windows.corners[corner], of_parameter(-2, 1 / 64.0f, vertex));
+    EXPECT_EQ(splats.color.coefficients[each * corner], of_parameter(-1, 1 / 128.0f, vertex));
+    for (std::size_t k = 1; k < each; ++k)
+      EXPECT_EQ(splats.color.coefficients[each * corner + k],
+                of_parameter(-1 / 8.0f, 1 / 1024.0f, 15 * vertex + k - 1));
+  }
+}
+
+TEST(Checkpoint, OfTriangleSplattingPlusByTorchIsRead) {
+  const Scene scene = read_checkpoint(checkpoints / "triangle_splatting_plus.pt");
+  EXPECT_EQ(scene.info.source, "Triangle Splatting+ checkpoint");
+  expect_connected(scene, 0.9999, 3);
+}
+
+TEST(Checkpoint, OfMeshSplattingByTorchIsRead) {
+  const Scene scene = read_checkpoint(checkpoints / "mesh_splatting.pt");
+  EXPECT_EQ(scene.info.source, "MeshSplatting checkpoint");
+  expect_connected(scene, 0.999, 2);
 }
 
 TEST(Checkpoint, SurvivesTruncationAndDamage) {
   const auto read_sound = [](std::span<const std::byte> bytes) {
     const Scene scene = read_checkpoint(Input::memory("scene.pt", bytes));
-    if (const auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives)) {
-      EXPECT_EQ(defect(*soup), std::nullopt);
-    }
+    std::visit([](const auto& primitives) { EXPECT_EQ(defect(primitives), std::nullopt); },
+               only_layer(scene).primitives);
   };
-  for (const std::string& bytes : {DiffSoup{0}.file().bytes(), triangle_splatting(1, 3).bytes()}) {
+  for (const std::string& bytes :
+       {DiffSoup{0}.file().bytes(), triangle_splatting(1, 3).bytes(), Connected().file().bytes()}) {
     EXPECT_EQ(test::survive_truncation(as_bytes(bytes), read_sound).read, 0u);
     EXPECT_GT(test::survive_damage(as_bytes(bytes), read_sound).refused, 1000u);
   }

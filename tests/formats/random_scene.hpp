@@ -136,6 +136,14 @@ class RandomScene {
     return {std::move(windows), std::move(color), *profile_named("triangle-splatting")};
   }
 
+  /// The same with a colour at each corner.
+  Splats windows_with_corner_colors(std::size_t splats, int degree) {
+    Splats result = windows(splats, degree);
+    result.color = splat_color(3 * splats, degree);
+    result.color.per_corner = true;
+    return result;
+  }
+
   /// Splats with Gaussians, flat ones if the profile needs them.
   Splats gaussians(std::size_t splats, int degree, const char* profile, bool flat) {
     Gaussians gaussians;
@@ -264,6 +272,7 @@ struct SamePrimitives {
   }
   bool operator()(const Splats& a, const Splats& b) {
     return std::visit(*this, a.kernel, b.kernel) && a.color.degree == b.color.degree &&
+           a.color.per_corner == b.color.per_corner &&
            same_bits(a.color.coefficients, b.color.coefficients) && a.profile == b.profile;
   }
   bool operator()(const TriangleWindows& a, const TriangleWindows& b) {

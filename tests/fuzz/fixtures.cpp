@@ -242,8 +242,9 @@ TorchFixture connected_triangles() {
   TorchFixture torch;
   torch.add("triangles_points", TensorFixture::floats({3, 3}, ramp(9)));
   torch.add("_triangle_indices", TensorFixture::of<std::int64_t>("LongStorage", {1, 3}, {2, 0, 1}));
+  torch.add("vertex_weight", TensorFixture::floats({3, 1}, ramp(3)));
   torch.add("features_dc", TensorFixture::floats({3, 1, 3}, ramp(9)));
-  torch.add("active_sh_degree", 0);
+  torch.add("active_sh_degree", 0).add("sigma", -9.25);
   return torch;
 }
 

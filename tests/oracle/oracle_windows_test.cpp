@@ -215,6 +215,78 @@ TEST_F(OracleWindows, KeepsItsDigitsOnNeedles) {
   EXPECT_NEAR(window->rho(pixel), distance * height / length / inradius, 1e-9);
 }
 
+/// The barycentrics of an image point by signed areas.
+std::array<double, 3> barycentrics(const std::array<glm::dvec2, 3>& q, const glm::dvec2& p) {
+  std::array<double, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec2 a = q[(k + 1) % 3], edge = q[(k + 2) % 3] - a;
+    result[k] = cross(edge, p - a) / cross(edge, q[k] - a);
+  }
+  return result;
+}
+
+TEST_F(OracleWindows, WeightsOfCornersAreBarycentricsInTheImage) {
+  int inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const TriangleWindows windows = random_window();
+    const auto q = image_of(windows, camera_);
+    if (area(q) < 10) continue;  // the classic formula itself loses digits on needles
+    const auto window = project(windows);
+    ASSERT_TRUE(window);
+    for (int j = 0; j < 30; ++j) {
+      const glm::dvec2 pixel = random_pixel();
+      if (!(window->rho(pixel) > 0)) continue;
+      ++inside;
+      const auto expected = barycentrics(q, pixel), weights = window->corner_weights(pixel);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(weights[k], expected[k], 1e-10);
+    }
+  }
+  EXPECT_GT(inside, 500);
+}
+
+// A corner near the eye's plane has hardly a weight, and beyond the plane none.
+TEST_F(OracleWindows, WeightsAreContinuousWhereACornerCrossesTheEyePlane) {
+  const auto at = [&](double depth, const glm::dvec2& pixel) {
+    const auto window = project(
+        one_window({glm::dvec3(-1, -1, -3), glm::dvec3(1, -1, -3), glm::dvec3(0.1, 2, -depth)}));
+    EXPECT_GT(window->rho(pixel), 0);
+    return window->corner_weights(pixel);
+  };
+  for (const glm::dvec2& pixel : {glm::dvec2(80, 50), glm::dvec2(70, 20), glm::dvec2(90, 5)}) {
+    const auto before = at(1e-7, pixel), after = at(-1e-7, pixel), behind = at(-2, pixel);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(before[k], after[k], 1e-5);
+    EXPECT_EQ(after[2], 0);
+    EXPECT_EQ(behind[2], 0);
+    EXPECT_NEAR(behind[0] + behind[1], 1, 1e-15);
+    EXPECT_GT(std::min(behind[0], behind[1]), 0);
+  }
+}
+
+// Half-way between two corners in the image, the colour is their mean, whatever their depths.
+TEST_F(OracleWindows, ColoursOfCornersAreAffineInTheImage) {
+  const Camera camera = test::straight_camera(33, 33, 50);
+  const auto corner = [&](double x, double y, double depth) {
+    return glm::vec3(test::point_at(camera, {x, y}, depth));
+  };
+  TriangleWindows windows;
+  windows.corners = {corner(0.5, 4.5, 1), corner(32.5, 4.5, 20), corner(16.5, 30.5, 5)};
+  windows.sigma = {1e-4f};
+  windows.opacity = {1};
+  Splats splats{windows, test::flat_colors({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
+                *profile_named("mesh-splatting")};
+  splats.color.per_corner = true;
+  ASSERT_EQ(defect(splats), std::nullopt);
+  for (const auto order : {oracle::SplatOrder::centre, oracle::SplatOrder::exact}) {
+    const OracleImage image = render_oracle(scene_of(splats), {camera}, {.splat_order = order});
+    // From the middle of the first edge, 7 of 26 rows towards the third corner.
+    const glm::vec4 pixel = image.color.at(16, 11);
+    const double toward = 7.0 / 26;
+    EXPECT_NEAR(pixel.r, 0.999 * (1 - toward) / 2, 1e-3);  // 1e-3: sigma takes 1e-4
+    EXPECT_NEAR(pixel.g, 0.999 * (1 - toward) / 2, 1e-3);
+    EXPECT_NEAR(pixel.b, 0.999 * toward, 1e-3);
+  }
+}
+
 // specs/02, 2.1: at the front triangle's incenter the colour is 0.5 c1 + 0.495 c2 + 0.005
 // background.
 TEST_F(OracleWindows, TwoTrianglesBlendAsInThePaper) {

@@ -7,6 +7,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "scene/edit/morton_order.hpp"
+#include "scene/opaque_windows.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -55,6 +57,55 @@ std::vector<Splats> one_of_each() {
           splats_of(flat, "redisplats"),
           splats_of(flat, "games"),
           splats_of(densities(), "splatnet")};
+}
+
+/// windows() with a colour at each corner: coefficient j of corner i is (i, j, 0).
+Splats windows_per_corner() {
+  Splats splats = splats_of(windows(), "mesh-splatting");
+  splats.color = {.degree = 1, .coefficients = {}, .per_corner = true};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 4; ++j) splats.color.coefficients.emplace_back(i, j, 0);
+  return splats;
+}
+
+TEST(Splats, CornersHaveColours) {
+  Splats splats = windows_per_corner();
+  EXPECT_EQ(coefficients_per_splat(splats.color), 12u);
+  EXPECT_EQ(defect(splats), std::nullopt);
+  EXPECT_THAT(describe(splats), HasSubstr("mesh-splatting, harmonics of degree 1 per corner"));
+  splats.color.coefficients.pop_back();
+  EXPECT_THAT(defect(splats).value_or(""), HasSubstr("23 harmonics coefficients, expected 24"));
+  Splats others = splats_of(gaussians(), "3dgs");
+  others.color.per_corner = true;
+  EXPECT_THAT(defect(others).value_or(""), HasSubstr("corners"));
+}
+
+TEST(Splats, WindowsKeepTheirOwnColours) {
+  Splats splats = windows_per_corner();
+  EXPECT_EQ(keep_windows(splats, [](std::size_t i) { return i == 1; }), 1u);
+  EXPECT_EQ(defect(splats), std::nullopt);
+  EXPECT_EQ(std::get<TriangleWindows>(splats.kernel).corners[2], glm::vec3(5, 6, 5));
+  EXPECT_EQ(std::get<TriangleWindows>(splats.kernel).sigma[0], 3);
+  EXPECT_EQ(splats.color.coefficients[0], glm::vec3(3, 0, 0));
+  EXPECT_EQ(splats.color.coefficients[11], glm::vec3(5, 3, 0));
+
+  // The second window has the lower place in Morton order.
+  splats = windows_per_corner();
+  for (glm::vec3& corner : std::get<TriangleWindows>(splats.kernel).corners) corner = -corner;
+  sort_in_morton_order(splats);
+  EXPECT_EQ(std::get<TriangleWindows>(splats.kernel).corners[2], -glm::vec3(5, 6, 5));
+  EXPECT_EQ(splats.color.coefficients[0], glm::vec3(3, 0, 0));
+  EXPECT_EQ(splats.color.coefficients[23], glm::vec3(2, 3, 0));
+}
+
+TEST(Splats, OpaqueWindowsKeepTheColoursOfTheirCorners) {
+  const OpaqueResult result = to_opaque(windows_per_corner());
+  EXPECT_EQ(defect(result.soup), std::nullopt);
+  const auto& harmonics = std::get<Harmonics>(result.soup.appearance);
+  EXPECT_EQ(harmonics.domain, Harmonics::Domain::vertex);
+  EXPECT_EQ(harmonics.coefficients[0], glm::vec3(3, 0, 0));  // the first window has opacity 0
+  EXPECT_THAT(result.remarks,
+              testing::Contains(Remark{Remark::Kind::screen_interpolation_dropped}));
 }
 
 TEST(Splats, OfEveryKernelHaveNoDefect) {

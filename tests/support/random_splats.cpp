@@ -89,7 +89,8 @@ Splats random_splats(const SplatKind& kind, std::size_t count, double size, std:
   Splats splats{.kernel = kernel_of(kind, random, count, size),
                 .profile = *profile_named(kind.profile)};
   splats.color.degree = 2;
-  for (std::size_t i = 0; i < count * harmonics::count(2); ++i) {
+  splats.color.per_corner = kind.per_corner;
+  for (std::size_t i = 0; i < count * coefficients_per_splat(splats.color); ++i) {
     const bool constant = i % harmonics::count(2) == 0;
     const double reach = constant ? 2.0 : 0.3;
     splats.color.coefficients.emplace_back(random.uniform(-reach, reach),

@@ -15,6 +15,7 @@ struct SplatKind {
   const char* name;     // of a test parameter
   const char* profile;  // in named_profiles
   enum class Kernel { windows, gaussians, flat, neural } kernel;
+  bool per_corner = false;  // SplatColor::per_corner
 };
 inline constexpr SplatKind splat_kinds[] = {
     {"windows", "triangle-splatting", SplatKind::Kernel::windows},
@@ -23,7 +24,8 @@ inline constexpr SplatKind splat_kinds[] = {
     {"flat_games", "games", SplatKind::Kernel::flat},
     {"discs_2dgs", "2dgs", SplatKind::Kernel::flat},
     {"discs_redisplats", "redisplats", SplatKind::Kernel::flat},
-    {"neural", "splatnet", SplatKind::Kernel::neural}};
+    {"neural", "splatnet", SplatKind::Kernel::neural},
+    {"windows_per_corner", "mesh-splatting", SplatKind::Kernel::windows, true}};
 
 /// `count` splats of mean size `size` in the ball of radius 1 about the origin, with harmonics of
 /// degree 2 whose colours exceed 1 in places.

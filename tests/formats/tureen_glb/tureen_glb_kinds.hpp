@@ -114,6 +114,8 @@ inline std::vector<GlbKind> splat_glb_kinds() {
     splats.profile.min_alpha = 0.1f;
     return splats;
   });
+  add("windows_with_corner_colors",
+      [](RandomScene& r, std::size_t n) { return r.windows_with_corner_colors(n, 3); });
   return all;
 }
 

@@ -240,6 +240,27 @@ TEST(TureenGlbLayers, OfFalseFilesAreRefusedWithTheirPlace) {
       "previous layer");
 }
 
+TEST(TureenGlbLayers, OfFalseColoursOfCornersAreRefused) {
+  const auto bytes = test::glb_bytes(
+      test::layered_scene(test::glb_kinds_named({"windows_with_corner_colors"}), 5, 2), "corners");
+  const auto expect_refusal = [&](const auto& change, const auto&... values) {
+    auto json = test::glb_json(bytes);
+    change(json["nodes"][1]["extensions"][tureen_extension]["appearance"], json);
+    EXPECT_THAT(error_of([&] { read_bytes(test::with_glb_json(bytes, json)); }),
+                ErrorIn("memory.glb", values...));
+  };
+  using Json = nlohmann::json;
+  // 2 windows x 3 corners x 16 coefficients.
+  const auto coefficients = [](Json& appearance, Json& json) -> Json& {
+    return json["accessors"][appearance["coefficients"].get<std::size_t>()];
+  };
+  expect_refusal([](Json& a, Json&) { a["domain"] = "corner"; }, "appearance.domain", "corner");
+  expect_refusal([](Json& a, Json&) { a["domain"] = 1; }, "appearance.domain");
+  expect_refusal([](Json& a, Json&) { a.erase("domain"); }, 96, 32);
+  expect_refusal([](Json& a, Json&) { a["domain"] = "face"; }, 96, 32);
+  expect_refusal([&](Json& a, Json& j) { coefficients(a, j)["count"] = 95; }, 95, 96);
+}
+
 TEST(TureenGlbLayers, WhatTheReaderRefusesIsNotWritten) {
   const auto refusal = [](const Scene& scene) -> std::string {
     const auto path = test::temporary_glb("never_layers");
