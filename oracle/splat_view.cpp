@@ -1,5 +1,6 @@
 #include "oracle/splat_view.hpp"
 
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -36,6 +37,8 @@ glm::dvec3 SplatView::direction_in_layer(const glm::dvec3& in_view) const {
   // The transpose of a rotation is its inverse.
   return layer_from_world_ * (in_view * view_from_world_);
 }
+
+double SplatView::scale() const { return std::cbrt(std::abs(glm::determinant(world_from_layer_))); }
 
 void ImageBox::add(const ImageBox& other) {
   if (other.empty()) return;

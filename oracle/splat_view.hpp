@@ -29,6 +29,8 @@ class SplatView {
   glm::dvec3 direction_in_layer(const glm::dvec3& in_view) const;
   /// The eye in layer coordinates.
   const glm::dvec3& eye() const { return eye_; }
+  /// World units per layer unit.
+  double scale() const;
 
   /// The direction through an image point. Its z is 1, so its multiple by a depth is the point at
   /// this depth.

@@ -2,8 +2,9 @@
 //
 // Each sample has a colour and a transmittance, at first 0 and 1. A splat of alpha a adds a *
 // transmittance * its colour, and the transmittance is multiplied by 1 - a. The profile of a
-// splat's own layer decides its alpha limits and whether it ends the sample
-// (SplatProfile::stop_transmittance).
+// splat's own layer decides its alpha limits, whether it ends the sample
+// (SplatProfile::stop_transmittance), and how near its centre may be
+// (SplatProfile::min_center_depth).
 #pragma once
 
 #include <cstdint>

@@ -14,10 +14,12 @@ namespace {
 
 using Profile = SplatProfile;
 
-constexpr Profile triangle_splatting{};
-constexpr Profile gaussians_3d{.low_pass = Profile::LowPass::dilation};
+constexpr Profile triangle_splatting{.min_center_depth = published_center_depth};
+constexpr Profile gaussians_3d{.low_pass = Profile::LowPass::dilation,
+                               .min_center_depth = published_center_depth};
 constexpr Profile gaussians_2d{.projection = Profile::Projection::plane,
-                               .low_pass = Profile::LowPass::screen};
+                               .low_pass = Profile::LowPass::screen,
+                               .min_center_depth = published_center_depth};
 
 template <class T>
 std::size_t vector_bytes(const std::vector<T>& values) {
@@ -94,8 +96,6 @@ std::string at(std::size_t splat, const char* what) {
 }
 
 struct FindKernelDefect {
-  const Profile& profile;
-
   SplatDefect operator()(const TriangleWindows& windows) const {
     const std::size_t splats = windows.opacity.size();
     if (windows.corners.size() != 3 * splats || windows.sigma.size() != splats)
@@ -110,9 +110,6 @@ struct FindKernelDefect {
         return at(i, "a sigma that is not positive and finite");
       if (!is_fraction(windows.opacity[i])) return at(i, "an opacity outside 0..1");
     }
-    if (profile.projection != Profile::Projection::ewa ||
-        profile.low_pass != Profile::LowPass::none)
-      return "triangle windows have neither another projection nor a low pass";
     return {};
   }
 
@@ -133,15 +130,6 @@ struct FindKernelDefect {
         return at(i, "a rotation that is not of unit length");
       if (!is_fraction(gaussians.opacity[i])) return at(i, "an opacity outside 0..1");
     }
-    if (profile.projection == Profile::Projection::plane && !gaussians.flat)
-      return "only flat Gaussians can be projected on their plane";
-    if (profile.low_pass == Profile::LowPass::screen &&
-        profile.projection != Profile::Projection::plane)
-      return "the low pass of 2DGS needs projection on the plane";
-    if (profile.projection == Profile::Projection::plane &&
-        (profile.low_pass == Profile::LowPass::dilation ||
-         profile.low_pass == Profile::LowPass::mip))
-      return "dilation needs the projection by EWA";
     return {};
   }
 
@@ -165,23 +153,9 @@ struct FindKernelDefect {
       if (!std::isfinite(densities.networks[k]))
         return at(k / NeuralDensities::parameters, "a network parameter that is not finite");
     if (!std::isfinite(densities.omega)) return "omega is not finite";
-    if (profile.projection != Profile::Projection::ewa ||
-        profile.low_pass != Profile::LowPass::none)
-      return "neural densities have neither another projection nor a low pass";
     return {};
   }
 };
-
-SplatDefect find_splat_defect(const Profile& profile) {
-  if (!(profile.max_alpha > 0 && profile.max_alpha <= 1))
-    return "the largest alpha is outside 0..1";
-  // 0 would give a Gaussian no end.
-  if (!(profile.min_alpha >= 1e-6f && profile.min_alpha < 1))
-    return "the smallest alpha is outside 1e-6..1";
-  if (!(profile.stop_transmittance >= 0 && profile.stop_transmittance < 1))
-    return "the transmittance that ends a pixel is outside 0..1";
-  return {};
-}
 
 SplatDefect find_splat_defect(const SplatColor& color, std::size_t splats) {
   if (color.degree < 0 || color.degree > harmonics::max_degree)
@@ -201,9 +175,10 @@ SplatDefect find_splat_defect(const SplatColor& color, std::size_t splats) {
 
 const std::array<NamedProfile, 7> named_profiles{{
     {"3dgs", gaussians_3d},
-    {"mip", {.low_pass = Profile::LowPass::mip}},
+    {"mip", {.low_pass = Profile::LowPass::mip, .min_center_depth = published_center_depth}},
     {"2dgs", gaussians_2d},
     {"games", gaussians_3d},
+    // It traces rays.
     {"redisplats",
      {.projection = Profile::Projection::plane, .max_alpha = 1.0f, .stop_transmittance = 0.0f}},
     {"triangle-splatting", triangle_splatting},
@@ -220,6 +195,29 @@ std::string_view name_of(const SplatProfile& profile) {
   for (const NamedProfile& each : named_profiles)
     if (each.profile == profile) return each.name;
   return "custom";
+}
+
+std::optional<std::string> profile_defect(const SplatKernel& kernel, const SplatProfile& profile) {
+  if (!(profile.max_alpha > 0 && profile.max_alpha <= 1))
+    return "the largest alpha is outside 0..1";
+  // 0 would give a Gaussian no end.
+  if (!(profile.min_alpha >= 1e-6f && profile.min_alpha < 1))
+    return "the smallest alpha is outside 1e-6..1";
+  if (!(profile.stop_transmittance >= 0 && profile.stop_transmittance < 1))
+    return "the transmittance that ends a pixel is outside 0..1";
+  if (!(profile.min_center_depth >= 0 && std::isfinite(profile.min_center_depth)))
+    return "the smallest depth of a centre is negative or not finite";
+  const bool on_plane = profile.projection == Profile::Projection::plane;
+  const auto* gaussians = std::get_if<Gaussians>(&kernel);
+  if (!gaussians && (on_plane || profile.low_pass != Profile::LowPass::none))
+    return std::string(kernel_name(kernel)) + " have neither another projection nor a low pass";
+  if (on_plane && !gaussians->flat) return "only flat Gaussians can be projected on their plane";
+  if (profile.low_pass == Profile::LowPass::screen && !on_plane)
+    return "the low pass of 2DGS needs projection on the plane";
+  if (on_plane &&
+      (profile.low_pass == Profile::LowPass::dilation || profile.low_pass == Profile::LowPass::mip))
+    return "dilation needs the projection by EWA";
+  return {};
 }
 
 std::size_t count(const Splats& splats) {
@@ -278,9 +276,8 @@ std::size_t byte_size(const Splats& splats) {
 }
 
 std::optional<std::string> defect(const Splats& splats) {
-  if (SplatDefect reason = find_splat_defect(splats.profile)) return reason;
-  if (SplatDefect reason = std::visit(FindKernelDefect{splats.profile}, splats.kernel))
-    return reason;
+  if (SplatDefect reason = profile_defect(splats.kernel, splats.profile)) return reason;
+  if (SplatDefect reason = std::visit(FindKernelDefect{}, splats.kernel)) return reason;
   return find_splat_defect(splats.color, count(splats));
 }
 

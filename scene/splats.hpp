@@ -90,10 +90,16 @@ struct SplatProfile {
   /// A splat that would lower the transmittance of a pixel below this value ends the pixel and is
   /// not blended. 0: every splat is blended. The device does not follow this rule, only the oracle.
   float stop_transmittance = 1e-4f;
+  /// Splats whose centre has at most this view depth, in layer units, are not drawn: too near for
+  /// the affine approximation of EWA, and the rule of 3DGS and of the methods built on its
+  /// rasteriser (in_frustum() of their code). 0: the centre may be anywhere, even behind the eye.
+  float min_center_depth = 0.0f;
 
   bool operator==(const SplatProfile&) const = default;
 };
 
+/// SplatProfile::min_center_depth of the published rasterisers.
+inline constexpr float published_center_depth = 0.2f;
 /// Variance in px^2 that LowPass::dilation and LowPass::mip add along both axes of the image.
 inline constexpr double dilation_variance = 0.3;
 /// Variance in px^2 of the Gaussian of LowPass::screen.
@@ -121,6 +127,10 @@ struct Splats {
   SplatProfile profile = {};
 };
 
+/// The reason why splats with this kernel cannot have this profile, or nullopt: a value outside its
+/// range, or a rule that the kernel does not support. O(1).
+std::optional<std::string> profile_defect(const SplatKernel& kernel, const SplatProfile& profile);
+
 /// Number of splats.
 std::size_t count(const Splats& splats);
 
@@ -141,7 +151,7 @@ Bounds bounds(const Splats& splats);
 std::size_t byte_size(const Splats& splats);
 
 /// The reason why these splats cannot be drawn (a size that does not match, a value outside its
-/// range or not finite, a profile that its kernel does not support), or nullopt. Readers return
+/// range or not finite, a profile_defect()), or nullopt. Readers return
 /// splats without a defect, and all users rely on that. O(data).
 std::optional<std::string> defect(const Splats& splats);
 

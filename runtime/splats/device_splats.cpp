@@ -74,6 +74,7 @@ DeviceSplats::Constants DeviceSplats::constants() const {
           {"PROJECTED_COLUMNS", std::to_string(projected_columns)},
           {"ORDER_COLUMNS", std::to_string(order_columns)},
           {"MIN_ALPHA", constant(double(profile_.min_alpha))},
+          {"MIN_CENTER_DEPTH", constant(double(profile_.min_center_depth))},
           {"MAX_ALPHA", constant(double(profile_.max_alpha))},
           {"DILATION", dilates ? "1" : "0"},
           {"DILATION_VARIANCE", constant(dilation_variance)},

@@ -48,7 +48,7 @@ void main() {
   color = texelFetch(colors, projected_position(splat), 0);
   sigma = texels[0].w;
   // Behind the eye, or without area in the image.
-  bool visible = total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
+  bool visible = color.a > 0.0 && total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
 
   // Corner k moves by e (2 c_k - c_i - c_j), and the edges by e times the heights. The limit keeps
   // needles short. Triangles that cross the eye's plane are large, and stay.

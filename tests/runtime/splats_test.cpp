@@ -85,12 +85,37 @@ class SplatsOfKind : public testing::TestWithParam<Case> {
 
 /// From outside, and from two places inside, where the near plane cuts a tenth of the splats.
 TEST_P(SplatsOfKind, AgreeWithTheOracle) {
-  const Scene scene = scene_of(random_splats(kind, 20000, 0.07, 1));
+  Splats splats = random_splats(kind, 20000, 0.07, 1);
+  splats.profile.min_center_depth = 0;
+  const Scene scene = scene_of(std::move(splats));
   Renderer renderer = renderer_of_scene(context, scene);
   for (const double distance : {3.0, 0.7, 0.1}) {
     SCOPED_TRACE("distance " + std::to_string(distance));
     expect_agreement(renderer, scene, camera_of_ball(distance, 120, 90));
   }
+}
+
+/// In a layer of half the size, so that depths in the world are half of those in the layer.
+TEST_P(SplatsOfKind, WithCentresNearTheEyeAreSkippedAsByTheOracle) {
+  Splats splats = random_splats(kind, 2000, 0.1, 8);
+  splats.profile.min_center_depth = 0.3f;
+  const Camera camera = camera_of_ball(0.05, 120, 90);
+  for (std::size_t i = 0; i < count(splats); ++i) {
+    const double depth = -(camera.view_from_world * glm::dvec4(0.5 * center(splats, i), 1)).z;
+    // Only a splat within a few roundings of the limit may be drawn by one side alone.
+    ASSERT_GT(std::abs(depth - 0.5 * 0.3), 1e-6) << "another seed is needed";
+  }
+  Scene scene = scene_of(std::move(splats));
+  scene.layers[0].world_from_layer = glm::scale(glm::dmat4(1), glm::dvec3(0.5));
+  Renderer renderer = renderer_of_scene(context, scene);
+  expect_agreement(renderer, scene, camera);
+
+  // The rule matters here.
+  const std::vector<glm::vec4> with = renderer.read_splats();
+  std::get<Splats>(scene.layers[0].primitives).profile.min_center_depth = 0;
+  Renderer without = renderer_of_scene(context, scene);
+  without.draw({camera});
+  EXPECT_NE(with, without.read_splats());
 }
 
 TEST_P(SplatsOfKind, AgreeWithTheOracleInHalfFloats) {
@@ -206,6 +231,22 @@ TEST_P(SplatsIn, EnormousSplatsFillTheImage) {
     renderer.draw({look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.5, 64, 48)});
     for (const glm::vec4& pixel : renderer.read_splats()) ASSERT_NEAR(pixel.a, 0.5, 1e-3) << scale;
   }
+}
+
+TEST_P(SplatsIn, TheDepthOfACentreIsInUnitsOfTheLayer) {
+  for (const char* profile : {"3dgs", "redisplats"})
+    for (const double depth : {0.19, 0.21}) {
+      Scene scene = one_gaussian(0.5f, glm::vec3(1));
+      auto& splats = std::get<Splats>(scene.layers[0].primitives);
+      std::get<Gaussians>(splats.kernel).flat = true;
+      splats.profile = *profile_named(profile);
+      scene.layers[0].world_from_layer = glm::scale(glm::dmat4(1), glm::dvec3(3));
+      std::get<Gaussians>(splats.kernel).scales[0] = glm::vec3(1);
+      Renderer renderer = renderer_of_scene(context, scene);
+      renderer.draw({look_at({0, 0, 3 * depth}, {0, 0, 0}, {0, 1, 0}, 0.1, 9, 9)});
+      const bool is_drawn = depth > 0.2 || std::string(profile) == "redisplats";
+      EXPECT_NEAR(renderer.read_splats()[40].a, is_drawn ? 0.5 : 0.0, 1e-3) << profile << depth;
+    }
 }
 
 TEST_P(SplatsIn, SmallNumbersOfSplatsAreDrawn) {

@@ -38,8 +38,8 @@ void archive_layer_plan(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_profile(Archive& archive, Value& value) {
-  auto& [projection, low_pass, max_alpha, min_alpha, stop_transmittance] = value;
-  archive(projection, low_pass, max_alpha, min_alpha, stop_transmittance);
+  auto& [projection, low_pass, max_alpha, min_alpha, stop_transmittance, min_center_depth] = value;
+  archive(projection, low_pass, max_alpha, min_alpha, stop_transmittance, min_center_depth);
 }
 
 template <class Archive, class Value>
