@@ -16,9 +16,11 @@ glm::dmat3 image_axes_from_world(const Camera& camera) {
 
 }  // namespace
 
-SplatView::SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near)
+SplatView::SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near,
+                     SplatCulls culls)
     : camera_(camera),
       near_(near),
+      culls_(culls),
       view_from_world_(image_axes_from_world(camera)),
       world_from_layer_(world_from_layer),
       layer_from_world_(glm::inverse(world_from_layer_)),

@@ -47,7 +47,7 @@ class Blender {
         samples_(std::size_t(columns_) * rows_) {
     assert(opaque_depth.size() == samples_.size());
     for (const PlacedSplats& layer : layers)
-      views_.emplace_back(layer.world_from_layer, camera, options.near);
+      views_.emplace_back(layer.world_from_layer, camera, options.near, options.culls);
     sort_centres();
   }
 

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "oracle/splat_view.hpp"
 #include "scene/camera.hpp"
 #include "scene/splats.hpp"
 
@@ -44,6 +45,7 @@ struct SplatBlending {
   /// Samples per pixel along each axis. Low passes are in pixels, whatever the number of samples.
   int supersampling = 1;
   double near = 0;  // of the frame's clip range
+  SplatCulls culls = SplatCulls::none;
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };

@@ -220,6 +220,29 @@ std::optional<std::string> profile_defect(const SplatKernel& kernel, const Splat
   return {};
 }
 
+const std::vector<float>* opacity_of(const SplatKernel& kernel) {
+  if (const auto* windows = std::get_if<TriangleWindows>(&kernel)) return &windows->opacity;
+  if (const auto* gaussians = std::get_if<Gaussians>(&kernel)) return &gaussians->opacity;
+  return nullptr;
+}
+
+int degree_in_use(const SplatColor& color) {
+  const std::size_t per_splat = harmonics::count(color.degree);
+  int degree = 0;
+  for (std::size_t i = 0; i < color.coefficients.size() && degree < color.degree; ++i) {
+    if (color.coefficients[i] == glm::vec3(0.0f)) continue;
+    while (i % per_splat >= std::size_t(harmonics::count(degree))) ++degree;
+  }
+  return degree;
+}
+
+bool is_transparent(const Splats& splats) {
+  const std::vector<float>* opacity = opacity_of(splats.kernel);
+  return opacity && !opacity->empty() &&
+         std::none_of(opacity->begin(), opacity->end(),
+                      [&](float each) { return each >= splats.profile.min_alpha; });
+}
+
 std::size_t count(const Splats& splats) {
   if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
     return windows->opacity.size();
@@ -241,12 +264,16 @@ std::string describe(const Splats& splats) {
          std::to_string(splats.color.degree);
 }
 
-std::string_view profile_name(const Splats& splats) {
-  const std::string_view name = name_of(splats.profile);
-  if (std::holds_alternative<NeuralDensities>(splats.kernel) && name == "triangle-splatting")
+std::string_view profile_name(const SplatKernel& kernel, const SplatProfile& profile) {
+  const std::string_view name = name_of(profile);
+  if (std::holds_alternative<NeuralDensities>(kernel) && name == "triangle-splatting")
     return "splatnet";
-  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  const auto* gaussians = std::get_if<Gaussians>(&kernel);
   return gaussians && gaussians->flat && name == "3dgs" ? "games" : name;
+}
+
+std::string_view profile_name(const Splats& splats) {
+  return profile_name(splats.kernel, splats.profile);
 }
 
 glm::dvec3 center(const Splats& splats, std::size_t i) {

@@ -117,9 +117,9 @@ std::optional<SplatProfile> profile_named(std::string_view name);
 /// The first name of this profile, or "custom".
 std::string_view name_of(const SplatProfile& profile);
 
-struct Splats;
-/// The name of the splats' profile. Several methods have equal profiles; the kernel decides.
-std::string_view profile_name(const Splats& splats);
+/// The name of a profile of splats with this kernel. Several methods have equal profiles; the
+/// kernel decides.
+std::string_view profile_name(const SplatKernel& kernel, const SplatProfile& profile);
 
 struct Splats {
   SplatKernel kernel = {};
@@ -131,11 +131,21 @@ struct Splats {
 /// range, or a rule that the kernel does not support. O(1).
 std::optional<std::string> profile_defect(const SplatKernel& kernel, const SplatProfile& profile);
 
+/// The opacities, or null for a kernel without.
+const std::vector<float>* opacity_of(const SplatKernel& kernel);
+/// Whether there are splats, but none with an opacity that reaches SplatProfile::min_alpha.
+bool is_transparent(const Splats& splats);
+
+/// The degree of the highest band with a coefficient other than 0.
+int degree_in_use(const SplatColor& color);
+
 /// Number of splats.
 std::size_t count(const Splats& splats);
 
 /// "triangle windows", "Gaussians", "flat Gaussians" or "neural densities".
 const char* kernel_name(const SplatKernel& kernel);
+
+std::string_view profile_name(const Splats& splats);
 
 /// "90854 Gaussians, profile 3dgs, harmonics of degree 0".
 std::string describe(const Splats& splats);
