@@ -41,7 +41,12 @@ void main() {
     // The axes are orthogonal.
     deviations = vec2(dot(from_center, axes.xy) / squared_1, dot(from_center, axes.zw) / squared_2);
   }
-  gl_Position = place.w > 0.0 ? vec4(pixel / half_size - 1.0,
-                                     (depth_of_z.x * place.z + depth_of_z.y) / -place.z, 1.0)
-                              : nowhere;
+  // Beside the eye, large splats often miss the image: every pixel would be shaded for nothing. A
+  // thousandth and a pixel more, for rounding.
+  vec2 reach = 1.001 * place.w * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + 1.0;
+  bool is_drawn =
+      place.w > 0.0 && all(lessThanEqual(abs(place.xy - half_size), half_size + reach));
+  gl_Position = is_drawn ? vec4(pixel / half_size - 1.0,
+                                (depth_of_z.x * place.z + depth_of_z.y) / -place.z, 1.0)
+                         : nowhere;
 }
