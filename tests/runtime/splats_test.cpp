@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/error.hpp"
 #include "oracle/oracle.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/splats/splat_order.hpp"
@@ -270,6 +271,21 @@ TEST_P(SplatsIn, TheDepthOfACentreIsInUnitsOfTheLayer) {
       const bool is_drawn = depth > 0.2 || std::string(profile) == "redisplats";
       EXPECT_NEAR(renderer.read_splats()[40].a, is_drawn ? 0.5 : 0.0, 1e-3) << profile << depth;
     }
+}
+
+TEST_P(SplatsIn, APreferredProfileReplacesTheirOwn) {
+  Scene scene = scene_of(random_splats(splat_kinds[1], 500, 0.02, 4));
+  const Camera camera = camera_of_ball(3, 64, 48);
+  const auto pixels = [&](std::optional<SplatProfile> profile) {
+    Renderer renderer = renderer_of_scene(context, scene, {.plan = {.splat_profile = profile}});
+    renderer.draw({camera});
+    return renderer.read_splats();
+  };
+  const auto own = pixels({}), preferred = pixels(profile_named("mip"));
+  EXPECT_NE(own, preferred);
+  EXPECT_THROW(pixels(profile_named("2dgs")), UsageError);  // not flat
+  choose_profile(scene, "mip");
+  EXPECT_EQ(pixels({}), preferred);
 }
 
 /// A window whose image has an inradius of half a pixel vanishes, as in Triangle Splatting.
