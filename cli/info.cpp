@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "base/decimal_text.hpp"
 #include "camera/navigation.hpp"
@@ -120,9 +121,9 @@ struct Described {
   }
 };
 
-Json to_json(const Lint& lint) {
+Json to_json(const Lint& lint, std::span<const LintFinding::Id> ids) {
   Json json = {{"clean", lint.findings.empty()}};
-  for (const LintFinding::Id id : LintFinding::counted) {
+  for (const LintFinding::Id id : ids) {
     const LintFinding* found = lint.find(id);
     json[name_of(id)] = {{"count", found ? found->count : 0},
                          {"first", found ? found->first : std::vector<std::uint32_t>()}};
@@ -165,6 +166,11 @@ struct LayerFacts {
   Lint lint;
 };
 
+Json lint_json(const LayerFacts& facts) {
+  return facts.soup ? to_json(facts.lint, LintFinding::counted)
+                    : to_json(facts.lint, LintFinding::counted_of_splats);
+}
+
 LayerFacts facts_of(const Scene& scene, std::size_t index) {
   const Layer& layer = scene.layers[index];
   const bool several = scene.layers.size() > 1;
@@ -179,6 +185,7 @@ LayerFacts facts_of(const Scene& scene, std::size_t index) {
   if (facts.splats) {
     SplatPlan plan = make_splat_plan(*facts.splats);
     facts.forecast = device_forecast(*facts.splats, plan);
+    facts.lint = lint(*facts.splats);
     facts.plan.layers.emplace_back(std::move(plan));
     return facts;
   }
@@ -225,7 +232,7 @@ void say_layer(const LayerFacts& facts) {
   table.row({"place", place_text(*facts.layer)});
   say_list("Layer " + facts.name + ":", table.lines());
   say_list("Plan of " + facts.name + ":", describe(facts.plan));
-  if (facts.soup) say_list("Lint of " + facts.name + ":", lint_lines(facts.lint));
+  say_list("Lint of " + facts.name + ":", lint_lines(facts.lint));
 }
 
 Json matrix_json(const glm::dmat4& matrix) {
@@ -269,7 +276,7 @@ Json to_json(const LayerFacts& facts) {
   json.update(
       {{"bytes_in_memory", bytes_in_memory(facts)}, {"bytes_on_device", facts.forecast.bytes}});
   json.update(plan_json(facts.plan));
-  if (facts.soup) json["lint"] = to_json(facts.lint);
+  json["lint"] = lint_json(facts);
   return json;
 }
 
@@ -345,11 +352,11 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
   say_list(fmt::format("{}: {}", listed(options.scene),
                        scene.info.source.empty() ? "a scene" : scene.info.source),
            table.lines());
-  say_if_hidden(scene);
+  say_what_is_hidden(scene);
   say_list("Notes:", all_notes(scene.info));
   if (only) say_list("Plan:", describe(only->plan));
   say_list("Devices:", devices.lines);
-  if (only && only->soup) say_list("Lint:", lint_lines(only->lint));
+  if (only) say_list("Lint:", lint_lines(only->lint));
   if (!only)
     for (const LayerFacts& facts : layers) say_layer(facts);
 }
@@ -392,7 +399,7 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
                  {"supersampling", scene.quality.supersampling}}}});
   if (only) json.update(plan_json(only->plan));
   json["devices"] = devices.json;
-  if (only && only->soup) json["lint"] = to_json(only->lint);
+  if (only) json["lint"] = lint_json(*only);
   return json;
 }
 
@@ -419,8 +426,9 @@ void add_info(Command& program) {
       program.add_command("info", "Print a scene's contents, memory use and lint findings");
   command.footer(
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
-faces, unused vertices, and coordinates so large that floats round them visibly. Scenes with
-findings can still be drawn. Plan and lint are printed for each layer. The output of --json
+faces, unused vertices, and coordinates so large that floats round them visibly. Of splats, it
+reports transparent, collapsed, needle-shaped, outlying and repeated ones, and harmonics that are
+0. Scenes with findings can still be drawn. Plan and lint are printed for each layer. The output of --json
 contains the cameras; tureen render --camera can read them from it.
 
 Examples:

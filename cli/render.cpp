@@ -191,7 +191,7 @@ ExitCode render(RenderOptions options) {
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
   say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
-  say_if_hidden(scene);
+  say_what_is_hidden(scene);
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);
@@ -262,6 +262,9 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
   add_drawing_scale(command, options->drawing);
   command.add_flag("--opaque", options->opaque,
                    "draw triangle windows as opaque triangles instead of blending them");
+  command.add_flag("--as-published", options->drawing.plan.as_published,
+                   "also cull splats by the rules of their authors' code that depend on the "
+                   "resolution");
   Option show = add_debug_view_option(command, options->show);
   for (const char* other :
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "oracle/published_culls.hpp"
+
 namespace tureen::oracle {
 
 std::optional<DiscInView> DiscInView::project(const Gaussians& gaussians, std::size_t i,
@@ -23,6 +25,8 @@ std::optional<DiscInView> DiscInView::project(const Gaussians& gaussians, std::s
   if (profile.low_pass == SplatProfile::LowPass::screen) {
     if (!(result.center_.z > view.near())) return {};
     result.center_image_ = view.image(result.center_);
+    if (view.culls() == SplatCulls::published)
+      result.tiles_ = published_tiles_of_disc(view, result.center_, result.u_axis_, result.v_axis_);
     result.box_ = box_around(result.center_image_, glm::dvec2(radius * std::sqrt(screen_variance)));
   }
   // The square around the disc, as two triangles.
@@ -36,6 +40,7 @@ std::optional<DiscInView> DiscInView::project(const Gaussians& gaussians, std::s
 }
 
 SplatSample DiscInView::at(const glm::dvec2& pixel) const {
+  if (tiles_ && !contains(*tiles_, pixel)) return {};
   // center + u u_axis + v v_axis = depth ray. The ray's z is 1, so subtracting z times the ray from
   // each vector leaves two equations in x and y.
   const glm::dvec3 ray = view_->ray(pixel);

@@ -37,6 +37,7 @@ class DiscInView {
   double opacity_ = 0;
   const SplatView* view_ = nullptr;
   SplatProfile profile_;
+  std::optional<ImageBox> tiles_;  // the only ones that show it; nullopt: all
   ImageBox box_;
 };
 

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "oracle/published_culls.hpp"
+
 namespace tureen::oracle {
 
 namespace {
@@ -66,8 +68,9 @@ std::optional<EwaInView> EwaInView::project(const Gaussians& gaussians, std::siz
 
   // The LQ decomposition of the 2 x 5 matrix (M, sqrt(variance)) instead of a Cholesky
   // decomposition of the covariance: a needle of aspect A loses a factor A of precision, not A^2.
+  const double xy = dot(a, b);
   result.l11_ = length(a);
-  result.l21_ = dot(a, b) / result.l11_;
+  result.l21_ = xy / result.l11_;
   const double along = result.l21_ / result.l11_;
   result.l22_ = length({b.shape - along * a.shape, b.filter - along * a.filter});
 
@@ -79,6 +82,8 @@ std::optional<EwaInView> EwaInView::project(const Gaussians& gaussians, std::siz
     const double trace = glm::dot(a.shape, a.shape) + glm::dot(b.shape, b.shape);
     result.opacity_ *= before / std::sqrt(before * before + variance * (trace + variance));
   }
+  if (view.culls() == SplatCulls::published)
+    result.tiles_ = published_tiles_of_gaussian(result.center_, dot(a, a), xy, dot(b, b));
   const double largest = 2 * std::log(result.opacity_ / double(profile.min_alpha));
   if (!(largest >= 0)) return {};
   result.box_ = box_around(result.center_, std::sqrt(largest) * glm::dvec2(length(a), length(b)));
@@ -107,6 +112,7 @@ double EwaInView::depth_of_largest_density(const glm::dvec3& ray) const {
 }
 
 SplatSample EwaInView::at(const glm::dvec2& pixel) const {
+  if (tiles_ && !contains(*tiles_, pixel)) return {};
   const double alpha = limited_alpha(opacity_ * std::exp(-0.5 * squared_distance(pixel)), profile_);
   if (alpha == 0) return {};
   return {alpha, center_in_view_.z, depth_of_largest_density(view_->ray(pixel))};

@@ -54,6 +54,7 @@ class EwaInView {
   double near_ = 0;
   const SplatView* view_ = nullptr;
   SplatProfile profile_;
+  std::optional<ImageBox> tiles_;  // the only ones that show it; nullopt: all
   ImageBox box_;
 };
 

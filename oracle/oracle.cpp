@@ -143,7 +143,8 @@ OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
   oracle::SplatBlending blending{.order = options.splat_order,
                                  .stop = options.splat_stop,
                                  .supersampling = n,
-                                 .near = range.near};
+                                 .near = range.near,
+                                 .culls = options.splat_culls};
   if (options.progress)
     blending.progress = [&](double fraction) { options.progress(0.5 + 0.5 * fraction); };
   const std::vector<oracle::BlendedSample> blended =

@@ -29,6 +29,8 @@ struct OracleOptions {
   /// Whether a splat that would lower the transmittance below its profile's stop_transmittance ends
   /// the pixel. If false, every splat is blended.
   bool splat_stop = true;
+  /// Whether splats are also culled as their authors' code culls them.
+  oracle::SplatCulls splat_culls = oracle::SplatCulls::none;
   /// The colour behind the scene; alpha is then 1. If absent, alpha is the mean coverage of the
   /// pixel's rays, and the colour is that of the covered part. The coverage of a ray is 1 if it
   /// hits a face, otherwise the alpha of its splats. A pixel with coverage 0 is 0 in all channels.

@@ -1,5 +1,6 @@
 #include "oracle/splat_view.hpp"
 
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -15,9 +16,11 @@ glm::dmat3 image_axes_from_world(const Camera& camera) {
 
 }  // namespace
 
-SplatView::SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near)
+SplatView::SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near,
+                     SplatCulls culls)
     : camera_(camera),
       near_(near),
+      culls_(culls),
       view_from_world_(image_axes_from_world(camera)),
       world_from_layer_(world_from_layer),
       layer_from_world_(glm::inverse(world_from_layer_)),
@@ -36,6 +39,8 @@ glm::dvec3 SplatView::direction_in_layer(const glm::dvec3& in_view) const {
   // The transpose of a rotation is its inverse.
   return layer_from_world_ * (in_view * view_from_world_);
 }
+
+double SplatView::scale() const { return std::cbrt(std::abs(glm::determinant(world_from_layer_))); }
 
 void ImageBox::add(const ImageBox& other) {
   if (other.empty()) return;

@@ -14,11 +14,16 @@
 
 namespace tureen::oracle {
 
+/// Rules that the methods' mathematics does not have, but their authors' code
+/// (oracle/published_culls.hpp).
+enum class SplatCulls { none, published };
+
 class SplatView {
  public:
   /// `world_from_layer` is a similarity that may mirror. `near` is the frame's near distance in
   /// world units: only points with a depth of at least `near` exist.
-  SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near);
+  SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near,
+            SplatCulls culls = SplatCulls::none);
 
   /// A point in layer coordinates. It is computed relative to the eye, so it loses no digits far
   /// from the world's origin.
@@ -29,6 +34,8 @@ class SplatView {
   glm::dvec3 direction_in_layer(const glm::dvec3& in_view) const;
   /// The eye in layer coordinates.
   const glm::dvec3& eye() const { return eye_; }
+  /// World units per layer unit.
+  double scale() const;
 
   /// The direction through an image point. Its z is 1, so its multiple by a depth is the point at
   /// this depth.
@@ -43,10 +50,12 @@ class SplatView {
 
   const Camera& camera() const { return camera_; }
   double near() const { return near_; }
+  SplatCulls culls() const { return culls_; }
 
  private:
   Camera camera_;
   double near_;
+  SplatCulls culls_;
   glm::dmat3 view_from_world_;
   glm::dmat3 world_from_layer_;
   glm::dmat3 layer_from_world_;

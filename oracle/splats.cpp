@@ -47,7 +47,7 @@ class Blender {
         samples_(std::size_t(columns_) * rows_) {
     assert(opaque_depth.size() == samples_.size());
     for (const PlacedSplats& layer : layers)
-      views_.emplace_back(layer.world_from_layer, camera, options.near);
+      views_.emplace_back(layer.world_from_layer, camera, options.near, options.culls);
     sort_centres();
   }
 
@@ -65,9 +65,11 @@ class Blender {
   void sort_centres() {
     for (std::uint32_t layer = 0; layer < layers_.size(); ++layer) {
       const Splats& splats = *layers_[layer].splats;
+      const double nearest = double(splats.profile.min_center_depth) * views_[layer].scale();
       for (std::uint32_t i = 0; i < count(splats); ++i) {
         const double depth = views_[layer].point(center(splats, i)).z;
-        if (std::isfinite(depth)) keys_.push_back({depth, layer, i});
+        if (std::isfinite(depth) && (nearest == 0 || depth > nearest))
+          keys_.push_back({depth, layer, i});
       }
     }
     std::sort(keys_.begin(), keys_.end());

@@ -2,8 +2,9 @@
 //
 // Each sample has a colour and a transmittance, at first 0 and 1. A splat of alpha a adds a *
 // transmittance * its colour, and the transmittance is multiplied by 1 - a. The profile of a
-// splat's own layer decides its alpha limits and whether it ends the sample
-// (SplatProfile::stop_transmittance).
+// splat's own layer decides its alpha limits, whether it ends the sample
+// (SplatProfile::stop_transmittance), and how near its centre may be
+// (SplatProfile::min_center_depth).
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "oracle/splat_view.hpp"
 #include "scene/camera.hpp"
 #include "scene/splats.hpp"
 
@@ -43,6 +45,7 @@ struct SplatBlending {
   /// Samples per pixel along each axis. Low passes are in pixels, whatever the number of samples.
   int supersampling = 1;
   double near = 0;  // of the frame's clip range
+  SplatCulls culls = SplatCulls::none;
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "oracle/published_culls.hpp"
+
 namespace tureen::oracle {
 
 std::optional<WindowInView> WindowInView::project(const TriangleWindows& windows, std::size_t i,
@@ -17,6 +19,9 @@ std::optional<WindowInView> WindowInView::project(const TriangleWindows& windows
   WindowInView result;
   glm::dvec3 points[3];
   for (int k = 0; k < 3; ++k) points[k] = view.point(corners[k]);
+  if (view.culls() == SplatCulls::published &&
+      !is_published_window(view, {points[0], points[1], points[2]}))
+    return {};
   // Edges are differences in layer coordinates, where those of float corners are exact: a short
   // edge of a distant triangle loses no digits.
   double w_sum = 0;

@@ -59,7 +59,9 @@ PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLim
     const auto* splats = std::get_if<Splats>(&layer.primitives);
     if (!splats) continue;
     const auto at = static_cast<std::ptrdiff_t>(i);
-    SplatPlan plan = make_splat_plan(*splats, options.plan.specialise);
+    SplatPlan plan = make_splat_plan(*splats, {.specialise = options.plan.specialise,
+                                               .profile = options.plan.splat_profile,
+                                               .as_published = options.plan.as_published});
     prepared.layers.insert(prepared.layers.begin() + at,
                            {.name = layer.name,
                             .bounds = bounds(*splats),

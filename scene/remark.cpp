@@ -30,6 +30,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "splats_dropped",
     "splat_colors_linear",
     "profile_assumed",
+    "render_mode_unknown",
     "color_components_clamped",
     "face_colors_dropped",
     "colors_missing",
@@ -133,16 +134,18 @@ std::string sentence_of(const Remark& remark) {
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
              " soft triangles have an opacity below " + short_decimal(values[0], 6) + ": dropped";
     case Kind::splats_dropped:
-      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
-             " splats have a value that is not a number, a size that is not finite, or no "
-             "rotation: "
-             "dropped";
+      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) + " splats " +
+             (counts[0] == 1 ? "has" : "have") +
+             " a value that is not a number, a size that is not finite, or no rotation: dropped";
     case Kind::splat_colors_linear:
       return "the splats were trained and are blended in linear light; they are drawn as if their "
              "colours were display-referred, and look different";
     case Kind::profile_assumed:
       return "the file does not store how its splats are rendered: the profile " + names[0] +
              " is assumed";
+    case Kind::render_mode_unknown:
+      return "the render mode '" + names[0] + "' of the file is unknown: the profile " + names[1] +
+             " is used";
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
@@ -249,6 +252,9 @@ std::string hint_of(const Remark& remark) {
     case Kind::up_unknown_to_trimesh:
     case Kind::up_unknown_to_splats:
       return "--up changes it";
+    case Kind::profile_assumed:
+    case Kind::render_mode_unknown:
+      return "--profile changes it";
     case Kind::vertex_colors_srgb_by_generator:
     case Kind::vertex_colors_linear_by_gltf:
       return "--vertex-colors changes it";

@@ -34,6 +34,7 @@ struct Remark {
     splats_dropped,       // counts: dropped, all
     splat_colors_linear,  // in linear light, which SplatColor does not hold
     profile_assumed,      // names: the profile
+    render_mode_unknown,  // names: the mode that the file asks for, the profile that is used
     // Colours.
     color_components_clamped,  // counts: components
     face_colors_dropped,       // the file has vertex colours as well

@@ -1,6 +1,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -41,7 +42,29 @@ void choose_up(SceneInfo& info, const glm::vec3& up) {
   std::erase_if(info.remarks, [](const Remark& remark) {
     return remark.kind == Remark::Kind::up_unknown_to_format ||
            remark.kind == Remark::Kind::up_unknown_to_trimesh ||
-           remark.kind == Remark::Kind::up_unknown_to_checkpoint;
+           remark.kind == Remark::Kind::up_unknown_to_checkpoint ||
+           remark.kind == Remark::Kind::up_unknown_to_splats;
+  });
+}
+
+void choose_profile(Scene& scene, std::string_view name) {
+  const std::optional<SplatProfile> profile = profile_named(name);
+  assert(profile);
+  bool found = false;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    auto* splats = std::get_if<Splats>(&scene.layers[i].primitives);
+    if (!splats) continue;
+    found = true;
+    if (const auto reason = profile_defect(splats->kernel, *profile))
+      throw UsageError("the profile " + std::string(name) + " does not fit " +
+                       label(scene.layers[i], i) + ": " + *reason);
+    splats->profile = *profile;
+  }
+  if (!found)
+    throw UsageError("the profile " + std::string(name) + " applies to splats; the scene has none");
+  std::erase_if(scene.info.remarks, [](const Remark& remark) {
+    return remark.kind == Remark::Kind::profile_assumed ||
+           remark.kind == Remark::Kind::render_mode_unknown;
   });
 }
 

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -92,6 +93,11 @@ const TriangleSoup& only_soup(const Scene& scene);
 /// Removes all other layers; the named one keeps its transform and becomes visible. `name` is the
 /// layer's label(). Throws UsageError, which lists the labels, unless exactly one layer has it.
 void keep_layer(Scene& scene, const std::string& name);
+
+/// Gives all splats of the scene this profile (named_profiles), by the user's choice, and removes
+/// the remarks that the file stores none. Throws UsageError, which names the layer, if a kernel
+/// does not support the profile, and if the scene has no splats.
+void choose_profile(Scene& scene, std::string_view name);
 
 /// Whether a layer is visible.
 bool has_visible_layer(const Scene& scene);

@@ -14,10 +14,12 @@ namespace {
 
 using Profile = SplatProfile;
 
-constexpr Profile triangle_splatting{};
-constexpr Profile gaussians_3d{.low_pass = Profile::LowPass::dilation};
+constexpr Profile triangle_splatting{.min_center_depth = published_center_depth};
+constexpr Profile gaussians_3d{.low_pass = Profile::LowPass::dilation,
+                               .min_center_depth = published_center_depth};
 constexpr Profile gaussians_2d{.projection = Profile::Projection::plane,
-                               .low_pass = Profile::LowPass::screen};
+                               .low_pass = Profile::LowPass::screen,
+                               .min_center_depth = published_center_depth};
 
 template <class T>
 std::size_t vector_bytes(const std::vector<T>& values) {
@@ -86,8 +88,6 @@ std::string at(std::size_t splat, const char* what) {
 }
 
 struct FindKernelDefect {
-  const Profile& profile;
-
   SplatDefect operator()(const TriangleWindows& windows) const {
     const std::size_t splats = windows.opacity.size();
     if (windows.corners.size() != 3 * splats || windows.sigma.size() != splats)
@@ -102,9 +102,6 @@ struct FindKernelDefect {
         return at(i, "a sigma that is not positive and finite");
       if (!is_fraction(windows.opacity[i])) return at(i, "an opacity outside 0..1");
     }
-    if (profile.projection != Profile::Projection::ewa ||
-        profile.low_pass != Profile::LowPass::none)
-      return "triangle windows have neither another projection nor a low pass";
     return {};
   }
 
@@ -125,15 +122,6 @@ struct FindKernelDefect {
         return at(i, "a rotation that is not of unit length");
       if (!is_fraction(gaussians.opacity[i])) return at(i, "an opacity outside 0..1");
     }
-    if (profile.projection == Profile::Projection::plane && !gaussians.flat)
-      return "only flat Gaussians can be projected on their plane";
-    if (profile.low_pass == Profile::LowPass::screen &&
-        profile.projection != Profile::Projection::plane)
-      return "the low pass of 2DGS needs projection on the plane";
-    if (profile.projection == Profile::Projection::plane &&
-        (profile.low_pass == Profile::LowPass::dilation ||
-         profile.low_pass == Profile::LowPass::mip))
-      return "dilation needs the projection by EWA";
     return {};
   }
 
@@ -157,23 +145,9 @@ struct FindKernelDefect {
       if (!std::isfinite(densities.networks[k]))
         return at(k / NeuralDensities::parameters, "a network parameter that is not finite");
     if (!std::isfinite(densities.omega)) return "omega is not finite";
-    if (profile.projection != Profile::Projection::ewa ||
-        profile.low_pass != Profile::LowPass::none)
-      return "neural densities have neither another projection nor a low pass";
     return {};
   }
 };
-
-SplatDefect find_splat_defect(const Profile& profile) {
-  if (!(profile.max_alpha > 0 && profile.max_alpha <= 1))
-    return "the largest alpha is outside 0..1";
-  // 0 would give a Gaussian no end.
-  if (!(profile.min_alpha >= 1e-6f && profile.min_alpha < 1))
-    return "the smallest alpha is outside 1e-6..1";
-  if (!(profile.stop_transmittance >= 0 && profile.stop_transmittance < 1))
-    return "the transmittance that ends a pixel is outside 0..1";
-  return {};
-}
 
 SplatDefect find_splat_defect(const SplatColor& color, const SplatKernel& kernel,
                               std::size_t splats) {
@@ -200,13 +174,14 @@ std::size_t coefficients_per_splat(const SplatColor& color) {
 
 const std::array<NamedProfile, 8> named_profiles{{
     {"3dgs", gaussians_3d},
-    {"mip", {.low_pass = Profile::LowPass::mip}},
+    {"mip", {.low_pass = Profile::LowPass::mip, .min_center_depth = published_center_depth}},
     {"2dgs", gaussians_2d},
     {"games", gaussians_3d},
+    // It traces rays.
     {"redisplats",
      {.projection = Profile::Projection::plane, .max_alpha = 1.0f, .stop_transmittance = 0.0f}},
     {"triangle-splatting", triangle_splatting},
-    {"mesh-splatting", {.max_alpha = 0.999f}},
+    {"mesh-splatting", {.max_alpha = 0.999f, .min_center_depth = published_center_depth}},
     {"splatnet", triangle_splatting},
 }};
 
@@ -220,6 +195,52 @@ std::string_view name_of(const SplatProfile& profile) {
   for (const NamedProfile& each : named_profiles)
     if (each.profile == profile) return each.name;
   return "custom";
+}
+
+std::optional<std::string> profile_defect(const SplatKernel& kernel, const SplatProfile& profile) {
+  if (!(profile.max_alpha > 0 && profile.max_alpha <= 1))
+    return "the largest alpha is outside 0..1";
+  // 0 would give a Gaussian no end.
+  if (!(profile.min_alpha >= 1e-6f && profile.min_alpha < 1))
+    return "the smallest alpha is outside 1e-6..1";
+  if (!(profile.stop_transmittance >= 0 && profile.stop_transmittance < 1))
+    return "the transmittance that ends a pixel is outside 0..1";
+  if (!(profile.min_center_depth >= 0 && std::isfinite(profile.min_center_depth)))
+    return "the smallest depth of a centre is negative or not finite";
+  const bool on_plane = profile.projection == Profile::Projection::plane;
+  const auto* gaussians = std::get_if<Gaussians>(&kernel);
+  if (!gaussians && (on_plane || profile.low_pass != Profile::LowPass::none))
+    return std::string(kernel_name(kernel)) + " have neither another projection nor a low pass";
+  if (on_plane && !gaussians->flat) return "only flat Gaussians can be projected on their plane";
+  if (profile.low_pass == Profile::LowPass::screen && !on_plane)
+    return "the low pass of 2DGS needs projection on the plane";
+  if (on_plane &&
+      (profile.low_pass == Profile::LowPass::dilation || profile.low_pass == Profile::LowPass::mip))
+    return "dilation needs the projection by EWA";
+  return {};
+}
+
+const std::vector<float>* opacity_of(const SplatKernel& kernel) {
+  if (const auto* windows = std::get_if<TriangleWindows>(&kernel)) return &windows->opacity;
+  if (const auto* gaussians = std::get_if<Gaussians>(&kernel)) return &gaussians->opacity;
+  return nullptr;
+}
+
+int degree_in_use(const SplatColor& color) {
+  const std::size_t per_splat = harmonics::count(color.degree);
+  int degree = 0;
+  for (std::size_t i = 0; i < color.coefficients.size() && degree < color.degree; ++i) {
+    if (color.coefficients[i] == glm::vec3(0.0f)) continue;
+    while (i % per_splat >= std::size_t(harmonics::count(degree))) ++degree;
+  }
+  return degree;
+}
+
+bool is_transparent(const Splats& splats) {
+  const std::vector<float>* opacity = opacity_of(splats.kernel);
+  return opacity && !opacity->empty() &&
+         std::none_of(opacity->begin(), opacity->end(),
+                      [&](float each) { return each >= splats.profile.min_alpha; });
 }
 
 std::size_t count(const Splats& splats) {
@@ -243,12 +264,16 @@ std::string describe(const Splats& splats) {
          std::to_string(splats.color.degree) + (splats.color.per_corner ? " per corner" : "");
 }
 
-std::string_view profile_name(const Splats& splats) {
-  const std::string_view name = name_of(splats.profile);
-  if (std::holds_alternative<NeuralDensities>(splats.kernel) && name == "triangle-splatting")
+std::string_view profile_name(const SplatKernel& kernel, const SplatProfile& profile) {
+  const std::string_view name = name_of(profile);
+  if (std::holds_alternative<NeuralDensities>(kernel) && name == "triangle-splatting")
     return "splatnet";
-  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  const auto* gaussians = std::get_if<Gaussians>(&kernel);
   return gaussians && gaussians->flat && name == "3dgs" ? "games" : name;
+}
+
+std::string_view profile_name(const Splats& splats) {
+  return profile_name(splats.kernel, splats.profile);
 }
 
 glm::dvec3 center(const Splats& splats, std::size_t i) {
@@ -270,10 +295,11 @@ Bounds bounds(const Splats& splats) {
   return box.bounds();
 }
 
-Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which) {
+Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which,
+              const SplatProfile& profile) {
   SplatBox box;
   std::visit(
-      [add = AddToBox{splats.profile, box}, which](const auto& kernel) {
+      [add = AddToBox{profile, box}, which](const auto& kernel) {
         for (const std::uint32_t i : which) add(kernel, i);
       },
       splats.kernel);
@@ -316,9 +342,8 @@ std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>&
 }
 
 std::optional<std::string> defect(const Splats& splats) {
-  if (SplatDefect reason = find_splat_defect(splats.profile)) return reason;
-  if (SplatDefect reason = std::visit(FindKernelDefect{splats.profile}, splats.kernel))
-    return reason;
+  if (SplatDefect reason = profile_defect(splats.kernel, splats.profile)) return reason;
+  if (SplatDefect reason = std::visit(FindKernelDefect{}, splats.kernel)) return reason;
   return find_splat_defect(splats.color, splats.kernel, count(splats));
 }
 

@@ -100,10 +100,16 @@ struct SplatProfile {
   /// A splat that would lower the transmittance of a pixel below this value ends the pixel and is
   /// not blended. 0: every splat is blended. The device does not follow this rule, only the oracle.
   float stop_transmittance = 1e-4f;
+  /// Splats whose centre has at most this view depth, in layer units, are not drawn: too near for
+  /// the affine approximation of EWA, and the rule of 3DGS and of the methods built on its
+  /// rasteriser (in_frustum() of their code). 0: the centre may be anywhere, even behind the eye.
+  float min_center_depth = 0.0f;
 
   bool operator==(const SplatProfile&) const = default;
 };
 
+/// SplatProfile::min_center_depth of the published rasterisers.
+inline constexpr float published_center_depth = 0.2f;
 /// Variance in px^2 that LowPass::dilation and LowPass::mip add along both axes of the image.
 inline constexpr double dilation_variance = 0.3;
 /// Variance in px^2 of the Gaussian of LowPass::screen.
@@ -122,9 +128,9 @@ std::optional<SplatProfile> profile_named(std::string_view name);
 /// The first name of this profile, or "custom".
 std::string_view name_of(const SplatProfile& profile);
 
-struct Splats;
-/// The name of the splats' profile. Several methods have equal profiles; the kernel decides.
-std::string_view profile_name(const Splats& splats);
+/// The name of a profile of splats with this kernel. Several methods have equal profiles; the
+/// kernel decides.
+std::string_view profile_name(const SplatKernel& kernel, const SplatProfile& profile);
 
 struct Splats {
   SplatKernel kernel = {};
@@ -132,11 +138,25 @@ struct Splats {
   SplatProfile profile = {};
 };
 
+/// The reason why splats with this kernel cannot have this profile, or nullopt: a value outside its
+/// range, or a rule that the kernel does not support. O(1).
+std::optional<std::string> profile_defect(const SplatKernel& kernel, const SplatProfile& profile);
+
+/// The opacities, or null for a kernel without.
+const std::vector<float>* opacity_of(const SplatKernel& kernel);
+/// Whether there are splats, but none with an opacity that reaches SplatProfile::min_alpha.
+bool is_transparent(const Splats& splats);
+
+/// The degree of the highest band with a coefficient other than 0.
+int degree_in_use(const SplatColor& color);
+
 /// Number of splats.
 std::size_t count(const Splats& splats);
 
 /// "triangle windows", "Gaussians", "flat Gaussians" or "neural densities".
 const char* kernel_name(const SplatKernel& kernel);
+
+std::string_view profile_name(const Splats& splats);
 
 /// "90854 Gaussians, profile 3dgs, harmonics of degree 0"; with colours of corners, " per corner".
 std::string describe(const Splats& splats);
@@ -147,8 +167,9 @@ glm::dvec3 center(const Splats& splats, std::size_t i);
 /// The box around every point at which a splat's alpha, without a low pass, reaches
 /// SplatProfile::min_alpha; zeros without such points. Splats that are not finite are ignored.
 Bounds bounds(const Splats& splats);
-/// The same for the splats with these indices.
-Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which);
+/// The same for the splats with these indices, drawn by `profile`.
+Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which,
+              const SplatProfile& profile);
 
 /// Bytes in the vectors.
 std::size_t byte_size(const Splats& splats);
@@ -158,7 +179,7 @@ std::size_t byte_size(const Splats& splats);
 std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>& keeps);
 
 /// The reason why these splats cannot be drawn (a size that does not match, a value outside its
-/// range or not finite, a profile that its kernel does not support), or nullopt. Readers return
+/// range or not finite, a profile_defect()), or nullopt. Readers return
 /// splats without a defect, and all users rely on that. O(data).
 std::optional<std::string> defect(const Splats& splats);
 

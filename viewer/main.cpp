@@ -39,7 +39,8 @@ extern "C" void note_interrupt(int) { was_interrupted = 1; }
 struct Arguments {
   std::vector<std::string> paths;
   std::string api = "gl", size, replay, record, images;
-  std::string pipeline = "auto";
+  std::string pipeline = "auto", profile;
+  bool as_published = false;
   bool no_specialise = false, no_settings = false, report = false;
 };
 
@@ -67,6 +68,16 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
+  std::vector<std::string> profiles;
+  for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);
+  program
+      .add_option("--profile", arguments.profile,
+                  "draw splats by the rules of another method; the scene's own by default")
+      ->check(CLI::IsMember(profiles))
+      ->option_text("NAME");
+  program.add_flag("--as-published", arguments.as_published,
+                   "also cull splats by the rules of their authors' code that depend on the "
+                   "resolution");
   program.add_option("--images,--pictures", arguments.images, "folder for saved images")
       ->option_text("FOLDER");
   program
@@ -127,6 +138,8 @@ int run(const Arguments& arguments) {
   options.images = arguments.images;
   if (arguments.pipeline != "auto") options.drawing.pipeline = PipelineKind::baseline;
   options.drawing.plan.specialise = !arguments.no_specialise;
+  options.drawing.plan.as_published = arguments.as_published;
+  options.drawing.plan.splat_profile = profile_named(arguments.profile);
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on stored settings.
   if (!arguments.no_settings && arguments.replay.empty()) options.settings = settings_file();

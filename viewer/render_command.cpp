@@ -19,6 +19,9 @@ std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v
 void add_choice(std::string& command, const DrawingChoice& choice, const Scene& scene) {
   if (choice.pipeline == PipelineKind::baseline) command += " --pipeline baseline";
   if (!choice.plan.specialise) command += " --no-specialise";
+  if (choice.plan.splat_profile)
+    command += " --profile " + std::string(name_of(*choice.plan.splat_profile));
+  if (choice.plan.as_published) command += " --as-published";
   std::string kept;
   for (const SpecialisationName& entry : specialisation_names())
     if (!choice.plan.specialisations.has(entry.what))

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/report.hpp"
+
 namespace tureen::cli {
 
 namespace {
@@ -81,6 +83,13 @@ void add_drawing_scale(Command& command, DrawingOptions& options) {
 
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options) {
   PlanPreferences preferences = options.plan;
+  const bool has_soup = std::any_of(
+      scene.layers.begin(), scene.layers.end(),
+      [](const Layer& layer) { return std::holds_alternative<TriangleSoup>(layer.primitives); });
+  if (!has_soup && preferences.shading_stage != PlanPreferences{}.shading_stage)
+    say("--shading has no effect: the scene has only splats");
+  if (!has_soup && !(preferences.specialisations == SpecialisationSet::all()))
+    say("--keep has no effect: the scene has only splats");
   preferences.quality = scene.quality;
   // Each option replaces the scene's complete quality setting; they exclude each other.
   if (options.supersampling) preferences.quality = {.supersampling = *options.supersampling};

@@ -19,7 +19,8 @@ struct DrawingOptions {
   std::optional<double> resolution_scale = {};
 };
 
-/// The plan's preferences for a scene; its quality setting is the default.
+/// The plan's preferences for a scene; its quality setting is the default. Prints a sentence for
+/// each option that does not apply to the scene.
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options);
 
 /// --context. `backend` must live until the arguments are parsed.

@@ -23,23 +23,53 @@ std::string stem_of(const std::string& path) {
   return (normal.has_filename() ? normal : normal.parent_path()).stem().string();
 }
 
+Scene read_file(const std::string& name, const ReadingChoice& choice) {
+  glm::dvec3 up(0.0);
+  if (!choice.up.empty()) {
+    up = parse_vector(choice.up);
+    if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 has no direction");
+  }
+  const std::filesystem::path path = name;
+  require_there(path);
+  Progress progress("reading " + path.filename().string());
+  ReadOptions options;
+  options.vertex_colors = choice.vertex_colors;
+  options.progress = [&](double fraction) { progress.update(fraction); };
+  Scene scene = read_scene(path, options);
+  if (!choice.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
+  return scene;
+}
+
 }  // namespace
 
-void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std::string& up) {
-  add_choice<VertexColorSpace>(command, "--vertex-colors", vertex_colors,
+void add_reading_options(Command& command, ReadingChoice& choice) {
+  add_choice<VertexColorSpace>(command, "--vertex-colors", choice.vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
                                "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
                                "on its generator), srgb or linear")
       .value_name("SPACE");
-  command.add_option("--up", up, "up direction in world coordinates; the scene's own by default")
+  command
+      .add_option("--up", choice.up,
+                  "up direction in world coordinates; the scene's own by default")
       .value_name("X,Y,Z");
+  std::vector<std::string> names;
+  std::string listed;
+  for (const NamedProfile& each : named_profiles) {
+    names.emplace_back(each.name);
+    listed += (listed.empty() ? "" : ", ") + names.back();
+  }
+  add_word_option(
+      command, "--profile", std::move(names),
+      [&choice](std::size_t index) { choice.profile = named_profiles[index].name; },
+      "draw splats by the rules of another method: " + listed + "; the scene's own by default")
+      .value_name("NAME");
 }
 
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
   command.add_option(name, argument.path, scene_help).required();
-  add_reading_options(command, argument.vertex_colors, argument.up);
+  add_reading_options(command, argument.choice);
 }
 
 void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name) {
@@ -48,23 +78,12 @@ void add_scene_arguments(Command& command, SceneArguments& arguments, const char
           name, arguments.paths,
           std::string(scene_help) + ". Several scenes are combined into one, each as a layer")
       .required();
-  add_reading_options(command, arguments.vertex_colors, arguments.up);
+  add_reading_options(command, arguments.choice);
 }
 
 Scene read(const SceneArgument& argument) {
-  glm::dvec3 up(0.0);
-  if (!argument.up.empty()) {
-    up = parse_vector(argument.up);
-    if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 has no direction");
-  }
-  const std::filesystem::path path = argument.path;
-  require_there(path);
-  Progress progress("reading " + path.filename().string());
-  ReadOptions options;
-  options.vertex_colors = argument.vertex_colors;
-  options.progress = [&](double fraction) { progress.update(fraction); };
-  Scene scene = read_scene(path, options);
-  if (!argument.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
+  Scene scene = read_file(argument.path, argument.choice);
+  if (!argument.choice.profile.empty()) choose_profile(scene, argument.choice.profile);
   return scene;
 }
 
@@ -77,21 +96,26 @@ Scene read_one_layer(const SceneArgument& argument) {
 Scene read(const SceneArguments& arguments) {
   std::vector<Scene> scenes;
   for (const std::string& path : arguments.paths) {
-    Scene& scene = scenes.emplace_back(read(
-        SceneArgument{.path = path, .vertex_colors = arguments.vertex_colors, .up = arguments.up}));
+    Scene& scene = scenes.emplace_back(read_file(path, arguments.choice));
     if (arguments.paths.size() > 1 && scene.info.name.empty()) scene.info.name = stem_of(path);
   }
-  return merged(std::move(scenes));
+  Scene scene = merged(std::move(scenes));
+  if (!arguments.choice.profile.empty()) choose_profile(scene, arguments.choice.profile);
+  return scene;
 }
 
 void require_not_inputs(const std::filesystem::path& output, const SceneArguments& arguments) {
   for (const std::string& path : arguments.paths) require_not_input(output, path);
 }
 
-void say_if_hidden(const Scene& scene) {
+void say_what_is_hidden(const Scene& scene) {
   if (!has_visible_layer(scene))
     say(scene.layers.size() == 1 ? "The only layer is hidden: images show only the background."
                                  : "All layers are hidden: images show only the background.");
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    if (const auto* splats = std::get_if<Splats>(&scene.layers[i].primitives);
+        splats && is_transparent(*splats))
+      say("All splats of " + label(scene.layers[i], i) + " are transparent: none is drawn.");
 }
 
 std::string listed(const SceneArguments& arguments) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/options/arguments.hpp"
@@ -10,30 +11,37 @@
 
 namespace tureen::cli {
 
-struct SceneArgument {
-  std::string path;
+/// What the command line changes of a scene as it is read.
+struct ReadingChoice {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
-  std::string up;  // empty: the scene's own
+  std::string up;            // empty: the scene's own; of several scenes, the first's
+  std::string_view profile;  // of named_profiles, for all splats; empty: the scene's own
+
+  bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds the required argument `name`, and --vertex-colors and --up. `argument` must live until the
-/// arguments are parsed.
+/// Adds --vertex-colors, --up and --profile. `choice` must live until the arguments are parsed.
+void add_reading_options(Command& command, ReadingChoice& choice);
+
+struct SceneArgument {
+  std::string path;
+  ReadingChoice choice = {};
+};
+
+/// Adds the required argument `name`, and the options of add_reading_options().
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
 
 /// Several scenes, combined into one, each as a layer. The options apply to each of them.
 struct SceneArguments {
   std::vector<std::string> paths;  // at least one
-  VertexColorSpace vertex_colors = VertexColorSpace::automatic;
-  std::string up;  // empty: the first scene's own
+  ReadingChoice choice = {};
 };
 
-/// Adds the required list of arguments `name`, and --vertex-colors and --up.
+/// Adds the required list of arguments `name`, and the options of add_reading_options().
 void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name = "SCENE");
 
-/// Adds only --vertex-colors and --up, for a command with its own positional arguments.
-void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std::string& up);
-
-/// Throws InputError, with a suggestion if the path does not exist.
+/// Throws InputError, with a suggestion if the path does not exist; UsageError for a choice that
+/// does not fit the scene.
 Scene read(const SceneArgument& argument);
 
 /// The same for a command that supports only one layer at an origin: applies the layer's rotation,
@@ -48,8 +56,8 @@ Scene read(const SceneArguments& arguments);
 /// require_not_input() for each scene (cli/options/output_argument.hpp).
 void require_not_inputs(const std::filesystem::path& output, const SceneArguments& arguments);
 
-/// Prints one sentence if no layer is visible.
-void say_if_hidden(const Scene& scene);
+/// Prints a sentence if no layer is visible, and one for each layer of only transparent splats.
+void say_what_is_hidden(const Scene& scene);
 
 /// "a.glb", "a.glb, b.glb".
 std::string listed(const SceneArguments& arguments);

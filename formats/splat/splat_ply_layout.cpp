@@ -94,26 +94,34 @@ SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
 
 SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind kind) {
   if (kind == SplatBuilder::Kind::neural_densities) return {.profile = *profile_named("splatnet")};
-  std::string_view mode;
+  constexpr std::string_view render_mode = "SplatRenderMode: ";
+  std::string_view mode, unknown;
   for (std::string_view rest = header.comments; !rest.empty();) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-    if (line == "SplatRenderMode: default" || line == "antialiased 0") mode = "default";
-    if (line == "SplatRenderMode: mip" || line == "antialiased 1") mode = "mip";
-    if (line == "SplatRenderMode: 2dgs") mode = "2dgs";
+    if (line.substr(0, render_mode.size()) == render_mode) {
+      const std::string_view value = line.substr(render_mode.size());
+      const bool is_known = value == "default" || value == "mip" || value == "2dgs";
+      (is_known ? mode : unknown) = value;
+    }
+    if (line == "antialiased 0") mode = "default";
+    if (line == "antialiased 1") mode = "mip";
     if (line == "TureenSplatProfile: redisplats") mode = "redisplats";
   }
   const bool is_flat = kind == SplatBuilder::Kind::flat_gaussians;
-  if (mode == "2dgs" || (is_flat && mode.empty()))
-    return {
-        .profile = *profile_named("2dgs"), .is_flat = true, .assumed = mode.empty() ? "2dgs" : ""};
-  if (mode == "redisplats" && is_flat)
-    return {.profile = *profile_named("redisplats"), .is_flat = true, .normal_first = true};
-  return {.profile = *profile_named(mode == "mip" ? "mip"
-                                    : is_flat     ? "games"
-                                                  : "3dgs"),
-          .is_flat = is_flat,
-          .normal_first = is_flat};
+  SplatPlyProfile result{.is_flat = is_flat, .unknown_mode = std::string(unknown)};
+  if (mode == "2dgs" || (is_flat && mode.empty())) {
+    result.is_flat = true;
+    if (mode.empty() && unknown.empty()) result.assumed = "2dgs";
+    result.profile = *profile_named("2dgs");
+    return result;
+  }
+  result.normal_first = is_flat;
+  result.profile = *profile_named(mode == "redisplats" && is_flat ? "redisplats"
+                                  : mode == "mip"                 ? "mip"
+                                  : is_flat                       ? "games"
+                                                                  : "3dgs");
+  return result;
 }
 
 }  // namespace tureen

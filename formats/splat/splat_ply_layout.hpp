@@ -56,10 +56,12 @@ struct SplatPlyLayout {
 SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex);
 
 struct SplatPlyProfile {
-  SplatProfile profile;
+  SplatProfile profile = {};
   bool is_flat = false;       // by the profile, also with three scales
   bool normal_first = false;  // the discs span the local y and z axes (GaMeS)
   std::string assumed = {};   // name of a profile that no comment selects, or empty
+  /// The SplatRenderMode of the last comment that names no known one, or empty.
+  std::string unknown_mode = {};
 };
 
 /// The profile that the header's comments select; `kind` is that of the properties.

@@ -113,6 +113,8 @@ SplatProfile read_splat_profile(const JsonView& view) {
   profile.max_alpha = view["max_alpha"].number_float();
   profile.min_alpha = view["min_alpha"].number_float();
   profile.stop_transmittance = view["stop_transmittance"].number_float();
+  if (const auto depth = view.find("min_center_depth"))
+    profile.min_center_depth = depth->number_float();
   return profile;
 }
 

@@ -120,7 +120,8 @@ json profile_json(const SplatProfile& profile) {
           {"low_pass", layout::splat_low_passes[int(profile.low_pass)]},
           {"max_alpha", profile.max_alpha},
           {"min_alpha", profile.min_alpha},
-          {"stop_transmittance", profile.stop_transmittance}};
+          {"stop_transmittance", profile.stop_transmittance},
+          {"min_center_depth", profile.min_center_depth}};
 }
 
 json add_splats(BinaryPlan& plan, json& extension, const Splats& splats) {

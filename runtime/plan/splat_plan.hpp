@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ inline constexpr std::size_t splats_per_chunk = 65'536;
 struct SplatPlan {
   SplatShaders shaders = SplatShaders::windows;
   SplatProfile profile;
+  /// Whether splats are also culled by the rules of the authors' code that depend on the resolution
+  /// (oracle/published_culls.hpp states them).
+  bool as_published = false;
   /// Of the highest band with a coefficient other than 0, up to the scene's degree.
   int harmonics_degree = 0;
   int colors_per_splat = 1;  // or 3, with SplatColor::per_corner
@@ -40,7 +44,14 @@ struct SplatPlan {
   int stored_degree = 0;   // of the scene's harmonics
 };
 
-/// O(data). The splats have no defect(). Without `specialise`, every splat is drawn with all bands.
-SplatPlan make_splat_plan(const Splats& splats, bool specialise = true);
+struct SplatPreferences {
+  bool specialise = true;                    // if false, every splat is drawn with all bands
+  std::optional<SplatProfile> profile = {};  // default: the splats' own
+  bool as_published = false;                 // SplatPlan::as_published
+};
+
+/// O(data). The splats have no defect(). Throws UsageError for a profile that the kernel does not
+/// support.
+SplatPlan make_splat_plan(const Splats& splats, const SplatPreferences& preferences = {});
 
 }  // namespace tureen

@@ -68,6 +68,13 @@ bool DeviceSplats::tests_depth() const {
   return shaders_ == SplatShaders::discs || shaders_ == SplatShaders::neural_density;
 }
 
+/// REdiSplats traces rays. The tiles of Splat the Net are larger than its splats.
+bool DeviceSplats::has_published_culls() const {
+  if (shaders_ == SplatShaders::discs)
+    return as_published_ && profile_.low_pass == SplatProfile::LowPass::screen;
+  return as_published_ && shaders_ != SplatShaders::neural_density;
+}
+
 DeviceSplats::Constants DeviceSplats::constants() const {
   const SplatProfile::LowPass low_pass = profile_.low_pass;
   const bool dilates =
@@ -80,6 +87,8 @@ DeviceSplats::Constants DeviceSplats::constants() const {
           {"PROJECTED_COLUMNS", std::to_string(projected_columns)},
           {"ORDER_COLUMNS", std::to_string(order_columns)},
           {"MIN_ALPHA", constant(double(profile_.min_alpha))},
+          {"AS_PUBLISHED", has_published_culls() ? "1" : "0"},
+          {"MIN_CENTER_DEPTH", constant(double(profile_.min_center_depth))},
           {"MAX_ALPHA", constant(double(profile_.max_alpha))},
           {"DILATION", dilates ? "1" : "0"},
           {"DILATION_VARIANCE", constant(dilation_variance)},
@@ -92,6 +101,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
                            const SplatPlan& plan)
     : shaders_(plan.shaders),
       profile_(plan.profile),
+      as_published_(plan.as_published),
       harmonics_degree_(plan.harmonics_degree),
       colors_per_splat_(plan.colors_per_splat),
       centers_(std::move(source.centers)),
@@ -150,7 +160,10 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   program.set("view_from_layer", glm::mat3(glm::dmat3(camera.view_from_world)));
   program.set("focal", glm::vec2(camera.fx, camera.fy));
   program.set("principal_point", glm::vec2(camera.cx, camera.height - camera.cy));
-  program.set("slope_range", ewa_slope_range(frame.input.whole.value_or(camera)));
+  const Camera whole = frame.input.whole.value_or(camera);
+  program.set("slope_range", ewa_slope_range(whole));
+  program.set("whole_corner",
+              glm::vec2(whole.cx - camera.cx, whole.cy - camera.cy + camera.height));
   program.set("near", static_cast<float>(in_layer.range.near));
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }

@@ -26,9 +26,9 @@ class DeviceSplats {
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
   static constexpr int order_columns = 2048;
 
-  /// Uploads; of the plan, only `shaders`, `profile`, `harmonics_degree`, `colors_per_splat`,
-  /// `chunks` and the number of drawn splats are used. The source's texels are not needed
-  /// afterwards. Throws DeviceLimitError.
+  /// Uploads; of the plan, only `shaders`, `profile`, `as_published`, `harmonics_degree`,
+  /// `colors_per_splat`, `chunks` and the number of drawn splats are used. The source's texels are
+  /// not needed afterwards. Throws DeviceLimitError.
   DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
 
   /// The layer's index in Frame::layers.
@@ -60,6 +60,7 @@ class DeviceSplats {
  private:
   using Constants = std::map<std::string, std::string>;
 
+  bool has_published_culls() const;
   Constants constants() const;
   void set_view(const gl::Program& program, const Frame& frame) const;
   /// Texels that projection_ computes, one a colour, and their rows.
@@ -68,6 +69,7 @@ class DeviceSplats {
 
   SplatShaders shaders_;
   SplatProfile profile_;
+  bool as_published_;
   int harmonics_degree_, colors_per_splat_;
   std::size_t layer_ = 0;
   std::vector<glm::vec3> centers_;

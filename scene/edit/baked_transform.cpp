@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "base/error.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen {
 
@@ -51,6 +52,9 @@ void bake_transform(Layer& layer) {
     throw UsageError("the layer is rotated, scaled or mirrored, and holds " +
                      std::string(kernel_name(splats->kernel)) +
                      ": they cannot be moved into world coordinates");
+  // A length in layer coordinates, as the positions.
+  if (splats)
+    splats->profile.min_center_depth *= float(similarity_of(layer.world_from_layer).scale);
   auto& positions = splats ? std::get<TriangleWindows>(splats->kernel).corners
                            : std::get<TriangleSoup>(layer.primitives).positions;
   positions = baked_positions(positions, layer);

@@ -14,10 +14,6 @@ namespace tureen {
 
 namespace {
 
-void count(LintFinding& finding, std::size_t index) {
-  if (finding.count++ < LintFinding::shown) finding.first.push_back(std::uint32_t(index));
-}
-
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_squared = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
@@ -161,45 +157,102 @@ const char* name_of(LintFinding::Id id) {
       return "unused_vertices";
     case LintFinding::Id::far_from_origin:
       return "far_from_origin";
+    case LintFinding::Id::transparent_splats:
+      return "transparent_splats";
+    case LintFinding::Id::collapsed_splats:
+      return "collapsed_splats";
+    case LintFinding::Id::needle_splats:
+      return "needle_splats";
+    case LintFinding::Id::outlying_splats:
+      return "outlying_splats";
+    case LintFinding::Id::duplicate_splats:
+      return "duplicate_splats";
+    case LintFinding::Id::zero_harmonics:
+      return "zero_harmonics";
   }
   return "";
 }
 
-std::string describe(const LintFinding& finding) {
-  const bool single = finding.count == 1;
-  bool vertices = false;
-  const char* predicate = "";
-  switch (finding.id) {
+namespace {
+
+/// "vertices", one of them, and what is said of one and of several.
+struct Wording {
+  const char *one, *many, *of_one, *of_many;
+};
+
+Wording wording_of(LintFinding::Id id) {
+  switch (id) {
     case LintFinding::Id::non_finite_vertices:
-      vertices = true;
-      predicate = single ? "is not finite (NaN or infinity)" : "are not finite (NaN or infinity)";
-      break;
+      return {"vertex", "vertices", "is not finite (NaN or infinity)",
+              "are not finite (NaN or infinity)"};
     case LintFinding::Id::degenerate_faces:
-      predicate = single ? "is degenerate (zero area)" : "are degenerate (zero area)";
-      break;
+      return {"face", "faces", "is degenerate (zero area)", "are degenerate (zero area)"};
     case LintFinding::Id::duplicate_faces:
-      predicate = single ? "repeats the corners of an earlier face"
-                         : "repeat the corners of an earlier face";
-      break;
+      return {"face", "faces", "repeats the corners of an earlier face",
+              "repeat the corners of an earlier face"};
     case LintFinding::Id::never_visible_faces:
-      predicate = single ? "is transparent everywhere" : "are transparent everywhere";
-      break;
+      return {"face", "faces", "is transparent everywhere", "are transparent everywhere"};
     case LintFinding::Id::unused_vertices:
-      vertices = true;
-      predicate = single ? "is used by no face" : "are used by no face";
-      break;
+      return {"vertex", "vertices", "is used by no face", "are used by no face"};
+    case LintFinding::Id::transparent_splats:
+      return {"splat", "splats", "is too transparent to be drawn",
+              "are too transparent to be drawn"};
+    case LintFinding::Id::collapsed_splats:
+      return {"splat", "splats", "has a size of 0 along an axis", "have a size of 0 along an axis"};
+    case LintFinding::Id::needle_splats:
+      return {"splat", "splats", "is over 2000 times as long as wide",
+              "are over 2000 times as long as wide"};
+    case LintFinding::Id::outlying_splats:
+      return {"splat", "splats", "is far outside the others, or larger than they all",
+              "are far outside the others, or larger than they all"};
+    case LintFinding::Id::duplicate_splats:
+      return {"splat", "splats", "repeats an earlier splat", "repeat an earlier splat"};
+    case LintFinding::Id::zero_harmonics:
+      return {"coefficient", "harmonics coefficients", "is 0 for all splats",
+              "are 0 for all splats"};
     case LintFinding::Id::far_from_origin:
-      return "the vertices lie too far from the origin for 32-bit floats: the extent is only " +
-             std::to_string(finding.extent_over_offset) +
-             " of the largest coordinate (below 0.0002); store them relative to an origin";
+      break;
   }
-  const char* many = vertices ? "vertices" : "faces";
+  return {};
+}
+
+}  // namespace
+
+std::string describe(const LintFinding& finding) {
+  if (finding.id == LintFinding::Id::far_from_origin)
+    return "the vertices lie too far from the origin for 32-bit floats: the extent is only " +
+           std::to_string(finding.extent_over_offset) +
+           " of the largest coordinate (below 0.0002); store them relative to an origin";
+  const bool single = finding.count == 1;
+  const Wording words = wording_of(finding.id);
   std::string text = std::to_string(finding.count) + " of " + std::to_string(finding.of) + " " +
-                     many + " " + predicate + ": " +
-                     (single ? (vertices ? "vertex" : "face") : many);
+                     words.many + " " + (single ? words.of_one : words.of_many) + ": " +
+                     (single ? words.one : words.many);
   for (std::size_t i = 0; i < finding.first.size(); ++i)
     text += (i ? ", " : " ") + std::to_string(finding.first[i]);
   return text + (finding.count > finding.first.size() ? " ..." : "");
+}
+
+void count(LintFinding& finding, std::size_t index) {
+  if (finding.count++ < LintFinding::shown) finding.first.push_back(std::uint32_t(index));
+}
+
+void add_counted(Lint& lint, std::initializer_list<LintFinding*> findings) {
+  for (LintFinding* finding : findings)
+    if (finding->count > 0) lint.findings.push_back(std::move(*finding));
+}
+
+void add_distance_from_origin(Lint& lint, const Bounds& box) {
+  double offset = 0;
+  for (int c = 0; c < 3; ++c)
+    offset = std::max({offset, std::abs(double(box.low[c])), std::abs(double(box.high[c]))});
+  // At 2e-4 the spacing of floats at that offset is 1 / 3000 of the extent: about a pixel if the
+  // box fills a screen (docs/numerics.md, G3b).
+  constexpr double smallest_ratio = 2e-4;
+  lint.extent_over_offset = offset > 0 ? 2 * box.radius() / offset : 0;
+  if (offset > 0 && lint.extent_over_offset < smallest_ratio)
+    lint.findings.push_back(
+        {.id = LintFinding::Id::far_from_origin, .extent_over_offset = lint.extent_over_offset});
 }
 
 const LintFinding* Lint::find(LintFinding::Id id) const {
@@ -237,20 +290,8 @@ Lint lint(const TriangleSoup& soup) {
     if (!used[v]) count(unused, v);
   find_duplicates(soup, ordinary, duplicate);
   Lint result;
-  for (LintFinding* finding : {&non_finite, &degenerate, &duplicate, &hidden, &unused})
-    if (finding->count > 0) result.findings.push_back(std::move(*finding));
-
-  const Bounds box = bounds(soup);
-  double offset = 0;
-  for (int c = 0; c < 3; ++c)
-    offset = std::max({offset, std::abs(double(box.low[c])), std::abs(double(box.high[c]))});
-  // At 2e-4 the spacing of floats at that offset is 1 / 3000 of the extent: about a pixel if the
-  // soup fills a screen (docs/numerics.md, G3b).
-  constexpr double smallest_ratio = 2e-4;
-  result.extent_over_offset = offset > 0 ? 2 * box.radius() / offset : 0;
-  if (offset > 0 && result.extent_over_offset < smallest_ratio)
-    result.findings.push_back(
-        {.id = LintFinding::Id::far_from_origin, .extent_over_offset = result.extent_over_offset});
+  add_counted(result, {&non_finite, &degenerate, &duplicate, &hidden, &unused});
+  add_distance_from_origin(result, bounds(soup));
   return result;
 }
 

@@ -1,13 +1,15 @@
-// Suspicious properties of a drawable soup: wasted cost, invisible content, or signs of a mistake
-// of a trainer or exporter. O(data).
+// Suspicious properties of a drawable soup or of splats: wasted cost, invisible content, or signs
+// of a mistake of a trainer or exporter. O(n log n).
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "scene/splats.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
@@ -33,17 +35,42 @@ struct LintFinding {
     /// Lint::extent_over_offset is below 2e-4, where steps of 32-bit floats become visible. To
     /// avoid this, store coordinates relative to a near point, and put that point into
     /// Layer::world_from_layer.
-    far_from_origin
+    far_from_origin,
+    /// Splats whose opacity is below SplatProfile::min_alpha: they are never drawn. Those of neural
+    /// densities depend on the view and are not counted.
+    transparent_splats,
+    /// Gaussians with a scale of 0, flat ones with one of the first two; windows without area as
+    /// degenerate_faces. Some low passes still draw them as lines or dots.
+    collapsed_splats,
+    /// Splats that are more than `needle_aspect` times as long as they are wide: an error of the
+    /// trainer, and rounding shows. Collapsed ones are not counted.
+    needle_splats,
+    /// Splats whose centre is more than 10 times as far from the median centre as nine tenths of
+    /// the centres, or whose largest scale (of a window, its extent) is above the distance of nine
+    /// tenths. They cover much of every image, and enlarge the box into which views fit.
+    outlying_splats,
+    /// Splats with exactly the shape and place of an earlier one.
+    duplicate_splats,
+    /// Harmonics coefficients that are 0 for all splats, from a degree on: the file may do without.
+    /// Counts coefficients, not splats.
+    zero_harmonics
   };
-  /// The ids that count faces or vertices.
+  /// The ids that count faces or vertices of a soup.
   static constexpr std::array counted{Id::non_finite_vertices, Id::degenerate_faces,
                                       Id::duplicate_faces, Id::never_visible_faces,
                                       Id::unused_vertices};
+  /// The ids that count splats, or their coefficients.
+  static constexpr std::array counted_of_splats{Id::transparent_splats, Id::collapsed_splats,
+                                                Id::needle_splats,      Id::outlying_splats,
+                                                Id::duplicate_splats,   Id::zero_harmonics};
+  /// At this aspect, roundings of floats change the alpha of a Gaussian by half an 8-bit step
+  /// (docs/numerics.md, E1).
+  static constexpr double needle_aspect = 2000;
   static constexpr std::size_t shown = 5;
 
   Id id{};
-  std::size_t count = 0;                  // number of faces or vertices found
-  std::size_t of = 0;                     // number in the soup
+  std::size_t count = 0;                  // number of faces, vertices, .. found
+  std::size_t of = 0;                     // number in the soup or the splats
   std::vector<std::uint32_t> first = {};  // the lowest indices found, at most `shown`
   double extent_over_offset = 0;          // for far_from_origin
 };
@@ -56,7 +83,7 @@ std::string describe(const LintFinding& finding);
 
 struct Lint {
   std::vector<LintFinding> findings;  // in the order of their ids; empty for a clean soup
-  /// The soup's extent (the diagonal of its bounds) divided by its largest absolute coordinate; 0
+  /// The extent (the diagonal of its bounds) divided by its largest absolute coordinate; 0
   /// if all coordinates are 0.
   double extent_over_offset = 0;
 
@@ -64,7 +91,15 @@ struct Lint {
   const LintFinding* find(LintFinding::Id id) const;
 };
 
-/// Finds the suspicious properties of a soup. The soup must have no defect().
+/// Finds the suspicious properties of a soup, or of splats. They must have no defect().
 Lint lint(const TriangleSoup& soup);
+Lint lint(const Splats& splats);
+
+/// Adds LintFinding::Id::far_from_origin if the box has it, and sets Lint::extent_over_offset.
+void add_distance_from_origin(Lint& lint, const Bounds& box);
+/// Adds the findings that count something.
+void add_counted(Lint& lint, std::initializer_list<LintFinding*> findings);
+/// Counts `index`.
+void count(LintFinding& finding, std::size_t index);
 
 }  // namespace tureen

@@ -5,11 +5,19 @@ flat in vec3 plane_w;
 flat in vec4 place;
 
 uniform float near;
+#if AS_PUBLISHED
+flat in vec4 tiles;
+#include "splat_tiles.glsl"
+#endif
 
 #include "splat_blended.glsl"
 #include "splat_depth_behind.glsl"
 
 void main() {
+#if AS_PUBLISHED
+  blended = vec4(0.0);
+  if (!is_in_tiles(tiles, gl_FragCoord.xy)) return;
+#endif
   vec2 pixel = gl_FragCoord.xy - place.xy;
   // (u, v, 1) is orthogonal to both.
   vec3 k = vec3(plane_xy.xy - pixel.x * plane_w.xy, place.z - pixel.x * plane_w.z);

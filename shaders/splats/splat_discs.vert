@@ -11,6 +11,22 @@ flat out vec4 color;
 flat out vec4 plane_xy;
 flat out vec3 plane_w;
 flat out vec4 place;
+#if AS_PUBLISHED
+flat out vec4 tiles;
+#include "splat_tiles.glsl"
+
+// Around the box of three standard deviations, which also holds the filter's disc (2DGS). The
+// published code uses the same formula for a disc that reaches the eye's plane.
+vec4 published_tiles() {
+  float d = 9.0 * dot(plane_w.xy, plane_w.xy) - plane_w.z * plane_w.z;
+  vec2 x = plane_xy.xy, y = plane_xy.zw;
+  vec2 middle = 9.0 / d * vec2(dot(x, plane_w.xy), dot(y, plane_w.xy));
+  vec2 squared = middle * middle - 9.0 / d * vec2(dot(x, x), dot(y, y));
+  vec2 extent = sqrt(max(squared, 1e-4));
+  float radius = max(max(extent.x, extent.y), 3.0 * 0.7071067811865476);
+  return tiles_around(in_whole_image(place.xy + middle), ceil(radius));
+}
+#endif
 
 void main() {
   ivec2 at = projected_position(ordered_splat());
@@ -19,6 +35,9 @@ void main() {
   vec4 plane_w_and_drawn = texelFetch(planes_w, at, 0);
   plane_w = plane_w_and_drawn.xyz;
   place = texelFetch(places, at, 0);
+#if AS_PUBLISHED
+  tiles = published_tiles();
+#endif
   float excess = 2.0 * log(color.a / MIN_ALPHA);
   gl_Position = nowhere;
   if (!(plane_w_and_drawn.w > 0.0 && excess > 0.0)) return;

@@ -13,6 +13,10 @@ const float farthest = 8192.0;
 
 out vec2 deviations;
 flat out vec4 color;
+#if AS_PUBLISHED
+flat out vec4 tiles;
+#include "splat_tiles.glsl"
+#endif
 
 void main() {
   ivec2 at = projected_position(ordered_splat());
@@ -25,13 +29,24 @@ void main() {
                           : corner == 1 ? vec2(root_3, -1.0) : vec2(0.0, 2.0));
   vec2 pixel = place.xy + deviations.x * axes.xy + deviations.y * axes.zw;
   float squared_1 = dot(axes.xy, axes.xy), squared_2 = dot(axes.zw, axes.zw);
+#if AS_PUBLISHED
+  float half_difference = 0.5 * (squared_1 - squared_2);
+  float largest = 0.5 * (squared_1 + squared_2) + sqrt(max(0.1, half_difference * half_difference));
+  // Their pixel 0 has its centre at 0.
+  tiles = tiles_around(in_whole_image(place.xy) - 0.5, ceil(3.0 * sqrt(largest)));
+#endif
   if (place.w * place.w * max(squared_1, squared_2) > farthest * farthest) {
     pixel = 2.0 * half_size * vec2(corner == 1 ? 2.0 : 0.0, corner == 2 ? 2.0 : 0.0);
     vec2 from_center = pixel - place.xy;
     // The axes are orthogonal.
     deviations = vec2(dot(from_center, axes.xy) / squared_1, dot(from_center, axes.zw) / squared_2);
   }
-  gl_Position = place.w > 0.0 ? vec4(pixel / half_size - 1.0,
-                                     (depth_of_z.x * place.z + depth_of_z.y) / -place.z, 1.0)
-                              : nowhere;
+  // Beside the eye, large splats often miss the image: every pixel would be shaded for nothing. A
+  // thousandth and a pixel more, for rounding.
+  vec2 reach = 1.001 * place.w * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + 1.0;
+  bool is_drawn =
+      place.w > 0.0 && all(lessThanEqual(abs(place.xy - half_size), half_size + reach));
+  gl_Position = is_drawn ? vec4(pixel / half_size - 1.0,
+                                (depth_of_z.x * place.z + depth_of_z.y) / -place.z, 1.0)
+                         : nowhere;
 }

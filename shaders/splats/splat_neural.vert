@@ -17,14 +17,15 @@ flat out vec3 color;
 
 void main() {
   splat = ordered_splat();
-  color = texelFetch(colors, projected_position(splat), 0).rgb;
+  vec4 color_and_drawn = texelFetch(colors, projected_position(splat), 0);
+  color = color_and_drawn.rgb;
   vec3 center = view_from_layer * ((kernel_texel(splat, 0).xyz - eye_high) - eye_low);
   vec3 semi_axes = kernel_texel(splat, 1).xyz;
   mat3 axes = view_from_layer * rotation_of(kernel_texel(splat, 2));
   float depth = -center.z;
   vec3 z = vec3(axes[0].z, axes[1].z, axes[2].z) * semi_axes;
   gl_Position = nowhere;
-  if (!(depth + length(z) > near)) return;
+  if (!(color_and_drawn.a > 0.0 && depth + length(z) > near)) return;
   // An ellipsoid that reaches the near plane may cover any pixel.
   vec2 low = vec2(0.0), high = 2.0 * half_size;
   if (depth - length(z) > near) {

@@ -9,6 +9,11 @@ uniform int projected_count;
 uniform mat3 view_from_layer;  // rotation, perhaps a mirror
 
 layout(location = 0) out vec4 color;  // rgb >= 0, and opacity
+
+// SplatProfile::min_center_depth
+bool is_center_drawn(float depth) { return MIN_CENTER_DEPTH == 0.0 || depth > MIN_CENTER_DEPTH; }
+
+// The opacity; 0 if the splat is not drawn.
 #include "splat_project_kernel.glsl"
 
 vec3 color_of(uint element, vec3 from_eye) {

@@ -17,6 +17,7 @@ float project(uint splat, out vec3 from_eye) {
   plane_xy = vec4(0.0);
   plane_w = vec4(0.0);
   place = vec4(0.0);
+  if (!is_center_drawn(depth)) return 0.0;
   bool in_front = depth > near;
 #if SCREEN_FILTER
   if (!in_front) return 0.0;

@@ -19,7 +19,7 @@ float project(uint splat, out vec3 from_eye) {
   float depth = -center.z;
   place = vec4(0.0);
   axes = vec4(0.0);
-  if (!(depth > near)) return 0.0;
+  if (!(depth > near && is_center_drawn(depth))) return 0.0;
 
   // Beyond 1e7 pixels a splat is constant over the image, and the fourth powers below overflow.
   vec3 scales = min(kernel_texel(splat, 1).xyz, 1e7 * depth / max(focal.x, focal.y));

@@ -28,14 +28,38 @@ out vec4 weighted_color;
 // is 0. With a small sigma, alpha is about 1/2 close to an edge (docs/numerics.md, W16).
 const float margin = 1.0 / 16.0;
 
+#if AS_PUBLISHED
+// Triangle Splatting draws neither windows whose corners are all within a pixel of the image of the
+// centre, or one farther than 1600 pixels, nor those with an inradius below a pixel, nor those seen
+// within a thousandth of edge-on. It divides by a negative w as by any other.
+bool is_published(vec3 corners[3], vec4 clip[3]) {
+  vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+  vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!(abs(dot(normal, middle)) >= 1e-3 * length(normal) * length(middle))) return false;
+  vec4 center = clip[0] + clip[1] + clip[2];
+  vec2 image[3];
+  float farthest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    // Relative to the centre.
+    image[k] = half_size * (clip[k].xy / clip[k].w - center.xy / center.w);
+    farthest = max(farthest, length(image[k]));
+  }
+  vec2 a = image[1] - image[0], b = image[2] - image[0];
+  float inradius = abs(a.x * b.y - a.y * b.x) / (length(a) + length(b) + length(b - a));
+  return farthest >= 1.0 && farthest <= 1600.0 && inradius >= 1.0;
+}
+#endif
+
 void main() {
   uint splat = ordered_splat();
   int corner = splat_corner();
   vec4 texels[3];
+  vec3 corners[3];
   vec4 clip[3];
   for (int k = 0; k < 3; ++k) {
     texels[k] = kernel_texel(splat, k);
-    clip[k] = clip_from_camera * vec4((texels[k].xyz - eye_high) - eye_low, 1.0);
+    corners[k] = (texels[k].xyz - eye_high) - eye_low;
+    clip[k] = clip_from_camera * vec4(corners[k], 1.0);
   }
   vec3 lengths;  // |N_k.xy|
   float total = 0.0, doubled_area = 0.0;
@@ -55,7 +79,10 @@ void main() {
   color = texelFetch(colors, projected_position(splat * uint(COLORS_PER_SPLAT)), 0);
   sigma = texels[0].w;
   // Behind the eye, or without area in the image.
-  bool visible = total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
+  bool visible = color.a > 0.0 && total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
+#if AS_PUBLISHED
+  visible = visible && is_published(corners, clip);
+#endif
 
   // Corner k moves by e (2 c_k - c_i - c_j), and the edges by e times the heights. The limit keeps
   // needles short. Triangles that cross the eye's plane are large, and stay.

@@ -15,7 +15,12 @@ namespace neural_densities_test {
 constexpr int width = 64, height = 48;
 constexpr std::size_t neurons = NeuralDensities::width;
 
-SplatProfile density_profile() { return *profile_named("splatnet"); }
+/// Also with the centre at the eye or behind it.
+SplatProfile density_profile() {
+  SplatProfile profile = *profile_named("splatnet");
+  profile.min_center_depth = 0;
+  return profile;
+}
 
 /// A sphere of radius 1 before straight_camera(), with the density b2 + a cos(w . u + b1).
 struct Sphere {

@@ -14,7 +14,12 @@ namespace splat_windows_test {
 
 constexpr int width = 64, height = 48;
 
-SplatProfile window_profile() { return *profile_named("triangle-splatting"); }
+/// Also with the centre at the eye or behind it.
+SplatProfile window_profile() {
+  SplatProfile profile = *profile_named("triangle-splatting");
+  profile.min_center_depth = 0;
+  return profile;
+}
 
 /// rho in floats, from corners in pixels: the distances from the edges over the inradius.
 float rho_in_image(const std::array<glm::vec2, 3>& corners, const glm::vec2& pixel) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.hpp"
 #include "oracle/oracle.hpp"
 #include "runtime/plan/splat_plan.hpp"
 #include "runtime/renderer.hpp"
@@ -54,12 +55,14 @@ struct Limits {
 
 /// Renders a frame and compares the blended floats, and the image in bytes, with the oracle.
 void expect_agreement(Renderer& renderer, const Scene& scene, const Camera& camera,
-                      const Limits& limits = {}) {
+                      const Limits& limits = {},
+                      oracle::SplatCulls culls = oracle::SplatCulls::none) {
   renderer.draw({camera});
   const std::vector<glm::vec4> floats = renderer.read_splats();
   const Image8 bytes = renderer.read_color();
   OracleOptions options;
   options.rays.coverage = oracle::Coverage::snapped;
+  options.splat_culls = culls;
   const OracleImage expected = render_oracle(scene, {camera}, options);
   std::vector<double> of_floats, of_bytes;
   for (std::size_t i = 0; i < floats.size(); ++i) {
@@ -90,12 +93,37 @@ class SplatsOfKind : public testing::TestWithParam<Case> {
 
 /// From outside, and from two places inside, where the near plane cuts a tenth of the splats.
 TEST_P(SplatsOfKind, AgreeWithTheOracle) {
-  const Scene scene = scene_of(random_splats(kind, 20000, 0.07, 1));
+  Splats splats = random_splats(kind, 20000, 0.07, 1);
+  splats.profile.min_center_depth = 0;
+  const Scene scene = scene_of(std::move(splats));
   Renderer renderer = renderer_of_scene(context, scene);
   for (const double distance : {3.0, 0.7, 0.1}) {
     SCOPED_TRACE("distance " + std::to_string(distance));
     expect_agreement(renderer, scene, camera_of_ball(distance, 120, 90));
   }
+}
+
+/// In a layer of half the size, so that depths in the world are half of those in the layer.
+TEST_P(SplatsOfKind, WithCentresNearTheEyeAreSkippedAsByTheOracle) {
+  Splats splats = random_splats(kind, 2000, 0.1, 8);
+  splats.profile.min_center_depth = 0.3f;
+  const Camera camera = camera_of_ball(0.05, 120, 90);
+  for (std::size_t i = 0; i < count(splats); ++i) {
+    const double depth = -(camera.view_from_world * glm::dvec4(0.5 * center(splats, i), 1)).z;
+    // Only a splat within a few roundings of the limit may be drawn by one side alone.
+    ASSERT_GT(std::abs(depth - 0.5 * 0.3), 1e-6) << "another seed is needed";
+  }
+  Scene scene = scene_of(std::move(splats));
+  scene.layers[0].world_from_layer = glm::scale(glm::dmat4(1), glm::dvec3(0.5));
+  Renderer renderer = renderer_of_scene(context, scene);
+  expect_agreement(renderer, scene, camera);
+
+  // The rule matters here.
+  const std::vector<glm::vec4> with = renderer.read_splats();
+  std::get<Splats>(scene.layers[0].primitives).profile.min_center_depth = 0;
+  Renderer without = renderer_of_scene(context, scene);
+  without.draw({camera});
+  EXPECT_NE(with, without.read_splats());
 }
 
 TEST_P(SplatsOfKind, AgreeWithTheOracleInHalfFloats) {
@@ -104,6 +132,23 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleInHalfFloats) {
   // Half floats have steps of 1/2048 near 1, and splats below half a step vanish: up to 2.1/255.
   expect_agreement(renderer, scene, camera_of_ball(3, 120, 90),
                    {.float_psnr = 52, .byte_psnr = 52, .byte_percentile_999 = 2.5 / 255});
+}
+
+/// Splats of a few pixels, of which the culls remove many. Decisions within a rounding of their
+/// limits may differ; with these seeds none does.
+TEST_P(SplatsOfKind, AsPublishedAgreeWithTheOracle) {
+  const Scene scene = scene_of(random_splats(kind, 3000, 0.08, 9));
+  Renderer renderer = renderer_of_scene(context, scene, {.plan = {.as_published = true}});
+  Renderer without = renderer_of_scene(context, scene);
+  for (const double distance : {3.0, 0.7}) {
+    SCOPED_TRACE("distance " + std::to_string(distance));
+    const Camera camera = camera_of_ball(distance, 120, 90);
+    expect_agreement(renderer, scene, camera, {}, oracle::SplatCulls::published);
+    without.draw({camera});
+    const bool has_culls =
+        std::string(kind.profile) != "redisplats" && kind.kernel != SplatKind::Kernel::neural;
+    EXPECT_EQ(renderer.read_splats() != without.read_splats(), has_culls);
+  }
 }
 
 /// Two layers, one of them turned, mirrored and scaled, with a soup among them.
@@ -182,22 +227,26 @@ TEST_P(SplatsIn, ATransparentBackgroundKeepsTheirColour) {
   EXPECT_NEAR(pixel.a, 255 * 0.25, 1);
 }
 
-/// EWA limits the centre's slope by the size of the whole image: tiles show no seams.
+/// EWA limits the centre's slope by the size of the whole image, and the published culls use tiles
+/// of the whole image: no seams.
 TEST_P(SplatsIn, TilesShowTheWholeImage) {
   const Scene scene = scene_of(random_splats(splat_kinds[1], 2000, 0.2, 7));
-  Renderer renderer = renderer_of_scene(context, scene);
+  Renderer renderer = renderer_of_scene(context, scene, {.plan = {.as_published = true}});
   const Camera whole = camera_of_ball(0.9, 128, 96);
   renderer.draw({whole});
   const Image8 expected = renderer.read_color();
   Camera right = whole;
-  right.width = 64;
-  right.cx -= 64;
+  right.width = 57;
+  right.height = 61;
+  right.cx -= 71;
+  right.cy -= 35;
   renderer.draw({.camera = right, .whole = whole});
   const Image8 tile = renderer.read_color();
-  for (int y = 0; y < 96; ++y)
-    for (int x = 0; x < 64; ++x)
+  for (int y = 0; y < 61; ++y)
+    for (int x = 0; x < 57; ++x)
       for (int channel = 0; channel < 3; ++channel)
-        ASSERT_NEAR(tile.at(x, y)[channel], expected.at(64 + x, y)[channel], 1) << x << ", " << y;
+        ASSERT_NEAR(tile.at(x, y)[channel], expected.at(71 + x, 35 + y)[channel], 1)
+            << x << ", " << y;
 }
 
 /// Rasterisers round away triangles with corners far outside the image. From a scale of 2e9 on, the
@@ -210,6 +259,59 @@ TEST_P(SplatsIn, EnormousSplatsFillTheImage) {
     Renderer renderer = renderer_of_scene(context, scene);
     renderer.draw({look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.5, 64, 48)});
     for (const glm::vec4& pixel : renderer.read_splats()) ASSERT_NEAR(pixel.a, 0.5, 1e-3) << scale;
+  }
+}
+
+TEST_P(SplatsIn, TheDepthOfACentreIsInUnitsOfTheLayer) {
+  for (const char* profile : {"3dgs", "redisplats"})
+    for (const double depth : {0.19, 0.21}) {
+      Scene scene = one_gaussian(0.5f, glm::vec3(1));
+      auto& splats = std::get<Splats>(scene.layers[0].primitives);
+      std::get<Gaussians>(splats.kernel).flat = true;
+      splats.profile = *profile_named(profile);
+      scene.layers[0].world_from_layer = glm::scale(glm::dmat4(1), glm::dvec3(3));
+      std::get<Gaussians>(splats.kernel).scales[0] = glm::vec3(1);
+      Renderer renderer = renderer_of_scene(context, scene);
+      renderer.draw({look_at({0, 0, 3 * depth}, {0, 0, 0}, {0, 1, 0}, 0.1, 9, 9)});
+      const bool is_drawn = depth > 0.2 || std::string(profile) == "redisplats";
+      EXPECT_NEAR(renderer.read_splats()[40].a, is_drawn ? 0.5 : 0.0, 1e-3) << profile << depth;
+    }
+}
+
+TEST_P(SplatsIn, APreferredProfileReplacesTheirOwn) {
+  Scene scene = scene_of(random_splats(splat_kinds[1], 500, 0.02, 4));
+  const Camera camera = camera_of_ball(3, 64, 48);
+  const auto pixels = [&](std::optional<SplatProfile> profile) {
+    Renderer renderer = renderer_of_scene(context, scene, {.plan = {.splat_profile = profile}});
+    renderer.draw({camera});
+    return renderer.read_splats();
+  };
+  const auto own = pixels({}), preferred = pixels(profile_named("mip"));
+  EXPECT_NE(own, preferred);
+  EXPECT_THROW(pixels(profile_named("2dgs")), UsageError);  // not flat
+  choose_profile(scene, "mip");
+  EXPECT_EQ(pixels({}), preferred);
+}
+
+/// A window whose image has an inradius of half a pixel vanishes, as in Triangle Splatting.
+TEST_P(SplatsIn, SmallWindowsVanishAsPublished) {
+  for (const double inradius : {0.5, 1.5}) {
+    // Equilateral, at a distance of 10 with a focal length of 100 pixels.
+    const auto reach = float(2 * inradius * 10 / 100);
+    TriangleWindows window{.corners = {}, .sigma = {0.1f}, .opacity = {0.9f}};
+    for (const double angle : {0.1, 0.1 + 2 * M_PI / 3, 0.1 + 4 * M_PI / 3})
+      window.corners.emplace_back(reach * std::cos(angle), reach * std::sin(angle), 0.0f);
+    const Scene scene = scene_of(Splats{.kernel = window,
+                                        .color = {.coefficients = {glm::vec3(1)}},
+                                        .profile = *profile_named("triangle-splatting")});
+    Camera camera = look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 1, 9, 9);
+    camera.fx = camera.fy = 100;
+    for (const bool as_published : {false, true}) {
+      Renderer renderer =
+          renderer_of_scene(context, scene, {.plan = {.as_published = as_published}});
+      renderer.draw({camera});
+      EXPECT_EQ(renderer.read_splats()[40].a > 0.1f, !as_published || inradius > 1) << inradius;
+    }
   }
 }
 

@@ -58,6 +58,14 @@ TEST(BakedTransform, ATranslationChangesNothing) {
   EXPECT_EQ(std::get<TriangleSoup>(layer.primitives).positions, before);
 }
 
+TEST(BakedTransform, LengthsOfTheProfileAreScaled) {
+  Layer layer;
+  layer.world_from_layer = glm::scale(glm::dmat4(1), glm::dvec3(2));
+  layer.primitives = Splats{.profile = {.min_center_depth = 0.25f}};
+  bake_transform(layer);
+  EXPECT_FLOAT_EQ(std::get<Splats>(layer.primitives).profile.min_center_depth, 0.5f);
+}
+
 TEST(BakedTransform, ColoursThatDependOnTheViewAreRefused) {
   Layer soft = layer_of(FaceColors{});
   soft.primitives = Splats{.color = {.degree = 1}};

@@ -187,5 +187,104 @@ TEST(Lint, FindingsInEnglish) {
   EXPECT_STREQ(name_of(Id::duplicate_faces), "duplicate_faces");
 }
 
+// -- splats
+
+/// Spheres of radius 0.1 on a cube's grid, with harmonics of degree 1.
+Splats grid_of_gaussians() {
+  Splats splats;
+  Gaussians gaussians;
+  for (int i = 0; i < 27; ++i) {
+    gaussians.centers.emplace_back(i % 3, i / 3 % 3, i / 9);
+    gaussians.scales.emplace_back(0.1f);
+    gaussians.rotations.emplace_back(1, 0, 0, 0);
+    gaussians.opacity.push_back(0.5f);
+    for (int k = 0; k < 4; ++k) splats.color.coefficients.emplace_back(0.1f);
+  }
+  splats.kernel = std::move(gaussians);
+  splats.color.degree = 1;
+  return splats;
+}
+
+Gaussians& gaussians_of(Splats& splats) { return std::get<Gaussians>(splats.kernel); }
+
+TEST(Lint, CleanSplatsHaveNothingToSay) {
+  EXPECT_THAT(lint(grid_of_gaussians()).findings, IsEmpty());
+  EXPECT_THAT(lint(Splats{}).findings, IsEmpty());
+  EXPECT_FALSE(is_transparent(grid_of_gaussians()));
+  EXPECT_FALSE(is_transparent(Splats{}));
+}
+
+TEST(Lint, FindsSplatsThatAreTooTransparent) {
+  Splats splats = grid_of_gaussians();
+  gaussians_of(splats).opacity[4] = 0.0039f;  // 1/255 is 0.00392
+  gaussians_of(splats).opacity[9] = 0;
+  EXPECT_THAT(found(lint(splats), Id::transparent_splats).first, ElementsAre(4, 9));
+  EXPECT_FALSE(is_transparent(splats));
+  gaussians_of(splats).opacity.assign(27, 0.001f);
+  EXPECT_TRUE(is_transparent(splats));
+}
+
+TEST(Lint, FindsNeedlesAndCollapsedSplats) {
+  Splats splats = grid_of_gaussians();
+  gaussians_of(splats).scales[2] = {0.5f, 0.0002f, 0.0002f};
+  gaussians_of(splats).scales[5] = {0.5f, 0.1f, 0.0002f};  // a disc
+  gaussians_of(splats).scales[6] = {0.1f, 0.1f, 0};
+  Lint result = lint(splats);
+  EXPECT_THAT(ids(result), ElementsAre(Id::collapsed_splats, Id::needle_splats));
+  EXPECT_THAT(found(result, Id::needle_splats).first, ElementsAre(2));
+  EXPECT_THAT(found(result, Id::collapsed_splats).first, ElementsAre(6));
+  // The third scale of a flat one has no meaning.
+  gaussians_of(splats).flat = true;
+  result = lint(splats);
+  EXPECT_THAT(ids(result), ElementsAre(Id::needle_splats));
+
+  TriangleWindows windows{.corners = {{0, 0, 0},
+                                      {1, 0, 0},
+                                      {0, 1, 0},
+                                      {0, 0, 0},
+                                      {1, 0, 0},
+                                      {0, 1e-4f, 0},
+                                      {0, 0, 0},
+                                      {1, 0, 0},
+                                      {2, 0, 0}},
+                          .sigma = {1, 1, 1},
+                          .opacity = {1, 1, 1}};
+  result = lint(Splats{.kernel = windows, .color = {.coefficients = {3, glm::vec3(1)}}});
+  EXPECT_THAT(found(result, Id::needle_splats).first, ElementsAre(1));
+  EXPECT_THAT(found(result, Id::collapsed_splats).first, ElementsAre(2));
+}
+
+TEST(Lint, FindsSplatsOutsideTheOthers) {
+  Splats splats = grid_of_gaussians();
+  gaussians_of(splats).centers[3] = {100, 1, 1};
+  gaussians_of(splats).scales[8] = {0.1f, 0.1f, 50};
+  EXPECT_THAT(found(lint(splats), Id::outlying_splats).first, ElementsAre(3, 8));
+}
+
+TEST(Lint, FindsRepeatedSplats) {
+  Splats splats = grid_of_gaussians();
+  for (const int i : {20, 11}) gaussians_of(splats).centers[i] = gaussians_of(splats).centers[5];
+  EXPECT_THAT(found(lint(splats), Id::duplicate_splats).first, ElementsAre(11, 20));
+  gaussians_of(splats).scales[11].y = 0.2f;
+  EXPECT_THAT(found(lint(splats), Id::duplicate_splats).first, ElementsAre(20));
+}
+
+TEST(Lint, FindsHarmonicsThatAreZero) {
+  Splats splats = grid_of_gaussians();
+  for (std::size_t i = 0; i < splats.color.coefficients.size(); ++i)
+    if (i % 4 > 0) splats.color.coefficients[i] = glm::vec3(0);
+  const LintFinding zero = found(lint(splats), Id::zero_harmonics);
+  EXPECT_THAT(zero.first, ElementsAre(1, 2, 3));
+  EXPECT_EQ(zero.of, 4u);
+  splats.color.coefficients[6].z = 1;
+  EXPECT_EQ(lint(splats).find(Id::zero_harmonics), nullptr);
+}
+
+TEST(Lint, FindsSplatsFarFromTheOrigin) {
+  Splats splats = grid_of_gaussians();
+  for (glm::vec3& center : gaussians_of(splats).centers) center += glm::vec3(1e5f, 0, 0);
+  EXPECT_THAT(ids(lint(splats)), ElementsAre(Id::far_from_origin));
+}
+
 }  // namespace lint_test
 }  // namespace tureen

@@ -37,6 +37,9 @@ TEST(Remark, InEnglish) {
   EXPECT_EQ(describe({Kind::splats_dropped, {2, 7}}),
             "2 of 7 splats have a value that is not a number, a size that is not finite, or no "
             "rotation: dropped");
+  EXPECT_EQ(describe({Kind::splats_dropped, {1, 7}}),
+            "1 of 7 splats has a value that is not a number, a size that is not finite, or no "
+            "rotation: dropped");
   EXPECT_EQ(describe({.kind = Kind::splat_colors_linear}),
             "the splats were trained and are blended in linear light; they are drawn as if their "
             "colours were display-referred, and look different");

@@ -33,6 +33,34 @@ Splats window() {
           .color = {.coefficients = {glm::vec3(0)}}};
 }
 
+TEST(Scene, AChosenProfileAppliesToEveryLayerOfSplats) {
+  Scene scene = scene_of(Splats{.kernel = Gaussians{}, .profile = *profile_named("3dgs")});
+  scene.layers.push_back({.primitives = triangle()});
+  Gaussians flat;
+  flat.flat = true;
+  scene.layers.push_back({.primitives = Splats{.kernel = flat}});
+  scene.info.remarks = {{.kind = Remark::Kind::profile_assumed, .names = {"2dgs"}},
+                        {.kind = Remark::Kind::level_missing}};
+  choose_profile(scene, "mip");
+  for (const std::size_t i : {0, 2})
+    EXPECT_EQ(std::get<Splats>(scene.layers[i].primitives).profile, *profile_named("mip"));
+  ASSERT_EQ(scene.info.remarks.size(), 1u);
+  EXPECT_EQ(scene.info.remarks[0].kind, Remark::Kind::level_missing);
+
+  EXPECT_THROW(choose_profile(scene, "2dgs"), UsageError);  // the first layer is not flat
+  scene.layers = {{.primitives = triangle()}};
+  EXPECT_THROW(choose_profile(scene, "mip"), UsageError);
+}
+
+TEST(Scene, AChosenUpAxisRemovesTheRemarkThatItWasAssumed) {
+  SceneInfo info;
+  info.up_is_assumed = true;
+  info.remarks = {{.kind = Remark::Kind::up_unknown_to_splats, .names = {"PLY"}}};
+  choose_up(info, {0, 0, 1});
+  EXPECT_FALSE(info.up_is_assumed);
+  EXPECT_TRUE(info.remarks.empty());
+}
+
 TEST(Layer, SimilaritiesHaveNoDefect) {
   EXPECT_EQ(defect(Layer{}), std::nullopt);
   EXPECT_EQ(defect(layer_with(at_origin({1e9, -2, 0.1}))), std::nullopt);

@@ -166,11 +166,21 @@ TEST(Splats, AProfileOfAnotherKernelIsADefect) {
   EXPECT_NE(defect(splats_of(densities(), "mip")), std::nullopt);
 }
 
+TEST(Splats, AProfileOutsideItsRangesIsADefect) {
+  for (const float bad : {-0.1f, nan, INFINITY}) {
+    Splats splats = splats_of(gaussians(), "3dgs");
+    splats.profile.min_center_depth = bad;
+    EXPECT_THAT(defect(splats).value_or(""), HasSubstr("depth")) << bad;
+  }
+}
+
 TEST(Splats, NamedProfilesAreFoundByName) {
   for (const NamedProfile& each : named_profiles) {
     EXPECT_EQ(profile_named(each.name), each.profile);
     EXPECT_EQ(profile_named(name_of(each.profile)), each.profile);
   }
+  EXPECT_EQ(profile_named("redisplats")->min_center_depth, 0);
+  EXPECT_EQ(profile_named("mip")->min_center_depth, 0.2f);
   EXPECT_EQ(profile_named("nobody"), std::nullopt);
   EXPECT_EQ(name_of({.max_alpha = 0.5f}), "custom");
 }

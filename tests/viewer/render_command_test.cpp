@@ -14,6 +14,7 @@
 namespace tureen::viewer {
 namespace render_command_test {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -112,8 +113,11 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   scene.quality.supersampling = 3;
   fine.scene = std::make_shared<const Scene>(scene);
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""), Not(HasSubstr("--supersample")));
+  choice.plan.splat_profile = profile_named("mip");
+  choice.plan.as_published = true;
   choice.quality = Quality{};
-  EXPECT_THAT(render_command(fine, choice, {}, camera, ""), HasSubstr("--supersample 1"));
+  EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
+              AllOf(HasSubstr("--supersample 1"), HasSubstr("--profile mip --as-published")));
 }
 
 }  // namespace render_command_test

@@ -114,6 +114,14 @@ test('digits, F, R and M', looking(async (page, before) => {
   assert.ok(await page.isChecked('input[name=mode][value=orbit]'), 'F shows all, in orbit mode');
 }));
 
+test('I turns the scene upside down, and back', looking(async (page, before) => {
+  await page.keyboard.press('i');
+  const turned = await viewChanged(page, before);
+  near(turned.up, before.up.map((value) => -value), 'the up axis');
+  await page.keyboard.press('i');
+  near((await viewChanged(page, turned)).up, before.up, 'the up axis again');
+}));
+
 test('views, cameras and saved views of the panel', looking(async (page, before) => {
   await page.click('#camera-next');  // the first camera is the current view
   await page.click('#camera-next');

@@ -34,6 +34,13 @@ void next_up(State& state) {
   state.messages.note("Up is now " + axis_name(up_axes[next]), state.now);
 }
 
+/// Scenes of 3DGS often have y downwards, and no file says so.
+void turn_over(State& state) {
+  const glm::dvec3 up = -state.controls.up();
+  state.controls.set_up(up);
+  state.messages.note("Upside down: up is now " + axis_name(up), state.now);
+}
+
 void next_debug_view(State& state) {
   if (!state.stage) return;
   const auto names = debug_view_names();
@@ -65,6 +72,7 @@ const std::array table = {
     Shortcut{Key::home, false, looking, "show the scene from three sides",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
     Shortcut{Key::u, false, looking, "change the up axis", next_up},
+    Shortcut{Key::i, false, looking, "turn the scene upside down", turn_over},
     Shortcut{Key::digit_1, false, views, "front", look_from<NamedView::front>},
     Shortcut{Key::digit_2, false, views, "back", look_from<NamedView::back>},
     Shortcut{Key::digit_3, false, views, "left", look_from<NamedView::left>},

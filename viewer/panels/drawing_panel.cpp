@@ -1,4 +1,8 @@
 // The plan in words, and switches for its parts, to see their cost.
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "runtime/plan/plan_description.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
@@ -37,6 +41,43 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
   return changed;
 }
 
+/// The rules of rendering splats. Returns whether they changed.
+bool splat_rules(DrawingChoice& choice, const StageSource& stage) {
+  std::vector<const Splats*> splats;
+  for (const StageLayer& layer : stage.layers)
+    if (const auto* of_layer = std::get_if<Splats>(layer.primitives.get()))
+      splats.push_back(of_layer);
+  if (splats.empty()) return false;
+  bool changed = false;
+  std::optional<SplatProfile>& profile = choice.plan.splat_profile;
+  const std::string own = "of the file";
+  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
+  const std::string current = profile ? std::string(name_of(*profile)) : own;
+  if (ImGui::BeginCombo("profile", current.c_str())) {
+    if (ImGui::Selectable(own.c_str(), !profile)) {
+      profile.reset();
+      changed = true;
+    }
+    for (const NamedProfile& each : named_profiles) {
+      // Of methods with equal profiles, the first.
+      if (name_of(each.profile) != each.name) continue;
+      if (std::any_of(splats.begin(), splats.end(), [&](const Splats* of_layer) {
+            return profile_defect(of_layer->kernel, each.profile).has_value();
+          }))
+        continue;
+      if (ImGui::Selectable(std::string(each.name).c_str(), profile == each.profile)) {
+        profile = each.profile;
+        changed = true;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  tip("The method by whose rules splats are drawn. tureen convert --profile saves it");
+  changed |= ImGui::Checkbox("as published", &choice.plan.as_published);
+  tip("Also cull splats by the rules of their authors' code that depend on the resolution");
+  return changed;
+}
+
 /// Switches for the specialisations of this plan: to see the gain of each, or to locate a fault.
 /// Returns whether the choice changed.
 bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
@@ -61,6 +102,7 @@ void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
   bool changed = sampling(choice, *stage.scene);
+  changed |= splat_rules(choice, stage);
   bool baseline = choice.pipeline == PipelineKind::baseline;
   if (ImGui::Checkbox("baseline", &baseline)) {
     choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;

@@ -67,14 +67,19 @@ Json notes_of(const Scene& scene) {
   return notes;
 }
 
-/// The appearances and kernels of all layers, each once: "lattice texture, Gaussians".
+std::string described_kernel(const Splats& splats) {
+  return kernel_name(splats.kernel) + (" (profile " + std::string(profile_name(splats)) + ")");
+}
+
+/// The appearances and kernels of all layers, each once: "lattice texture, Gaussians (profile
+/// 3dgs)".
 std::string appearances_of(std::span<const PlacedLayer> layers) {
   std::vector<std::string> known;
   std::string names;
   for (const PlacedLayer& layer : layers) {
     const TriangleSoup* soup = soup_of(layer);
     const std::string name = soup ? appearance_name(soup->appearance)
-                                  : kernel_name(std::get<Splats>(layer.primitives).kernel);
+                                  : described_kernel(std::get<Splats>(layer.primitives));
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     known.push_back(name);
     names += (names.empty() ? "" : ", ") + name;

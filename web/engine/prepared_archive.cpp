@@ -38,17 +38,18 @@ void archive_layer_plan(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_profile(Archive& archive, Value& value) {
-  auto& [projection, low_pass, max_alpha, min_alpha, stop_transmittance] = value;
-  archive(projection, low_pass, max_alpha, min_alpha, stop_transmittance);
+  auto& [projection, low_pass, max_alpha, min_alpha, stop_transmittance, min_center_depth] = value;
+  archive(projection, low_pass, max_alpha, min_alpha, stop_transmittance, min_center_depth);
 }
 
 template <class Archive, class Value>
 void archive_splat_plan(Archive& archive, Value& value) {
-  auto& [shaders, profile, harmonics_degree, colors_per_splat, drawn, chunks, kernel, splats,
-         stored_degree] = value;
+  auto& [shaders, profile, as_published, harmonics_degree, colors_per_splat, drawn, chunks, kernel,
+         splats, stored_degree] = value;
   archive(shaders);
   archive_profile(archive, profile);
-  archive(harmonics_degree, colors_per_splat, drawn, chunks, kernel, splats, stored_degree);
+  archive(as_published, harmonics_degree, colors_per_splat, drawn, chunks, kernel, splats,
+          stored_degree);
 }
 
 template <class Archive, class Value>

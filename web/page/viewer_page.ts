@@ -115,6 +115,7 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
     { key: 'r', meaning: 'return to the first view', run: () => views.first() },
     { key: 'm', meaning: 'switch between orbit and fly', run: () => views.changeMode() },
     { key: 'u', meaning: 'change the up axis', run: () => views.nextUp() },
+    { key: 'i', meaning: 'turn the scene upside down', run: () => views.turnOver() },
     { key: '[', meaning: 'previous recorded camera', run: () => cameras.step(-1) },
     { key: ']', meaning: 'next recorded camera', run: () => cameras.step(1) },
     { key: 'k', meaning: 'save this view', run: () => saved.save() },

@@ -35,7 +35,7 @@ export interface SceneSummary {
   readonly notes: readonly string[];
   readonly triangles: number;
   readonly splats: number;
-  /** "lattice texture", "face colours", "Gaussians", .. */
+  /** "lattice texture", "face colours", "Gaussians (profile 3dgs)", .. */
   readonly appearance: string;
   /** The drawing plan and its specialisations, one sentence each. */
   readonly plan: readonly string[];

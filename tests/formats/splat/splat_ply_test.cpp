@@ -113,12 +113,23 @@ TEST(SplatPly, CommentsSelectTheProfileAndTheLastCounts) {
   EXPECT_EQ(profile(3, {"antialiased 1", "SplatRenderMode: default"}), "3dgs");
   EXPECT_EQ(profile(3, {"SplatRenderMode: mip", "antialiased 0"}), "3dgs");
   EXPECT_EQ(profile(3, {"SplatRenderMode: mip", "SplatRenderMode: other"}), "mip");
+  EXPECT_EQ(profile(3, {"SplatRenderMode: other"}), "3dgs");
+  EXPECT_EQ(profile(2, {"SplatRenderMode: other"}), "2dgs flat");
   EXPECT_EQ(profile(3, {"SplatRenderMode: 2dgs"}), "2dgs flat");
   EXPECT_EQ(profile(2, {}), "2dgs flat");
   EXPECT_EQ(profile(2, {"SplatRenderMode: default"}), "3dgs flat");  // GaMeS has the same profile
   EXPECT_EQ(profile(2, {"SplatRenderMode: mip"}), "mip flat");
   EXPECT_EQ(profile(2, {"TureenSplatProfile: redisplats"}), "redisplats flat");
   EXPECT_EQ(profile(3, {"TureenSplatProfile: redisplats"}), "3dgs");
+}
+
+TEST(SplatPly, AnUnknownRenderModeIsRemarked) {
+  const Scene scene = read_text(PlyFixture()
+                                    .comment("SplatRenderMode: other")
+                                    .element("vertex", splat_columns(0, 3), {splat_row(1, 0, 3)})
+                                    .text());
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{.kind = Remark::Kind::render_mode_unknown,
+                                                  .names = {"other", "3dgs"}}));
 }
 
 TEST(SplatPly, TheProfileOfFlatGaussiansSelectsTheirAxes) {

@@ -69,6 +69,25 @@ TEST(TureenGlbLayers, OfSplatsComeBackToTheBit) {
     }
 }
 
+/// Files from before the rule for centres near the eye are drawn without it, as then.
+TEST(TureenGlbLayers, OfSplatsWithoutADepthOfCentresDrawAll) {
+  const Scene scene = test::layered_scene(test::glb_kinds_named({"gaussians_3dgs"}), 4, 2);
+  const auto bytes = test::glb_bytes(scene, "old_profile");
+  auto json = test::glb_json(bytes);
+  auto& profile = json["meshes"][0]["primitives"][0]["extensions"]["KHR_gaussian_splatting"]
+                      ["extensions"]["TUREEN_splats"]["profile"];
+  EXPECT_FLOAT_EQ(profile["min_center_depth"].get<float>(), 0.2f);
+  const auto profile_in = [&](const nlohmann::json& changed) {
+    const Scene read = read_bytes(test::with_glb_json(bytes, changed));
+    return std::get<Splats>(read.layers[0].primitives).profile;
+  };
+  EXPECT_EQ(profile_in(json), *profile_named("3dgs"));
+  profile["min_center_depth"] = -1;
+  EXPECT_THROW(profile_in(json), InputError);
+  profile.erase("min_center_depth");
+  EXPECT_EQ(profile_in(json).min_center_depth, 0);
+}
+
 TEST(TureenGlbLayers, WithoutFacesComeBackToo) {
   Scene scene = three_layers();
   scene.layers.insert(scene.layers.begin() + 1, {.name = "empty"});

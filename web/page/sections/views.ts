@@ -82,6 +82,14 @@ export class ViewsSection {
     this.tell(`The up axis is now ${next.name}.`);
   }
 
+  /** Splats of 3DGS often have y downwards. */
+  turnOver(): void {
+    const [x, y, z] = this.viewer.getView().up;
+    this.viewer.setUp([-x, -y, -z]);
+    this.update();
+    this.tell('The scene is turned upside down.');
+  }
+
   private upIndex(): number {
     const up = this.viewer.getView().up;
     return axes.findIndex(({ axis }) => isAxis(up, axis));
