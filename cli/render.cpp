@@ -36,7 +36,6 @@ struct RenderOptions {
   std::string background;  // empty: the scene's own
   DrawingOptions drawing;
   DebugViewOption show;
-  bool opaque = false;
   int frames = 0;
   bool json = false;
 };
@@ -95,13 +94,6 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
           renderer.device_bytes()};
 }
 
-std::size_t splat_count(const Scene& scene) {
-  std::size_t splats = 0;
-  for (const Layer& layer : scene.layers)
-    if (const auto* of_layer = std::get_if<Splats>(&layer.primitives)) splats += count(*of_layer);
-  return splats;
-}
-
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.
 void require_shown(const DebugViewOption& show, const Scene& scene) {
   if (show.what == DebugView::color) return;
@@ -113,19 +105,6 @@ void require_shown(const DebugViewOption& show, const Scene& scene) {
   } catch (const UsageError& error) {
     throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + error.reason());
   }
-}
-
-std::size_t triangle_count(const Scene& scene) {
-  std::size_t count = 0;
-  for (const PlacedSoup& layer : placed_soups(scene)) count += layer.soup.triangles.size();
-  return count;
-}
-
-std::string primitives_text(const Scene& scene) {
-  const std::size_t triangles = triangle_count(scene), splats = splat_count(scene);
-  if (splats == 0) return counted(triangles) + " triangles";
-  if (triangles == 0) return counted(splats) + " splats";
-  return counted(triangles) + " triangles and " + counted(splats) + " splats";
 }
 
 /// Throws UsageError and OutputError.
@@ -176,7 +155,7 @@ ExitCode render(RenderOptions options) {
   check_output(options, background);
 
   Scene scene = read(options.scene);
-  if (options.opaque || options.drawing.pipeline == PipelineKind::baseline) make_opaque(scene);
+  apply_opaque(scene, options.drawing);
   const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
@@ -260,8 +239,6 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       .value_name("COLOR");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
-  command.add_flag("--opaque", options->opaque,
-                   "draw triangle windows as opaque triangles instead of blending them");
   Option show = add_debug_view_option(command, options->show);
   for (const char* other :
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})

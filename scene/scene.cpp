@@ -143,6 +143,21 @@ bool has_visible_layer(const Scene& scene) {
                      [](const Layer& layer) { return layer.visible; });
 }
 
+std::size_t triangle_count(const Scene& scene) {
+  std::size_t triangles = 0;
+  for (const Layer& layer : scene.layers)
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      triangles += soup->triangles.size();
+  return triangles;
+}
+
+std::size_t splat_count(const Scene& scene) {
+  std::size_t splats = 0;
+  for (const Layer& layer : scene.layers)
+    if (const auto* of_layer = std::get_if<Splats>(&layer.primitives)) splats += count(*of_layer);
+  return splats;
+}
+
 void make_opaque(Scene& scene) {
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     Layer& layer = scene.layers[i];
