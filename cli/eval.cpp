@@ -121,8 +121,9 @@ ExitCode evaluate_scene(EvalOptions options) {
   say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   say_list("Plan:", result.plan);
   say(fmt::format("{} against {} photographs ({}), on {} ({}); SSIM with border {}",
-                  primitives_text(scene), photographs.size(), split_name(options.split),
-                  result.renderer, result.context, name(evaluation.metrics.ssim_border)));
+                  primitives_text(triangle_count(scene), splat_count(scene)), photographs.size(),
+                  split_name(options.split), result.renderer, result.context,
+                  name(evaluation.metrics.ssim_border)));
   Table table({"view", "PSNR dB", "SSIM", evaluation.metrics.with_flip ? "FLIP" : ""});
   const auto add_row = [&](const std::string& name, const ViewMetrics& view) {
     table.row({name, fmt::format("{:.2f}", view.psnr_db), fmt::format("{:.4f}", view.ssim),

@@ -174,7 +174,8 @@ ExitCode render(RenderOptions options) {
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);
-  say(fmt::format("{}, {} on the device; {} x {} on {} ({})", primitives_text(scene),
+  say(fmt::format("{}, {} on the device; {} x {} on {} ({})",
+                  primitives_text(triangle_count(scene), splat_count(scene)),
                   bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
                   context.description()));
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),

@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <utility>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "scene/opaque_windows.hpp"
 
@@ -156,6 +157,12 @@ std::size_t splat_count(const Scene& scene) {
   for (const Layer& layer : scene.layers)
     if (const auto* of_layer = std::get_if<Splats>(&layer.primitives)) splats += count(*of_layer);
   return splats;
+}
+
+std::string primitives_text(std::uint64_t triangles, std::uint64_t splats) {
+  if (splats == 0) return counted(triangles) + " triangles";
+  if (triangles == 0) return counted(splats) + " splats";
+  return counted(triangles) + " triangles and " + counted(splats) + " splats";
 }
 
 void make_opaque(Scene& scene) {

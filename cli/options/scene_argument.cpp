@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "cli/options/output_argument.hpp"
@@ -93,13 +92,6 @@ void say_if_hidden(const Scene& scene) {
   if (!has_visible_layer(scene))
     say(scene.layers.size() == 1 ? "The only layer is hidden: images show only the background."
                                  : "All layers are hidden: images show only the background.");
-}
-
-std::string primitives_text(const Scene& scene) {
-  const std::size_t triangles = triangle_count(scene), splats = splat_count(scene);
-  if (splats == 0) return counted(triangles) + " triangles";
-  if (triangles == 0) return counted(splats) + " splats";
-  return counted(triangles) + " triangles and " + counted(splats) + " splats";
 }
 
 std::string listed(const SceneArguments& arguments) {

@@ -51,9 +51,6 @@ void require_not_inputs(const std::filesystem::path& output, const SceneArgument
 /// Prints one sentence if no layer is visible.
 void say_if_hidden(const Scene& scene);
 
-/// "1,200 triangles", "20,000 splats", or both.
-std::string primitives_text(const Scene& scene);
-
 /// "a.glb", "a.glb, b.glb".
 std::string listed(const SceneArguments& arguments);
 
