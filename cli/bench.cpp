@@ -23,6 +23,7 @@
 #include "jobs/bench/bench_cases.hpp"
 #include "jobs/bench/bench_measure.hpp"
 #include "jobs/timing/benchmark.hpp"
+#include "scene/edit/baked_transform.hpp"
 
 namespace tureen::cli {
 
@@ -46,6 +47,17 @@ std::string image_name_of(const BenchMeasurement& measurement) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '.') c = '-';
   return name + ".png";
+}
+
+/// Throws UsageError for several layers.
+BenchScene described(Scene& scene, const std::string& path) {
+  Layer& layer = only_layer(scene);
+  if (const auto* splats = std::get_if<Splats>(&layer.primitives))
+    return {scene.info.name, path, 0, describe(*splats), count(*splats)};
+  // Chosen views and the baseline's plan are of world coordinates.
+  bake_transform(layer);
+  const TriangleSoup& soup = only_soup(scene);
+  return {scene.info.name, path, soup.triangles.size(), appearance_name(soup.appearance)};
 }
 
 BenchLoad load_of(const BenchCases& cases, double read_ms) {
@@ -72,13 +84,11 @@ BenchResult run(const BenchOptions& options) {
   result.protocol.rounds = options.rounds;
 
   const auto start = std::chrono::steady_clock::now();
-  Scene scene = read_one_layer(options.scene);
+  Scene scene = read(options.scene);
   const std::chrono::duration<double, std::milli> read_ms =
       std::chrono::steady_clock::now() - start;
-  make_opaque(scene);
-  const TriangleSoup& soup = only_soup(scene);
-  result.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
-                  appearance_name(soup.appearance)};
+  apply_opaque(scene, options.cases.drawing);
+  result.scene = described(scene, options.scene.path);
   result.notes = all_notes(scene.info);
   const BenchViewList views = bench_views(options.views, scene, options.scene.path);
   result.notes.insert(result.notes.end(), views.notes.begin(), views.notes.end());
@@ -93,7 +103,8 @@ BenchResult run(const BenchOptions& options) {
   const BenchCases cases = make_cases({.pipeline = options.cases.drawing.pipeline,
                                        .plan = preferences_for(scene, options.cases.drawing),
                                        .only = options.cases.only,
-                                       .ceilings = options.cases.ceilings},
+                                       .ceilings = options.cases.ceilings,
+                                       .opaque = options.cases.drawing.opaque},
                                       context, scene);
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is skipped: " + each.reason);
@@ -152,7 +163,8 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
   Command command = program.add_command("bench", "Measure frame times");
   command.footer(
       R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
-with the baseline if it supports the scene. Warm-up frames run until the times are stable. A
+with the baseline if it supports the scene. Splats have only the plan, sorted anew for each view; the time
+of sorting is listed. Warm-up frames run until the times are stable. A
 frame ends when the device has finished. First, the first case is compared with itself (A/A).
 "best ms" is the smallest of the rounds' medians; ratios use it. Two times are "equal" if
 they differ by at most twice the spread. The spread is the larger of the A/A spread and the

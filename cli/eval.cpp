@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/eval_images.hpp"
@@ -88,9 +87,8 @@ ExitCode evaluate_scene(EvalOptions options) {
       require_not_input(file, options.scene.path);
     }
 
-  Scene scene = read_one_layer(options.scene);
-  make_opaque(scene);
-  const TriangleSoup& soup = only_soup(scene);
+  Scene scene = read(options.scene);
+  apply_opaque(scene, options.drawing);
   if (options.background.empty()) evaluation.background = scene.info.background;
   evaluation.pipeline = options.drawing.pipeline;
   evaluation.plan = preferences_for(scene, options.drawing);
@@ -114,16 +112,18 @@ ExitCode evaluate_scene(EvalOptions options) {
   {
     Progress progress("evaluating");
     evaluation.progress = [&](double fraction) { progress.update(fraction); };
-    result = evaluate(soup, origin_of(only_layer(scene)), photographs, evaluation);
+    result = evaluate(scene, photographs, evaluation);
   }
   std::vector<std::string> output;
   if (images) output = images->finish();
   say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  say_if_hidden(scene);
   say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   say_list("Plan:", result.plan);
-  say(fmt::format("{} triangles against {} photographs ({}), on {} ({}); SSIM with border {}",
-                  counted(soup.triangles.size()), photographs.size(), split_name(options.split),
-                  result.renderer, result.context, name(evaluation.metrics.ssim_border)));
+  say(fmt::format("{} against {} photographs ({}), on {} ({}); SSIM with border {}",
+                  primitives_text(triangle_count(scene), splat_count(scene)), photographs.size(),
+                  split_name(options.split), result.renderer, result.context,
+                  name(evaluation.metrics.ssim_border)));
   Table table({"view", "PSNR dB", "SSIM", evaluation.metrics.with_flip ? "FLIP" : ""});
   const auto add_row = [&](const std::string& name, const ViewMetrics& view) {
     table.row({name, fmt::format("{:.2f}", view.psnr_db), fmt::format("{:.4f}", view.ssim),
@@ -157,6 +157,7 @@ Examples:
   tureen eval soup.glb fox --scale 0.25 --split all
   tureen eval soup.glb lego -o views            images with heat maps, and a report
   tureen eval soup.glb lego --json              the metrics for scripts
+  tureen eval splats.ply fox                    splats, blended as their method does
   tureen eval soup.glb lego --ssim-border uniform7    SSIM as in DiffSoup on synthetic
                                                       scenes
 

@@ -36,7 +36,6 @@ struct RenderOptions {
   std::string background;  // empty: the scene's own
   DrawingOptions drawing;
   DebugViewOption show;
-  bool opaque = false;
   int frames = 0;
   bool json = false;
 };
@@ -95,13 +94,6 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
           renderer.device_bytes()};
 }
 
-std::size_t splat_count(const Scene& scene) {
-  std::size_t splats = 0;
-  for (const Layer& layer : scene.layers)
-    if (const auto* of_layer = std::get_if<Splats>(&layer.primitives)) splats += count(*of_layer);
-  return splats;
-}
-
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.
 void require_shown(const DebugViewOption& show, const Scene& scene) {
   if (show.what == DebugView::color) return;
@@ -113,19 +105,6 @@ void require_shown(const DebugViewOption& show, const Scene& scene) {
   } catch (const UsageError& error) {
     throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + error.reason());
   }
-}
-
-std::size_t triangle_count(const Scene& scene) {
-  std::size_t count = 0;
-  for (const PlacedSoup& layer : placed_soups(scene)) count += layer.soup.triangles.size();
-  return count;
-}
-
-std::string primitives_text(const Scene& scene) {
-  const std::size_t triangles = triangle_count(scene), splats = splat_count(scene);
-  if (splats == 0) return counted(triangles) + " triangles";
-  if (triangles == 0) return counted(splats) + " splats";
-  return counted(triangles) + " triangles and " + counted(splats) + " splats";
 }
 
 /// Throws UsageError and OutputError.
@@ -176,7 +155,7 @@ ExitCode render(RenderOptions options) {
   check_output(options, background);
 
   Scene scene = read(options.scene);
-  if (options.opaque || options.drawing.pipeline == PipelineKind::baseline) make_opaque(scene);
+  apply_opaque(scene, options.drawing);
   const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
@@ -195,7 +174,8 @@ ExitCode render(RenderOptions options) {
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);
-  say(fmt::format("{}, {} on the device; {} x {} on {} ({})", primitives_text(scene),
+  say(fmt::format("{}, {} on the device; {} x {} on {} ({})",
+                  primitives_text(triangle_count(scene), splat_count(scene)),
                   bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
                   context.description()));
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
@@ -260,8 +240,6 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       .value_name("COLOR");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
-  command.add_flag("--opaque", options->opaque,
-                   "draw triangle windows as opaque triangles instead of blending them");
   command.add_flag("--as-published", options->drawing.plan.as_published,
                    "also cull splats by the rules of their authors' code that depend on the "
                    "resolution");

@@ -84,7 +84,8 @@ measurement has the frame time and E_render, the error against the oracle's imag
 unchanged scene. The reference for quality settings has 8 x 8 samples a pixel. With photographs,
 the report also has the error against them (E_model), for the baseline too. The choice is the
 fastest configuration within --least-psnr and --most-mismatch; of equally fast ones, the one with
-the fewest changes. It contains no quality setting. docs/tradeoff.md describes the method.
+the fewest changes. It contains no quality setting. docs/tradeoff.md describes the method. Triangle
+windows are measured as opaque triangles; other splats have no edits and are refused.
 
 Examples:
   tureen tradeoff soup.glb -o tradeoff                report.html and tradeoff.json

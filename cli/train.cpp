@@ -132,7 +132,7 @@ std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Phot
   options.progress = [&](double fraction) { progress.update(fraction); };
   std::string reason;
   try {
-    return evaluate(only_soup(scene), origin_of(only_layer(scene)), views, options);
+    return evaluate(scene, views, options);
   } catch (const ContextError& error) {
     reason = error.reason();
   } catch (const DeviceLimitError& error) {

@@ -23,7 +23,7 @@ set(arrows
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
-  "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/timing"
+  "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
   "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/baseline jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"

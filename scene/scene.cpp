@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <utility>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "scene/opaque_windows.hpp"
 
@@ -164,6 +165,27 @@ void keep_layer(Scene& scene, const std::string& name) {
 bool has_visible_layer(const Scene& scene) {
   return std::any_of(scene.layers.begin(), scene.layers.end(),
                      [](const Layer& layer) { return layer.visible; });
+}
+
+std::size_t triangle_count(const Scene& scene) {
+  std::size_t triangles = 0;
+  for (const Layer& layer : scene.layers)
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      triangles += soup->triangles.size();
+  return triangles;
+}
+
+std::size_t splat_count(const Scene& scene) {
+  std::size_t splats = 0;
+  for (const Layer& layer : scene.layers)
+    if (const auto* of_layer = std::get_if<Splats>(&layer.primitives)) splats += count(*of_layer);
+  return splats;
+}
+
+std::string primitives_text(std::uint64_t triangles, std::uint64_t splats) {
+  if (splats == 0) return counted(triangles) + " triangles";
+  if (triangles == 0) return counted(splats) + " splats";
+  return counted(triangles) + " triangles and " + counted(splats) + " splats";
 }
 
 void make_opaque(Scene& scene) {

@@ -113,6 +113,12 @@ bool has_visible_layer(const Scene& scene);
 /// Throws UsageError for more than max_layers layers.
 Scene merged(std::vector<Scene> scenes);
 
+/// Sums over all layers, hidden ones too.
+std::size_t triangle_count(const Scene& scene);
+std::size_t splat_count(const Scene& scene);
+/// "1,200 triangles", "20,000 splats", or both.
+std::string primitives_text(std::uint64_t triangles, std::uint64_t splats);
+
 /// Converts the triangle windows of every layer by to_opaque. The losses of the conversions are
 /// added to info.remarks. Afterwards every layer holds a TriangleSoup. Throws UsageError, which
 /// names the layer, for splats with another kernel.

@@ -4,9 +4,9 @@
 
 #include <set>
 
-#include "base/decimal_text.hpp"
 #include "cli/bench/bench_words.hpp"
 #include "cli/table.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 
@@ -47,6 +47,9 @@ void add_row(Table& table, const BenchMeasurement& each, const BenchMeasurement&
              slowest_percent_text(ms, fps_text(ms.low_1_percent_fps)), compared(each, first)});
   if (!each.passes_ms.empty()) table.remark("times from the device's clock: " + passes_text(each));
   if (each.passes_gap == PassTimesGap::partial) table.remark(each.passes_reason);
+  if (each.order_ms)
+    table.remark(
+        fmt::format("of these, the processor sorts splats for {} ms", ms_text(*each.order_ms)));
   if (!each.stable) table.remark("times were not stable after the warm-up");
 }
 
@@ -81,10 +84,10 @@ std::vector<std::string> bench_table(const BenchResult& result) {
   if (load.peak_mib > 0)
     peaks += fmt::format("; peak {:.0f} MiB before the first frame", load.peak_mib);
   if (result.peak_mib) peaks += fmt::format("; peak {:.0f} MiB after all frames", *result.peak_mib);
-  lines.push_back(
-      fmt::format("{} triangles: read {} ms, plan {} ms, upload {} ms{}; on the device {:.1f} MiB",
-                  counted(result.scene.triangles), ms_text(load.read_ms), ms_text(load.plan_ms),
-                  ms_text(load.upload_ms), peaks, load.device_mib));
+  lines.push_back(fmt::format(
+      "{}: read {} ms, plan {} ms, upload {} ms{}; on the device {:.1f} MiB",
+      primitives_text(result.scene.triangles, result.scene.splats), ms_text(load.read_ms),
+      ms_text(load.plan_ms), ms_text(load.upload_ms), peaks, load.device_mib));
   lines.push_back("Times: " + result.protocol.clock);
   const std::vector<BenchMeasurement>& all = result.measurements;
   for (std::size_t i = 0; i < all.size();) {

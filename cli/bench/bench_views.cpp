@@ -91,6 +91,7 @@ class SetAtSizes {
       fixed_ = std::move(views.cameras);
       notes.insert(notes.end(), views.notes.begin(), views.notes.end());
     } else if (set.kind == CameraSet::Kind::adversarial) {
+      if (splat_count(scene) > 0) throw UsageError("--cameras adversarial needs triangles");
       // Chosen once, so that all sizes have the same views.
       fixed_ = adversarial_views(only_soup(scene), origin_of(only_layer(scene)), subject_, Lens{});
     }

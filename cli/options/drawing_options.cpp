@@ -69,6 +69,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
                   "the scene's own number by default")
       .check(between(1, 8))
       .value_name("N");
+  command.add_flag("--opaque", options.opaque,
+                   "draw triangle windows as opaque triangles instead of blending them");
 }
 
 void add_drawing_scale(Command& command, DrawingOptions& options) {
@@ -79,6 +81,10 @@ void add_drawing_scale(Command& command, DrawingOptions& options) {
       .check(between(0.25, 1.0))
       .excludes(command.option("--supersample"))
       .value_name("S");
+}
+
+void apply_opaque(Scene& scene, const DrawingOptions& options) {
+  if (options.opaque || options.pipeline == PipelineKind::baseline) make_opaque(scene);
 }
 
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options) {

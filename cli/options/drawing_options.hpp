@@ -15,6 +15,7 @@ struct DrawingOptions {
   gl::Backend backend = gl::Backend::automatic;
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
+  bool opaque = false;
   std::optional<int> supersampling = {};  // without both, the scene's own quality
   std::optional<double> resolution_scale = {};
 };
@@ -26,8 +27,11 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
 /// --context. `backend` must live until the arguments are parsed.
 void add_context_option(Command& command, gl::Backend& backend);
 
-/// --context, --pipeline, --no-specialise, --keep, --shading and --supersample. `options` must live
-/// until the arguments are parsed.
+/// Applies --opaque, which the baseline implies: it draws no splats. Throws as make_opaque.
+void apply_opaque(Scene& scene, const DrawingOptions& options);
+
+/// --context, --pipeline, --no-specialise, --keep, --shading, --supersample and --opaque. `options`
+/// must live until the arguments are parsed.
 void add_drawing_options(Command& command, DrawingOptions& options);
 
 /// --scale, after add_drawing_options. Commands whose --scale resizes photographs cannot have it.

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "base/error.hpp"
+#include "jobs/bench/order_time.hpp"
 #include "runtime/passes/copy_ceiling.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
@@ -36,21 +37,29 @@ class RendererCase final : public BenchCase {
  public:
   RendererCase(const std::string& name, const gl::Context& context, const Scene& scene,
                PipelineKind pipeline, const PlanPreferences& preferences)
-      : context_(context) {
+      : context_(context), scene_(scene) {
     configuration.name = name;
-    const auto& soup = only_soup(scene);
-    const bool is_baseline = pipeline == PipelineKind::baseline;
-    auto start = std::chrono::steady_clock::now();
-    RenderPlan plan = is_baseline
-                          ? make_baseline_plan(soup, preferences)
-                          : make_plan(soup, device_limits(context.capabilities()), preferences);
-    configuration.plan_ms = milliseconds_since(start);
-    start = std::chrono::steady_clock::now();
-    const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     const DeviceLimits limits = device_limits(context.capabilities());
-    PreparedScene prepared =
-        is_baseline ? prepare_baseline(placed_soups(scene).front(), limits, std::move(plan))
-                    : prepare_scene(placed_soups(scene), limits, std::move(plan));
+    auto start = std::chrono::steady_clock::now();
+    const auto planned = [&] {
+      configuration.plan_ms = milliseconds_since(start);
+      start = std::chrono::steady_clock::now();
+    };
+    PreparedScene prepared;
+    if (splat_count(scene) > 0) {
+      prepared = prepare_scene(scene, limits, {.plan = preferences});
+      planned();
+    } else {
+      const auto& soup = only_soup(scene);
+      const bool is_baseline = pipeline == PipelineKind::baseline;
+      RenderPlan plan = is_baseline ? make_baseline_plan(soup, preferences)
+                                    : make_plan(soup, limits, preferences);
+      planned();
+      prepared = is_baseline
+                     ? prepare_baseline(placed_soups(scene).front(), limits, std::move(plan))
+                     : prepare_scene(placed_soups(scene), limits, std::move(plan));
+    }
+    const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     renderer_ = std::make_unique<Renderer>(context, std::move(prepared), options);
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
@@ -66,9 +75,14 @@ class RendererCase final : public BenchCase {
     constexpr int repeats = 20;
     return time_passes(context_, *renderer_, cameras, repeats);
   }
+  std::optional<double> order_ms(std::span<const Camera> cameras,
+                                 const std::function<double()>& clock) const override {
+    return tureen::order_ms(scene_, cameras, clock);
+  }
 
  private:
   const gl::Context& context_;
+  const Scene& scene_;
   std::unique_ptr<Renderer> renderer_;
 };
 
@@ -153,10 +167,15 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
 std::unique_ptr<BenchCase> make_case(const std::string& name, const BenchCaseOptions& options,
                                      const gl::Context& context, const Scene& scene) {
   if (name == copy) return std::make_unique<CopyCase>(context);
+  if (splat_count(scene) > 0 && name != ours)
+    throw UsageError(
+        "splats have no specialisations and no second shading stage, and the baseline and the "
+        "ceiling 'triangles' draw only triangles");
   const Setting setting = setting_of(name, options.plan);
   auto bench_case =
       std::make_unique<RendererCase>(name, context, scene, setting.pipeline, setting.plan);
   bench_case->configuration.options = setting.options;
+  if (options.opaque) bench_case->configuration.options.emplace_back("--opaque");
   return bench_case;
 }
 
@@ -173,6 +192,7 @@ std::span<const std::string> bench_case_names() { return all_names; }
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene) {
   BenchCases result;
+  result.sort = splat_count(scene) > 0;
   std::exception_ptr first;
   for (const std::string& name : names_of(options)) {
     const auto skip = [&](const Error& error) {

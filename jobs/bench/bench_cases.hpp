@@ -3,7 +3,9 @@
 // triangles with an empty fragment shader, and a copy of the same number of pixels.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +24,7 @@ struct BenchCaseOptions {
   PlanPreferences plan = {};      // includes the sampling quality
   std::vector<std::string> only;  // names of cases; empty: the default cases
   bool ceilings = false;          // whether to add the upper limits
+  bool opaque = false;            // the scene was made opaque: adds --opaque to the options
 };
 
 /// The names that BenchCaseOptions::only supports.
@@ -36,6 +39,11 @@ class BenchCase {
   virtual Image8 last_frame() const = 0;
   /// The mean times of passes over these views; a reason and no times if the device has no timer.
   virtual PassTimes passes(std::span<const Camera> cameras) = 0;
+  /// As order_ms() (jobs/bench/order_time.hpp).
+  virtual std::optional<double> order_ms(std::span<const Camera>,
+                                         const std::function<double()>& /*clock*/) const {
+    return std::nullopt;
+  }
 
   BenchConfiguration configuration;  // its description in the result
 
@@ -51,14 +59,17 @@ struct SkippedCase {
 struct BenchCases {
   std::vector<std::unique_ptr<BenchCase>> list;  // the first is the reference for ratios
   double peak_mib = 0;  // of the process, when the first case is ready to draw
+  bool sort = false;    // frames sort splats: a sample is one frame, as of a moving camera
   std::vector<SkippedCase> skipped;
 };
 
-/// Plans and uploads each case; the times are in BenchCase::configuration. By default: the plan,
+/// Plans and uploads each case of a scene with one layer; the times are in
+/// BenchCase::configuration. The scene must outlive the cases. By default: the plan,
 /// the same without specialisations, and the baseline. With --no-specialise or --pipeline baseline
 /// only that case is made, plus the ceilings if requested. A case that fails with UsageError or
 /// DeviceLimitError is skipped. The error is rethrown if options.only names cases; the first error
-/// is rethrown if no case is left.
+/// is rethrown if no case is left. Splats have only the plan and the copy: other cases throw
+/// UsageError.
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene);
 

@@ -45,8 +45,8 @@ std::vector<BenchChange> changes_between(const BenchResult& now, const BenchResu
     if (a != b) result.push_back({.what = what, .then = b, .now = a});
   };
   const auto scene = [](const BenchResult& r) {
-    return fmt::format("{}, {} triangles, {}", r.scene.name, counted(r.scene.triangles),
-                       r.scene.appearance);
+    return fmt::format("{}, {}, {}", r.scene.name,
+                       primitives_text(r.scene.triangles, r.scene.splats), r.scene.appearance);
   };
   const auto machine = [](const BenchResult& r) {
     return fmt::format("{}, {} cores", r.machine.cpu, r.machine.cores);

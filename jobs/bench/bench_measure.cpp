@@ -58,6 +58,7 @@ std::vector<BenchMeasurement> measure_views(const BenchCases& cases, const Bench
     measurement.passes_gap = passes.gap;
     measurement.passes_reason = std::move(passes.reason);
     measurement.gpu_ms = passes.gpu_ms;
+    measurement.order_ms = bench_case.order_ms(views.cameras, options.clock);
     measurements.push_back(std::move(measurement));
   }
   return measurements;
@@ -74,7 +75,7 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
     const std::string detail = views[i].camera_set + " " + views[i].size;
     BenchmarkOptions benchmark{.rounds = options.rounds};
     benchmark.clock = options.clock;
-    benchmark.min_sample_ms = min_sample_ms;
+    benchmark.min_sample_ms = cases.sort ? 0 : min_sample_ms;
     benchmark.min_warm_up_seconds = min_warm_up_seconds;
     benchmark.progress = [&](double fraction) {
       if (options.progress) options.progress((double(i) + fraction) / count, detail);

@@ -26,7 +26,8 @@ struct BenchScene {
   std::string name;
   std::string path;  // as typed
   std::uint64_t triangles = 0;
-  std::string appearance;  // appearance_name()
+  std::string appearance;  // appearance_name(), or describe() of splats
+  std::uint64_t splats = 0;
 };
 
 struct BenchDevice {
@@ -86,6 +87,9 @@ struct BenchMeasurement {
   std::string passes_reason;
   /// Sum of all passes by the device's clock, for comparison with frame_ms.
   std::optional<double> gpu_ms;
+
+  /// Of splats: the part of a frame in which the processor sorts them (order_ms()).
+  std::optional<double> order_ms = {};
 
   std::vector<double> views_ms;      // the median of each view
   std::string pixels_hash;           // of the last timed frame; 16 hexadecimal digits

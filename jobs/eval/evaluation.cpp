@@ -34,15 +34,13 @@ ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
   return {"", sum.psnr_db / n, sum.ssim / n, sum.flip / n};
 }
 
-}  // namespace
+RenderOptions render_options(const EvaluationOptions& options) {
+  return {.plan = options.plan, .background = {options.background, 1.0f}};
+}
 
-Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
+Evaluation measured(const gl::Context& context, Renderer renderer,
                     std::span<const Photograph> photographs, const EvaluationOptions& options) {
   assert(!photographs.empty());
-  const gl::Context context = gl::Context::create({.backend = options.backend});
-  Renderer renderer =
-      make_renderer(context, soup, origin, options.pipeline,
-                    {.plan = options.plan, .background = {options.background, 1.0f}});
   Evaluation result;
   result.context = context.description();
   result.renderer = context.capabilities().renderer;
@@ -67,6 +65,23 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   result.plan = describe(renderer.plan());
   result.specialisations = renderer.plan().applied();
   return result;
+}
+
+}  // namespace
+
+Evaluation evaluate(const Scene& scene, std::span<const Photograph> photographs,
+                    const EvaluationOptions& options) {
+  const gl::Context context = gl::Context::create({.backend = options.backend});
+  return measured(context, make_renderer(context, scene, options.pipeline, render_options(options)),
+                  photographs, options);
+}
+
+Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
+                    std::span<const Photograph> photographs, const EvaluationOptions& options) {
+  const gl::Context context = gl::Context::create({.backend = options.backend});
+  return measured(context,
+                  make_renderer(context, soup, origin, options.pipeline, render_options(options)),
+                  photographs, options);
 }
 
 }  // namespace tureen

@@ -53,9 +53,13 @@ struct Evaluation {
   std::vector<AppliedSpecialisation> specialisations;  // in the plan
 };
 
-/// Measures views on all cores while others are drawn. Needs at least one photograph; the soup has
-/// no defect(). Throws ContextError, DeviceLimitError, UsageError if the SSIM window does not fit
-/// in a view, and exceptions from the callbacks.
+/// Measures views on all cores while others are drawn. Needs at least one photograph; the layers
+/// have no defect(). Hidden layers are not drawn. For the baseline, the scene holds one soup.
+/// Throws ContextError, DeviceLimitError, UsageError as make_renderer and if the SSIM window does
+/// not fit in a view, and exceptions from the callbacks.
+Evaluation evaluate(const Scene& scene, std::span<const Photograph> photographs,
+                    const EvaluationOptions& options);
+/// The same for one soup.
 Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options);
 

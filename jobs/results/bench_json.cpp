@@ -55,6 +55,7 @@ Json to_json(const BenchMeasurement& measurement) {
           {"passes_gap", name_of(measurement.passes_gap)},
           {"passes_reason", measurement.passes_reason},
           {"gpu_ms", measurement.gpu_ms ? Json(*measurement.gpu_ms) : Json(nullptr)},
+          {"order_ms", measurement.order_ms ? Json(*measurement.order_ms) : Json(nullptr)},
           {"views_ms", measurement.views_ms},
           {"pixels_hash", measurement.pixels_hash},
           {"picture", measurement.image ? Json(*measurement.image) : Json(nullptr)}};
@@ -110,6 +111,7 @@ PassTimesGap passes_gap(const JsonView& measurement) {
 
 BenchMeasurement measurement(const JsonView& view) {
   const auto text = [](const JsonView& each) { return each.text(); };
+  const std::optional<JsonView> order = view.find("order_ms");
   return {.configuration = view["configuration"].text(),
           .camera_set = view["camera_set"].text(),
           .size = view["size"].text(),
@@ -126,6 +128,7 @@ BenchMeasurement measurement(const JsonView& view) {
           .passes_gap = passes_gap(view),
           .passes_reason = view["passes_reason"].text(),
           .gpu_ms = unless_null(view["gpu_ms"], not_negative),
+          .order_ms = order ? unless_null(*order, not_negative) : std::nullopt,
           .views_ms = list(view["views_ms"], not_negative),
           .pixels_hash = view["pixels_hash"].text(),
           .image = unless_null(view["picture"], text)};

@@ -15,6 +15,7 @@ Json to_json(const BenchScene& scene) {
   return {{"name", scene.name},
           {"path", scene.path},
           {"triangles", scene.triangles},
+          {"splats", scene.splats},
           {"appearance", scene.appearance}};
 }
 
@@ -44,10 +45,12 @@ BenchProgram program_of(const JsonView& view) {
 }
 
 BenchScene scene_of(const JsonView& view) {
+  const std::optional<JsonView> splats = view.find("splats");
   return {.name = text_within(view["name"], longest_text),
           .path = text_within(view["path"], longest_text),
           .triangles = view["triangles"].natural(),
-          .appearance = text_within(view["appearance"], longest_text)};
+          .appearance = text_within(view["appearance"], longest_text),
+          .splats = splats ? splats->natural() : 0};
 }
 
 Machine machine_of(const JsonView& view) {

@@ -6,8 +6,10 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/cli/photographs_fixture.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/random_splats.hpp"
 
 namespace tureen {
 namespace bench_program_test {
@@ -69,6 +71,71 @@ TEST_F(Bench, MeasuresTheSceneThatItNames) {
     EXPECT_GT(each["frame_ms"]["min_of_medians"], 0);
     EXPECT_DOUBLE_EQ(each["fps"], 1000 / each["frame_ms"]["mean"].get<double>());
   }
+}
+
+class BenchOfSplats : public Bench {
+ protected:
+  static constexpr std::size_t count = 3000;
+
+  void write_splats(const test::SplatKind& kind) const {
+    Scene scene = scene_of(test::random_splats(kind, count, 0.1, 1));
+    scene.layers[0].world_from_layer[0] = {0, 2, 0, 0};  // turned and scaled
+    scene.layers[0].world_from_layer[1] = {-2, 0, 0, 0};
+    scene.layers[0].world_from_layer[2] = {0, 0, 2, 0};
+    write_tureen_glb(scene, folder / "splats.glb");
+  }
+  ChildResult bench_splats(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"bench",    "splats.glb", "--context", "osmesa",
+                                       "--size",   "64x48",      "--cameras", "orbit:2",
+                                       "--rounds", "1",          "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+};
+
+TEST_F(BenchOfSplats, TimesThePlanAndItsOrder) {
+  for (const test::SplatKind& kind : test::splat_kinds) {
+    SCOPED_TRACE(kind.name);
+    write_splats(kind);
+    const ChildResult result = bench_splats({"-o", "timed"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err,
+                Names("3,000 splats: read", "generic is skipped", "published is skipped"));
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["scene"]["splats"], count);
+    EXPECT_EQ(json["scene"]["triangles"], 0);
+    ASSERT_EQ(all(json["configurations"], "name"), std::vector<std::string>{"tureen"});
+    const auto& measured = json["measurements"][0];
+    EXPECT_EQ(measured["frames_per_sample"], 1);
+    EXPECT_GT(measured["order_ms"], 0);
+    EXPECT_LT(measured["order_ms"], measured["frame_ms"]["mean"]);
+    ASSERT_EQ(run({"render", "splats.glb", "--context", "osmesa", "--orbit", "2", "--size", "64x48",
+                   "-o", "drawn_%d.png"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(read_png(measured["picture"]).pixels, read_png("drawn_1.png").pixels);
+  }
+}
+
+TEST_F(BenchOfSplats, WhatNeedsTrianglesIsRefused) {
+  write_splats(test::splat_kinds[0]);
+  for (const char* name : {"generic", "baseline", "triangles", "tureen-compute"})
+    EXPECT_EQ(bench_splats({"--only", name}).exit_code, 2) << name;
+  EXPECT_EQ(bench_splats({"--no-specialise"}).exit_code, 2);
+  EXPECT_EQ(bench_splats({"--cameras", "adversarial"}).exit_code, 2);
+  EXPECT_EQ(bench_splats({"--only", "tureen,copy"}).exit_code, 0);
+}
+
+TEST_F(BenchOfSplats, WindowsAreTrianglesIfOpaque) {
+  Scene scene = scene_of(test::random_splats(test::splat_kinds[0], count, 0.1, 1));
+  write_tureen_glb(scene, folder / "splats.glb");
+  const ChildResult result = bench_splats({"--opaque", "--only", "tureen,triangles"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["scene"]["splats"], 0);
+  EXPECT_GT(json["scene"]["triangles"], 0);
+  EXPECT_TRUE(json["measurements"][0]["order_ms"].is_null());
+  EXPECT_EQ(json["configurations"][0]["options"], nlohmann::json({"--opaque"}));
 }
 
 TEST_F(Bench, SaysWithHowManyThreadsLlvmpipeDraws) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/cli/photographs_fixture.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/random_splats.hpp"
 
 namespace tureen {
 namespace eval_program_test {
@@ -15,6 +17,7 @@ using test::ChildResult;
 using test::Names;
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::Not;
 
 const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
 
@@ -58,6 +61,53 @@ TEST_F(Eval, TheScenesOwnImagesAreMetExactly) {
       ASSERT_EQ(sheet.at(2 * width + x, y), glm::u8vec4(0, 0, 0, 255));
     }
   EXPECT_THAT(result.err, Names("test/r_1.png", "100.00"));
+}
+
+class EvalOfSplats : public Eval {
+ protected:
+  /// A layer of random splats beside the triangles of write_scene(), which stand in its middle.
+  void write_splats(const test::SplatKind& kind, std::uint64_t seed = 1) const {
+    Scene scene = scene_of(test::random_splats(kind, 300, 0.2, seed));
+    write_scene();
+    scene.layers.push_back(read_scene(folder / "scene.off").layers.front());
+    write_tureen_glb(scene, folder / "splats.glb");
+  }
+  /// The mean PSNR of splats.glb in dB.
+  double psnr(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"eval",   "splats.glb", "data",    "--no-flip", "--context",
+                                       "osmesa", "--json",     "--split", "all"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, Names("300 splats", "3 triangles"));
+    return nlohmann::json::parse(result.out)["mean"]["psnr_db"];
+  }
+};
+
+TEST_F(EvalOfSplats, TheScenesOwnImagesAreMetExactlyAndOthersAreNot) {
+  for (const test::SplatKind& kind : test::splat_kinds) {
+    SCOPED_TRACE(kind.name);
+    write_splats(kind);
+    photograph("splats.glb");
+    EXPECT_EQ(psnr(), 100);
+    write_splats(kind, 2);
+    EXPECT_LT(psnr(), 30);
+  }
+}
+
+TEST_F(EvalOfSplats, WindowsAreBlendedUnlessOpaque) {
+  write_splats(test::splat_kinds[0]);
+  photograph("splats.glb");
+  std::vector<std::string> arguments{"eval",   "splats.glb", "data",   "--context",
+                                     "osmesa", "--opaque",   "--json", "--no-flip"};
+  const ChildResult opaque = run(arguments);
+  ASSERT_EQ(opaque.exit_code, 0) << opaque.err;
+  EXPECT_LT(nlohmann::json::parse(opaque.out)["mean"]["psnr_db"], 30);
+  EXPECT_THAT(opaque.err, Not(testing::HasSubstr("splats against")));
+  write_splats(test::splat_kinds[1]);
+  const ChildResult refused = run(arguments);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, Names("layer 1", "Gaussians"));
 }
 
 TEST_F(Eval, AKnownErrorHasItsDecibels) {

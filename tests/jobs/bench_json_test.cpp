@@ -39,6 +39,7 @@ BenchResult example() {
                             .passes_gap = PassTimesGap::none,
                             .passes_reason = "",
                             .gpu_ms = 0.091,
+                            .order_ms = 0.25,
                             .views_ms = {0.1, 0.2, 0.3},
                             .pixels_hash = "0123456789abcdef",
                             .image = "out/tureen_640x360.png"};
@@ -49,13 +50,18 @@ BenchResult example() {
   software.passes_gap = PassTimesGap::no_timers;
   software.passes_reason = "timers mislead on llvmpipe";
   software.gpu_ms.reset();
+  software.order_ms.reset();
   software.image.reset();
   return {.date = "2026-01-02T03:04:05Z",
           .program = {.version = "0.1.0",
                       .commit = "abc1234",
                       .arguments = {"bench", "a.glb"},
                       .build = "debug"},
-          .scene = {.name = "a", .path = "x/a.glb", .triangles = 15000, .appearance = "lattice"},
+          .scene = {.name = "a",
+                    .path = "x/a.glb",
+                    .triangles = 15000,
+                    .appearance = "lattice",
+                    .splats = 20000},
           .machine = {.cpu = "Some CPU", .cores = 2, .memory_mib = 4096.5, .rasteriser_threads = 3},
           .device = {.context = "EGL, OpenGL 4.5 core",
                      .renderer = "llvmpipe",
@@ -101,6 +107,9 @@ TEST(BenchResult, ComesBackFromJsonAsItWas) {
   EXPECT_EQ(read.program.build, "debug");
   EXPECT_EQ(read.machine.rasteriser_threads, 3);
   EXPECT_EQ(read.peak_mib, 8.5);
+  EXPECT_EQ(read.scene.splats, 20000u);
+  EXPECT_EQ(read.measurements[0].order_ms, 0.25);
+  EXPECT_FALSE(read.measurements[1].order_ms);
 }
 
 TEST(BenchResult, OfTooFewSamplesTheSlowestPercentIsNull) {
@@ -159,11 +168,11 @@ TEST(BenchResult, MissesEveryKeyThatAllHave) {
   const auto keys = all_keys(complete);
   ASSERT_GT(keys.size(), 60u);
   const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads", "/peak_mib",
-                                       "/protocol/processor_time"};
+                                       "/protocol/processor_time", "/scene/splats"};
   for (const auto& key : keys) {
-    // Files of earlier versions have neither a list of specialisations nor a kind of gap.
+    // Files of earlier versions have no list of specialisations, no kind of gap, no splats.
     if (optional.contains(key.to_string()) || key.back() == "specialisations" ||
-        key.back() == "passes_gap")
+        key.back() == "passes_gap" || key.back() == "order_ms")
       continue;
     nlohmann::json document = complete;
     document.at(key.parent_pointer()).erase(key.back());

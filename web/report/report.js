@@ -137,11 +137,14 @@ const images = (all, className = '') => all.length ? element('div', { className:
   element('a', { href: address }, element('img', { src: address, alt: caption, loading: 'lazy' })), element('figcaption', {}, caption)))) : null;
 const imageAddress = (entry, path) => entry.folder + encodeURIComponent(base(path));
 
+/** "15,000 triangles", "20,000 splats", or both. */
+const primitives = ({ triangles, splats }) => [(triangles || !splats) && `${count(triangles)} triangles`, splats && `${count(splats)} splats`].filter(Boolean).join(' and ');
+
 // -- common parts of all results -------------------------------------------------------------------
 function provenance({ scene, machine, device, program, date, protocol, notes }) {
   const quoted = (program?.arguments ?? []).map((word) => /^[\w\-./:,=@+%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
   return fold('Measurement conditions', facts([
-    ['scene', scene && `${scene.name} (${scene.path}), ${count(scene.triangles)} triangles, ${scene.appearance}`],
+    ['scene', scene && `${scene.name} (${scene.path}), ${primitives(scene)}, ${scene.appearance}`],
     ['renderer', device && device.renderer + (device.software ? ' (software)' : '')], ['driver', device?.version], ['context', device?.context],
     ['machine', machine && [machine.cpu, machine.cores && `${machine.cores} cores`, machine.memory_mib && `${count(machine.memory_mib)} MiB`,
       machine.rasteriser_threads && `${machine.rasteriser_threads} rasteriser threads`].filter(Boolean).join(', ')],
@@ -149,7 +152,7 @@ function provenance({ scene, machine, device, program, date, protocol, notes }) 
     ['command', quoted.length ? element('code', {}, `tureen ${quoted.join(' ')}`) : ''],
   ]), list(notes));
 }
-const subtitle = ({ scene, device, date }) => paragraph([scene && `${count(scene.triangles)} triangles`, device?.renderer,
+const subtitle = ({ scene, device, date }) => paragraph([scene && primitives(scene), device?.renderer,
   device?.software && 'software renderer: not comparable with a GPU', date?.slice(0, 10)].filter(Boolean).join(' · '), 'faint');
 
 // -- tureen bench ----------------------------------------------------------------------------------
@@ -213,7 +216,7 @@ function showBench(entry) {
 /** Several results of bench, one per column. */
 function showBenches(entries) {
   const names = labels(entries, stem, folderName, (e) => `${stem(e)}, ${e.data.scene.name}`);
-  const key = ({ scene }, m) => [scene.name, scene.triangles, place(m), m.configuration].join('\n');
+  const key = ({ scene }, m) => [scene.name, primitives(scene), place(m), m.configuration].join('\n');
   const rows = new Map();
   entries.forEach(({ data }, i) => data.measurements.forEach((m) => {
     if (!rows.has(key(data, m))) rows.set(key(data, m), { scene: data.scene, m, of: [] });
@@ -224,7 +227,7 @@ function showBenches(entries) {
     plots(plot('Best time per frame', { names: shared.map(({ m }) => `${m.configuration}, ${m.size}`), y: 'best time per frame (ms)',
       series: names.map((name, i) => ({ name, points: shared.map(({ of }) => of[i] ?? null) })) })),
     table('Best time per frame', [['configuration', (r) => r.m.configuration], ['size', (r) => r.m.size], ...names.map((name, i) => [`${name} (ms)`, (r) => r.of[i], ms]),
-      ['cameras', (r) => r.m.camera_set], ['scene', (r) => r.scene.name], ['triangles', (r) => r.scene.triangles, count]], [...rows.values()]),
+      ['cameras', (r) => r.m.camera_set], ['scene', (r) => r.scene.name], ['primitives', (r) => primitives(r.scene)]], [...rows.values()]),
     list(entries.map(({ data }, i) => `${names[i]}: ${data.device.renderer}${data.device.software ? ' (software renderer: not comparable with hardware)' : ''}; ${data.machine.cpu}; commit ${data.program.commit}`)),
   ];
 }

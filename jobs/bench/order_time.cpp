@@ -1,0 +1,65 @@
+#include "jobs/bench/order_time.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <vector>
+
+#include "runtime/passes/pass.hpp"
+#include "runtime/splats/splat_order.hpp"
+
+namespace tureen {
+
+namespace {
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+SplatsInView in_view(std::span<const glm::vec3> centers, const Camera& camera,
+                     const glm::dmat4& world_from_layer) {
+  const FrameCamera in_layer = camera_in_layer(camera, world_from_layer, {});
+  const glm::dvec3 backward =
+      glm::transpose(glm::dmat3(in_layer.camera.view_from_world))[2] * in_layer.scale;
+  return {.centers = centers, .axis = -backward, .offset = glm::dot(-backward, in_layer.eye)};
+}
+
+}  // namespace
+
+std::optional<double> order_ms(const Scene& scene, std::span<const Camera> cameras,
+                               const std::function<double()>& clock) {
+  assert(!cameras.empty());
+  struct Centers {
+    std::vector<glm::vec3> centers;
+    const glm::dmat4& world_from_layer;
+  };
+  std::vector<Centers> layers;
+  for (const Layer& layer : scene.layers)
+    if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
+      Centers& of_layer = layers.emplace_back(Centers{{}, layer.world_from_layer});
+      for (std::size_t i = 0; i < count(*splats); ++i)
+        of_layer.centers.push_back(center(*splats, i));
+    }
+  if (layers.empty()) return std::nullopt;
+  const auto now = [&] { return clock ? clock() : steady_seconds(); };
+  SplatOrder order;
+  double seconds = 0;
+  for (const Camera& camera : cameras) {
+    std::vector<SplatsInView> views;
+    for (const Centers& layer : layers)
+      views.push_back(in_view(layer.centers, camera, layer.world_from_layer));
+    double best = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const double start = now();
+      order.sort(views);
+      best = std::min(best, now() - start);
+    }
+    seconds += best;
+  }
+  return 1000 * seconds / double(cameras.size());
+}
+
+}  // namespace tureen
