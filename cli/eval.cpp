@@ -117,7 +117,7 @@ ExitCode evaluate_scene(EvalOptions options) {
   std::vector<std::string> output;
   if (images) output = images->finish();
   say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
-  say_if_hidden(scene);
+  say_what_is_hidden(scene);
   say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   say_list("Plan:", result.plan);
   say(fmt::format("{} against {} photographs ({}), on {} ({}); SSIM with border {}",
