@@ -13,6 +13,7 @@
 #include "formats/mesh/ply.hpp"
 #include "formats/mesh/stray_content.hpp"
 #include "formats/splat/splat_records.hpp"
+#include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
@@ -30,12 +31,13 @@ struct Candidate {
 /// In bytes: enough for the longest signature, and for comments before the header word of an OFF.
 constexpr std::size_t head_size = 4096;
 
-/// A page writes no files. Without the writers, its program is 4 % smaller.
 #ifdef __EMSCRIPTEN__
-constexpr bool writes_files = false;
+constexpr bool in_browser = true;
 #else
-constexpr bool writes_files = true;
+constexpr bool in_browser = false;
 #endif
+/// A page writes no files. Without the writers, its program is 4 % smaller.
+constexpr bool writes_files = !in_browser;
 
 struct Format {
   const char* name = "";
@@ -86,6 +88,11 @@ const std::vector<Format>& formats() {
        .read_extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
+      {.name = "SPZ",
+       .description = "Gaussians, quantised and compressed",
+       .read_extensions = {".spz"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_spz(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_spz(path, o); }},
 #endif
       {.name = ".splat",
        .description = "Gaussians of one colour in records of 32 bytes, without a header",
@@ -104,6 +111,11 @@ const std::vector<Format>& formats() {
 
 bool contains(const std::vector<const char*>& extensions, const std::string& extension) {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+/// Whether a page rejects the extension because it has no zlib and zstd.
+bool needs_conversion(const std::string& extension) {
+  return in_browser && (extension == ".pt" || extension == ".spz");
 }
 
 enum class Direction { read, written };
@@ -141,9 +153,13 @@ Candidate candidate_at(const std::filesystem::path& path, std::vector<std::byte>
 const Format& format_to_read(const Candidate& candidate) {
   for (const Format& format : formats())
     if (format.read && format.recognises(candidate)) return format;
+  const std::string extension = extension_of(candidate.path);
+  if (needs_conversion(extension) && !candidate.is_folder)
+    throw InputError({candidate.path.string(), {}, {}},
+                     "this page does not read " + extension + " files; convert it to GLB: " +
+                         "tureen convert FILE" + extension + " FILE.glb");
   if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
     throw InputError({candidate.path.string(), {}, {}}, stray->reason, stray->hint);
-  const std::string extension = extension_of(candidate.path);
   for (const Format& format : formats())
     if (format.read && !candidate.is_folder && contains(format.read_extensions, extension))
       return format;

@@ -25,7 +25,7 @@ struct ReadOptions {
 /// Whether a reader recognises the content. Throws InputError if the path cannot be opened.
 bool is_scene(const std::filesystem::path& path);
 
-/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, .splat, a DiffSoup
+/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, .splat, .spz, a DiffSoup
 /// export folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has triangles or
 /// splats, and no defect(). Throws InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});

@@ -30,6 +30,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "splats_dropped",
     "splat_colors_linear",
     "profile_assumed",
+    "splat_extensions_ignored",
     "color_components_clamped",
     "face_colors_dropped",
     "colors_missing",
@@ -144,6 +145,8 @@ std::string sentence_of(const Remark& remark) {
     case Kind::profile_assumed:
       return "the file does not store how its splats are rendered: the profile " + names[0] +
              " is assumed";
+    case Kind::splat_extensions_ignored:
+      return "extensions of the file that are not supported are ignored: " + listed(names);
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
