@@ -140,9 +140,9 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 
 /// Whether the page can contain the scene's file unchanged.
 bool is_page_of_file(const ConvertOptions& options) {
-  return !options.compressed.compressed && options.scene.up.empty() && options.edits == Edits{} &&
-         !options.quality && options.layer.empty() && options.scene.paths.size() == 1 &&
-         is_our_glb(options.scene.paths.front());
+  return !options.compressed.compressed && options.scene.reading.up.empty() &&
+         options.edits == Edits{} && !options.quality && options.layer.empty() &&
+         options.scene.paths.size() == 1 && is_our_glb(options.scene.paths.front());
 }
 
 Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions& options) {
@@ -240,7 +240,7 @@ Examples:
       .value_name("OUT");
   command.add_option("--layer", options->layer, "write only this layer, with its transform")
       .value_name("NAME");
-  add_reading_options(command, options->scene.vertex_colors, options->scene.up);
+  add_reading_options(command, options->scene.reading);
   add_memory_option(command);
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json,

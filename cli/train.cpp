@@ -203,7 +203,7 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
     throw InputError({path.string(), {}, {}},
                      why_missing(path) + "; --init takes random, points or a scene",
                      did_you_mean(path.string(), words));
-  return read_one_layer(SceneArgument{.path = path.string(), .vertex_colors = {}, .up = {}});
+  return read_one_layer(SceneArgument{.path = path.string()});
 }
 
 /// Throws UsageError if the run would replace an existing file by mistake.

@@ -12,6 +12,7 @@
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/ply.hpp"
 #include "formats/mesh/stray_content.hpp"
+#include "formats/splat/octagon_npz.hpp"
 #include "formats/splat/splat_records.hpp"
 #include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
@@ -83,6 +84,11 @@ const std::vector<Format>& formats() {
        .read = read_diffsoup_export,
        .write = writes_files ? write_diffsoup_export : nullptr},
 #ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
+      {.name = "octagon mesh",
+       .description = "REdiSplats: octagons as flat Gaussians",
+       .read_extensions = {".npz"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_octagon_npz(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_octagon_npz(path, o); }},
       {.name = "checkpoint",
        .description = "Torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .read_extensions = {".pt"},
@@ -115,7 +121,7 @@ bool contains(const std::vector<const char*>& extensions, const std::string& ext
 
 /// Whether a page rejects the extension because it has no zlib and zstd.
 bool needs_conversion(const std::string& extension) {
-  return in_browser && (extension == ".pt" || extension == ".spz");
+  return in_browser && (extension == ".pt" || extension == ".spz" || extension == ".npz");
 }
 
 enum class Direction { read, written };

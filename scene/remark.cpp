@@ -30,6 +30,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "splats_dropped",
     "splat_colors_linear",
     "profile_assumed",
+    "octagon_q_assumed",
     "splat_extensions_ignored",
     "color_components_clamped",
     "face_colors_dropped",
@@ -145,6 +146,10 @@ std::string sentence_of(const Remark& remark) {
     case Kind::profile_assumed:
       return "the file does not store how its splats are rendered: the profile " + names[0] +
              " is assumed";
+    case Kind::octagon_q_assumed:
+      return "the file does not store the radius of its octagons, sqrt(Q) standard deviations: Q "
+             "= " +
+             short_decimal(values[0], 6) + " is assumed";
     case Kind::splat_extensions_ignored:
       return "extensions of the file that are not supported are ignored: " + listed(names);
     case Kind::color_components_clamped:
@@ -258,6 +263,8 @@ std::string hint_of(const Remark& remark) {
     case Kind::vertex_colors_srgb_by_generator:
     case Kind::vertex_colors_linear_by_gltf:
       return "--vertex-colors changes it";
+    case Kind::octagon_q_assumed:
+      return "--octagon-q changes it";
     default:
       return "";
   }

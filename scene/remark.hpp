@@ -34,6 +34,7 @@ struct Remark {
     splats_dropped,            // counts: dropped, all
     splat_colors_linear,       // in linear light, which SplatColor does not hold
     profile_assumed,           // names: the profile
+    octagon_q_assumed,         // values: Q
     splat_extensions_ignored,  // names: the types of the extensions
     // Colours.
     color_components_clamped,  // counts: components

@@ -25,21 +25,31 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
-void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std::string& up) {
-  add_choice<VertexColorSpace>(command, "--vertex-colors", vertex_colors,
+void add_reading_options(Command& command, ReadingOptions& options) {
+  add_choice<VertexColorSpace>(command, "--vertex-colors", options.vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
                                "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
                                "on its generator), srgb or linear")
       .value_name("SPACE");
-  command.add_option("--up", up, "up direction in world coordinates; the scene's own by default")
+  command
+      .add_option("--up", options.up,
+                  "up direction in world coordinates; the scene's own by default")
       .value_name("X,Y,Z");
+  command
+      .add_option(
+          "--octagon-q", options.octagon_q,
+          "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at "
+          "sqrt(Q) standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 "
+          "and 21.1075")
+      .value_name("Q")
+      .check(between(0.001, 1000.0));
 }
 
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
   command.add_option(name, argument.path, scene_help).required();
-  add_reading_options(command, argument.vertex_colors, argument.up);
+  add_reading_options(command, argument.reading);
 }
 
 void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name) {
@@ -48,23 +58,24 @@ void add_scene_arguments(Command& command, SceneArguments& arguments, const char
           name, arguments.paths,
           std::string(scene_help) + ". Several scenes are combined into one, each as a layer")
       .required();
-  add_reading_options(command, arguments.vertex_colors, arguments.up);
+  add_reading_options(command, arguments.reading);
 }
 
 Scene read(const SceneArgument& argument) {
   glm::dvec3 up(0.0);
-  if (!argument.up.empty()) {
-    up = parse_vector(argument.up);
+  if (!argument.reading.up.empty()) {
+    up = parse_vector(argument.reading.up);
     if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 has no direction");
   }
   const std::filesystem::path path = argument.path;
   require_there(path);
   Progress progress("reading " + path.filename().string());
   ReadOptions options;
-  options.vertex_colors = argument.vertex_colors;
+  options.vertex_colors = argument.reading.vertex_colors;
+  options.octagon_q = argument.reading.octagon_q;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
-  if (!argument.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
+  if (!argument.reading.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
   return scene;
 }
 
@@ -77,8 +88,8 @@ Scene read_one_layer(const SceneArgument& argument) {
 Scene read(const SceneArguments& arguments) {
   std::vector<Scene> scenes;
   for (const std::string& path : arguments.paths) {
-    Scene& scene = scenes.emplace_back(read(
-        SceneArgument{.path = path, .vertex_colors = arguments.vertex_colors, .up = arguments.up}));
+    Scene& scene =
+        scenes.emplace_back(read(SceneArgument{.path = path, .reading = arguments.reading}));
     if (arguments.paths.size() > 1 && scene.info.name.empty()) scene.info.name = stem_of(path);
   }
   return merged(std::move(scenes));

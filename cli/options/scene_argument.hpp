@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,28 +11,33 @@
 
 namespace tureen::cli {
 
-struct SceneArgument {
-  std::string path;
+struct ReadingOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
-  std::string up;  // empty: the scene's own
+  std::string up = {};  // empty: the scene's own
+  std::optional<double> octagon_q = {};
 };
 
-/// Adds the required argument `name`, and --vertex-colors and --up. `argument` must live until the
+struct SceneArgument {
+  std::string path;
+  ReadingOptions reading = {};
+};
+
+/// Adds the required argument `name`, and the reading options. `argument` must live until the
 /// arguments are parsed.
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
 
 /// Several scenes, combined into one, each as a layer. The options apply to each of them.
 struct SceneArguments {
   std::vector<std::string> paths;  // at least one
-  VertexColorSpace vertex_colors = VertexColorSpace::automatic;
-  std::string up;  // empty: the first scene's own
+  ReadingOptions reading = {};
 };
 
-/// Adds the required list of arguments `name`, and --vertex-colors and --up.
+/// Adds the required list of arguments `name`, and the reading options.
 void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name = "SCENE");
 
-/// Adds only --vertex-colors and --up, for a command with its own positional arguments.
-void add_reading_options(Command& command, VertexColorSpace& vertex_colors, std::string& up);
+/// Adds only --vertex-colors, --up and --octagon-q, for a command with its own positional
+/// arguments.
+void add_reading_options(Command& command, ReadingOptions& options);
 
 /// Throws InputError, with a suggestion if the path does not exist.
 Scene read(const SceneArgument& argument);
