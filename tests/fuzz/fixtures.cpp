@@ -14,6 +14,7 @@
 #include "jobs/results/bench_json.hpp"
 #include "jobs/results/web_bench.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
+#include "tests/formats/splat/octagon_fixture.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/splat/spz_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
@@ -200,6 +201,10 @@ void add_splats(Collection& all) {
   std::string records;
   for (int i = 0; i < 64; ++i) records += static_cast<char>(i % 32 < 24 ? 0x3e : 0x90 + i);
   all.add("splat_records", "two.splat", records);
+  test::ZipFixture octagons = test::two_octagons().zip();
+  all.add("octagon_npz", "stored.npz", octagons.bytes());
+  for (auto& entry : octagons.entries) entry.deflate = true;
+  all.add("octagon_npz", "deflated.npz", octagons.bytes());
   for (unsigned version = 1; version <= 4; ++version) {
     const std::string name = "version_" + std::to_string(version);
     test::SpzFixture spz = test::spz_splat(version, version);
