@@ -12,7 +12,9 @@
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/ply.hpp"
 #include "formats/mesh/stray_content.hpp"
+#include "formats/splat/octagon_npz.hpp"
 #include "formats/splat/splat_records.hpp"
+#include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
@@ -30,12 +32,13 @@ struct Candidate {
 /// In bytes: enough for the longest signature, and for comments before the header word of an OFF.
 constexpr std::size_t head_size = 4096;
 
-/// A page writes no files. Without the writers, its program is 4 % smaller.
 #ifdef __EMSCRIPTEN__
-constexpr bool writes_files = false;
+constexpr bool in_browser = true;
 #else
-constexpr bool writes_files = true;
+constexpr bool in_browser = false;
 #endif
+/// A page writes no files. Without the writers, its program is 4 % smaller.
+constexpr bool writes_files = !in_browser;
 
 struct Format {
   const char* name = "";
@@ -81,11 +84,21 @@ const std::vector<Format>& formats() {
        .read = read_diffsoup_export,
        .write = writes_files ? write_diffsoup_export : nullptr},
 #ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
+      {.name = "octagon mesh",
+       .description = "REdiSplats: octagons as flat Gaussians",
+       .read_extensions = {".npz"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_octagon_npz(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_octagon_npz(path, o); }},
       {.name = "checkpoint",
        .description = "Torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .read_extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
+      {.name = "SPZ",
+       .description = "Gaussians, quantised and compressed",
+       .read_extensions = {".spz"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_spz(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_spz(path, o); }},
 #endif
       {.name = ".splat",
        .description = "Gaussians of one colour in records of 32 bytes, without a header",
@@ -104,6 +117,11 @@ const std::vector<Format>& formats() {
 
 bool contains(const std::vector<const char*>& extensions, const std::string& extension) {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+/// Whether a page rejects the extension because it has no zlib and zstd.
+bool needs_conversion(const std::string& extension) {
+  return in_browser && (extension == ".pt" || extension == ".spz" || extension == ".npz");
 }
 
 enum class Direction { read, written };
@@ -141,9 +159,13 @@ Candidate candidate_at(const std::filesystem::path& path, std::vector<std::byte>
 const Format& format_to_read(const Candidate& candidate) {
   for (const Format& format : formats())
     if (format.read && format.recognises(candidate)) return format;
+  const std::string extension = extension_of(candidate.path);
+  if (needs_conversion(extension) && !candidate.is_folder)
+    throw InputError({candidate.path.string(), {}, {}},
+                     "this page does not read " + extension + " files; convert it to GLB: " +
+                         "tureen convert FILE" + extension + " FILE.glb");
   if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
     throw InputError({candidate.path.string(), {}, {}}, stray->reason, stray->hint);
-  const std::string extension = extension_of(candidate.path);
   for (const Format& format : formats())
     if (format.read && !candidate.is_folder && contains(format.read_extensions, extension))
       return format;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ enum class VertexColorSpace { automatic, srgb, linear };
 
 struct ReadOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
+  /// Q > 0 of octagon meshes (formats/splat/octagon_npz.hpp). nullopt: 4, with a remark.
+  std::optional<double> octagon_q = {};
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress;
 };
@@ -25,9 +28,9 @@ struct ReadOptions {
 /// Whether a reader recognises the content. Throws InputError if the path cannot be opened.
 bool is_scene(const std::filesystem::path& path);
 
-/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, .splat, a DiffSoup
-/// export folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has triangles or
-/// splats, and no defect(). Throws InputError.
+/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, .splat, .spz, .npz,
+/// a DiffSoup export folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has
+/// triangles or splats, and no defect(). Throws InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Throws UsageError if write_scene would reject the name.

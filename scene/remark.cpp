@@ -31,6 +31,8 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "splat_colors_linear",
     "profile_assumed",
     "render_mode_unknown",
+    "octagon_q_assumed",
+    "splat_extensions_ignored",
     "color_components_clamped",
     "face_colors_dropped",
     "colors_missing",
@@ -146,6 +148,12 @@ std::string sentence_of(const Remark& remark) {
     case Kind::render_mode_unknown:
       return "the render mode '" + names[0] + "' of the file is unknown: the profile " + names[1] +
              " is used";
+    case Kind::octagon_q_assumed:
+      return "the file does not store the radius of its octagons, sqrt(Q) standard deviations: Q "
+             "= " +
+             short_decimal(values[0], 6) + " is assumed";
+    case Kind::splat_extensions_ignored:
+      return "extensions of the file that are not supported are ignored: " + listed(names);
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
@@ -258,6 +266,8 @@ std::string hint_of(const Remark& remark) {
     case Kind::vertex_colors_srgb_by_generator:
     case Kind::vertex_colors_linear_by_gltf:
       return "--vertex-colors changes it";
+    case Kind::octagon_q_assumed:
+      return "--octagon-q changes it";
     default:
       return "";
   }

@@ -31,10 +31,12 @@ struct Remark {
     soft_triangles_opaque,   // values: mean solidity, mean opacity
     soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
     // Splats.
-    splats_dropped,       // counts: dropped, all
-    splat_colors_linear,  // in linear light, which SplatColor does not hold
-    profile_assumed,      // names: the profile
-    render_mode_unknown,  // names: the mode that the file asks for, the profile that is used
+    splats_dropped,            // counts: dropped, all
+    splat_colors_linear,       // in linear light, which SplatColor does not hold
+    profile_assumed,           // names: the profile
+    render_mode_unknown,       // names: the mode that the file asks for, the profile that is used
+    octagon_q_assumed,         // values: Q
+    splat_extensions_ignored,  // names: the types of the extensions
     // Colours.
     color_components_clamped,  // counts: components
     face_colors_dropped,       // the file has vertex colours as well

@@ -48,8 +48,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program
       .add_option(
           "SCENE", arguments.paths,
-          "scenes: .glb, .gltf, .off, .coff, .ply, .splat, .obj, .pt, or a folder; several are "
-          "drawn "
+          "scenes: .glb, .gltf, .off, .coff, .ply, .splat, .spz, .npz, .obj, .pt, or a folder; "
+          "several are drawn "
           "together, each as a layer. One argument after the first scene can be a DATASET: a .json "
           "file, or a folder that is not a scene, with photographs for comparison (COLMAP or NeRF)")
       ->option_text(".. [DATASET]");

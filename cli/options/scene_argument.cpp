@@ -34,6 +34,7 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
   Progress progress("reading " + path.filename().string());
   ReadOptions options;
   options.vertex_colors = choice.vertex_colors;
+  options.octagon_q = choice.octagon_q;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
   if (!choice.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
@@ -54,6 +55,14 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
       .add_option("--up", choice.up,
                   "up direction in world coordinates; the scene's own by default")
       .value_name("X,Y,Z");
+  command
+      .add_option(
+          "--octagon-q", choice.octagon_q,
+          "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at "
+          "sqrt(Q) standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 "
+          "and 21.1075")
+      .value_name("Q")
+      .check(between(0.001, 1000.0));
   std::vector<std::string> names;
   std::string listed;
   for (const NamedProfile& each : named_profiles) {

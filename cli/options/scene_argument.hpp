@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,11 +17,12 @@ struct ReadingChoice {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
   std::string up;            // empty: the scene's own; of several scenes, the first's
   std::string_view profile;  // of named_profiles, for all splats; empty: the scene's own
+  std::optional<double> octagon_q = {};  // ReadOptions::octagon_q
 
   bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds --vertex-colors, --up and --profile. `choice` must live until the arguments are parsed.
+/// Adds --vertex-colors, --up, --octagon-q and --profile. `choice` must live until the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
 
 struct SceneArgument {

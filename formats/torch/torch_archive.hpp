@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/archive/zip_archive.hpp"
 #include "formats/torch/pickle.hpp"
-#include "formats/torch/zip_archive.hpp"
 
 namespace tureen {
 

@@ -11,11 +11,11 @@
 #include <set>
 #include <utility>
 
+#include "formats/archive/zip_archive.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/ply.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/torch/checkpoint.hpp"
-#include "formats/torch/zip_archive.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"
 #include "formats/tureen_glb/compressed_texels.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"

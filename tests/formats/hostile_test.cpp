@@ -19,11 +19,13 @@
 #include "formats/dataset/colmap.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "image/png.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/hostile_bounds.hpp"
+#include "tests/formats/splat/spz_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/fuzz/fixtures.hpp"
@@ -234,6 +236,24 @@ TEST(HostileBombs, X4_AnArchiveThatInflatesBeyondItsSizes) {
                       says);
         },
         "an archive");
+  }
+}
+
+TEST(HostileBombs, X4_SpzFilesThatUnpackBeyondMemory) {
+  for (const unsigned version : {3u, 4u}) {
+    // In version 4 the trailing bytes make the file large enough for the number of splats.
+    test::SpzFixture spz{.version = version, .splats = 1000000, .trailing = std::string(9000, 'x')};
+    const std::size_t strides[] = {9, 1, 3, 3, 4};
+    for (std::size_t a = 0; a < 5; ++a) spz.arrays[a].assign(strides[a] * spz.splats, '\0');
+    const std::string bytes = spz.bytes();
+    EXPECT_LT(bytes.size(), 50u << 10);
+    within_bounds(
+        8 << 20,
+        [&] {
+          Input input = Input::memory("bomb.spz", std::as_bytes(std::span(bytes)));
+          EXPECT_THAT(error_of([&] { read_spz(input); }), ErrorIn("bomb.spz", "--max-memory"));
+        },
+        "an SPZ file");
   }
 }
 

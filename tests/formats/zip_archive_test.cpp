@@ -1,4 +1,4 @@
-#include "formats/torch/zip_archive.hpp"
+#include "formats/archive/zip_archive.hpp"
 
 #include <gmock/gmock.h>
 

@@ -14,7 +14,9 @@
 #include "jobs/results/bench_json.hpp"
 #include "jobs/results/web_bench.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
+#include "tests/formats/splat/octagon_fixture.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
+#include "tests/formats/splat/spz_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/fuzz/folder_files.hpp"
@@ -199,6 +201,17 @@ void add_splats(Collection& all) {
   std::string records;
   for (int i = 0; i < 64; ++i) records += static_cast<char>(i % 32 < 24 ? 0x3e : 0x90 + i);
   all.add("splat_records", "two.splat", records);
+  test::ZipFixture octagons = test::two_octagons().zip();
+  all.add("octagon_npz", "stored.npz", octagons.bytes());
+  for (auto& entry : octagons.entries) entry.deflate = true;
+  all.add("octagon_npz", "deflated.npz", octagons.bytes());
+  for (unsigned version = 1; version <= 4; ++version) {
+    const std::string name = "version_" + std::to_string(version);
+    test::SpzFixture spz = test::spz_splat(version, version);
+    spz.extension(0xADBE0002, "camera limits");
+    all.add("spz", name, with_first_byte(0, content(spz.bytes())));
+    if (version < 4) all.add("spz", name + "_content", with_first_byte(1, content(spz.content())));
+  }
 }
 
 // ---- Torch

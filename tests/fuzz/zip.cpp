@@ -1,7 +1,7 @@
 // A zip archive and the content of its entries.
 #include <algorithm>
 
-#include "formats/torch/zip_archive.hpp"
+#include "formats/archive/zip_archive.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

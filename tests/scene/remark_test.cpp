@@ -43,6 +43,12 @@ TEST(Remark, InEnglish) {
   EXPECT_EQ(describe({.kind = Kind::splat_colors_linear}),
             "the splats were trained and are blended in linear light; they are drawn as if their "
             "colours were display-referred, and look different");
+  EXPECT_EQ(
+      described({{.kind = Kind::octagon_q_assumed, .values = {4}}})[0],
+      "the file does not store the radius of its octagons, sqrt(Q) standard deviations: Q = 4 "
+      "is assumed; --octagon-q changes it");
+  EXPECT_EQ(describe({.kind = Kind::splat_extensions_ignored, .names = {"0xADBE0002", "0x1"}}),
+            "extensions of the file that are not supported are ignored: 0xADBE0002, 0x1");
   EXPECT_EQ(describe({Kind::lens_undone, {0, 0}}), "Lens distortion was removed by resampling.");
 }
 

@@ -76,13 +76,18 @@ test('files that are no scene', () => visit('', async (page) => {
   const files = {
     'notes.txt': Buffer.from('Dear diary\n'), 'picture.png': readFileSync(join(source, 'docs/images/example.png')),
     'model.pt': Buffer.concat([Buffer.from('PK\x03\x04'), garbage]),
+    'packed.spz': Buffer.concat([Buffer.from('\x1f\x8b', 'latin1'), garbage]),
+    'octagons.npz': Buffer.concat([Buffer.from('PK\x03\x04'), garbage]),
     'loop.gltf': Buffer.from('{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"children": [0]}]}'),
     '<img src=x onerror=alert(1)>.glb': garbage,
   };
   for (const [name, buffer] of Object.entries(files)) {
     await pick(page, { name, mimeType: 'application/octet-stream', buffer });
     await page.locator('#errors .message p', { hasText: name }).waitFor();
-    assert.equal((await errors(page)).length, 1, 'one error for each');
+    const shown = await errors(page);
+    assert.equal(shown.length, 1, 'one error for each');
+    const [kind] = /\.(pt|spz|npz)$/.exec(name) ?? [];
+    if (kind) assert.ok(shown[0].includes(`tureen convert FILE${kind} FILE.glb`), shown[0]);
   }
   assert.equal(await page.locator('#errors img').count(), 0, 'names are text');
   await pick(page, join(source, 'examples/soup.glb'));

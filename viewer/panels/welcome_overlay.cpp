@@ -17,8 +17,8 @@ void welcome_overlay(State& state) {
   } else {
     paragraph("Drop a scene or a folder on the window.");
     aside(
-        "Formats: .glb, .gltf, .off, .ply, .obj, .pt, DiffSoup exports, MobileNeRF scenes. "
-        "Datasets of photographs: COLMAP, transforms.json.");
+        "Formats: .glb, .gltf, .off, .ply, .splat, .spz, .npz, .obj, .pt, DiffSoup exports, "
+        "MobileNeRF scenes. Datasets of photographs: COLMAP, transforms.json.");
     ImGui::Spacing();
     if (ImGui::Button("Open ..")) state.show_files = true;
     if (!state.settings.recent.empty()) {

@@ -1,11 +1,11 @@
-#include "formats/torch/zip_archive.hpp"
-
-#include <zlib.h>
+#include "formats/archive/zip_archive.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <utility>
+
+#include "formats/archive/inflater.hpp"
 
 namespace tureen {
 
@@ -27,18 +27,6 @@ std::uint64_t little(std::span<const std::byte> data, std::size_t at, std::size_
     value = value << 8 | std::to_integer<std::uint64_t>(data[at + i]);
   return value;
 }
-
-/// Frees zlib's state at the end of its scope.
-struct InflateState {
-  z_stream stream{};
-  bool ready = inflateInit2(&stream, -MAX_WBITS) == Z_OK;  // negative: no zlib header in a zip
-  InflateState() = default;
-  InflateState(const InflateState&) = delete;
-  InflateState& operator=(const InflateState&) = delete;
-  ~InflateState() {
-    if (ready) inflateEnd(&stream);
-  }
-};
 
 }  // namespace
 
@@ -193,38 +181,20 @@ void ZipArchive::read(const ZipEntry& entry, std::uint64_t offset, std::span<std
 }
 
 void ZipArchive::inflate(const ZipEntry& entry, std::uint64_t offset, std::span<std::byte> out) {
-  InflateState state;
-  if (!state.ready) throw std::bad_alloc();
   input_.seek(data_offset(entry));
-  std::uint64_t packed = entry.compressed_size, skip = offset;
-  std::array<std::byte, 65536> source, discarded;
-  z_stream& stream = state.stream;
-  while (!out.empty()) {
-    if (stream.avail_in == 0 && packed > 0) {
-      const auto chunk =
-          std::span(source).first(static_cast<std::size_t>(std::min<std::uint64_t>(packed, 65536)));
-      input_.read(chunk, "a deflated zip entry");
-      packed -= chunk.size();
-      stream.next_in = reinterpret_cast<Bytef*>(chunk.data());
-      stream.avail_in = static_cast<uInt>(chunk.size());
-    }
-    // zlib counts in 32 bits: at most a gibibyte at a time.
-    const std::span<std::byte> whole = skip > 0 ? std::span<std::byte>(discarded) : out;
-    const std::uint64_t wanted =
-        std::min<std::uint64_t>(skip > 0 ? skip : out.size(), whole.size());
-    const auto target = whole.first(
-        static_cast<std::size_t>(std::min<std::uint64_t>(wanted, std::uint64_t(1) << 30)));
-    stream.next_out = reinterpret_cast<Bytef*>(target.data());
-    stream.avail_out = static_cast<uInt>(target.size());
-    const int status = ::inflate(&stream, Z_NO_FLUSH);
-    const std::size_t got = target.size() - stream.avail_out;
-    if (skip > 0)
-      skip -= got;
-    else
-      out = out.subspan(got);
-    if (out.empty()) break;
-    if (status != Z_OK) fail_in(entry, "is damaged: its deflated data ends early or is invalid");
+  Inflater inflater(input_, Inflater::Wrapper::none, entry.compressed_size);
+  const auto fill = [&](std::span<std::byte> bytes) {
+    if (inflater.read(bytes) < bytes.size())
+      fail_in(entry, "is damaged: its deflated data ends early or is invalid");
+  };
+  std::array<std::byte, 65536> skipped;
+  for (std::uint64_t rest = offset; rest > 0;) {
+    const auto part = std::span(skipped).first(
+        static_cast<std::size_t>(std::min<std::uint64_t>(rest, skipped.size())));
+    fill(part);
+    rest -= part.size();
   }
+  fill(out);
 }
 
 std::vector<std::byte> ZipArchive::read_all(const ZipEntry& entry, std::uint64_t limit) {

@@ -36,6 +36,8 @@ class ZipArchive {
   /// method.
   explicit ZipArchive(Input input);
 
+  /// For its name and its budget.
+  Input& input() { return input_; }
   const std::string& name() const { return input_.name(); }
   const MemoryBudget& budget() const { return input_.budget(); }
   const std::vector<ZipEntry>& entries() const { return entries_; }
