@@ -13,6 +13,7 @@ struct SplatsInView {
   std::span<const glm::vec3> centers;
   glm::dvec3 axis;
   double offset = 0;
+  float fraction = 1;  // of the splats; a hash of the index chooses them
 };
 
 /// Consecutive splats of one layer in an order.

@@ -1,6 +1,9 @@
 in vec3 distances;
 flat in vec4 color;
 flat in float sigma;
+#if OUTPUT != OUTPUT_COLOR
+flat in vec3 normal;
+#endif
 
 #include "splat_blended.glsl"
 
@@ -8,5 +11,9 @@ void main() {
   float rho = clamp(min(distances.x, min(distances.y, distances.z)) * gl_FragCoord.w, 0.0, 1.0);
   // pow(0, sigma) may be undefined; there alpha is 0.
   float window = rho > 0.0 ? pow(rho, sigma) : 0.0;
-  blended = blended_color(color.rgb, color.a * window);
+#if OUTPUT == OUTPUT_COLOR
+  blend(color.rgb, color.a * window);
+#else
+  measure(color.a * window, 1.0 / gl_FragCoord.w, normal, color.a, sigma);
+#endif
 }

@@ -5,6 +5,7 @@
 // may clip the triangle (docs/numerics.md, W14).
 #include "eye.glsl"
 #include "splat_kernel_texels.glsl"
+#include "splat_measured_vertex.glsl"
 #include "splat_order.glsl"
 #include "splat_projected.glsl"
 
@@ -47,6 +48,10 @@ void main() {
   }
   color = texelFetch(colors, projected_position(splat), 0);
   sigma = texels[0].w;
+#if OUTPUT != OUTPUT_COLOR
+  measure_vertex(cross(texels[1].xyz - texels[0].xyz, texels[2].xyz - texels[0].xyz),
+                 (texels[0].xyz - eye_high) - eye_low);
+#endif
   // Behind the eye, or without area in the image.
   bool visible = total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
 
