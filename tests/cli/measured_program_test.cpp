@@ -53,7 +53,10 @@ TEST_F(MeasuredProgram, WritesValuesOfTriangles) {
 }
 
 TEST_F(MeasuredProgram, NumbersTheFilesAsImages) {
-  ASSERT_EQ(measured({"--orbit", "2", "--depth", "d_%d.exr"}).exit_code, 0);
+  write_scene();
+  const ChildResult result =
+      run({"render", "scene.off", "--orbit", "2", "--size", "32x32", "--depth", "d_%d.exr"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(exists("d_0.exr"));
   EXPECT_TRUE(exists("d_1.exr"));
 }
