@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/files/images.hpp"
+#include "cli/files/measured_images.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/debug_view_option.hpp"
@@ -36,6 +37,7 @@ struct RenderOptions {
   std::string background;  // empty: the scene's own
   DrawingOptions drawing;
   DebugViewOption show;
+  MeasuredOutputs measured;
   int frames = 0;
   bool json = false;
 };
@@ -78,7 +80,7 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const RenderOp
 Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const RenderOptions& options,
                       glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  const std::vector<PlacedSoup> layers = placed_soups(scene);
+  const std::vector<PlacedLayer> layers = placed_layers(scene);
   DebugViews debug_views(layers);
   Renderer renderer(context, prepare_debug_views(layers, device_limits(device)),
                     {.background = background});
@@ -97,30 +99,34 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.
 void require_shown(const DebugViewOption& show, const Scene& scene) {
   if (show.what == DebugView::color) return;
-  if (splat_count(scene) > 0)
-    throw UsageError(std::string("--debug-view ") + name_of(show.what) +
-                     ": debug views show triangles; this scene has splats");
   try {
-    DebugViews(placed_soups(scene)).require(show.what, show.features);
+    DebugViews(placed_layers(scene)).require(show.what, show.features);
   } catch (const UsageError& error) {
     throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + error.reason());
   }
 }
 
+/// Throws UsageError and OutputError for the names of one image for each view.
+void check_images(const std::string& pattern, const RenderOptions& options) {
+  const int count = std::max(options.views.orbit, 1);
+  for (int i = 0; i < count; ++i) require_not_inputs(image_name(pattern, i, count), options.scene);
+  const std::filesystem::path first = image_name(pattern, 0, count);
+  // The number of views in a camera file or an animation, and so the names of the images, are not
+  // known yet.
+  if (options.views.is_animation() || !options.views.camera.empty())
+    require_writable_beside(first);
+  else
+    require_writable_file(first);
+}
+
 /// Throws UsageError and OutputError.
 void check_output(const RenderOptions& options, const glm::vec4& background) {
+  require_measured_names(options.measured);
+  for (const MeasuredOutput& each : options.measured.list)
+    if (!each.pattern.empty()) check_images(each.pattern, options);
   if (!is_video_name(options.output)) {
     require_png_name(options.output);
-    const int count = std::max(options.views.orbit, 1);
-    for (int i = 0; i < count; ++i)
-      require_not_inputs(image_name(options.output, i, count), options.scene);
-    const std::filesystem::path first = image_name(options.output, 0, count);
-    // The number of views in a camera file or an animation, and so the names of the images, are not
-    // known yet.
-    if (options.views.is_animation() || !options.views.camera.empty())
-      require_writable_beside(first);
-    else
-      require_writable_file(first);
+    check_images(options.output, options);
     return;
   }
   if (!options.views.is_animation())
@@ -131,6 +137,25 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
   require_not_inputs(options.output, options.scene);
   require_writable_file(options.output);
+}
+
+/// Prints the files and the scales of depths.
+void say_measured(const std::vector<MeasuredImage>& images) {
+  for (const MeasuredImage& image : images) {
+    say("wrote " + image.path);
+    if (image.far > 0)
+      say(fmt::format("  depth = {:.9g} + (value - 1) / 65534 * {:.9g}; 0 where nothing is visible",
+                      image.near, image.far - image.near));
+  }
+}
+
+Json measured_json(const std::vector<MeasuredImage>& images) {
+  Json list = Json::array();
+  for (const MeasuredImage& image : images) {
+    list.push_back({{"path", image.path}, {"value", name_of(image.what)}});
+    if (image.far > 0) list.back().update({{"near", image.near}, {"far", image.far}});
+  }
+  return list;
 }
 
 /// Prints the written files: all names, or the first and the last frame.
@@ -164,6 +189,9 @@ ExitCode render(RenderOptions options) {
   throw_if_interrupted();
   const auto draw = options.show.what == DebugView::color ? draw_colors : draw_debug_view;
   const Drawn drawn = draw(context, scene, options, background, views);
+  const std::vector<MeasuredImage> measured =
+      options.measured.any() ? write_measured(context, scene, views.cameras, options.measured)
+                             : std::vector<MeasuredImage>{};
   const WrittenImages& images = drawn.images;
   const FrameTimes& times = images.times;
 
@@ -181,19 +209,23 @@ ExitCode render(RenderOptions options) {
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
                   times.ms.size(), times.p95()));
   say_written(images, views);
-  if (options.json)
-    print_json(
-        {{"width", first.width},
-         {"height", first.height},
-         {"context", context.description()},
-         {"renderer", device.renderer},
-         {"software", device.software},
-         {"triangles", triangle_count(scene)},
-         {"splats", splat_count(scene)},
-         {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
-         {"plan", drawn.plan},
-         {"specialisations", results::specialisations_json(drawn.specialisations)},
-         {"output", images.paths}});
+  say_measured(measured);
+  if (options.json) {
+    Json json = {
+        {"width", first.width},
+        {"height", first.height},
+        {"context", context.description()},
+        {"renderer", device.renderer},
+        {"software", device.software},
+        {"triangles", triangle_count(scene)},
+        {"splats", splat_count(scene)},
+        {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
+        {"plan", drawn.plan},
+        {"specialisations", results::specialisations_json(drawn.specialisations)},
+        {"output", images.paths}};
+    if (!measured.empty()) json["measured"] = measured_json(measured);
+    print_json(json);
+  }
   return ExitCode::done;
 }
 
@@ -218,6 +250,7 @@ Examples:
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
   tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
   tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
+  tureen render soup.glb --depth depth.exr --alpha a.png  also values: 32-bit floats or 16 bits
   tureen render soup.glb --frames 100 --json              milliseconds per frame
   tureen render soup.glb --pipeline baseline --frames 100 --json
                                                           the same for the baseline
@@ -243,6 +276,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
   command.add_flag("--as-published", options->drawing.plan.as_published,
                    "also cull splats by the rules of their authors' code that depend on the "
                    "resolution");
+  add_measured_outputs(command, options->measured);
   Option show = add_debug_view_option(command, options->show);
   for (const char* other :
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})

@@ -17,7 +17,7 @@ set(arrows
   "runtime/passes: base image scene shaders runtime/gl runtime/plan"
   "runtime/splats: base image scene shaders runtime/gl runtime/plan runtime/passes"
   "runtime: base image scene runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views"
-  "runtime/debug_views: base image scene runtime runtime/gl runtime/plan runtime/passes"
+  "runtime/debug_views: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "trainer/common: base image scene"
   "trainer/diffsoup: base image scene trainer/common"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes"

@@ -13,7 +13,6 @@ namespace tureen {
 
 namespace {
 
-constexpr std::size_t pixel_bytes = 4;
 constexpr std::size_t chunk_bytes = 1 << 18;  // maximum of compressed data
 
 std::array<std::uint8_t, 4> big_endian(std::uint32_t value) {
@@ -41,7 +40,8 @@ using Row = std::vector<std::uint8_t>;
 /// Writes the filter's number and the differences between the row and its prediction. Returns the
 /// sum of their magnitudes, the criterion that the specification recommends (section 12.7).
 template <int filter>
-std::uint64_t filter_row(const std::uint8_t* row, const Row& above, Row& out) {
+std::uint64_t filter_row(const std::uint8_t* row, std::size_t pixel_bytes, const Row& above,
+                         Row& out) {
   out[0] = std::uint8_t(filter);
   std::uint64_t sum = 0;
   const auto add = [&](std::size_t i, int left, int above_left) {
@@ -57,6 +57,23 @@ std::uint64_t filter_row(const std::uint8_t* row, const Row& above, Row& out) {
 constexpr std::array filters = {filter_row<0>, filter_row<1>, filter_row<2>, filter_row<3>,
                                 filter_row<4>};
 
+/// Bits a channel, and the colour type of the specification.
+struct Format {
+  std::size_t pixel_bytes;
+  std::uint8_t bits, color_type;
+};
+
+Format format_of(PngPixels pixels) {
+  switch (pixels) {
+    case PngPixels::grey16:
+      return {2, 16, 0};
+    case PngPixels::rgb16:
+      return {6, 16, 2};
+    default:
+      return {4, 8, 6};
+  }
+}
+
 }  // namespace
 
 struct PngRows::Compressor {
@@ -70,17 +87,19 @@ struct PngRows::Compressor {
   ~Compressor() { deflateEnd(&stream); }
 };
 
-PngRows::PngRows(Output& output, int width, int height)
+PngRows::PngRows(Output& output, int width, int height, PngPixels pixels)
     : output_(output),
       rows_left_(height),
+      pixel_bytes_(format_of(pixels).pixel_bytes),
       compressor_(std::make_unique<Compressor>()),
-      previous_(std::size_t(width) * pixel_bytes),
+      previous_(std::size_t(width) * pixel_bytes_),
       filtered_(previous_.size() + 1),
       candidate_(previous_.size() + 1) {
   assert(width > 0 && height > 0);
   output_.write(std::string_view("\x89PNG\r\n\x1a\n", 8));
-  // Width, height, 8 bits of red, green, blue and alpha, deflate, adaptive filters, no interlacing.
-  std::array<std::uint8_t, 13> header{0, 0, 0, 0, 0, 0, 0, 0, 8, 6, 0, 0, 0};
+  // Width, height, bits, colour type, deflate, adaptive filters, no interlacing.
+  const Format format = format_of(pixels);
+  std::array<std::uint8_t, 13> header{0, 0, 0, 0, 0, 0, 0, 0, format.bits, format.color_type};
   std::memcpy(header.data(), big_endian(std::uint32_t(width)).data(), 4);
   std::memcpy(header.data() + 4, big_endian(std::uint32_t(height)).data(), 4);
   write_chunk("IHDR", header.data(), header.size());
@@ -89,9 +108,26 @@ PngRows::PngRows(Output& output, int width, int height)
 PngRows::~PngRows() = default;
 
 void PngRows::append(const Image8& rows) {
-  assert(std::size_t(rows.width) * pixel_bytes == previous_.size() && rows.height <= rows_left_);
-  for (int y = 0; y < rows.height; ++y) append_row(&rows.at(0, y));
+  assert(std::size_t(rows.width) * sizeof(glm::u8vec4) == previous_.size() &&
+         rows.height <= rows_left_);
+  for (int y = 0; y < rows.height; ++y)
+    append_row(reinterpret_cast<const std::uint8_t*>(&rows.at(0, y)));
   rows_left_ -= rows.height;
+}
+
+void PngRows::append(std::span<const std::uint16_t> values) {
+  const std::size_t row_values = previous_.size() / 2;
+  assert(pixel_bytes_ != 4 && values.size() % row_values == 0);
+  std::vector<std::uint8_t> row;
+  for (; !values.empty(); values = values.subspan(row_values)) {
+    row.clear();
+    for (const std::uint16_t value : values.first(row_values)) {
+      row.push_back(std::uint8_t(value >> 8));
+      row.push_back(std::uint8_t(value));
+    }
+    append_row(row.data());
+    --rows_left_;
+  }
 }
 
 void PngRows::finish() {
@@ -100,16 +136,15 @@ void PngRows::finish() {
   write_chunk("IEND", nullptr, 0);
 }
 
-void PngRows::append_row(const glm::u8vec4* row) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(row);
+void PngRows::append_row(const std::uint8_t* row) {
   std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
   for (const auto filter : filters) {
-    const std::uint64_t sum = filter(bytes, previous_, candidate_);
+    const std::uint64_t sum = filter(row, pixel_bytes_, previous_, candidate_);
     if (sum >= least) continue;
     least = sum;
     filtered_.swap(candidate_);
   }
-  std::memcpy(previous_.data(), bytes, previous_.size());
+  std::memcpy(previous_.data(), row, previous_.size());
   compress(filtered_, Z_NO_FLUSH);
 }
 

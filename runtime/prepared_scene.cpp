@@ -7,13 +7,7 @@
 namespace tureen {
 
 std::vector<PlacedSoup> placed_soups(const Scene& scene) {
-  std::vector<PlacedSoup> soups;
-  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    const Layer& layer = scene.layers[i];
-    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
-      soups.push_back({*soup, layer.world_from_layer, label(layer, i), layer.visible});
-  }
-  return soups;
+  return placed_soups(placed_layers(scene));
 }
 
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
@@ -48,20 +42,22 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
 
 PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& device,
                             const RenderOptions& options) {
-  std::vector<PlacedSoup> soups;
-  for (const PlacedLayer& layer : layers)
-    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
-      soups.push_back({*soup, layer.world_from_layer, layer.name, layer.visible});
-  PreparedScene prepared = prepare_scene(soups, device, options);
-  const TexelLayout layout = TexelLayout::of(options.limits.value_or(device));
+  PreparedScene prepared = prepare_scene(placed_soups(layers), device, options);
+  add_splats(prepared, layers, options.limits.value_or(device), options.plan);
+  return prepared;
+}
+
+void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
+                const DeviceLimits& limits, const PlanPreferences& preferences) {
+  const TexelLayout layout = TexelLayout::of(limits);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const PlacedLayer& layer = layers[i];
     const auto* splats = std::get_if<Splats>(&layer.primitives);
     if (!splats) continue;
     const auto at = static_cast<std::ptrdiff_t>(i);
-    SplatPlan plan = make_splat_plan(*splats, {.specialise = options.plan.specialise,
-                                               .profile = options.plan.splat_profile,
-                                               .as_published = options.plan.as_published});
+    SplatPlan plan = make_splat_plan(*splats, {.specialise = preferences.specialise,
+                                               .profile = preferences.splat_profile,
+                                               .as_published = preferences.as_published});
     prepared.layers.insert(prepared.layers.begin() + at,
                            {.name = layer.name,
                             .bounds = bounds(*splats),
@@ -70,7 +66,14 @@ PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLim
                             .splats = prepare_splats(*splats, plan, layout)});
     prepared.plan.layers.insert(prepared.plan.layers.begin() + at, std::move(plan));
   }
-  return prepared;
+}
+
+std::vector<PlacedSoup> placed_soups(std::span<const PlacedLayer> layers) {
+  std::vector<PlacedSoup> soups;
+  for (const PlacedLayer& layer : layers)
+    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
+      soups.push_back({*soup, layer.world_from_layer, layer.name, layer.visible});
+  return soups;
 }
 
 std::vector<PlacedLayer> placed_layers(const Scene& scene) {

@@ -75,6 +75,8 @@ struct PlacedLayer {
 
 /// The layers of a scene.
 std::vector<PlacedLayer> placed_layers(const Scene& scene);
+/// Those that are soups.
+std::vector<PlacedSoup> placed_soups(std::span<const PlacedLayer> layers);
 
 /// Plans for options.limits if it is set, otherwise for the device's limits. The sources read the
 /// soups. The soups must not move until the sources have been used. Soups and layers must have no
@@ -92,5 +94,9 @@ PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const D
 /// The same with a plan from make_plan for these soups and limits.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan);
+/// Completes a scene that was prepared from the soups of `layers`. Of `preferences`, those of splats
+/// are used.
+void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
+                const DeviceLimits& limits, const PlanPreferences& preferences);
 
 }  // namespace tureen

@@ -6,11 +6,13 @@
 #include "base/error.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/gl/timer_query.hpp"
+#include "runtime/image_tiles.hpp"
 #include "runtime/layer_errors.hpp"
 #include "runtime/passes/depth_probe.hpp"
 #include "runtime/passes/filter_pass.hpp"
 #include "runtime/passes/soup_passes.hpp"
 #include "runtime/passes/targets.hpp"
+#include "runtime/splats/splat_measures.hpp"
 #include "runtime/splats/splat_pass.hpp"
 #include "scene/clip_range.hpp"
 
@@ -69,6 +71,7 @@ struct Renderer::State {
   }
   void resize(glm::ivec2 new_size);
   void set_frame(const FrameInput& input);
+  double splat_depth_at(glm::ivec2 sample, float stored);
 
   RenderPlan plan;  // soups and passes refer to it
   std::vector<Place> places;
@@ -165,7 +168,7 @@ void Renderer::State::arrange() {
                 (splat_target == SplatTarget::automatic && !device.float_blending)
             ? SplatPass::Precision::half
             : SplatPass::Precision::single);
-    splat_pass->sort_with(splat_sorter.get());
+    splat_pass->splats().sort_with(splat_sorter.get());
     size = glm::ivec2(0);  // the next frame calls its resize()
   }
   const bool all_made = !draws_layers || soup_passes.size() == soups.size();
@@ -326,6 +329,8 @@ void Renderer::set_passes(Passes passes) {
 
 std::span<const std::unique_ptr<DeviceSoup>> Renderer::soups() const { return state_->soups; }
 
+std::span<const std::unique_ptr<DeviceSplats>> Renderer::splats() const { return state_->splats; }
+
 void Renderer::draw(const FrameInput& input, SplatOrdering order) {
   State& state = *state_;
   const glm::ivec2 size(input.camera.width, input.camera.height);
@@ -350,12 +355,12 @@ void Renderer::draw(const FrameInput& input, SplatOrdering order) {
 }
 
 void Renderer::sort_splats_with(std::unique_ptr<SplatSorter> sorter) {
-  if (state_->splat_pass) state_->splat_pass->sort_with(sorter.get());
+  if (state_->splat_pass) state_->splat_pass->splats().sort_with(sorter.get());
   state_->splat_sorter = std::move(sorter);
 }
 
 bool Renderer::splats_in_order() const {
-  return !state_->splat_pass || state_->splat_pass->in_order();
+  return !state_->splat_pass || state_->splat_pass->splats().in_order();
 }
 
 void Renderer::finish() const {
@@ -394,18 +399,49 @@ std::vector<glm::vec4> Renderer::read_splats() const {
                                                   : std::vector<glm::vec4>{};
 }
 
+/// The median depth of the splats at a sample of the last frame in front of the stored depth; 0 if
+/// they stay more transparent than 1/2. `sample` is counted from the lower left corner. Only this
+/// sample is drawn, as a frame of its own.
+double Renderer::State::splat_depth_at(glm::ivec2 sample, float stored) {
+  Frame one = frame;
+  const Camera& whole = frame.input.camera;
+  one.input.whole = frame.input.whole.value_or(whole);
+  const glm::ivec2 corner(sample.x, whole.height - 1 - sample.y);
+  one.input.camera = cut_out_of(whole, corner, glm::ivec2(1));
+  for (FrameCamera& layer : one.layers) layer.camera = cut_out_of(layer.camera, corner, {1, 1});
+  FrameTarget pixel({.reversed_depth = plan.reversed_depth});
+  pixel.resize({1, 1});
+  SplatMeasures measures(device, splats, SplatMeasure::median_depth);
+  measures.resize(pixel);
+  if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, true);
+  gl::use_plain_rasterisation(1, 1);
+  pixel.begin(glm::vec4(0.0f));
+  pixel.draw_color();
+  glClearBufferfv(GL_DEPTH, 0, &stored);
+  measures.draw(one, pixel);
+  if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, false);
+  const double depth = double(read_float_pixels(measures.framebuffer(), {1, 1})[0].r);
+  gl::check("splat_depth_at");
+  return depth;
+}
+
 std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {
-  const glm::dvec2 part = place / glm::dvec2(state_->size);
+  State& state = *state_;
+  const glm::dvec2 part = place / glm::dvec2(state.size);
   if (!(part.x >= 0 && part.x < 1 && part.y >= 0 && part.y < 1)) return {};
-  if (!state_->target.has_depth()) return {};
+  if (!state.target.has_depth()) return {};
   const glm::dvec2 samples(sample_size());
-  const glm::ivec2 sample(part.x * samples.x, (1 - part.y) * samples.y);
-  if (!state_->probe) state_->probe.emplace(state_->device.api);
-  const double stored = state_->probe->read(state_->target.depth_texture(),
-                                            glm::min(sample, sample_size() - glm::ivec2(1)));
-  const auto depth = distance_of(stored, state_->frame.range, state_->depth_storage());
+  const glm::ivec2 sample =
+      glm::min(glm::ivec2(part.x * samples.x, (1 - part.y) * samples.y), sample_size() - 1);
+  if (!state.probe) state.probe.emplace(state.device.api);
+  const float stored = state.probe->read(state.target.depth_texture(), sample);
+  std::optional<double> depth =
+      distance_of(double(stored), state.frame.range, state.depth_storage());
+  if (state.has_splats())
+    if (const double of_splats = state.splat_depth_at(sample, stored); of_splats > 0)
+      depth = of_splats;
   if (!depth) return {};
-  const Camera& camera = state_->camera;
+  const Camera& camera = state.camera;
   const glm::dvec3 ray((place.x - camera.cx) / camera.fx, (camera.cy - place.y) / camera.fy, -1.0);
   return camera.eye() + camera.world_from_view_rotation() * (*depth * ray);
 }

@@ -32,6 +32,8 @@ class PassTimer;
 }
 class SplatSorter;
 
+class DeviceSplats;
+
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
 /// A face of a layer.
@@ -91,6 +93,8 @@ class Renderer {
   /// The soups on the device, for passes that draw them; they live as long as their layer. Null for
   /// layers of splats.
   std::span<const std::unique_ptr<DeviceSoup>> soups() const;
+  /// The same for the splats; null for layers of soups.
+  std::span<const std::unique_ptr<DeviceSplats>> splats() const;
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
   /// has finished. Asserts a positive size. Throws DeviceLimitError if the size, in pixels or in
@@ -130,9 +134,11 @@ class Renderer {
   std::vector<glm::vec4> read_splats() const;
 
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
-  /// left corner. Returns nullopt outside the image, for the background, and if no pass stores
-  /// depth, as in DebugView::overdraw. Its precision is that of the depth buffer.
-  /// Waits for the device.
+  /// left corner: that of the splat at which the transmittance falls to 1/2 or below, or else that
+  /// of the soups. Returns nullopt outside the image, for the background, and if no pass stores
+  /// depth, as in DebugView::overdraw of soups. On soups, its precision is that of the depth
+  /// buffer; on splats, that of floats (SplatMeasures). Draws all splats about ten times, in one
+  /// pixel, and waits for the device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 
   /// Copies the last frame to a framebuffer (0 is the window), its lower left corner to `corner`.

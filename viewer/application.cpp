@@ -248,6 +248,8 @@ void Application::dispatch(const std::vector<Event>& events) {
   const NavigationInput::Taken taken{.pointer = gui_->takes_pointer(), .keys = gui_->takes_keys()};
   for (const Event& event : events) {
     navigation_.handle(event, taken, state_.controls);
+    if (double_click_.handle(event, taken.pointer, state_.now))
+      state_.ask(FocusAt{{double_click_.place().x, double_click_.place().y}});
     if (const auto* key = std::get_if<KeyChanged>(&event); key && key->down && !taken.keys)
       run_shortcut(key->key, navigation_.held(Key::control) || navigation_.held(Key::super),
                    state_);

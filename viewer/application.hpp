@@ -14,6 +14,7 @@
 #include "viewer/files/session.hpp"
 #include "viewer/frame_clock.hpp"
 #include "viewer/gui.hpp"
+#include "viewer/input/double_click.hpp"
 #include "viewer/input/navigation_input.hpp"
 #include "viewer/state.hpp"
 #include "viewer/window.hpp"
@@ -88,6 +89,7 @@ class Application {
   void carry_out(const ReloadScene& request);
   void carry_out(const ChooseDrawing& request);
   void carry_out(const ShowRecorded& request);
+  void carry_out(const FocusAt& request);
   void carry_out(const TakeImage& request);
   void carry_out(const CopyCommand& request);
   void carry_out(const ToggleFullscreen& request);
@@ -151,6 +153,7 @@ class Application {
   double gui_scale_ = 1;
   FrameClock frame_clock_;
   NavigationInput navigation_;
+  DoubleClick double_click_;
   std::optional<Recorder> recorder_;
   std::vector<std::filesystem::path> promised_;  // paths of images that are being written
   std::vector<Event> pending_;

@@ -371,6 +371,15 @@ void Application::carry_out(const ShowRecorded& request) {
   state_.comparison.forget();
 }
 
+void Application::carry_out(const FocusAt& request) {
+  if (!state_.stage) return;
+  Renderer& renderer = state_.stage->renderer;
+  renderer.draw({state_.controls.camera(state_.pixels.x, state_.pixels.y)});
+  image_is_current_ = false;  // the last one may have had another view
+  const glm::dvec2 scale = glm::dvec2(state_.pixels) / glm::dvec2(state_.points);
+  if (const auto point = renderer.point_at(request.place * scale)) state_.controls.focus(*point);
+}
+
 void Application::carry_out(const ToggleFullscreen&) {
   window_.set_fullscreen(!window_.fullscreen());
 }

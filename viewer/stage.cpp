@@ -229,8 +229,7 @@ std::vector<PlacedSoup> placed_soups(const StageSource& source) {
 std::optional<std::string> why_not(DebugView what, const StageSource& source) {
   if (what == DebugView::color) return std::nullopt;
   for (const StageLayer& layer : source.layers)
-    if (const auto reason = layer.soup() ? tureen::why_not(what, *layer.soup())
-                                         : "debug views show triangles, not splats")
+    if (const auto reason = tureen::why_not(what, *layer.primitives))
       return source.layers.size() > 1 ? layer.name + ": " + *reason : *reason;
   return std::nullopt;
 }
@@ -377,7 +376,7 @@ std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const Stag
   const Stopwatch preparing;
   const RenderOptions options{.background = glm::vec4(source.scene->info.background, 1.0f)};
   const DeviceLimits limits = device_limits(request.context.capabilities());
-  const std::vector<PlacedSoup> layers = placed_soups(source);
+  const std::vector<PlacedLayer> layers = placed_layers(source);
   Renderer renderer(request.context, prepare_debug_views(layers, limits, options), options);
   renderer.leave_context();
   return std::make_unique<Stage>(Stage{
@@ -427,7 +426,7 @@ void arrange_layers(Stage& stage, std::vector<StageLayer> wanted) {
   const bool same_order = std::equal(
       wanted.begin(), wanted.end(), layers.begin(), layers.end(),
       [](const StageLayer& a, const StageLayer& b) { return a.primitives == b.primitives; });
-  // The passes of debug views refer to the soups.
+  // The passes of debug views refer to the layers.
   if (!same_order && stage.debug_views) stage.renderer.set_passes({});
   for (std::size_t i = layers.size(); i-- > 0;) {
     if (find(wanted, layers[i]) != wanted.end()) continue;
@@ -444,7 +443,7 @@ void arrange_layers(Stage& stage, std::vector<StageLayer> wanted) {
     stage.renderer.show_layer(i, wanted[i].visible);
   }
   layers = std::move(wanted);
-  if (!same_order && stage.debug_views) stage.debug_views.emplace(placed_soups(stage));
+  if (!same_order && stage.debug_views) stage.debug_views.emplace(placed_layers(stage));
   update_subject(stage);
 }
 

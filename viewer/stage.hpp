@@ -83,7 +83,7 @@ std::vector<std::string> named_notes(const StageSource& source);
 
 /// The layers for the runtime. They refer to the source's primitives.
 std::vector<PlacedLayer> placed_layers(const StageSource& source);
-/// The same for debug views and the baseline. Throws UsageError for splats.
+/// The same for the baseline. Throws UsageError for splats.
 std::vector<PlacedSoup> placed_soups(const StageSource& source);
 
 /// The reason why this debug view is not available, from the first layer that lacks it.

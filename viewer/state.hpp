@@ -54,6 +54,10 @@ struct ChooseDrawing {
 struct ShowRecorded {
   int index = 0;
 };
+/// Makes the visible point at this place the target, and centres it.
+struct FocusAt {
+  glm::dvec2 place;  // in points from the upper left corner
+};
 struct TakeImage {
   glm::ivec2 size{0};  // (0, 0): the window's
   bool transparent = false;
@@ -78,9 +82,9 @@ struct StopWriting {};
 struct Quit {};
 
 using Request = std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset,
-                             ReloadScene, ChooseDrawing, ShowRecorded, TakeImage, CopyCommand,
-                             ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable, SavePath,
-                             LoadPath, WriteAnimation, StopWriting, Quit>;
+                             ReloadScene, ChooseDrawing, ShowRecorded, FocusAt, TakeImage,
+                             CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
+                             MakeTurntable, SavePath, LoadPath, WriteAnimation, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {

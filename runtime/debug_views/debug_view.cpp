@@ -25,6 +25,14 @@ constexpr std::array debug_views{
     DebugViewName{DebugView::features, "features", "features", "stored texel values"},
     DebugViewName{DebugView::overdraw, "overdraw", "overdraw", "fragments a pixel"},
     DebugViewName{DebugView::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
+    DebugViewName{DebugView::median_depth, "median-depth", "median depth",
+                  "where half of the light is blocked"},
+    DebugViewName{DebugView::opacity, "opacity", "opacity", "weighted mean of the splats"},
+    DebugViewName{DebugView::sigma, "sigma", "sigma", "weighted mean of the triangle windows"},
+    DebugViewName{DebugView::contributions, "contributions", "contributions",
+                  "splats a pixel until it is opaque"},
+    DebugViewName{DebugView::order, "order", "order", "place of the first splat"},
+    DebugViewName{DebugView::quarter, "quarter", "quarter", "a random quarter of the splats"},
 };
 
 const ColorMlp* network_of(const TriangleSoup& soup) {
@@ -86,6 +94,29 @@ Legend feature_legend(const FeatureChoice& choice) {
   return entries;
 }
 
+/// The box around the middle 98 % of the points that visit(add) adds, along each axis; `all` for
+/// fewer than 100 points.
+template <class Visit>
+Bounds middle_of(const Bounds& all, const Visit& visit) {
+  Bounds result = all;
+  std::vector<float> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along.clear();
+    visit([&](const glm::vec3& point) {
+      if (std::isfinite(point[axis])) along.push_back(point[axis]);
+    });
+    const std::size_t cut = along.size() / 100;
+    if (cut == 0) continue;
+    const auto low = along.begin() + std::ptrdiff_t(cut),
+               high = along.end() - 1 - std::ptrdiff_t(cut);
+    std::nth_element(along.begin(), low, along.end());
+    result.low[axis] = *low;
+    std::nth_element(low, high, along.end());
+    result.high[axis] = *high;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::span<const DebugViewName> debug_view_names() { return debug_views; }
@@ -121,10 +152,40 @@ std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup) {
     case DebugView::features:
       if (feature_count(soup) == 0) return "There are no features" + stored_instead(soup) + ".";
       break;
+    case DebugView::opacity:
+    case DebugView::sigma:
+    case DebugView::contributions:
+    case DebugView::order:
+    case DebugView::quarter:
+      return "It shows splats, not triangles.";
     default:
       break;
   }
   return std::nullopt;
+}
+
+std::optional<std::string> why_not(DebugView what, const Splats& splats) {
+  switch (what) {
+    case DebugView::triangle_id:
+    case DebugView::texels:
+    case DebugView::mlp_weight:
+    case DebugView::features:
+    case DebugView::wireframe:
+      return "It shows triangles, not splats.";
+    case DebugView::opacity:
+      if (!std::holds_alternative<NeuralDensities>(splats.kernel)) break;
+      return "Neural densities have no opacity.";
+    case DebugView::sigma:
+      if (std::holds_alternative<TriangleWindows>(splats.kernel)) break;
+      return std::string("There is no sigma (the layer has ") + kernel_name(splats.kernel) + ").";
+    default:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> why_not(DebugView what, const Primitives& primitives) {
+  return std::visit([&](const auto& each) { return why_not(what, each); }, primitives);
 }
 
 std::optional<std::string> why_not(const FeatureChoice& choice, int feature_count) {
@@ -152,24 +213,16 @@ DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye) {
 }
 
 Bounds middle_bounds(const TriangleSoup& soup) {
-  Bounds result = bounds(soup);
-  std::vector<float> along;
-  for (int axis = 0; axis < 3; ++axis) {
-    along.clear();
+  return middle_of(bounds(soup), [&](const auto& add) {
     for (const glm::uvec3& t : soup.triangles)
-      for (int k = 0; k < 3; ++k)
-        if (const float value = soup.positions[t[k]][axis]; std::isfinite(value))
-          along.push_back(value);
-    const std::size_t cut = along.size() / 100;
-    if (cut == 0) continue;
-    const auto low = along.begin() + std::ptrdiff_t(cut),
-               high = along.end() - 1 - std::ptrdiff_t(cut);
-    std::nth_element(along.begin(), low, along.end());
-    result.low[axis] = *low;
-    std::nth_element(low, high, along.end());
-    result.high[axis] = *high;
-  }
-  return result;
+      for (int k = 0; k < 3; ++k) add(soup.positions[t[k]]);
+  });
+}
+
+Bounds middle_bounds(const Splats& splats) {
+  return middle_of(bounds(splats), [&](const auto& add) {
+    for (std::size_t i = 0; i < count(splats); ++i) add(glm::vec3(center(splats, i)));
+  });
 }
 
 glm::vec3 overdraw_color(int count) { return heat_ramp(std::log2(float(count)) / 8.0f); }
@@ -183,6 +236,7 @@ Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choi
   constexpr glm::u8vec4 black{0, 0, 0, 255}, grey{128, 128, 128, 255}, white{255, 255, 255, 255};
   switch (what) {
     case DebugView::depth:
+    case DebugView::median_depth:
       return depth_legend(scale);
     case DebugView::normals:
       return {
@@ -197,7 +251,14 @@ Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choi
     case DebugView::features:
       return feature_legend(choice);
     case DebugView::overdraw:
+    case DebugView::contributions:
       return overdraw_legend();
+    case DebugView::opacity:
+      return {{black, "0"}, {white, "1"}};
+    case DebugView::sigma:
+      return {{black, "0, a solid triangle"}, {grey, "1"}, {white, "above 100"}};
+    case DebugView::order:
+      return {{bytes(heat_ramp(1)), "first"}, {bytes(heat_ramp(0)), "last"}};
     default:
       return {};
   }

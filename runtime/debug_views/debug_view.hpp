@@ -1,6 +1,6 @@
-// Debug views: quantities of a soup that a frame can show besides its final colour. Defines their
-// names, their availability for a soup, and the values behind the colours. docs/debug-views.md
-// shows each. runtime/debug_views/debug_views.hpp draws them.
+// Debug views: quantities of soups and splats that a frame can show besides its final colour.
+// Defines their names, their availability for a layer, and the values behind the colours.
+// docs/debug-views.md shows each. runtime/debug_views/debug_views.hpp draws them.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,27 @@
 #include <string_view>
 
 #include "image/heat_map.hpp"
-#include "scene/triangle_soup.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
 enum class DebugView {
-  color,        // as rendered
-  depth,        // along the viewing axis; near is bright
-  normals,      // (n + 1) / 2, world axes, turned towards the eye
-  triangle_id,  // one colour a face
-  texels,       // the nearest texel of lattice or image, without interpolation
-  alpha,        // also for fragments that the alpha test rejects
-  mlp_weight,   // blend weight of the color MLP
-  features,     // the stored values, before any network
-  overdraw,     // fragments a pixel
-  wireframe,    // edges over the dimmed final colour
+  color,          // as rendered
+  depth,          // along the viewing axis; near is bright
+  normals,        // (n + 1) / 2, world axes, turned towards the eye
+  triangle_id,    // one colour a face
+  texels,         // the nearest texel of lattice or image, without interpolation
+  alpha,          // also for fragments that the alpha test rejects
+  mlp_weight,     // blend weight of the color MLP
+  features,       // the stored values, before any network
+  overdraw,       // fragments a pixel
+  wireframe,      // edges over the dimmed final colour
+  median_depth,   // of splats: at a transmittance of 1/2; of soups as depth
+  opacity,        // of splats, their weighted mean
+  sigma,          // of triangle windows, their weighted mean
+  contributions,  // splats a pixel, until it is closed
+  order,          // of the first splat in the order of blending
+  quarter,        // the final colour of a quarter of the splats
 };
 
 struct DebugViewName {
@@ -53,8 +59,10 @@ struct FeatureChoice {
 /// otherwise 0.
 int feature_count(const TriangleSoup& soup);
 
-/// The reason why this debug view is not available for this soup, as a sentence, or nullopt.
+/// The reason why this debug view is not available for this layer, as a sentence, or nullopt.
 std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup);
+std::optional<std::string> why_not(DebugView what, const Splats& splats);
+std::optional<std::string> why_not(DebugView what, const Primitives& primitives);
 /// The same for a choice among `feature_count` features, which is above 0.
 std::optional<std::string> why_not(const FeatureChoice& choice, int feature_count);
 
@@ -78,9 +86,14 @@ DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye);
 /// The box of the middle 98 % of the faces' corners along each axis, so that a few distant faces do
 /// not dominate the scale. For soups with very few faces it returns bounds().
 Bounds middle_bounds(const TriangleSoup& soup);
+/// The same for the centres of splats.
+Bounds middle_bounds(const Splats& splats);
 
 /// Largest fragment count with its own colour.
 inline constexpr int max_counted_fragments = 255;
+
+/// Part of the splats that DebugView::quarter shows; a hash of the index chooses them.
+inline constexpr float shown_fraction = 0.25f;
 
 /// The colour of a fragment count: heat_ramp(log2(count) / 8). A count of 0 has the background's
 /// colour.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/debug_views/measure_pass.hpp"
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/soup_passes.hpp"
+#include "runtime/splats/splat_pass.hpp"
 
 namespace tureen {
 
@@ -21,12 +23,12 @@ std::string constant_of(const DebugViewName& debug_view) {
   return constant;
 }
 
-/// The full-screen program that shows a debug view.
-gl::Program shown_program(const DeviceSoup& soup, const DebugViewSubject& subject, DebugView what) {
-  DeviceSoup::Constants constants;
-  for (const DebugViewName& name : debug_view_names())
-    constants[constant_of(name)] = std::to_string(int(name.what));
-  constants["SHOWN"] = std::to_string(int(what));
+/// The full-screen program that shows a debug view, or with SHOW_SURFACE the soup's surface.
+gl::Program shown_program(const DeviceSoup& soup, const DebugViewSubject& subject, DebugView what,
+                          bool surface = false) {
+  DeviceSoup::Constants constants = debug_view_constants(what);
+  constants["SHOW_SURFACE"] = "-1";
+  if (surface) constants["SHOWN"] = "SHOW_SURFACE";
   constants["NO_FACE"] = "0xffffffffu";
   constants["COLOR_SCALE"] = what == DebugView::wireframe ? dimmed : "1.0";
   const gl::Api api = soup.device().api;
@@ -50,27 +52,30 @@ void set_corners(const gl::Program& program, const Camera& camera) {
   program.set("window_y", glm::vec3(camera.fy * axes[1] - (camera.height - camera.cy) * axes[2]));
 }
 
-/// Colours the visible fragments by a stored or geometric value.
+/// Colours the visible fragments by a stored or geometric value. With `surface`, writes their
+/// normals and depths to this framebuffer instead, which has the frame's depth.
 class ValuePass final : public Pass {
  public:
   ValuePass(const DeviceSoup& soup, std::span<const DebugViewSubject> subjects,
-            ShownDebugView& shown)
+            ShownDebugView& shown, const gl::Framebuffer* surface = nullptr)
       : soup_(soup),
         subjects_(subjects),
         shown_(shown),
-        program_(shown_program(soup, subjects[soup.place().layer], shown.what)) {}
+        surface_(surface),
+        program_(shown_program(soup, subjects[soup.place().layer], shown.what, surface)) {}
 
   const char* name() const override { return "debug view"; }
   void draw(const Frame& frame, FrameTarget& target) override {
     const std::size_t layer = soup_.place().layer;
     const FrameCamera& view = frame.layers[layer];
     const DebugViewSubject& subject = subjects_[layer];
-    const DepthScale scale = shown_.scale = depth_scale_of(frame);
+    const DepthScale scale = shown_.scale = depth_scale_of(frame, subjects_);
     if (target.layered()) {
       target.draw_samples_of(layer);
     } else {
       target.overwrite_color();
     }
+    if (surface_) glBindFramebuffer(GL_FRAMEBUFFER, surface_->id());
     program_.use();
     soup_.appearance().bind(program_);
     set_eye(program_, view.eye);
@@ -80,6 +85,7 @@ class ValuePass final : public Pass {
     program_.set("depth_scale", glm::vec2(std::log(scale.near / view.scale),
                                           1.0 / std::log(scale.far / scale.near)));
     program_.set("world_from_layer", glm::mat3(view.world_from_layer));
+    program_.set("world_scale", static_cast<float>(view.scale));
     program_.set("layer", static_cast<int>(layer));
     soup_.set_first_slot(program_);
     const bool weight = shown_.what == DebugView::mlp_weight;
@@ -92,25 +98,10 @@ class ValuePass final : public Pass {
   void leave_context() override { full_screen_.leave_context(); }
 
  private:
-  /// In world units, for all visible layers.
-  DepthScale depth_scale_of(const Frame& frame) const {
-    DepthScale all;
-    bool first = true;
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
-      const FrameCamera& view = frame.layers[i];
-      if (!view.visible) continue;
-      const DepthScale one = depth_scale(subjects_[i].middle, view.eye);
-      const double near = one.near * view.scale, far = one.far * view.scale;
-      all = first ? DepthScale{near, far}
-                  : DepthScale{std::min(all.near, near), std::max(all.far, far)};
-      first = false;
-    }
-    return all;
-  }
-
   const DeviceSoup& soup_;
   std::span<const DebugViewSubject> subjects_;
   ShownDebugView& shown_;
+  const gl::Framebuffer* surface_;
   gl::Program program_;
   FullScreen full_screen_;
 };
@@ -166,20 +157,65 @@ const char* shader_of(const TriangleSoup& soup) {
                                                                  : "debug_view_plain.glsl";
 }
 
+/// The present ones.
+template <class T>
+std::vector<T*> present(std::span<const std::unique_ptr<T>> layers) {
+  std::vector<T*> result;
+  for (const std::unique_ptr<T>& layer : layers)
+    if (layer) result.push_back(layer.get());
+  return result;
+}
+
+/// The final colours of the splats, or of some of them.
+std::unique_ptr<Pass> splat_color_pass(std::span<const std::unique_ptr<DeviceSplats>> splats,
+                                       float fraction) {
+  const gl::Capabilities& device = present(splats).front()->device();
+  return std::make_unique<SplatPass>(
+      device, splats,
+      device.float_blending ? SplatPass::Precision::single : SplatPass::Precision::half, fraction);
+}
+
 }  // namespace
+
+DebugViewSubject::DebugViewSubject(const Splats& splats) : middle(middle_bounds(splats)) {
+  for (const DebugViewName& name : debug_view_names())
+    refusals.push_back(why_not(name.what, splats));
+}
 
 DebugViewSubject::DebugViewSubject(const TriangleSoup& soup)
     : middle(middle_bounds(soup)), shader(shader_of(soup)), features(feature_count(soup)) {
-  for (const DebugViewName& name : debug_view_names())
-    refusals[std::size_t(name.what)] = why_not(name.what, soup);
+  for (const DebugViewName& name : debug_view_names()) refusals.push_back(why_not(name.what, soup));
   if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance); texture && texture->mlp)
     blend_channel = texture->mlp->blend_channel;
   if (const auto* textures = std::get_if<UvTextures>(&soup.appearance); textures && textures->mlp)
     blend_channel = textures->mlp->blend_channel;
 }
 
+DepthScale depth_scale_of(const Frame& frame, std::span<const DebugViewSubject> subjects) {
+  DepthScale all;
+  bool first = true;
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    const FrameCamera& view = frame.layers[i];
+    if (!view.visible) continue;
+    const DepthScale one = depth_scale(subjects[i].middle, view.eye);
+    const double near = one.near * view.scale, far = one.far * view.scale;
+    all = first ? DepthScale{near, far}
+                : DepthScale{std::min(all.near, near), std::max(all.far, far)};
+    first = false;
+  }
+  return all;
+}
+
+std::map<std::string, std::string> debug_view_constants(DebugView what) {
+  std::map<std::string, std::string> constants;
+  for (const DebugViewName& name : debug_view_names())
+    constants[constant_of(name)] = std::to_string(int(name.what));
+  constants["SHOWN"] = std::to_string(int(what));
+  return constants;
+}
+
 FragmentCountPass::FragmentCountPass(std::span<const std::unique_ptr<DeviceSoup>> soups) {
-  for (const std::unique_ptr<DeviceSoup>& soup : soups)
+  for (DeviceSoup* soup : present(soups))
     drawings_.push_back({*soup, face_program(*soup, "fragment_count.frag")});
 }
 
@@ -203,23 +239,55 @@ void FragmentCountPass::draw(const Frame& frame, FrameTarget& target) {
   }
 }
 
-DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> soups,
+DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> all_soups,
+                                  std::span<const std::unique_ptr<DeviceSplats>> splats,
                                   std::span<const DebugViewSubject> subjects,
                                   ShownDebugView& shown) {
+  const std::vector<DeviceSoup*> soups = present(all_soups);
+  const bool has_splats = !present(splats).empty();
+  const bool shows_colors = shown.what == DebugView::color || shown.what == DebugView::quarter;
+  const bool measures = shown.as_values || (has_splats && !shows_colors);
   DebugViewPasses result;
   const auto add = [&](std::unique_ptr<Pass> pass) { result.passes.push_back(std::move(pass)); };
-  if (shown.what == DebugView::overdraw) {
-    auto counts = std::make_unique<FragmentCountPass>(soups);
+  if (shown.what == DebugView::overdraw && !soups.empty()) {
+    auto counts = std::make_unique<FragmentCountPass>(all_soups);
     result.counts = counts.get();
     add(std::move(counts));
-    add(std::make_unique<OverdrawPass>(*soups.front(), subjects.front(), *result.counts));
+    if (!measures) {
+      const DeviceSoup& soup = *soups.front();
+      add(std::make_unique<OverdrawPass>(soup, subjects[soup.place().layer], *result.counts));
+      return result;
+    }
+  }
+  const AlphaTest test =
+      shown.what == DebugView::alpha && !measures ? AlphaTest::never : AlphaTest::as_planned;
+  for (DeviceSoup* soup : soups) add(make_visibility_pass(*soup, test));
+  if (measures) {
+    // Splats are grey over the alpha of soups; every other view is computed from the surfaces.
+    if (shown.what == DebugView::alpha && !shown.as_values)
+      for (DeviceSoup* soup : soups) add(std::make_unique<ValuePass>(*soup, subjects, shown));
+    const auto make_surfaces = [&](const gl::Framebuffer& surface) {
+      Passes passes;
+      for (DeviceSoup* soup : soups)
+        passes.push_back(std::make_unique<ValuePass>(*soup, subjects, shown, &surface));
+      return passes;
+    };
+    auto pass = std::make_unique<MeasurePass>(MeasurePass::Inputs{
+        .device = has_splats ? present(splats).front()->device() : soups.front()->device(),
+        .splats = splats,
+        .subjects = subjects,
+        .shown = shown,
+        .counts = result.counts,
+        .make_surfaces = make_surfaces});
+    result.measures = pass.get();
+    add(std::move(pass));
     return result;
   }
-  const AlphaTest test = shown.what == DebugView::alpha ? AlphaTest::never : AlphaTest::as_planned;
-  for (const auto& soup : soups) add(make_visibility_pass(*soup, test));
-  for (const auto& soup : soups) add(std::make_unique<ValuePass>(*soup, subjects, shown));
+  for (DeviceSoup* soup : soups) add(std::make_unique<ValuePass>(*soup, subjects, shown));
   if (shown.what == DebugView::wireframe)
-    for (const auto& soup : soups) add(std::make_unique<EdgePass>(*soup));
+    for (DeviceSoup* soup : soups) add(std::make_unique<EdgePass>(*soup));
+  if (has_splats)
+    add(splat_color_pass(splats, shown.what == DebugView::quarter ? shown_fraction : 1.0f));
   return result;
 }
 

@@ -1,8 +1,8 @@
 // The passes of the debug views (runtime/debug_views/debug_view.hpp). They draw soups whose plan
-// keeps all faces and all stored values (debug_views.hpp).
+// keeps all faces and all stored values (debug_views.hpp), and splats.
 #pragma once
 
-#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,31 +12,41 @@
 #include "runtime/debug_views/debug_view.hpp"
 #include "runtime/passes/device_soup.hpp"
 #include "runtime/passes/pass.hpp"
+#include "runtime/splats/device_splats.hpp"
 
 namespace tureen {
 
-/// Facts of a soup that its debug views need.
+/// Facts of a layer that its debug views need.
 struct DebugViewSubject {
-  /// The soup is not needed afterwards.
+  /// The primitives are not needed afterwards.
   explicit DebugViewSubject(const TriangleSoup& soup);
+  explicit DebugViewSubject(const Splats& splats);
 
-  Bounds middle;       // middle_bounds()
-  const char* shader;  // the file that reads the stored values
+  Bounds middle;                 // middle_bounds()
+  const char* shader = nullptr;  // of a soup: the file that reads the stored values
   std::optional<int> blend_channel;
-  int features = 0;                                     // feature_count()
-  std::array<std::optional<std::string>, 10> refusals;  // why_not(), by DebugView
+  int features = 0;                                  // feature_count()
+  std::vector<std::optional<std::string>> refusals;  // why_not(), by DebugView
 };
+
+/// In world units, for all visible layers.
+DepthScale depth_scale_of(const Frame& frame, std::span<const DebugViewSubject> subjects);
+
+/// Shader constants: SHOW_DEPTH and so on, and SHOWN with the one of `what`.
+std::map<std::string, std::string> debug_view_constants(DebugView what);
 
 /// The shown debug view, and the scale of its colours.
 struct ShownDebugView {
   DebugView what = DebugView::color;
   FeatureChoice features;
-  DepthScale scale;  // of the last frame; a pass sets it
+  bool as_values = false;  // not as colours
+  DepthScale scale;        // of the last frame; a pass sets it
 };
 
 /// Counts the fragments of each sample, in a texture of its own.
 class FragmentCountPass final : public Pass {
  public:
+  /// `soups`: null for layers without a soup.
   explicit FragmentCountPass(std::span<const std::unique_ptr<DeviceSoup>> soups);
 
   const char* name() const override { return "fragment count"; }
@@ -61,14 +71,19 @@ class FragmentCountPass final : public Pass {
   gl::Framebuffer framebuffer_;
 };
 
+class MeasurePass;
+
 struct DebugViewPasses {
   Passes passes;
-  const FragmentCountPass* counts = nullptr;  // one of them, for DebugView::overdraw
+  // Some of them, or null:
+  const FragmentCountPass* counts = nullptr;  // for DebugView::overdraw of soups
+  const MeasurePass* measures = nullptr;      // for splats, and for values
 };
 
 /// The passes that show `shown.what`. The arguments must outlive them; there is a subject for each
-/// soup, and at least one soup.
+/// layer, and at least one layer. `soups` and `splats` have null for layers of the other kind.
 DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> soups,
+                                  std::span<const std::unique_ptr<DeviceSplats>> splats,
                                   std::span<const DebugViewSubject> subjects,
                                   ShownDebugView& shown);
 

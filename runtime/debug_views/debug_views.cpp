@@ -1,9 +1,11 @@
 #include "runtime/debug_views/debug_views.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "base/error.hpp"
 #include "runtime/debug_views/debug_view_passes.hpp"
+#include "runtime/debug_views/measure_pass.hpp"
 #include "runtime/passes/targets.hpp"
 
 namespace tureen {
@@ -24,11 +26,8 @@ void add_debug_stores(const TriangleSoup& soup, const std::vector<std::uint32_t>
   appearance.fit_layout(TexelLayout::of(limits));
 }
 
-}  // namespace
-
-PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const DeviceLimits& device,
+PreparedScene prepare_debug_soups(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                                   const RenderOptions& options) {
-  const DeviceLimits limits = options.limits.value_or(device);
   std::vector<const TriangleSoup*> soups;
   for (const PlacedSoup& layer : layers) soups.push_back(&layer.soup);
   SpecialisationSet exact;
@@ -47,21 +46,36 @@ PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const Devi
   return prepared;
 }
 
+}  // namespace
+
+PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const DeviceLimits& device,
+                                  const RenderOptions& options) {
+  const DeviceLimits limits = options.limits.value_or(device);
+  PreparedScene prepared = prepare_debug_soups(placed_soups(layers), limits, options);
+  add_splats(prepared, layers, limits, options.plan);
+  return prepared;
+}
+
 PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
                                   const DeviceLimits& device, const RenderOptions& options) {
   const PlacedSoup layer{soup, at_origin(origin)};
-  return prepare_debug_views(std::span(&layer, 1), device, options);
+  return prepare_debug_soups(std::span(&layer, 1), options.limits.value_or(device), options);
 }
 
 struct DebugViews::State {
-  std::vector<DebugViewSubject> subjects;  // for each soup
+  std::vector<DebugViewSubject> subjects;  // for each layer
   ShownDebugView shown = {};
-  const FragmentCountPass* counts = nullptr;  // of the renderer's passes
-  bool has_passes = false;                    // for shown.what
+  // Of the renderer's passes, or null.
+  const FragmentCountPass* counts = nullptr;
+  const MeasurePass* measures = nullptr;
+  bool has_passes = false;  // for shown.what and shown.as_values
+
+  void use(Renderer& renderer, DebugView what, bool as_values);
 };
 
-DebugViews::DebugViews(std::span<const PlacedSoup> layers) : state_(new State) {
-  for (const PlacedSoup& layer : layers) state_->subjects.emplace_back(layer.soup);
+DebugViews::DebugViews(std::span<const PlacedLayer> layers) : state_(new State) {
+  for (const PlacedLayer& layer : layers)
+    std::visit([&](const auto& each) { state_->subjects.emplace_back(each); }, layer.primitives);
 }
 DebugViews::DebugViews(const TriangleSoup& soup) : state_(new State) {
   state_->subjects.emplace_back(soup);
@@ -81,22 +95,39 @@ void DebugViews::require(DebugView what, const FeatureChoice& features) const {
   }
 }
 
+void DebugViews::State::use(Renderer& renderer, DebugView what, bool as_values) {
+  const bool same = what == shown.what && as_values == shown.as_values;
+  if (std::exchange(has_passes, false) && same) {
+    has_passes = true;
+    return;
+  }
+  shown.what = what;
+  shown.as_values = as_values;
+  DebugViewPasses made = debug_view_passes(renderer.soups(), renderer.splats(), subjects, shown);
+  counts = made.counts;
+  measures = made.measures;
+  renderer.set_passes(std::move(made.passes));
+  has_passes = true;  // not if making them threw
+}
+
 void DebugViews::show(Renderer& renderer, DebugView what, const FeatureChoice& features) {
   require(what, features);
-  State& state = *state_;
-  const bool has_passes = std::exchange(state.has_passes, false) && what == state.shown.what;
-  state.shown.what = what;
-  state.shown.features = features;
-  state.has_passes = has_passes;
-  if (has_passes) return;
-  DebugViewPasses made = debug_view_passes(renderer.soups(), state.subjects, state.shown);
-  state.counts = made.counts;
-  renderer.set_passes(std::move(made.passes));
-  state.has_passes = true;  // not if making them threw
+  state_->shown.features = features;
+  state_->use(renderer, what, false);
+}
+
+void DebugViews::measure(Renderer& renderer, DebugView what) {
+  assert(what != DebugView::color && what != DebugView::quarter);
+  require(what);
+  state_->use(renderer, what, true);
+}
+
+std::vector<glm::vec4> DebugViews::read_values() const {
+  return state_->measures ? state_->measures->read_values() : std::vector<glm::vec4>{};
 }
 
 std::vector<std::uint8_t> DebugViews::read_fragment_counts() const {
-  if (!state_->counts) return {};
+  if (!state_->counts || state_->measures) return {};
   const glm::ivec2 size = state_->counts->size();
   const Image8 image = read_pixels(state_->counts->framebuffer(), size.x, size.y);
   std::vector<std::uint8_t> result(image.pixels.size());

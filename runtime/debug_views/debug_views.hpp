@@ -1,4 +1,4 @@
-// Shows the debug views of runtime/debug_views/debug_view.hpp: prepares soups for them, and gives
+// Shows the debug views of runtime/debug_views/debug_view.hpp: prepares layers for them, and gives
 // its Renderer the passes of one of them.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace tureen {
 /// weight_uniforms and dead_neurons are applied; they are exact. The Renderer also draws ordinary
 /// frames. Of the options' preferences, only reversed_depth has an effect. Otherwise as
 /// prepare_scene.
-PreparedScene prepare_debug_views(std::span<const PlacedSoup> layers, const DeviceLimits& device,
+PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const DeviceLimits& device,
                                   const RenderOptions& options = {});
 PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
                                   const DeviceLimits& device, const RenderOptions& options = {});
@@ -23,18 +23,18 @@ PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
 /// DebugView::color. It must live until the renderer is destroyed or gets other passes.
 class DebugViews {
  public:
-  /// The soups are not needed afterwards.
-  explicit DebugViews(std::span<const PlacedSoup> layers);
+  /// The layers are not needed afterwards.
+  explicit DebugViews(std::span<const PlacedLayer> layers);
   explicit DebugViews(const TriangleSoup& soup);
   ~DebugViews();
   DebugViews(DebugViews&&) noexcept;
   DebugViews& operator=(DebugViews&&) noexcept;
 
-  /// Throws UsageError with the sentence of why_not() if a soup has no such debug view.
+  /// Throws UsageError with the sentence of why_not() if a layer has no such debug view.
   void require(DebugView what, const FeatureChoice& features = {}) const;
 
   /// Selects the debug view that the renderer draws in the next frames. The renderer must come from
-  /// prepare_debug_views for these soups. All calls must pass the same renderer. Throws as
+  /// prepare_debug_views for these layers. All calls must pass the same renderer. Throws as
   /// require().
   ///
   /// A pixel shows the face or background of an ordinary frame, with three exceptions for fragments
@@ -43,7 +43,25 @@ class DebugViews {
   /// front of them. Renderer::read_faces() is empty for overdraw.
   void show(Renderer& renderer, DebugView what, const FeatureChoice& features = {});
 
-  /// The fragment count of each pixel of the last overdraw frame, row 0 on top, at most
+  /// Selects values instead of colours, for read_values(). Not for DebugView::color, quarter, and
+  /// views that only soups have. Otherwise as show().
+  void measure(Renderer& renderer, DebugView what);
+
+  /// The values of the last frame after measure(), for each pixel, row 0 on top. The fourth
+  /// component is 1, or 0 where nothing is visible; then all are 0. The others, of which soups are
+  /// the last contribution, opaque:
+  /// - depth: the mean view depth, weighted by contribution, in world units, three times
+  /// - median_depth: that at which the transmittance falls to 1/2 or below
+  /// - normals: the weighted mean, of unit length, in world axes; 0 if normals cancel
+  /// - alpha: 1 - transmittance
+  /// - opacity, sigma: the weighted means of the stored values
+  /// - overdraw: blended splats in front of the soups, and all fragments of the soups
+  /// - contributions: splats in front of the one that would lower the transmittance below 1e-4
+  /// - order: the place of the first splat in the order of blending, from 0
+  /// For what depth and normal of a splat are, see SplatMeasures.
+  std::vector<glm::vec4> read_values() const;
+
+  /// The fragment count of each pixel of the last overdraw frame of soups, row 0 on top, at most
   /// max_counted_fragments; empty for other debug views.
   std::vector<std::uint8_t> read_fragment_counts() const;
 

@@ -80,6 +80,20 @@ Image8 read_pixels(GLuint framebuffer, int width, int height) {
   return image;
 }
 
+std::vector<glm::vec4> read_float_pixels(GLuint framebuffer, glm::ivec2 size) {
+  const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);
+  std::vector<glm::vec4> pixels(width * height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, pixels.data());
+  gl::throw_if_lost();
+  for (std::size_t y = 0; y < height / 2; ++y)
+    std::swap_ranges(&pixels[y * width], &pixels[y * width] + width,
+                     &pixels[(height - 1 - y) * width]);
+  return pixels;
+}
+
 std::vector<std::uint32_t> read_visible_slots(GLuint framebuffer, glm::ivec2 size) {
   const auto width = std::size_t(size.x), height = std::size_t(size.y);
   // Reading must wait for the pass that wrote this target. Mesa 22.3's llvmpipe waits only for a

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <initializer_list>
 #include <span>
 #include <vector>
@@ -57,6 +58,9 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors,
 
 /// The RGBA8 pixels of a framebuffer's first color attachment, row 0 on top. Waits for the device.
 Image8 read_pixels(GLuint framebuffer, int width, int height);
+
+/// The same for floats.
+std::vector<glm::vec4> read_float_pixels(GLuint framebuffer, glm::ivec2 size);
 
 /// The slots that shaders/visibility.frag wrote to a framebuffer, row 0 on top; no_face for the
 /// background. Waits for the device.

@@ -108,7 +108,8 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
       chunks_(plan.chunks),
       layout_(source.layout),
       kernel_(source.layout, source.kernel),
-      coefficients_(source.layout, source.coefficients) {
+      coefficients_(source.layout, source.coefficients),
+      device_(device) {
   if (!device.float_targets)
     throw DeviceLimitError(
         "splats need textures of floats as targets (EXT_color_buffer_float), which this device "
@@ -121,8 +122,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
                 .generated = {{"splat_project_kernel.glsl",
                                "#include \"" + std::string(files.projection) + "\"\n"}}},
                device.api));
-  drawing_ = gl::Program(assemble({.file = files.vertex, .constants = constants()}, device.api),
-                         assemble({.file = files.fragment, .constants = constants()}, device.api));
+  drawings_[std::size_t(SplatOutput::color)] = make_program(SplatOutput::color);
   const auto rows = static_cast<int>(projected_rows());
   if (rows > device.max_texture_size)
     throw DeviceLimitError(
@@ -132,6 +132,17 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
   for (std::size_t i = 0; i < 1 + files.projected.size(); ++i)
     projected_.push_back(make_target(projected_format, projected_columns, std::max(rows, 1)));
   gl::check("DeviceSplats");
+}
+
+gl::Program DeviceSplats::make_program(SplatOutput output) const {
+  const Files files = files_of(shaders_);
+  Constants with_output = constants();
+  constexpr const char* names[splat_outputs] = {"OUTPUT_COLOR", "OUTPUT_SUMS", "OUTPUT_PREFIXES",
+                                                "OUTPUT_DEPTH_FOUND", "OUTPUT_COUNTS"};
+  for (std::size_t i = 0; i < splat_outputs; ++i) with_output[names[i]] = std::to_string(i);
+  with_output["OUTPUT"] = std::to_string(std::size_t(output));
+  return gl::Program(assemble({.file = files.vertex, .constants = with_output}, device_.api),
+                     assemble({.file = files.fragment, .constants = with_output}, device_.api));
 }
 
 void DeviceSplats::project(const Frame& frame) {
@@ -168,27 +179,36 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }
 
-void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLuint order) {
+void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target,
+                              const Drawing& drawing) {
   const FrameCamera& in_layer = frame.layers[layer_];
-  drawing_.use();
-  drawing_.set_texture("order", 0, order);
-  drawing_.set_texture("kernel", 1, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
-  drawing_.set_texture("colors", 2, projected_[0].id());
+  std::optional<gl::Program>& made = drawings_[std::size_t(drawing.output)];
+  if (!made) made = make_program(drawing.output);
+  const gl::Program& program = *made;
+  program.use();
+  program.set_texture("order", 0, drawing.order);
+  program.set_texture("kernel", 1, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
+  program.set_texture("colors", 2, projected_[0].id());
   int unit = 3;
   for (const char* name : files_of(shaders_).projected) {
-    drawing_.set_texture(name, unit, projected_[std::size_t(unit - 2)].id());
+    program.set_texture(name, unit, projected_[std::size_t(unit - 2)].id());
     ++unit;
   }
-  if (tests_depth()) drawing_.set_texture("depth_texture", unit, target.depth_texture());
-  set_view(drawing_, frame);
-  set_rays(drawing_, in_layer.camera);
+  if (tests_depth()) program.set_texture("depth_texture", unit++, target.depth_texture());
+  if (drawing.bounds) program.set_texture("bounds", unit, drawing.bounds);
+  set_view(program, frame);
+  set_rays(program, in_layer.camera);
   const glm::dmat4 clip_from_view = target.clip_from_view(in_layer.camera, in_layer.range);
   const glm::dmat4 rotation(glm::dmat3(in_layer.camera.view_from_world));
-  drawing_.set("clip_from_camera", glm::mat4(clip_from_view * rotation));
-  drawing_.set("depth_of_z", glm::vec2(clip_from_view[2][2], clip_from_view[3][2]));
-  drawing_.set("ndc_from_stored",
-               target.reversed_depth() ? glm::vec2(1.0f, 0.0f) : glm::vec2(2.0f, -1.0f));
-  drawing_.set("far_stored", target.far_depth());
+  program.set("clip_from_camera", glm::mat4(clip_from_view * rotation));
+  program.set("depth_of_z", glm::vec2(clip_from_view[2][2], clip_from_view[3][2]));
+  program.set("ndc_from_stored",
+              target.reversed_depth() ? glm::vec2(1.0f, 0.0f) : glm::vec2(2.0f, -1.0f));
+  program.set("far_stored", target.far_depth());
+  if (drawing.output != SplatOutput::color) {
+    program.set("world_scale", static_cast<float>(in_layer.scale));
+    program.set("world_from_layer", glm::mat3(in_layer.world_from_layer));
+  }
   nothing_.bind();
 }
 

@@ -1,9 +1,11 @@
 // One layer of splats on the device.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +23,16 @@ namespace tureen {
 /// Bytes per splat of the textures that hold what all pixels of a splat share.
 std::size_t projected_bytes(const SplatPlan& plan);
 
+/// The values that the fragments of a splat write (shaders/splats/splat_blended.glsl).
+enum class SplatOutput {
+  color,        // premultiplied, and alpha
+  sums,         // two targets: alpha times normal and 1; alpha times depth, opacity, sigma and 1
+  prefixes,     // alpha of those splats that belong to each of four prefixes of the order
+  depth_found,  // the depth of the splat that a search has found; other fragments are discarded
+  counts,       // 1; 1 in front of the splat that a search has found; 0; the place in the order
+};
+inline constexpr std::size_t splat_outputs = 5;
+
 class DeviceSplats {
  public:
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
@@ -35,6 +47,8 @@ class DeviceSplats {
   void set_layer(std::size_t layer) { layer_ = layer; }
   std::size_t layer() const { return layer_; }
 
+  const gl::Capabilities& device() const { return device_; }
+
   /// Centres of the drawn splats, in layer coordinates.
   std::span<const glm::vec3> centers() const { return centers_; }
   /// SplatPlan::chunks.
@@ -43,9 +57,14 @@ class DeviceSplats {
   /// Computes colours, and for Gaussians their places in the image, for later draw_run() of this
   /// frame. Changes the framebuffer and the viewport.
   void project(const Frame& frame);
-  /// Prepares draw_run(): program, textures and uniforms. `order` holds indices of splats, row by
-  /// row.
-  void begin_runs(const Frame& frame, const FrameTarget& target, GLuint order);
+  struct Drawing {
+    GLuint order = 0;  // texture: indices of splats, row by row
+    SplatOutput output = SplatOutput::color;
+    GLuint bounds = 0;  // texture of a search (splat_measures.hpp), for some outputs
+  };
+  /// Prepares draw_run(): program, textures and uniforms. The first drawing with an output compiles
+  /// its program.
+  void begin_runs(const Frame& frame, const FrameTarget& target, const Drawing& drawing);
   /// Draws `count` splats of the order from `first` on, as three vertices each.
   void draw_run(std::uint32_t first, std::uint32_t count);
 
@@ -62,6 +81,7 @@ class DeviceSplats {
 
   bool has_published_culls() const;
   Constants constants() const;
+  gl::Program make_program(SplatOutput output) const;
   void set_view(const gl::Program& program, const Frame& frame) const;
   /// Texels that projection_ computes, one a colour, and their rows.
   std::size_t projected_texels() const { return centers_.size() * std::size_t(colors_per_splat_); }
@@ -76,7 +96,9 @@ class DeviceSplats {
   std::vector<Bounds> chunks_;
   TexelLayout layout_;
   TexelStore kernel_, coefficients_;
-  gl::Program projection_, drawing_;
+  gl::Capabilities device_;
+  gl::Program projection_;
+  std::array<std::optional<gl::Program>, splat_outputs> drawings_;  // by SplatOutput
   std::vector<gl::Texture> projected_;  // colours and, for some kernels, more
   gl::Framebuffer projected_framebuffer_;
   FullScreen full_screen_;

@@ -20,6 +20,15 @@ std::uint32_t key_of(float depth) {
   return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
+bool is_kept(std::size_t index, float fraction) {
+  // Wang's integer hash.
+  auto h = static_cast<std::uint32_t>(index);
+  h = (h ^ 61u ^ (h >> 16)) * 9u;
+  h = (h ^ (h >> 4)) * 0x27d4eb2du;
+  h ^= h >> 15;
+  return static_cast<float>(h) < fraction * 4294967296.0f;
+}
+
 // Three passes over 11 bits were the fastest of 8, 11 and 16 bits for 100,000 splats.
 constexpr int digit_bits = 11;
 constexpr int digits = 3;
@@ -92,6 +101,7 @@ void SplatOrder::sort(std::span<const SplatsInView> layers) {
   for (const SplatsInView& layer : layers) {
     for (std::size_t i = 0; i < layer.centers.size(); ++i) {
       if (layer.skips(i / splats_per_chunk)) continue;
+      if (layer.fraction < 1 && !is_kept(i, layer.fraction)) continue;
       const auto depth =
           static_cast<float>(glm::dot(layer.axis, glm::dvec3(layer.centers[i])) - layer.offset);
       if (std::isfinite(depth)) entries_.push_back({key_of(depth), place + std::uint32_t(i)});

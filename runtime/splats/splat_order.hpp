@@ -14,6 +14,7 @@ struct SplatsInView {
   std::span<const glm::vec3> centers;
   glm::dvec3 axis;
   double offset = 0;
+  float fraction = 1;  // of the splats; a hash of the index chooses them
   /// For each chunk of splats_per_chunk centres, whether it is left out of the order. Empty: none.
   std::vector<bool> behind = {};
 

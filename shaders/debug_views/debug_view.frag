@@ -18,12 +18,23 @@ uniform int layer;
 
 layout(location = 0) out vec4 color;
 
+#if SHOWN == SHOW_SURFACE
+uniform float world_scale;  // world units a layer unit
+
+// The normal towards the eye in world axes, and the depth in world units.
+vec4 surface(uint face) {
+  vec3 ray = ray_through(gl_FragCoord.xy);
+  vec3 normal = face_normal(face);
+  vec3 towards_eye = dot(normal, ray) > 0.0 ? -normal : normal;
+  return vec4(world_from_layer * towards_eye, world_scale * depth_on(face, normal, ray));
+}
+#else
 float feature(vec4 first, vec4 second, int index) {
   return index < 4 ? first[index] : second[index - 4];
 }
 
 vec3 shown(uint face, vec2 b) {
-#if SHOWN == SHOW_DEPTH
+#if SHOWN == SHOW_DEPTH || SHOWN == SHOW_MEDIAN_DEPTH
   vec3 ray = ray_through(gl_FragCoord.xy);
   float z = depth_on(face, face_normal(face), ray);
   return heat_ramp(1.0 - (log(z) - depth_scale.x) * depth_scale.y);
@@ -52,8 +63,14 @@ vec3 shown(uint face, vec2 b) {
 #endif
 }
 
+#endif
+
 void main() {
   uvec2 fragment = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
+#if SHOWN == SHOW_SURFACE
+  color = fragment.x == NO_FACE ? vec4(0.0) : surface(stored_slot(fragment));
+#else
   color = fragment.x == NO_FACE ? background
                                 : vec4(shown(stored_slot(fragment), stored_barycentrics(fragment)), 1.0);
+#endif
 }

@@ -2,7 +2,10 @@
 flat in vec4 color;
 flat in vec4 plane_xy;
 flat in vec3 plane_w;
-flat in vec4 place;
+flat in vec4 origin;
+#if OUTPUT != OUTPUT_COLOR
+flat in vec3 normal;
+#endif
 
 uniform float near;
 #if AS_PUBLISHED
@@ -15,13 +18,15 @@ flat in vec4 tiles;
 
 void main() {
 #if AS_PUBLISHED
-  blended = vec4(0.0);
-  if (!is_in_tiles(tiles, gl_FragCoord.xy)) return;
+  if (!is_in_tiles(tiles, gl_FragCoord.xy)) {
+    blend_nothing();
+    return;
+  }
 #endif
-  vec2 pixel = gl_FragCoord.xy - place.xy;
+  vec2 pixel = gl_FragCoord.xy - origin.xy;
   // (u, v, 1) is orthogonal to both.
-  vec3 k = vec3(plane_xy.xy - pixel.x * plane_w.xy, place.z - pixel.x * plane_w.z);
-  vec3 l = vec3(plane_xy.zw - pixel.y * plane_w.xy, place.w - pixel.y * plane_w.z);
+  vec3 k = vec3(plane_xy.xy - pixel.x * plane_w.xy, origin.z - pixel.x * plane_w.z);
+  vec3 l = vec3(plane_xy.zw - pixel.y * plane_w.xy, origin.w - pixel.y * plane_w.z);
   vec3 point = cross(k, l);
   vec2 uv = point.xy / point.z;
   float depth = plane_w.z + dot(uv, plane_w.xy);
@@ -36,5 +41,10 @@ void main() {
   }
 #endif
   float alpha = color.a * exp(-0.5 * squared);
-  blended = depth < depth_behind() ? blended_color(color.rgb, alpha) : vec4(0.0);
+  if (!(depth < depth_behind())) alpha = 0.0;
+#if OUTPUT == OUTPUT_COLOR
+  blend(color.rgb, alpha);
+#else
+  measure(alpha, depth, normal, color.a, 0.0);
+#endif
 }

@@ -1,5 +1,8 @@
 // A disc as the triangle around the box of its image, and around the disc of the screen's low pass.
+#include "eye.glsl"
 #include "splat_cover.glsl"
+#include "splat_kernel_texels.glsl"
+#include "splat_measured_vertex.glsl"
 #include "splat_order.glsl"
 #include "splat_projected.glsl"
 
@@ -10,7 +13,7 @@ uniform float near;
 flat out vec4 color;
 flat out vec4 plane_xy;
 flat out vec3 plane_w;
-flat out vec4 place;
+flat out vec4 origin;  // splat_project_discs.glsl: place
 #if AS_PUBLISHED
 flat out vec4 tiles;
 #include "splat_tiles.glsl"
@@ -24,19 +27,24 @@ vec4 published_tiles() {
   vec2 squared = middle * middle - 9.0 / d * vec2(dot(x, x), dot(y, y));
   vec2 extent = sqrt(max(squared, 1e-4));
   float radius = max(max(extent.x, extent.y), 3.0 * 0.7071067811865476);
-  return tiles_around(in_whole_image(place.xy + middle), ceil(radius));
+  return tiles_around(in_whole_image(origin.xy + middle), ceil(radius));
 }
 #endif
 
 void main() {
-  ivec2 at = projected_position(ordered_splat());
+  uint splat = ordered_splat();
+  ivec2 at = projected_position(splat);
   color = texelFetch(colors, at, 0);
   plane_xy = texelFetch(planes_xy, at, 0);
   vec4 plane_w_and_drawn = texelFetch(planes_w, at, 0);
   plane_w = plane_w_and_drawn.xyz;
-  place = texelFetch(places, at, 0);
+  origin = texelFetch(places, at, 0);
 #if AS_PUBLISHED
   tiles = published_tiles();
+#endif
+#if OUTPUT != OUTPUT_COLOR
+  measure_vertex(rotation_of(kernel_texel(splat, 2))[2],
+                 (kernel_texel(splat, 0).xyz - eye_high) - eye_low);
 #endif
   float excess = 2.0 * log(color.a / MIN_ALPHA);
   gl_Position = nowhere;
@@ -53,11 +61,11 @@ void main() {
     vec2 margin = vec2(1.0);
 #if SCREEN_FILTER
     float screen = radius * sqrt(SCREEN_VARIANCE) + 1.0;
-    low = place.xy + min(vec2(x.x, y.x) - margin, -screen);
-    high = place.xy + max(vec2(x.y, y.y) + margin, screen);
+    low = origin.xy + min(vec2(x.x, y.x) - margin, -screen);
+    high = origin.xy + max(vec2(x.y, y.y) + margin, screen);
 #else
-    low = place.xy + vec2(x.x, y.x) - margin;
-    high = place.xy + vec2(x.y, y.y) + margin;
+    low = origin.xy + vec2(x.x, y.x) - margin;
+    high = origin.xy + vec2(x.y, y.y) + margin;
 #endif
   }
   gl_Position = vec4(corner_around(low, high, splat_corner()) / half_size - 1.0, 0.0, 1.0);

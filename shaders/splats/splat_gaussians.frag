@@ -4,13 +4,24 @@ flat in vec4 color;
 flat in vec4 tiles;
 #include "splat_tiles.glsl"
 #endif
+#if OUTPUT != OUTPUT_COLOR
+flat in vec3 normal;
+flat in float center_depth;
+#endif
 
 #include "splat_blended.glsl"
 
 void main() {
 #if AS_PUBLISHED
-  blended = vec4(0.0);
-  if (!is_in_tiles(tiles, gl_FragCoord.xy)) return;
+  if (!is_in_tiles(tiles, gl_FragCoord.xy)) {
+    blend_nothing();
+    return;
+  }
 #endif
-  blended = blended_color(color.rgb, color.a * exp(-0.5 * dot(deviations, deviations)));
+  float alpha = color.a * exp(-0.5 * dot(deviations, deviations));
+#if OUTPUT == OUTPUT_COLOR
+  blend(color.rgb, alpha);
+#else
+  measure(alpha, center_depth, normal, color.a, 0.0);
+#endif
 }

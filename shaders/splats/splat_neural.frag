@@ -10,6 +10,9 @@ uniform float near;
 
 flat in uint splat;
 flat in vec3 color;
+#if OUTPUT != OUTPUT_COLOR
+uniform mat3 world_from_layer;
+#endif
 
 #include "splat_blended.glsl"
 #include "splat_depth_behind.glsl"
@@ -53,8 +56,10 @@ void main() {
   middle += correction * unit_direction;
   shift += correction;
   float discriminant = 1.0 - dot(middle, middle);
-  blended = vec4(0.0);
-  if (!(discriminant > 0.0)) return;
+  if (!(discriminant > 0.0)) {
+    blend_nothing();
+    return;
+  }
   float half_chord = sqrt(discriminant / squared_speed);
 
   // The part of the chord between the near plane and the soups.
@@ -63,7 +68,10 @@ void main() {
   float behind = depth_behind();
   float end = behind < infinity ? min(middle_t + half_chord, behind * ray_length)
                                 : middle_t + half_chord;
-  if (!(end > begin)) return;
+  if (!(end > begin)) {
+    blend_nothing();
+    return;
+  }
   vec3 offset = nearest + shift * direction;
   if (begin > middle_t - half_chord || end < middle_t + half_chord) {
     float cut_middle = 0.5 * (begin + end);
@@ -83,5 +91,12 @@ void main() {
   // 1 - exp(-depth) without cancellation (docs/numerics.md, N8); the series is exact to 1e-9.
   float alpha = depth < 0.005 ? depth * (1.0 - 0.5 * depth * (1.0 - depth * (1.0 / 3.0)))
                               : 1.0 - exp(-depth);
-  blended = blended_color(color, alpha);
+#if OUTPUT == OUTPUT_COLOR
+  blend(color, alpha);
+#else
+  // The normal of the ellipsoid where the ray enters it.
+  vec3 entry = middle - sqrt(discriminant / squared_speed) * unit_direction;
+  vec3 normal = normalize((entry / semi_axes) * local_from_layer);
+  measure(alpha, 0.5 * (begin + end) / ray_length, world_from_layer * normal, 0.0, 0.0);
+#endif
 }

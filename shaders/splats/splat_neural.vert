@@ -2,6 +2,7 @@
 #include "eye.glsl"
 #include "splat_cover.glsl"
 #include "splat_kernel_texels.glsl"
+#include "splat_measured_vertex.glsl"
 #include "splat_order.glsl"
 #include "splat_projected.glsl"
 
@@ -19,7 +20,11 @@ void main() {
   splat = ordered_splat();
   vec4 color_and_drawn = texelFetch(colors, projected_position(splat), 0);
   color = color_and_drawn.rgb;
-  vec3 center = view_from_layer * ((kernel_texel(splat, 0).xyz - eye_high) - eye_low);
+  vec3 from_eye = (kernel_texel(splat, 0).xyz - eye_high) - eye_low;
+  vec3 center = view_from_layer * from_eye;
+#if OUTPUT != OUTPUT_COLOR
+  measure_vertex(vec3(0.0), from_eye);  // the fragments have normals of their own
+#endif
   vec3 semi_axes = kernel_texel(splat, 1).xyz;
   mat3 axes = view_from_layer * rotation_of(kernel_texel(splat, 2));
   float depth = -center.z;

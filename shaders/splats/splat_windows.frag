@@ -4,6 +4,9 @@ flat in float sigma;
 #if COLORS_PER_SPLAT == 3
 in vec4 weighted_color;
 #endif
+#if OUTPUT != OUTPUT_COLOR
+flat in vec3 normal;
+#endif
 
 #include "splat_blended.glsl"
 
@@ -11,10 +14,14 @@ void main() {
   float rho = clamp(min(distances.x, min(distances.y, distances.z)) * gl_FragCoord.w, 0.0, 1.0);
   // pow(0, sigma) may be undefined; there alpha is 0.
   float window = rho > 0.0 ? pow(rho, sigma) : 0.0;
+#if OUTPUT == OUTPUT_COLOR
 #if COLORS_PER_SPLAT == 3
   vec3 rgb = weighted_color.rgb / weighted_color.w;
 #else
   vec3 rgb = color.rgb;
 #endif
-  blended = blended_color(rgb, color.a * window);
+  blend(rgb, color.a * window);
+#else
+  measure(color.a * window, 1.0 / gl_FragCoord.w, normal, color.a, sigma);
+#endif
 }

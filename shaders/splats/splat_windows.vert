@@ -9,6 +9,7 @@
 // eye has weight 0; otherwise colours would grow without limit near the eye's plane.
 #include "eye.glsl"
 #include "splat_kernel_texels.glsl"
+#include "splat_measured_vertex.glsl"
 #include "splat_order.glsl"
 #include "splat_projected.glsl"
 
@@ -78,6 +79,10 @@ void main() {
   }
   color = texelFetch(colors, projected_position(splat * uint(COLORS_PER_SPLAT)), 0);
   sigma = texels[0].w;
+#if OUTPUT != OUTPUT_COLOR
+  measure_vertex(cross(texels[1].xyz - texels[0].xyz, texels[2].xyz - texels[0].xyz),
+                 (texels[0].xyz - eye_high) - eye_low);
+#endif
   // Behind the eye, or without area in the image.
   bool visible = color.a > 0.0 && total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
 #if AS_PUBLISHED

@@ -65,6 +65,31 @@ TEST(PngRows, ManyChunksComeBack) {
   fs::remove(path);
 }
 
+/// The reader takes the high byte of 16 bits; the low one must not disturb it.
+TEST(PngRows, SixteenBitsAreBigEndian) {
+  const fs::path path = fs::path(testing::TempDir()) / "tureen_png_16.png";
+  for (const PngPixels pixels : {PngPixels::grey16, PngPixels::rgb16}) {
+    const int channels = pixels == PngPixels::rgb16 ? 3 : 1;
+    std::mt19937 random(4);
+    std::vector<std::uint16_t> values(std::size_t(40 * 30 * channels));
+    for (std::uint16_t& value : values) value = std::uint16_t(random());
+    Output output(path);
+    PngRows rows(output, 40, 30, pixels);
+    rows.append(std::span(values).first(std::size_t(40 * 7 * channels)));
+    rows.append(std::span(values).subspan(std::size_t(40 * 7 * channels)));
+    rows.finish();
+    output.commit();
+    Input input = Input::open(path);
+    const Image8 back = read_image(input);
+    ASSERT_EQ(back.pixels.size(), 1200u);
+    for (std::size_t i = 0; i < back.pixels.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        ASSERT_EQ(back.pixels[i][c],
+                  values[std::size_t(channels) * i + std::size_t(std::min(c, channels - 1))] >> 8);
+  }
+  fs::remove(path);
+}
+
 /// The file is as small as from the encoder of whole images, except for the chunks' frames.
 TEST(PngRows, AreAsSmallAsWholeImages) {
   const fs::path path = fs::path(testing::TempDir()) / "tureen_png_size.png";

@@ -483,8 +483,10 @@ TEST(DebugViewReasons, AreThereForWhatTheSoupLacks) {
   EXPECT_THAT(reason(DebugView::mlp_weight, Kind::uv_textures_mlp),
               AllOf(Ne(""), Ne(reason(DebugView::mlp_weight, Kind::uv_textures))));
   EXPECT_NE(reason(DebugView::features, Kind::uv_textures), "");
-  for (const DebugViewName& name : debug_view_names())
-    EXPECT_EQ(reason(name.what, Kind::lattice_mlp), "") << name.name;
+  for (const DebugViewName& name : debug_view_names()) {
+    const bool of_splats = name.what > DebugView::median_depth;
+    EXPECT_EQ(reason(name.what, Kind::lattice_mlp) != "", of_splats) << name.name;
+  }
   EXPECT_EQ(why_not(FeatureChoice{4, 3}, 7), std::nullopt);
   EXPECT_THAT(why_not(FeatureChoice{5, 3}, 7).value_or(""), Names(0, 6));
   EXPECT_TRUE(why_not(FeatureChoice{0, 4}, 7));

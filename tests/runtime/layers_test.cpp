@@ -233,7 +233,7 @@ TEST_P(Layers, HaveDebugViewsInWorldCoordinates) {
     moved.layers[0].world_from_layer = glm::dmat4(1.0);
     Image8 images[2];
     for (int i = 0; i < 2; ++i) {
-      const std::vector<PlacedSoup> layers = placed_soups(i == 0 ? placed : moved);
+      const std::vector<PlacedLayer> layers = placed_layers(i == 0 ? placed : moved);
       DebugViews views(layers);
       Renderer renderer(context,
                         prepare_debug_views(layers, device_limits(context.capabilities())));

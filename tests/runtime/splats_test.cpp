@@ -465,6 +465,16 @@ TEST(SplatOrder, LeavesOutChunksBehindTheEye) {
   EXPECT_FALSE(serves(std::span(&sorted, 1), std::span(&view, 1)));
 }
 
+TEST(SplatOrder, KeepsAFractionOfTheSplats) {
+  std::vector<glm::vec3> centers;
+  for (int i = 0; i < 10000; ++i) centers.emplace_back(0, 0, i);
+  const SplatsInView some{.centers = centers, .axis = {0, 0, 1}, .fraction = 0.25f};
+  SplatOrder order;
+  order.sort(std::span(&some, 1));
+  EXPECT_NEAR(double(order.splats().size()), 2500, 200);  // about five standard deviations
+  EXPECT_TRUE(std::is_sorted(order.splats().begin(), order.splats().end()));
+}
+
 /// Far from the origin the depth is rounded after the offset is subtracted (docs/numerics.md, Z3).
 TEST(SplatOrder, KeepsItsPrecisionFarFromTheOrigin) {
   std::vector<glm::vec3> centers;

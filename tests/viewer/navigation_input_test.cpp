@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "viewer/input/double_click.hpp"
+
 namespace tureen::viewer {
 namespace navigation_input_test {
 
@@ -44,6 +46,31 @@ TEST_F(NavigationTest, ARightDragAndShiftWithTheLeftMoveAlong) {
     if (shift) send(KeyChanged{Key::shift, false});
     EXPECT_GT(glm::distance(controls.target(), target), 0.01) << "shift " << shift;
   }
+}
+
+TEST(DoubleClicks, AreTwoPressesAtOnePlaceInHalfASecond) {
+  struct Press {
+    Button button;
+    double x, now;
+    bool taken;
+  };
+  const auto is_double = [](const Press& a, const Press& b) {
+    DoubleClick clicks;
+    bool result = false;
+    for (const Press& press : {a, b}) {
+      clicks.handle(PointerMoved{press.x, 3}, press.taken, press.now);
+      result = clicks.handle(ButtonChanged{press.button, true}, press.taken, press.now);
+      EXPECT_FALSE(clicks.handle(ButtonChanged{press.button, false}, press.taken, press.now));
+    }
+    return result;
+  };
+  const Press first{Button::left, 10, 1, false};
+  EXPECT_TRUE(is_double(first, {Button::left, 12, 1.3, false}));
+  EXPECT_FALSE(is_double(first, {Button::left, 30, 1.3, false}));
+  EXPECT_FALSE(is_double(first, {Button::left, 10, 1.8, false}));
+  EXPECT_FALSE(is_double(first, {Button::right, 10, 1.3, false}));
+  EXPECT_FALSE(is_double(first, {Button::left, 10, 1.3, true}));
+  EXPECT_FALSE(is_double({Button::left, 10, 1, true}, {Button::left, 10, 1.3, false}));
 }
 
 TEST_F(NavigationTest, ADragThatBeganOnAPanelIsThePanels) {

@@ -57,7 +57,7 @@ void write_image(const ImageJob& job, const StageRequest& request) {
   };
   if (job.debug_view.what != DebugView::color) {
     const gl::Capabilities& device = request.context.capabilities();
-    const std::vector<PlacedSoup> layers = placed_soups(job.scene);
+    const std::vector<PlacedLayer> layers = placed_layers(job.scene);
     DebugViews debug_views(layers);
     Renderer renderer(request.context, prepare_debug_views(layers, device_limits(device)),
                       {.background = background});

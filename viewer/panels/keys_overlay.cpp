@@ -37,6 +37,7 @@ void keys_overlay(State& state) {
     row("left drag", "turn the scene; in fly mode, the camera");
     row("right, middle, Shift+left", "move the scene");
     row("wheel", "distance; in fly mode, speed");
+    row("double click", "centre a point");
     title("Flying");
     row("W A S D, Q E", "forward, left, back, right, down, up");
     row("with Shift, with Alt", "fast, slow");

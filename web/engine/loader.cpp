@@ -41,9 +41,7 @@ const TriangleSoup* soup_of(const PlacedLayer& layer) {
 std::optional<std::string> why_not_all(DebugView what, std::span<const PlacedLayer> layers) {
   if (what == DebugView::color) return {};
   for (const PlacedLayer& layer : layers) {
-    const TriangleSoup* soup = soup_of(layer);
-    if (!soup) return "debug views show triangles, not splats";
-    if (auto reason = why_not(what, *soup)) return reason;
+    if (auto reason = why_not(what, layer.primitives)) return reason;
   }
   return {};
 }

@@ -148,7 +148,7 @@ void PageView::remove_layer(std::size_t layer) {
   const auto at = static_cast<std::ptrdiff_t>(layer);
   stage.renderer->remove_layer(layer);
   stage.layers.erase(stage.layers.begin() + at);
-  if (read_scene_) read_scene_->soups.erase(read_scene_->soups.begin() + at);
+  if (read_scene_) read_scene_->layers.erase(read_scene_->layers.begin() + at);
   follow_layers(stage);
 }
 
@@ -159,19 +159,19 @@ void PageView::move_layer(std::size_t from, std::size_t to) {
     const std::size_t next = from < to ? at + 1 : at - 1;
     stage.renderer->swap_layers(at, next);
     std::swap(stage.layers[at], stage.layers[next]);
-    if (read_scene_) std::swap(read_scene_->soups[at], read_scene_->soups[next]);
+    if (read_scene_) std::swap(read_scene_->layers[at], read_scene_->layers[next]);
     at = next;
   }
 }
 
-std::vector<PlacedSoup> PageView::read_soups() const {
+std::vector<PlacedLayer> PageView::read_layers() const {
   const ReadScene& read = read_scene_.value();
-  std::vector<PlacedSoup> soups;
-  for (std::size_t i = 0; i < read.soups.size(); ++i) {
+  std::vector<PlacedLayer> layers;
+  for (std::size_t i = 0; i < read.layers.size(); ++i) {
     const ShownLayer& layer = stage_->layers[i];
-    soups.push_back({*read.soups[i], layer.box.world_from_layer, {}, layer.visible});
+    layers.push_back({*read.layers[i], layer.box.world_from_layer, {}, layer.visible});
   }
-  return soups;
+  return layers;
 }
 
 void PageView::show(DebugView what, const FeatureChoice& features) {
@@ -179,7 +179,7 @@ void PageView::show(DebugView what, const FeatureChoice& features) {
   if (!stage_ && !shows_debug_view) return;
   if (!stage_) throw UsageError("there is no scene for a debug view");
   Stage& stage = *stage_;
-  if (shows_debug_view) DebugViews(read_soups()).require(what, features);
+  if (shows_debug_view) DebugViews(read_layers()).require(what, features);
   if (const bool had_debug_views = stage.debug_views.has_value();
       shows_debug_view != had_debug_views) {
     try {
@@ -201,7 +201,7 @@ void PageView::show(DebugView what, const FeatureChoice& features) {
 
 void PageView::prepare_renderer(bool for_debug_views) {
   Stage& stage = *stage_;
-  const std::vector<PlacedSoup> layers = read_soups();
+  const std::vector<PlacedLayer> layers = read_layers();
   const RenderOptions& options = read_scene_->options;
   stage.renderer.reset();
   stage.debug_views.reset();

@@ -63,9 +63,9 @@ class PageView {
   /// The shown scene, read again in this instance: debug views need more data than its renderer
   /// has.
   struct ReadScene {
-    std::vector<Scene> scenes;               // the sources of the page
-    std::vector<const TriangleSoup*> soups;  // of the shown layers, in their order
-    RenderOptions options;                   // of ordinary frames
+    std::vector<Scene> scenes;              // the sources of the page
+    std::vector<const Primitives*> layers;  // the shown ones, in their order
+    RenderOptions options;                  // of ordinary frames
   };
   void keep_read_scene(ReadScene scene) { read_scene_.emplace(std::move(scene)); }
   bool has_read_scene() const { return read_scene_.has_value(); }
@@ -123,7 +123,7 @@ class PageView {
   /// The same, but the colours must be shown.
   Stage& colors_with(std::size_t layer);
   static void follow_layers(Stage& stage);
-  std::vector<PlacedSoup> read_soups() const;
+  std::vector<PlacedLayer> read_layers() const;
   const Stage* current() const { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
 

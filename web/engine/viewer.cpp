@@ -279,12 +279,11 @@ std::vector<Scene>& reread() {
 Json read_for_debug_views(const Json& arguments) {
   if (arguments.at("source") == 0) reread().clear();
   Scene scene = read_scene(scene_path(arguments));
-  make_opaque(scene);
   if (const auto level = arguments.find("level"); level != arguments.end()) {
     for (Layer& layer : scene.layers) {
-      auto& soup = std::get<TriangleSoup>(layer.primitives);
-      if (std::holds_alternative<LatticeTexture>(soup.appearance))
-        soup = edited(std::move(soup), {.lattice_level = level->get<int>()}, {});
+      auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
+      if (soup && std::holds_alternative<LatticeTexture>(soup->appearance))
+        *soup = edited(std::move(*soup), {.lattice_level = level->get<int>()}, {});
     }
   }
   reread().push_back(std::move(scene));
@@ -293,12 +292,11 @@ Json read_for_debug_views(const Json& arguments) {
 
 /// [[source, layer of the source], ..]: the shown layers. Keeps what was read for them.
 Json keep_read_layers(const Json& shown) {
-  PageView::ReadScene read{.scenes = std::exchange(reread(), {}), .soups = {}, .options = {}};
+  PageView::ReadScene read{.scenes = std::exchange(reread(), {}), .layers = {}, .options = {}};
   read.options = page_options(read.scenes.at(0));
   for (const Json& place : shown) {
     const Scene& scene = read.scenes.at(place.at(0).get<std::size_t>());
-    const Layer& layer = scene.layers.at(place.at(1).get<std::size_t>());
-    read.soups.push_back(&std::get<TriangleSoup>(layer.primitives));
+    read.layers.push_back(&scene.layers.at(place.at(1).get<std::size_t>()).primitives);
   }
   view().keep_read_scene(std::move(read));
   return nullptr;

@@ -1,0 +1,154 @@
+#include "runtime/splats/ordered_splats.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "runtime/gl/state.hpp"
+
+namespace tureen {
+
+namespace {
+
+constexpr int order_columns = DeviceSplats::order_columns;
+constexpr TargetFormat order_format{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+
+/// The view depth in world units.
+SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera, float fraction) {
+  const glm::dmat3 view_from_layer(camera.camera.view_from_world);
+  const glm::dvec3 axis = -camera.scale * glm::transpose(view_from_layer)[2];
+  SplatsInView view{.centers = splats.centers(),
+                    .axis = axis,
+                    .offset = glm::dot(axis, camera.eye),
+                    .fraction = fraction};
+  for (const Bounds& box : splats.chunks()) {
+    const glm::dvec3 half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
+    const double farthest =
+        glm::dot(axis, box.centre() - camera.eye) + glm::dot(glm::abs(axis), half);
+    view.behind.push_back(farthest < 0);  // of the eye, and so of the near plane
+  }
+  return view;
+}
+
+/// Sorting fewer splats takes less than a millisecond.
+constexpr std::size_t many_splats = 100'000;
+
+bool has_many(std::span<const SplatsInView> views) {
+  std::size_t splats = 0;
+  for (const SplatsInView& view : views) splats += view.centers.size();
+  return splats >= many_splats;
+}
+
+}  // namespace
+
+SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
+                                          const FrameTarget& target) {
+  return {make_framebuffer(colors, target.depth_attachment()), make_framebuffer(colors)};
+}
+
+void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
+                  const glm::vec4& value) {
+  gl::use_plain_rasterisation(target.size().x, target.size().y);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffers.with_depth.id());
+  target.use_depth();
+  glClearBufferfv(GL_COLOR, 0, &value[0]);
+  glDepthMask(GL_FALSE);
+}
+
+OrderedSplats::OrderedSplats(std::span<const std::unique_ptr<DeviceSplats>> layers, float fraction)
+    : fraction_(fraction) {
+  for (const std::unique_ptr<DeviceSplats>& layer : layers)
+    if (layer) layers_.push_back(layer.get());
+}
+
+OrderedSplats::~OrderedSplats() { stop_sorting(); }
+
+void OrderedSplats::sort_with(SplatSorter* sorter) {
+  stop_sorting();
+  sorter_ = sorter;
+}
+
+void OrderedSplats::stop_sorting() {
+  if (sorter_) sorter_->forget();
+  sorting_.reset();
+}
+
+void OrderedSplats::prepare(const Frame& frame) {
+  std::vector<SplatsInView> views;
+  for (DeviceSplats* layer : layers_) {
+    const FrameCamera& camera = frame.layers[layer->layer()];
+    if (camera.visible) layer->project(frame);
+    views.push_back(in_view(*layer, camera, fraction_));
+    if (!camera.visible) views.back() = {};
+  }
+  in_order_ = order_texture_ && serves(ordered_, views);
+  if (in_order_) return;
+  if (sorter_ && frame.may_use_earlier_order && has_many(views) && has_splats_of(ordered_, views))
+    continue_sorting(views);
+  else
+    sort_now(std::move(views));
+}
+
+void OrderedSplats::sort_now(std::vector<SplatsInView> views) {
+  stop_sorting();
+  order_.sort(views);
+  ordered_ = std::move(views);
+  in_order_ = true;
+  upload_order();
+}
+
+void OrderedSplats::continue_sorting(const std::vector<SplatsInView>& views) {
+  if (sorting_ && sorter_->take(order_)) {
+    ordered_ = std::move(*sorting_);
+    sorting_.reset();
+    in_order_ = serves(ordered_, views);
+    upload_order();
+  }
+  if (in_order_ || sorting_) return;
+  sorting_ = views;
+  sorter_->begin(views);
+}
+
+void OrderedSplats::upload_order() {
+  const std::span<const std::uint32_t> splats = order_.splats();
+  const auto columns = static_cast<std::size_t>(order_columns);
+  const auto full_rows = static_cast<int>(splats.size() / columns);
+  const auto rest = static_cast<int>(splats.size() % columns);
+  const int rows = std::max(1, full_rows + (rest > 0 ? 1 : 0));
+  if (!order_texture_ || rows > order_rows_) {
+    order_texture_ = make_target(order_format, order_columns, rows);
+    order_rows_ = rows;
+  }
+  gl::use_plain_pixel_transfer();
+  glBindTexture(GL_TEXTURE_2D, order_texture_.id());
+  const auto upload = [&](int row, int width, int height) {
+    if (width > 0 && height > 0)
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, width, height, order_format.format,
+                      order_format.type, splats.data() + static_cast<std::size_t>(row) * columns);
+  };
+  upload(0, order_columns, full_rows);
+  upload(full_rows, rest, 1);
+}
+
+void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
+                         const SplatFramebuffers& framebuffers, SplatOutput output, GLuint bounds) {
+  const DeviceSplats* begun = nullptr;
+  for (const SplatRun& run : order_.runs()) {
+    DeviceSplats& layer = *layers_[run.layer];
+    if (begun != &layer) {
+      const gl::Framebuffer& framebuffer =
+          layer.tests_depth() ? framebuffers.without_depth : framebuffers.with_depth;
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+      layer.begin_runs(frame, target,
+                       {.order = order_texture_.id(), .output = output, .bounds = bounds});
+    }
+    begun = &layer;
+    layer.draw_run(run.first, run.count);
+  }
+}
+
+std::size_t OrderedSplats::device_bytes() const {
+  return order_texture_ ? std::size_t(order_rows_) * order_columns * std::size_t(order_format.bytes)
+                        : 0;
+}
+
+}  // namespace tureen

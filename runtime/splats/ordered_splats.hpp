@@ -1,0 +1,73 @@
+// The splats of all layers of a frame, drawn in the order of their centres' view depth, near ones
+// first, under the soups' depth.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "runtime/passes/frame_target.hpp"
+#include "runtime/passes/pass.hpp"
+#include "runtime/splats/device_splats.hpp"
+#include "runtime/splats/splat_order.hpp"
+#include "runtime/splats/splat_sorter.hpp"
+
+namespace tureen {
+
+/// Framebuffers of the same colour textures, with and without the frame's depth: some kernels test
+/// depth themselves.
+struct SplatFramebuffers {
+  gl::Framebuffer with_depth, without_depth;
+};
+SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
+                                          const FrameTarget& target);
+
+class OrderedSplats {
+ public:
+  /// `layers` outlive this object; null for layers without splats. `fraction`: of the splats that
+  /// are drawn (SplatsInView::fraction).
+  explicit OrderedSplats(std::span<const std::unique_ptr<DeviceSplats>> layers, float fraction = 1);
+  OrderedSplats(const OrderedSplats&) = delete;
+  OrderedSplats& operator=(const OrderedSplats&) = delete;
+  ~OrderedSplats();
+
+  /// `sorter` sorts for frames with Frame::may_use_earlier_order. It outlives this object and
+  /// serves no other one. Null: all frames are sorted as they are drawn.
+  void sort_with(SplatSorter* sorter);
+  /// Whether the last prepare() was for a frame whose order is that of its own view.
+  bool in_order() const { return in_order_; }
+
+  /// Projects and orders the splats of the visible layers for the next draw() of this frame.
+  void prepare(const Frame& frame);
+  /// Draws with the current blending, after begin_splats().
+  void draw(const Frame& frame, FrameTarget& target, const SplatFramebuffers& framebuffers,
+            SplatOutput output = SplatOutput::color, GLuint bounds = 0);
+
+  /// Number of ordered splats.
+  std::uint32_t count() const { return static_cast<std::uint32_t>(order_.splats().size()); }
+  std::size_t device_bytes() const;
+
+ private:
+  void sort_now(std::vector<SplatsInView> views);
+  void continue_sorting(const std::vector<SplatsInView>& views);
+  void stop_sorting();
+  void upload_order();
+
+  std::vector<DeviceSplats*> layers_;
+  float fraction_;
+  SplatOrder order_;
+  std::vector<SplatsInView> ordered_;  // the views of the order
+  bool in_order_ = true;
+  SplatSorter* sorter_ = nullptr;
+  std::optional<std::vector<SplatsInView>> sorting_;  // the views of the sorter's order
+  gl::Texture order_texture_;
+  int order_rows_ = 0;
+};
+
+/// Sets plain rasterisation with depth tested but not written, and clears the first colours of
+/// `framebuffers` to `value`.
+void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
+                  const glm::vec4& value);
+
+}  // namespace tureen
