@@ -100,6 +100,45 @@ Splats random_splats(const SplatKind& kind, std::size_t count, double size, std:
   return splats;
 }
 
+Splats hostile_splats(const SplatKind& kind) {
+  constexpr float limits[] = {0.0f, 1e-38f, 1e-20f, 1e-6f, 1.0f, 1e6f, 1e12f, 1e20f, 3e38f};
+  Splats splats = random_splats(kind, 600, 0.2, 9);
+  Random random(10);
+  const auto limit = [&](float least, float largest) {
+    for (;;)
+      if (const float value = limits[random.below(9)]; value >= least && value <= largest)
+        return value;
+  };
+  const auto signed_limit = [&] { return (random.below(2) ? 1.0f : -1.0f) * limit(0, 3e38f); };
+  for (std::size_t i = 0; i < count(splats); ++i) {
+    const auto axis = int(random.below(3));
+    const auto which = random.below(4);
+    if (which == 0) {
+      splats.color.coefficients[i * harmonics::count(2) + random.below(9)][axis] = signed_limit();
+    } else if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
+      if (which == 1) windows->sigma[i] = limit(1e-38f, 3e38f);
+      if (which == 2) windows->opacity[i] = float(random.below(2));
+      if (which == 3 && random.below(2))
+        windows->corners[3 * i] = windows->corners[3 * i + 1 + random.below(2)];
+      else if (which == 3)
+        windows->corners[3 * i + random.below(3)][axis] = signed_limit();
+    } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
+      if (which == 1) gaussians->scales[i][axis] = limit(0, 3e38f);
+      if (which == 2) gaussians->opacity[i] = float(random.below(2));
+      if (which == 3) gaussians->centers[i][axis] = signed_limit();
+    } else {
+      auto& densities = std::get<NeuralDensities>(splats.kernel);
+      if (which == 1) densities.semi_axes[i][axis] = limit(1e-38f, 3e38f);
+      if (which == 2)
+        densities
+            .networks[i * NeuralDensities::parameters + random.below(NeuralDensities::parameters)] =
+            signed_limit();
+      if (which == 3) densities.centers[i][axis] = signed_limit();
+    }
+  }
+  return splats;
+}
+
 Camera camera_of_ball(double distance, int width, int height) {
   return look_at(distance * glm::normalize(glm::dvec3(1, 2, -1)), glm::dvec3(0), {0, 1, 0}, 0.8,
                  width, height);

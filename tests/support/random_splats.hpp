@@ -31,6 +31,11 @@ inline constexpr SplatKind splat_kinds[] = {
 /// degree 2 whose colours exceed 1 in places.
 Splats random_splats(const SplatKind& kind, std::size_t count, double size, std::uint64_t seed);
 
+/// Splats of the ball, of which each has one value at a limit of what defect() accepts: opacities
+/// of 0 and 1, sizes and sigmas from 1e-38 to 1e38, windows without area, centres and colours far
+/// out.
+Splats hostile_splats(const SplatKind& kind);
+
 /// A camera that sees the ball from `distance` of its centre; below 1 it is inside.
 Camera camera_of_ball(double distance, int width, int height);
 
