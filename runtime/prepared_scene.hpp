@@ -94,8 +94,8 @@ PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const D
 /// The same with a plan from make_plan for these soups and limits.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan);
-/// Completes a scene that was prepared from the soups of `layers`. Of `preferences`, those of splats
-/// are used.
+/// Completes a scene that was prepared from the soups of `layers`. Of `preferences`, those of
+/// splats are used.
 void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
                 const DeviceLimits& limits, const PlanPreferences& preferences);
 
