@@ -23,8 +23,8 @@ const maxBytes = 400_000;
 const emptyScene = '<script type="application/octet-stream;base64" id="scene" data-name=""></script>';
 /** The site's pages, without the examples: HTML, its script and its style. */
 const pages = [
-  { html: 'page/index.html', script: 'page/page.ts', style: 'page/style.css' },
-  { html: 'bench/bench.html', script: 'bench/bench.ts', style: 'bench/bench.css' },
+  { html: 'page/index.html', script: 'page/page.ts', style: 'page/style.css', engine: 'tureen' },
+  { html: 'bench/bench.html', script: 'bench/bench.ts', style: 'bench/bench.css', engine: 'tureen_bench' },
 ];
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -39,7 +39,7 @@ function options() {
   const { values } = parseArgs({ options: { engine: { type: 'string' }, out: { type: 'string' } } });
   if (!values.engine || !values.out) fail('usage: node build.mjs --engine DIR --out DIR');
   const engine = resolve(values.engine), out = resolve(values.out);
-  for (const name of ['tureen.js', 'tureen.wasm'])
+  for (const name of ['tureen.js', 'tureen.wasm', 'tureen_bench.js', 'tureen_bench.wasm'])
     if (!existsSync(join(engine, name))) fail(`${join(engine, name)} is missing: build the engine first.`);
   return { engine, out };
 }
@@ -64,13 +64,13 @@ async function bundle(entry, how = {}) {
   return result.outputFiles[0].text;
 }
 
-/** A module of the site or the package. All modules share one tureen.js, so a browser fetches it once. */
-const module = (entry) => bundle(from(entry), {
+/** A module of the site or the package. It shares the engine's script with the worker, so a browser fetches it once. */
+const module = (entry, engine = 'tureen') => bundle(from(entry), {
   format: 'esm',
   define: { builtVersion: JSON.stringify(version()), builtCommit: JSON.stringify(commit()) },
   plugins: [{
     name: 'shared engine',
-    setup: ({ onResolve }) => onResolve({ filter: /^tureen-engine$/ }, () => ({ path: './tureen.js', external: true })),
+    setup: ({ onResolve }) => onResolve({ filter: /^tureen-engine$/ }, () => ({ path: `./${engine}.js`, external: true })),
   }],
 });
 
@@ -103,12 +103,14 @@ function placeEngine(folder, engine, parts) {
 }
 
 async function makeSite(folder, engine, parts) {
-  for (const { html, script, style } of pages) {
+  for (const { html, script, style, engine: its } of pages) {
     write(folder, basename(html), text(from(html)));
-    write(folder, basename(script, '.ts') + '.js', await module(script));
+    write(folder, basename(script, '.ts') + '.js', await module(script, its));
     write(folder, basename(style), await bundle(from(style)));
   }
   placeEngine(folder, engine, parts);
+  write(folder, 'tureen_bench.js', await engineModule(engine, 'tureen_bench'));
+  cpSync(join(engine, 'tureen_bench.wasm'), join(folder, 'tureen_bench.wasm'));
   cpSync(from('examples'), join(folder, 'examples'), { recursive: true });
   cpSync(join(root, 'examples/soup.glb'), join(folder, 'soup.glb'));
   cpSync(join(root, 'docs/images/example.png'), join(folder, 'soup.png'));
@@ -124,8 +126,8 @@ const nowhere = { 'import.meta.url': '"file:///"' };
 const engineExport = 'export default createTureen.default;\n';
 
 /** The engine's script: a global createTureen, then its export. */
-const engineModule = async (engine) =>
-  await bundle(join(engine, 'tureen.js'), { format: 'iife', globalName: 'createTureen', define: nowhere }) + engineExport;
+const engineModule = async (engine, program = 'tureen') =>
+  await bundle(join(engine, `${program}.js`), { format: 'iife', globalName: 'createTureen', define: nowhere }) + engineExport;
 
 /** The worker's script without the engine's. */
 const workerScript = () => bundle(from('viewer/loader_worker.ts'), {

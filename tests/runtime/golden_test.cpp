@@ -79,6 +79,8 @@ TEST(Golden, DebugViews) {
         {.plan = {.reversed_depth = false}, .background = glm::vec4(scene.info.background, 1.0f)});
     const bool is_reference = named.request.backend == gl::Backend::osmesa;
     for (const DebugViewName& name : debug_view_names()) {
+      // Of a soup, the median depth is the depth.
+      if (why_not(name.what, only_soup(scene)) || name.what == DebugView::median_depth) continue;
       debug_renderer.show(name.what, {4, 3});
       debug_renderer.renderer().draw({scene.cameras.at(0)});
       expect_golden(debug_renderer.renderer().read_color(), std::string("debug_view_") + name.name,

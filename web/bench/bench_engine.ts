@@ -93,6 +93,13 @@ export interface Cell extends Size {
  *  on any device, and short enough for a responsive Cancel button. */
 const stepMs = 50;
 
+/** The engine that measures. The loader's workers run the page's engine. */
+async function benchProgram(): Promise<ArrayBuffer> {
+  const url = new URL('tureen_bench.wasm', import.meta.url), response = await fetch(url).catch(() => null);
+  if (!response?.ok) throw new ViewerError(`A file of the benchmark cannot be loaded: ${url.href}.`, 'network');
+  return response.arrayBuffer();
+}
+
 /** Waits for the browser's next frame, so it pauses while the page is hidden. */
 const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));
 
@@ -123,8 +130,9 @@ export class BenchEngine {
 
   /** Rejects with ViewerError. */
   static async start(canvas: HTMLCanvasElement): Promise<BenchEngine> {
-    const assets = assetsAt(), program = await compile(assets);
-    const engine = await Engine.create(program);
+    const assets = assetsAt();
+    const [program, measuring] = await Promise.all([compile(assets), compile({ ...assets, wasm: benchProgram })]);
+    const engine = await Engine.create(measuring);
     engine.takeCanvas(canvas);
     return new BenchEngine(engine, program, assets, canvas, engine.call<Device>('start'));
   }

@@ -26,7 +26,7 @@ std::vector<std::byte>& buffer();
 Commands loader_commands();
 /// Commands of the instance in the page, which draws prepared scenes.
 Commands viewer_commands();
-/// Commands of the instance in bench.html.
+/// Commands of the instance in bench.html; none in the page's program (no_bench.cpp).
 Commands bench_commands();
 
 /// Reports the progress of the current command to the page, 0..1.
