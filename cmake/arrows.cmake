@@ -11,6 +11,7 @@ set(arrows
   "camera: base image scene"
   "formats: base image scene"
   "oracle: base image scene"
+  "splatting: base image scene"
   "shaders:"
   "runtime/gl: base"
   "runtime/plan: base image scene"

@@ -1,0 +1,171 @@
+#include "splatting/disc_kernels.hpp"
+
+#include <cmath>
+
+#include "splatting/gaussian_kernels.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "splatting/disc_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "splatting/blending-inl.hpp"
+#include "splatting/harmonics-inl.hpp"
+#include "splatting/rotation-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tureen::splatting::HWY_NAMESPACE {
+
+/// log2(e) / 2: exp(-q / 2) = 2^-(factor q).
+constexpr float half_log2_e = 0.721347520f;
+
+void project_discs_on(const ImageView& view, const ParameterRows& discs, int degree,
+                      ParameterRows& projected) {
+  namespace in = gaussian_row;
+  namespace out = projected_disc_row;
+  const Floats zero = hn::Zero(d), one = constant(1.0f), near = constant(view.near);
+  const Floats fx = constant(view.fx), fy = constant(view.fy);
+  for (std::size_t i = 0; i < discs.count(); i += lanes) {
+    const auto load = [&](std::size_t row) { return hn::Load(d, discs.row(row) + i); };
+    const auto store = [&](std::size_t row, Floats value) {
+      hn::Store(value, d, projected.row(row) + i);
+    };
+    const Vector3 offset = from_eye(view, {load(in::x), load(in::y), load(in::z)});
+    const Vector3 center = product(view.view_from_layer, offset);
+    const Mask in_front = hn::Gt(center.z, near);
+    const Floats scale = hn::Div(one, hn::IfThenElse(in_front, center.z, one));
+    const Floats slope_x = hn::IfThenElseZero(in_front, hn::Mul(center.x, scale));
+    const Floats slope_y = hn::IfThenElseZero(in_front, hn::Mul(center.y, scale));
+
+    const Rotation rotation = rotation_of(load(in::rotation_x), load(in::rotation_y),
+                                          load(in::rotation_z), load(in::rotation_w));
+    const auto scaled_axis = [&](std::size_t k) {
+      const Vector3 axis = product(view.view_from_layer, rotation.axes[k]);
+      const Floats size = load(in::scale_x + k);
+      return Vector3{hn::Mul(axis.x, size), hn::Mul(axis.y, size), hn::Mul(axis.z, size)};
+    };
+    const Vector3 u = scaled_axis(0), v = scaled_axis(1);
+    const Floats u_x = hn::Mul(fx, hn::NegMulAdd(slope_x, u.z, u.x));
+    const Floats v_x = hn::Mul(fx, hn::NegMulAdd(slope_x, v.z, v.x));
+    const Floats u_y = hn::Mul(fy, hn::NegMulAdd(slope_y, u.z, u.y));
+    const Floats v_y = hn::Mul(fy, hn::NegMulAdd(slope_y, v.z, v.y));
+    const Floats x = hn::MulAdd(fx, slope_x, constant(view.cx));
+    const Floats y = hn::MulAdd(fy, slope_y, constant(view.cy));
+
+    const Floats opacity = load(in::opacity);
+    const Mask visible = hn::Gt(opacity, zero);
+    const Floats log_opacity = log2_of(hn::IfThenElse(visible, opacity, one));
+    const Floats excess = hn::Sub(log_opacity, constant(std::log2(view.min_alpha)));
+    Mask drawn = hn::And(visible, hn::Ge(excess, zero));
+    if (view.min_center_depth > 0)
+      drawn = hn::And(drawn, hn::Gt(center.z, constant(view.min_center_depth)));
+    const Floats radius = hn::Sqrt(hn::Div(hn::Max(excess, zero), constant(half_log2_e)));
+    const Vector3 w{hn::Mul(radius, u.z), hn::Mul(radius, v.z), zero};
+    const Floats reach = hn::Sqrt(dot(w, w));
+    drawn = hn::And(drawn,
+                    view.screen_variance > 0 ? in_front : hn::Gt(hn::Add(center.z, reach), near));
+    // A disc that reaches the near plane may cover any pixel.
+    const Mask bounded = hn::Gt(hn::Sub(center.z, reach), near);
+    Floats left, right, top, bottom;
+    range_of({hn::Mul(radius, u_x), hn::Mul(radius, v_x), zero}, w, center.z, left, right);
+    range_of({hn::Mul(radius, u_y), hn::Mul(radius, v_y), zero}, w, center.z, top, bottom);
+    const Floats screen = hn::Mul(radius, constant(std::sqrt(view.screen_variance)));
+    const auto bound = [&](Floats low, Floats screen_low, Floats middle, float side) {
+      const Floats bounded_at =
+          hn::Add(middle, side < 0 ? hn::Min(low, screen_low) : hn::Max(low, screen_low));
+      // Half a pixel more, for rounding.
+      return hn::IfThenElse(bounded, hn::Add(bounded_at, constant(0.5f * side)),
+                            constant(1e9f * side));
+    };
+    store(out::left, bound(left, hn::Neg(screen), x, -1));
+    store(out::right, bound(right, screen, x, 1));
+    store(out::top, bound(top, hn::Neg(screen), y, -1));
+    store(out::bottom, bound(bottom, screen, y, 1));
+
+    store(out::x, x);
+    store(out::y, y);
+    store(out::u_x, u_x);
+    store(out::v_x, v_x);
+    store(out::c_x, hn::IfThenElse(in_front, zero, hn::Mul(fx, center.x)));
+    store(out::u_y, u_y);
+    store(out::v_y, v_y);
+    store(out::c_y, hn::IfThenElse(in_front, zero, hn::Mul(fy, center.y)));
+    store(out::u_w, u.z);
+    store(out::v_w, v.z);
+    store(out::c_w, center.z);
+    store(out::log_opacity, log_opacity);
+    store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
+    const Vector3 color =
+        harmonics_color(degree, unit(offset), discs.row(in::harmonics), discs.stride(), i);
+    store(out::red, color.x);
+    store(out::green, color.y);
+    store(out::blue, color.z);
+  }
+}
+
+struct DiscAlpha {
+  float near, min_log_alpha, inverse_screen_variance;
+
+  HWY_INLINE Mask operator()(const DiscEntry& e, Floats x, Floats y, Floats inverse_behind,
+                             Floats& alpha) const {
+    const Floats dx = hn::Sub(x, constant(e.x)), dy = hn::Sub(y, constant(e.y));
+    // (u, v, 1) is orthogonal to both.
+    const Vector3 k{hn::NegMulAdd(dx, constant(e.u_w), constant(e.u_x)),
+                    hn::NegMulAdd(dx, constant(e.v_w), constant(e.v_x)),
+                    hn::NegMulAdd(dx, constant(e.c_w), constant(e.c_x))};
+    const Vector3 l{hn::NegMulAdd(dy, constant(e.u_w), constant(e.u_y)),
+                    hn::NegMulAdd(dy, constant(e.v_w), constant(e.v_y)),
+                    hn::NegMulAdd(dy, constant(e.c_w), constant(e.c_y))};
+    const Vector3 point = cross(k, l);
+    const Floats scale = hn::Div(constant(1.0f), point.z);
+    const Floats u = hn::Mul(point.x, scale), v = hn::Mul(point.y, scale);
+    Floats depth = hn::MulAdd(u, constant(e.u_w), hn::MulAdd(v, constant(e.v_w), constant(e.c_w)));
+    Floats squared = hn::MulAdd(u, u, hn::Mul(v, v));
+    // False for a plane that contains the ray.
+    const Mask meets = hn::And(hn::Ge(depth, constant(near)), hn::Lt(squared, constant(1e30f)));
+    squared = hn::IfThenElse(meets, squared, constant(1e30f));
+    if (inverse_screen_variance > 0) {
+      const Floats on_screen =
+          hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), constant(inverse_screen_variance));
+      const Mask filtered = hn::Lt(on_screen, squared);
+      squared = hn::Min(on_screen, squared);
+      depth = hn::IfThenElse(filtered, constant(e.c_w), depth);
+    }
+    const Floats log_alpha = hn::NegMulAdd(constant(half_log2_e), squared, constant(e.log_opacity));
+    Mask covered = hn::Ge(log_alpha, constant(min_log_alpha));
+    if (hn::AllFalse(d, covered)) return covered;
+    covered = hn::And(covered, hn::Lt(hn::Mul(depth, inverse_behind), constant(1.0f)));
+    alpha = exp2_of(hn::Max(log_alpha, constant(min_log_alpha)));
+    return covered;
+  }
+};
+
+void blend_discs_on(const ImageView& view, std::span<const DiscEntry> entries,
+                    std::span<const std::uint32_t> tile, TilePixels& pixels) {
+  blend_entries(view, entries, tile,
+                DiscAlpha{view.near, std::log2(view.min_alpha),
+                          view.screen_variance > 0 ? 1.0f / view.screen_variance : 0.0f},
+                pixels);
+}
+
+}  // namespace tureen::splatting::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tureen::splatting {
+
+HWY_EXPORT(project_discs_on);
+HWY_EXPORT(blend_discs_on);
+
+void project_discs(const ImageView& view, const ParameterRows& discs, int harmonics_degree,
+                   ParameterRows& projected) {
+  HWY_DYNAMIC_DISPATCH(project_discs_on)(view, discs, harmonics_degree, projected);
+}
+
+void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,
+                 std::span<const std::uint32_t> tile, TilePixels& pixels) {
+  HWY_DYNAMIC_DISPATCH(blend_discs_on)(view, entries, tile, pixels);
+}
+
+}  // namespace tureen::splatting
+#endif

@@ -1,0 +1,44 @@
+#include "splatting/disc_layer.hpp"
+
+#include "splatting/gaussian_rows.hpp"
+
+namespace tureen::splatting {
+
+DiscLayer::DiscLayer(const Gaussians& discs, const SplatColor& color,
+                     std::span<const std::uint32_t> which, int degree)
+    : degree_(degree),
+      rows_(rows_of(discs, color, which, degree)),
+      projected_(projected_disc_row::count, which.size()) {}
+
+std::span<const float> DiscLayer::project(const ImageView& view) {
+  project_discs(view, rows_, degree_, projected_);
+  return {projected_.row(projected_disc_row::depth), count()};
+}
+
+void DiscLayer::set_order(std::span<const std::uint32_t> splats) {
+  namespace row = projected_disc_row;
+  entries_.resize(splats.size());
+  boxes_.resize(splats.size());
+  for (std::size_t place = 0; place < splats.size(); ++place) {
+    const auto value = [&, i = splats[place]](std::size_t which) {
+      return projected_.row(which)[i];
+    };
+    entries_[place] = {value(row::x),   value(row::y),     value(row::u_x), value(row::v_x),
+                       value(row::c_x), value(row::u_y),   value(row::v_y), value(row::c_y),
+                       value(row::u_w), value(row::v_w),   value(row::c_w), value(row::log_opacity),
+                       value(row::red), value(row::green), value(row::blue)};
+    boxes_[place] = {value(row::left), value(row::right), value(row::top), value(row::bottom)};
+  }
+}
+
+void DiscLayer::list(const ImageView&, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
+                     TileLists& lists) const {
+  for (std::uint32_t place = begin; place < end; ++place) lists.add(boxes_[place], tag | place);
+}
+
+void DiscLayer::blend(const ImageView& view, std::span<const std::uint32_t> splats,
+                      TilePixels& pixels) const {
+  blend_discs(view, entries_, splats, pixels);
+}
+
+}  // namespace tureen::splatting

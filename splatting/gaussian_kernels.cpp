@@ -1,0 +1,148 @@
+#include "splatting/gaussian_kernels.hpp"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "splatting/gaussian_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "splatting/blending-inl.hpp"
+#include "splatting/harmonics-inl.hpp"
+#include "splatting/rotation-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tureen::splatting::HWY_NAMESPACE {
+
+/// sqrt(log2(e) / 2): exp(-u^2 / 2) = 2^-(factor u)^2.
+constexpr float exponent_factor = 0.849321800f;
+
+void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians, int degree,
+                          ParameterRows& projected) {
+  namespace in = gaussian_row;
+  namespace out = projected_row;
+  const Floats min_log_alpha = constant(std::log2(view.min_alpha));
+  const Floats zero = hn::Zero(d), one = constant(1.0f);
+  for (std::size_t i = 0; i < gaussians.count(); i += lanes) {
+    const auto load = [&](std::size_t row) { return hn::Load(d, gaussians.row(row) + i); };
+    const auto store = [&](std::size_t row, Floats value) {
+      hn::Store(value, d, projected.row(row) + i);
+    };
+    const Vector3 offset = from_eye(view, {load(in::x), load(in::y), load(in::z)});
+    const Vector3 center = product(view.view_from_layer, offset);
+    Mask drawn = hn::Gt(center.z, constant(std::fmax(view.near, view.min_center_depth)));
+    const Floats depth = hn::IfThenElse(drawn, center.z, one);
+
+    // Rows of the Jacobian times the scaled axes: a 2 x 3 matrix M, with covariance M M^T. Beyond
+    // 1e7 pixels a splat is constant over the image, and the fourth powers below overflow.
+    const Rotation rotation = rotation_of(load(in::rotation_x), load(in::rotation_y),
+                                          load(in::rotation_z), load(in::rotation_w));
+    const Floats largest = hn::Mul(constant(1e7f / std::fmax(view.fx, view.fy)), depth);
+    const auto clamped = [&](Floats value, int axis) {
+      return hn::Clamp(value, constant(view.slope_low[axis]), constant(view.slope_high[axis]));
+    };
+    const Floats inverse_depth = hn::Div(one, depth);
+    const Floats slope_x = hn::Mul(center.x, inverse_depth),
+                 slope_y = hn::Mul(center.y, inverse_depth);
+    const Floats along_x = clamped(slope_x, 0), along_y = clamped(slope_y, 1);
+    const Floats focal_x = hn::Mul(constant(view.fx), inverse_depth),
+                 focal_y = hn::Mul(constant(view.fy), inverse_depth);
+    Floats x[3], y[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3 axis = product(view.view_from_layer, rotation.axes[k]);
+      const Floats scale = hn::Min(load(in::scale_x + k), largest);
+      x[k] = hn::Mul(hn::Mul(hn::NegMulAdd(along_x, axis.z, axis.x), scale), focal_x);
+      y[k] = hn::Mul(hn::Mul(hn::NegMulAdd(along_y, axis.z, axis.y), scale), focal_y);
+    }
+    const Vector3 row_x{x[0], x[1], x[2]}, row_y{y[0], y[1], y[2]};
+    Floats xx = dot(row_x, row_x), yy = dot(row_y, row_y);
+    const Floats xy = dot(row_x, row_y);
+    // The determinant as a cross product: xx yy - xy^2 cancels for needles (docs/numerics.md, E1).
+    const Vector3 normal = cross(row_x, row_y);
+    Floats determinant = dot(normal, normal);
+    Floats opacity = load(in::opacity);
+    if (view.dilation > 0) {
+      const Floats dilation = constant(view.dilation), before = determinant;
+      determinant = hn::MulAdd(dilation, hn::Add(hn::Add(xx, yy), dilation), determinant);
+      xx = hn::Add(xx, dilation);
+      yy = hn::Add(yy, dilation);
+      if (view.keep_integral) opacity = hn::Mul(opacity, hn::Sqrt(hn::Div(before, determinant)));
+    }
+    drawn = hn::And(drawn, hn::Gt(opacity, zero));
+    const Floats log_opacity = log2_of(hn::IfThenElse(drawn, opacity, one));
+    const Floats excess = hn::Sub(log_opacity, min_log_alpha);
+    // Comparisons that are false for NaN.
+    drawn = hn::And(drawn, hn::Gt(excess, zero));
+    drawn = hn::And(drawn, hn::Gt(determinant, zero));
+
+    // The Cholesky factor of the inverse covariance: (p dx + q dy)^2 + (r dy)^2.
+    const Floats factor = constant(exponent_factor);
+    const Floats root_y = hn::Sqrt(yy), inverse_y = hn::Div(one, root_y);
+    const Floats inverse_area = hn::Div(factor, hn::Sqrt(determinant));
+    store(out::x, hn::MulAdd(constant(view.fx), slope_x, constant(view.cx)));
+    store(out::y, hn::MulAdd(constant(view.fy), slope_y, constant(view.cy)));
+    store(out::p, hn::Mul(root_y, inverse_area));
+    store(out::q, hn::Neg(hn::Mul(hn::Mul(xy, inverse_y), inverse_area)));
+    store(out::r, hn::Mul(factor, inverse_y));
+    store(out::log_opacity, log_opacity);
+    store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
+    const Floats radius = hn::Div(hn::Sqrt(hn::Max(excess, zero)), factor);
+    store(out::half_width, hn::Mul(radius, hn::Sqrt(xx)));
+    store(out::half_height, hn::Mul(radius, root_y));
+
+    const Vector3 color =
+        harmonics_color(degree, unit(offset), gaussians.row(in::harmonics), gaussians.stride(), i);
+    store(out::red, color.x);
+    store(out::green, color.y);
+    store(out::blue, color.z);
+  }
+}
+
+struct GaussianAlpha {
+  Floats min_log_alpha;
+
+  HWY_INLINE Mask operator()(const GaussianEntry& entry, Floats x, Floats y, Floats inverse_behind,
+                             Floats& alpha) const {
+    const Floats dx = hn::Sub(x, constant(entry.x)), dy = hn::Sub(y, constant(entry.y));
+    const Floats u = hn::MulAdd(constant(entry.p), dx, hn::Mul(constant(entry.q), dy));
+    const Floats v = hn::Mul(constant(entry.r), dy);
+    const Floats log_alpha = hn::NegMulAdd(u, u, hn::NegMulAdd(v, v, constant(entry.log_opacity)));
+    Mask covered = hn::Ge(log_alpha, min_log_alpha);
+    if (hn::AllFalse(d, covered)) return covered;
+    covered = hn::And(covered, hn::Gt(constant(entry.inverse_depth), inverse_behind));
+    alpha = exp2_of(hn::Max(log_alpha, min_log_alpha));
+    return covered;
+  }
+};
+
+void blend_gaussians_on(const ImageView& view, std::span<const GaussianEntry> entries,
+                        std::span<const std::uint32_t> tile, TilePixels& pixels) {
+  blend_entries(view, entries, tile, GaussianAlpha{constant(std::log2(view.min_alpha))}, pixels);
+}
+
+const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace tureen::splatting::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tureen::splatting {
+
+HWY_EXPORT(project_gaussians_on);
+HWY_EXPORT(blend_gaussians_on);
+HWY_EXPORT(target_name);
+
+void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
+                       ParameterRows& projected) {
+  HWY_DYNAMIC_DISPATCH(project_gaussians_on)(view, gaussians, harmonics_degree, projected);
+}
+
+void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
+                     std::span<const std::uint32_t> tile, TilePixels& pixels) {
+  HWY_DYNAMIC_DISPATCH(blend_gaussians_on)(view, entries, tile, pixels);
+}
+
+const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
+
+}  // namespace tureen::splatting
+#endif

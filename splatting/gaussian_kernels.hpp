@@ -1,0 +1,70 @@
+// The hot loops of Gaussians by EWA splatting (specs: 3DGS, Mip-Splatting), for the vectors of the
+// processor, chosen at run time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "splatting/image_view.hpp"
+#include "splatting/parameter_rows.hpp"
+#include "splatting/tile_lists.hpp"
+
+namespace tureen::splatting {
+
+/// Rows of Gaussians. Values are after activation. Harmonics follow: red, green and blue of each
+/// coefficient.
+namespace gaussian_row {
+enum : std::size_t {
+  x,
+  y,
+  z,  // the centre, in layer coordinates
+  scale_x,
+  scale_y,
+  scale_z,  // standard deviations, >= 0; z is 0 for flat ones
+  rotation_x,
+  rotation_y,
+  rotation_z,
+  rotation_w,  // of unit length
+  opacity,
+  harmonics
+};
+}
+
+/// Rows of projected Gaussians. At an offset (dx, dy) from the centre, in pixels,
+/// log2(alpha) = log_opacity - (p dx + q dy)^2 - (r dy)^2.
+namespace projected_row {
+enum : std::size_t {
+  x,
+  y,
+  p,
+  q,
+  r,
+  log_opacity,
+  red,
+  green,
+  blue,   // >= 0
+  depth,  // NaN: not drawn
+  half_width,
+  half_height,  // in pixels, of the ellipse where alpha is the smallest
+  count
+};
+}
+
+/// A projected Gaussian, as the compositing loop reads it.
+struct alignas(64) GaussianEntry {
+  float x, y, p, q, r, log_opacity, red, green, blue, inverse_depth;
+};
+
+/// `projected` has projected_row::count rows of as many splats.
+void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
+                       ParameterRows& projected);
+
+/// Blends the entries front to back into the pixels of a tile.
+void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
+                     std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// The name of the chosen vectors: "AVX3_ZEN4", "AVX2", ..
+const char* vector_target();
+
+}  // namespace tureen::splatting

@@ -1,0 +1,79 @@
+// Colours by spherical harmonics. Included once for each target of Highway.
+#if defined(TUREEN_HARMONICS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef TUREEN_HARMONICS_INL
+#undef TUREEN_HARMONICS_INL
+#else
+#define TUREEN_HARMONICS_INL
+#endif
+
+#include "splatting/vector_math-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tureen::splatting::HWY_NAMESPACE {
+
+/// The basis functions of scene/spherical_harmonics.hpp at the unit direction `at`.
+HWY_INLINE void harmonics_basis(int degree, const Vector3& at, Floats (&out)[25]) {
+  const auto times = [](float factor, Floats value) { return hn::Mul(constant(factor), value); };
+  const Floats x = at.x, y = at.y, z = at.z;
+  out[0] = constant(0.28209479177387814f);
+  if (degree < 1) return;
+  out[1] = times(-0.48860251190291992f, y);
+  out[2] = times(0.48860251190291992f, z);
+  out[3] = times(-0.48860251190291992f, x);
+  if (degree < 2) return;
+  const Floats xx = hn::Mul(x, x), yy = hn::Mul(y, y), zz = hn::Mul(z, z);
+  const Floats xy = hn::Mul(x, y), yz = hn::Mul(y, z), xz = hn::Mul(x, z);
+  const Floats difference = hn::Sub(xx, yy), planar = hn::Add(xx, yy);
+  out[4] = times(1.0925484305920792f, xy);
+  out[5] = times(-1.0925484305920792f, yz);
+  out[6] = times(0.31539156525252005f, hn::Sub(hn::Add(zz, zz), planar));
+  out[7] = times(-1.0925484305920792f, xz);
+  out[8] = times(0.54627421529603959f, difference);
+  if (degree < 3) return;
+  const Floats three_xx = times(3.0f, xx), three_yy = times(3.0f, yy);
+  const Floats four_zz = hn::Sub(times(4.0f, zz), planar);
+  out[9] = times(-0.59004358992664352f, hn::Mul(y, hn::Sub(three_xx, yy)));
+  out[10] = times(2.8906114426405538f, hn::Mul(xy, z));
+  out[11] = times(-0.45704579946446572f, hn::Mul(y, four_zz));
+  out[12] = times(0.37317633259011546f, hn::Mul(z, hn::Sub(hn::Add(zz, zz), times(3.0f, planar))));
+  out[13] = times(-0.45704579946446572f, hn::Mul(x, four_zz));
+  out[14] = times(1.4453057213202769f, hn::Mul(z, difference));
+  out[15] = times(-0.59004358992664352f, hn::Mul(x, hn::Sub(xx, three_yy)));
+  if (degree < 4) return;
+  const Floats seven_zz = times(7.0f, zz);
+  const Floats below_1 = hn::Sub(seven_zz, constant(1.0f));
+  const Floats below_3 = hn::Sub(seven_zz, constant(3.0f));
+  const Floats steep_x = hn::Sub(xx, three_yy), steep_y = hn::Sub(three_xx, yy);
+  out[16] = times(2.5033429417967046f, hn::Mul(xy, difference));
+  out[17] = times(-1.7701307697799304f, hn::Mul(yz, steep_y));
+  out[18] = times(0.94617469575756008f, hn::Mul(xy, below_1));
+  out[19] = times(-0.66904654355728921f, hn::Mul(yz, below_3));
+  out[20] = times(0.10578554691520431f,
+                  hn::MulAdd(zz, hn::Sub(times(35.0f, zz), constant(30.0f)), constant(3.0f)));
+  out[21] = times(-0.66904654355728921f, hn::Mul(xz, below_3));
+  out[22] = times(0.47308734787878004f, hn::Mul(difference, below_1));
+  out[23] = times(-1.7701307697799304f, hn::Mul(xz, steep_x));
+  out[24] = times(0.62583573544917614f, hn::Sub(hn::Mul(xx, steep_x), hn::Mul(yy, steep_y)));
+}
+
+/// max(0, 1/2 + sum_i Y_i c_i) for the splats from `i` on. `coefficients` is the row of the first
+/// red one.
+HWY_INLINE Vector3 harmonics_color(int degree, const Vector3& direction, const float* coefficients,
+                                   std::size_t stride, std::size_t i) {
+  Floats basis[25];
+  harmonics_basis(degree, direction, basis);
+  Vector3 sum{constant(0.5f), constant(0.5f), constant(0.5f)};
+  const int count = (degree + 1) * (degree + 1);
+  for (int k = 0; k < count; ++k) {
+    const float* row = coefficients + 3 * std::size_t(k) * stride + i;
+    sum.x = hn::MulAdd(basis[k], hn::Load(d, row), sum.x);
+    sum.y = hn::MulAdd(basis[k], hn::Load(d, row + stride), sum.y);
+    sum.z = hn::MulAdd(basis[k], hn::Load(d, row + 2 * stride), sum.z);
+  }
+  const Floats zero = hn::Zero(d);
+  return {hn::Max(sum.x, zero), hn::Max(sum.y, zero), hn::Max(sum.z, zero)};
+}
+
+}  // namespace tureen::splatting::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

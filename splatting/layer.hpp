@@ -1,0 +1,41 @@
+// The splats of one layer, as the tile renderer draws them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "scene/splats.hpp"
+#include "splatting/image_view.hpp"
+#include "splatting/tile_lists.hpp"
+
+namespace tureen::splatting {
+
+/// A splat in a tile's list: its layer, and its place in the layer's order.
+inline constexpr int place_bits = 24;
+inline constexpr std::uint32_t place_mask = (1u << place_bits) - 1;
+
+class Layer {
+ public:
+  virtual ~Layer() = default;
+  virtual std::size_t count() const = 0;
+  /// Computes what all pixels of a splat share, and returns the view depth of each centre, in layer
+  /// units; NaN for splats that are not drawn. Valid until the next call.
+  virtual std::span<const float> project(const ImageView& view) = 0;
+  /// Sets the order of blending of the next calls: drawn splats, near ones first.
+  virtual void set_order(std::span<const std::uint32_t> splats) = 0;
+  /// Adds the splats at places [begin, end) of the order, as `tag` | place.
+  virtual void list(const ImageView& view, std::uint32_t begin, std::uint32_t end,
+                    std::uint32_t tag, TileLists& lists) const = 0;
+  /// Blends splats from a tile's list, all of this layer, front to back.
+  virtual void blend(const ImageView& view, std::span<const std::uint32_t> splats,
+                     TilePixels& pixels) const = 0;
+};
+
+/// The splats with these indices, with harmonics up to `degree`. Copies them. Null for splats that
+/// this module does not support yet: neural densities, colours of corners, windows whose centre may
+/// lie behind the eye (a profile without min_center_depth), and more than 2^24 splats.
+std::unique_ptr<Layer> make_layer(const Splats& splats, std::span<const std::uint32_t> which,
+                                  int degree);
+
+}  // namespace tureen::splatting

@@ -1,0 +1,109 @@
+#include "splatting/tile_renderer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace tureen::splatting {
+
+namespace {
+
+/// Column and row of a pixel in its tile, by its index in TilePixels.
+struct Place {
+  int column, row;
+};
+Place place_of(int pixel) {
+  constexpr int blocks_a_side = tile_side / block_side;
+  const int block = pixel / block_pixels, inside = pixel % block_pixels;
+  return {block_side * (block % blocks_a_side) + inside % block_side,
+          block_side * (block / blocks_a_side) + inside / block_side};
+}
+
+}  // namespace
+
+void TileRenderer::sort(std::span<const LayerInView> layers) {
+  keys_.clear();
+  std::vector<std::uint32_t> ends;  // of the layers' numbers
+  std::uint32_t first = 0;
+  for (const LayerInView& each : layers) {
+    const std::span<const float> depths = each.layer->project(each.view);
+    for (std::uint32_t i = 0; i < depths.size(); ++i)
+      if (std::isfinite(depths[i]))
+        keys_.push_back({depth_key(static_cast<float>(each.scale * double(depths[i]))), first + i});
+    ends.push_back(first += static_cast<std::uint32_t>(depths.size()));
+  }
+  sort_by_depth(keys_, scratch_);
+
+  orders_.resize(layers.size());
+  for (std::vector<std::uint32_t>& order : orders_) order.clear();
+  runs_.clear();
+  for (const DepthKey& key : keys_) {
+    std::uint32_t layer = runs_.empty() ? 0 : runs_.back().layer;
+    while (key.splat >= ends[layer]) ++layer;
+    while (layer > 0 && key.splat < ends[layer - 1]) --layer;
+    std::vector<std::uint32_t>& order = orders_[layer];
+    const auto place = static_cast<std::uint32_t>(order.size());
+    order.push_back(key.splat - (layer > 0 ? ends[layer - 1] : 0));
+    if (runs_.empty() || runs_.back().layer != layer) runs_.push_back({layer, place, place});
+    ++runs_.back().end;
+  }
+  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].layer->set_order(orders_[i]);
+}
+
+void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const float> depths,
+                        std::span<float> rgba) {
+  assert(!layers.empty() && layers.size() <= 255);
+  const ImageView& image = layers.front().view;
+  assert(rgba.size() == 4 * std::size_t(image.width) * std::size_t(image.height));
+  sort(layers);
+  lists_.begin(image.width, image.height);
+  for (const Run& run : runs_)
+    layers[run.layer].layer->list(layers[run.layer].view, run.begin, run.end,
+                                  run.layer << place_bits, lists_);
+  parallel_(std::size_t(lists_.rows()), [&](std::size_t row) {
+    lists_.finish(int(row));
+    for (int column = 0; column < lists_.columns(); ++column)
+      draw_tile(layers, depths, column, int(row), rgba);
+  });
+}
+
+void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<const float> depths,
+                             int column, int row, std::span<float> rgba) const {
+  const ImageView& image = layers.front().view;
+  TilePixels pixels{};
+  pixels.x = column * tile_side;
+  pixels.y = row * tile_side;
+  const auto for_each_pixel = [&](const auto& act) {
+    for (int i = 0; i < tile_pixels; ++i) {
+      const auto [x, y] = place_of(i);
+      if (pixels.x + x < image.width && pixels.y + y < image.height)
+        act(i, std::size_t(pixels.y + y) * std::size_t(image.width) + std::size_t(pixels.x + x));
+    }
+  };
+  std::fill_n(pixels.transmittance, tile_pixels, 1.0f);
+  for (std::span<const std::uint32_t> rest = lists_.tile(column, row); !rest.empty();) {
+    const std::uint32_t layer = rest.front() >> place_bits;
+    const auto end = layers.size() == 1
+                         ? rest.end()
+                         : std::find_if(rest.begin(), rest.end(), [&](std::uint32_t splat) {
+                             return splat >> place_bits != layer;
+                           });
+    const LayerInView& in_view = layers[layer];
+    if (!depths.empty())
+      for_each_pixel([&](int i, std::size_t pixel) {
+        pixels.inverse_behind[i] = static_cast<float>(in_view.scale / double(depths[pixel]));
+      });
+    const auto splats = static_cast<std::size_t>(end - rest.begin());
+    in_view.layer->blend(in_view.view, rest.first(splats), pixels);
+    rest = rest.subspan(splats);
+  }
+  for_each_pixel([&](int i, std::size_t pixel) {
+    float* out = &rgba[4 * pixel];
+    out[0] = pixels.red[i];
+    out[1] = pixels.green[i];
+    out[2] = pixels.blue[i];
+    out[3] = 1.0f - std::abs(pixels.transmittance[i]);
+  });
+}
+
+}  // namespace tureen::splatting

@@ -1,0 +1,54 @@
+// Draws splats on the processor, tile by tile: projects them, orders them by the view depth of
+// their centres, sorts them into tiles by their outlines, and blends each tile front to back by the
+// rules of their profile.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "splatting/depth_order.hpp"
+#include "splatting/layer.hpp"
+
+namespace tureen::splatting {
+
+/// Calls body(0) .. body(count - 1), in any order, perhaps in several threads.
+using Parallel =
+    std::function<void(std::size_t count, const std::function<void(std::size_t)>& body)>;
+
+/// A visible layer and its camera.
+struct LayerInView {
+  Layer* layer;
+  ImageView view;
+  double scale;  // world units per layer unit
+};
+
+class TileRenderer {
+ public:
+  explicit TileRenderer(Parallel parallel) : parallel_(std::move(parallel)) {}
+
+  /// At most 255 layers, whose views have one size. `depths`: of the opaque surface in world units,
+  /// a pixel, infinity where there is none; row 0 on top; or empty. Writes premultiplied colours,
+  /// which may exceed 1, and alpha to `rgba`: 4 floats a pixel. The result does not depend on the
+  /// number of threads.
+  void draw(std::span<const LayerInView> layers, std::span<const float> depths,
+            std::span<float> rgba);
+
+ private:
+  /// Consecutive splats of one layer in the order.
+  struct Run {
+    std::uint32_t layer, begin, end;
+  };
+  void sort(std::span<const LayerInView> layers);
+  void draw_tile(std::span<const LayerInView> layers, std::span<const float> depths, int column,
+                 int row, std::span<float> rgba) const;
+
+  Parallel parallel_;
+  std::vector<DepthKey> keys_, scratch_;
+  std::vector<std::vector<std::uint32_t>> orders_;  // of the layers
+  std::vector<Run> runs_;
+  TileLists lists_;
+};
+
+}  // namespace tureen::splatting

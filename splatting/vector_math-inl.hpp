@@ -1,0 +1,102 @@
+// Functions of vectors for the kernels. Included once for each target of Highway.
+#if defined(TUREEN_VECTOR_MATH_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef TUREEN_VECTOR_MATH_INL
+#undef TUREEN_VECTOR_MATH_INL
+#else
+#define TUREEN_VECTOR_MATH_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "splatting/image_view.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tureen::splatting::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// At most the pixels of a block.
+using FloatTag = hn::CappedTag<float, 16>;
+using Floats = hn::Vec<FloatTag>;
+using Mask = hn::Mask<FloatTag>;
+inline constexpr FloatTag d;
+inline constexpr std::size_t lanes = hn::MaxLanes(d);
+
+HWY_INLINE Floats constant(float value) { return hn::Set(d, value); }
+
+/// The depth of splats that are not drawn.
+HWY_INLINE Floats not_drawn() { return constant(std::numeric_limits<float>::quiet_NaN()); }
+
+/// 2^x for x in [-126, 127], to 2e-7 of the value. Polynomial: interpolation in Chebyshev's nodes
+/// on [-1/2, 1/2].
+HWY_INLINE Floats exp2_of(Floats x) {
+  const Floats whole = hn::Round(x), f = hn::Sub(x, whole);
+  Floats y = hn::MulAdd(constant(0.00133908634f), f, constant(0.00967603192f));
+  y = hn::MulAdd(y, f, constant(0.0555035711f));
+  y = hn::MulAdd(y, f, constant(0.240221075f));
+  y = hn::MulAdd(y, f, constant(0.693147188f));
+  y = hn::MulAdd(y, f, constant(1.0000000755f));
+  const hn::RebindToSigned<FloatTag> di;
+  const auto exponent = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127)));
+  return hn::Mul(y, hn::BitCast(d, exponent));
+}
+
+/// log2(x) for normal x > 0, to 1.5e-7 of max(1, |log2(x)|). Polynomial of (m - 1) for the mantissa
+/// m in [sqrt(1/2), sqrt(2)): interpolation of log2(m) / (m - 1) in Chebyshev's nodes.
+HWY_INLINE Floats log2_of(Floats x) {
+  const hn::RebindToSigned<FloatTag> di;
+  // Bits of sqrt(1/2), so that the exponent changes there.
+  const auto bits = hn::Sub(hn::BitCast(di, x), hn::Set(di, 0x3f3504f3));
+  const auto exponent = hn::ShiftRight<23>(bits);
+  const Floats m = hn::BitCast(d, hn::Sub(hn::BitCast(di, x), hn::ShiftLeft<23>(exponent)));
+  const Floats t = hn::Sub(m, constant(1.0f));
+  Floats y = hn::MulAdd(constant(-0.142759734f), t, constant(0.232652579f));
+  y = hn::MulAdd(y, t, constant(-0.249271822f));
+  y = hn::MulAdd(y, t, constant(0.287288882f));
+  y = hn::MulAdd(y, t, constant(-0.360225182f));
+  y = hn::MulAdd(y, t, constant(0.480916708f));
+  y = hn::MulAdd(y, t, constant(-0.721352931f));
+  y = hn::MulAdd(y, t, constant(1.44269499f));
+  return hn::MulAdd(y, t, hn::ConvertTo(d, exponent));
+}
+
+struct Vector3 {
+  Floats x, y, z;
+};
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+
+/// A position in layer coordinates, relative to the eye.
+HWY_INLINE Vector3 from_eye(const ImageView& view, const Vector3& position) {
+  const auto axis = [&](Floats value, int i) {
+    return hn::Sub(hn::Sub(value, constant(view.eye_high[i])), constant(view.eye_low[i]));
+  };
+  return {axis(position.x, 0), axis(position.y, 1), axis(position.z, 2)};
+}
+
+/// `v` with length 1. At 0 the direction is undefined, and the result is 0.
+HWY_INLINE Vector3 unit(const Vector3& v) {
+  const Floats squared = dot(v, v), zero = hn::Zero(d);
+  const Floats inverse =
+      hn::IfThenElse(hn::Gt(squared, zero), hn::Div(constant(1.0f), hn::Sqrt(squared)), zero);
+  return {hn::Mul(v.x, inverse), hn::Mul(v.y, inverse), hn::Mul(v.z, inverse)};
+}
+
+/// A matrix, row by row, times a vector.
+HWY_INLINE Vector3 product(const float* matrix, const Vector3& v) {
+  const auto row = [&](const float* m) {
+    return dot({constant(m[0]), constant(m[1]), constant(m[2])}, v);
+  };
+  return {row(matrix), row(matrix + 3), row(matrix + 6)};
+}
+
+}  // namespace tureen::splatting::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,32 @@
+// Triangle windows in the tile renderer.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "splatting/layer.hpp"
+#include "splatting/window_kernels.hpp"
+
+namespace tureen::splatting {
+
+class WindowLayer final : public Layer {
+ public:
+  WindowLayer(const TriangleWindows& windows, const SplatColor& color,
+              std::span<const std::uint32_t> which, int degree);
+
+  std::size_t count() const override { return rows_.count(); }
+  std::span<const float> project(const ImageView& view) override;
+  void set_order(std::span<const std::uint32_t> splats) override;
+  void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
+            TileLists& lists) const override;
+  void blend(const ImageView& view, std::span<const std::uint32_t> splats,
+             TilePixels& pixels) const override;
+
+ private:
+  int degree_;
+  ParameterRows rows_, projected_;
+  std::vector<WindowEntry> entries_;            // in the order of blending
+  std::vector<std::array<float, 6>> outlines_;  // of the entries: projected_window_row::outline
+};
+
+}  // namespace tureen::splatting
