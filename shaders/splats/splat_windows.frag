@@ -5,6 +5,7 @@ flat in float sigma;
 in vec4 weighted_color;
 #endif
 #if OUTPUT != OUTPUT_COLOR
+in float weight;
 flat in vec3 normal;
 #endif
 
@@ -22,6 +23,6 @@ void main() {
 #endif
   blend(rgb, color.a * window);
 #else
-  measure(color.a * window, 1.0 / gl_FragCoord.w, normal, color.a, sigma);
+  measure(color.a * window, 1.0 / (gl_FragCoord.w * weight), normal, color.a, sigma);
 #endif
 }

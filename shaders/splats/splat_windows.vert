@@ -23,6 +23,9 @@ flat out float sigma;
 #if COLORS_PER_SPLAT == 3
 out vec4 weighted_color;
 #endif
+#if OUTPUT != OUTPUT_COLOR
+out float weight;  // of the corners, together
+#endif
 
 // Vertices are rounded to a grid of 1/256 of a pixel, or 1/16 at worst, which moves the edges. The
 // triangle is therefore enlarged by this many pixels, so that the distances alone decide where alpha
@@ -63,7 +66,8 @@ void main() {
     clip[k] = clip_from_camera * vec4(corners[k], 1.0);
   }
   vec3 lengths;  // |N_k.xy|
-  float total = 0.0, doubled_area = 0.0;
+  float total = 0.0;
+  float determinant = 0.0, largest_w = 0.0;  // of the Q_k; of the corners, without sign
   for (int k = 0; k < 3; ++k) {
     int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
     // The difference of the stored positions is more exact than that of the image points.
@@ -72,9 +76,11 @@ void main() {
                                       clip[i].w * edge.x - clip[i].x * edge.w);
     lengths[k] = length(normal);
     total += clip[k].w * lengths[k];
-    if (k == 0) {
-      vec4 other = clip_from_camera * vec4(texels[0].xyz - texels[1].xyz, 0.0);
-      doubled_area = abs(dot(normal, half_size * (other.xy * clip[1].w - clip[1].xy * other.w)));
+    if (abs(clip[i].w) > largest_w) {
+      largest_w = abs(clip[i].w);
+      vec4 other = clip_from_camera * vec4(texels[k].xyz - texels[i].xyz, 0.0);
+      vec2 across = half_size * (other.xy * clip[i].w - clip[i].xy * other.w);
+      determinant = abs(dot(normal, across)) / largest_w;
     }
   }
   color = texelFetch(colors, projected_position(splat * uint(COLORS_PER_SPLAT)), 0);
@@ -89,25 +95,22 @@ void main() {
   visible = visible && is_published(corners, clip);
 #endif
 
-  // Corner k moves by e (2 c_k - c_i - c_j), and the edges by e times the heights. The limit keeps
-  // needles short. Triangles that cross the eye's plane are large, and stay.
-  float w = min(clip[0].w, min(clip[1].w, clip[2].w));
-  float e = 0.0;
-  if (w > 0.0) {
-    vec3 heights = doubled_area / clip[1].w / (vec3(clip[0].w, clip[1].w, clip[2].w) * lengths);
-    e = min(margin / min(heights.x, min(heights.y, heights.z)), 1.0);
-  }
-  vec4 sum = clip[0] + clip[1] + clip[2];
-  gl_Position = visible ? clip[corner] + e * (3.0 * clip[corner] - sum) : nowhere;
-  distances = visible ? -e * total / lengths : vec3(0.0);
-  if (visible) distances[corner] = (1.0 + 2.0 * e) * total / lengths[corner];
+  // The lines N_k + margin |N_k.xy| z meet in sums of the corners with these weights, also where
+  // corners are behind the eye. The limit keeps needles short.
+  float longest = max(lengths.x, max(lengths.y, lengths.z));
+  float shift = min(margin / determinant, 1.0 / (largest_w * longest));
+  vec3 weights = -shift * clip[corner].w * lengths;
+  weights[corner] += 1.0 + shift * total;
+  gl_Position = visible ? weights.x * clip[0] + weights.y * clip[1] + weights.z * clip[2] : nowhere;
+  distances = visible ? weights * total / lengths : vec3(0.0);
+#if OUTPUT != OUTPUT_COLOR
+  weight = weights.x + weights.y + weights.z;
+#endif
 #if COLORS_PER_SPLAT == 3
-  vec4 weighted[3];
+  weighted_color = vec4(0.0);
   for (int k = 0; k < 3; ++k) {
     vec3 rgb = texelFetch(colors, projected_position(3u * splat + uint(k)), 0).rgb;
-    weighted[k] = vec4(rgb, 1.0) * max(clip[k].w, 0.0);
+    weighted_color += weights[k] * max(clip[k].w, 0.0) * vec4(rgb, 1.0);
   }
-  vec4 weighted_sum = weighted[0] + weighted[1] + weighted[2];
-  weighted_color = weighted[corner] + e * (3.0 * weighted[corner] - weighted_sum);
 #endif
 }

@@ -255,7 +255,7 @@ TEST_P(SplatScenes, AgreeWithTheOracle) {
   Scene scene = scene_of(random_splats(GetParam(), 20000, 0.07, 1));
   auto& splats = std::get<Splats>(scene.layers[0].primitives);
   splats.profile.min_center_depth = 0;  // otherwise few splats would cross the eye's plane
-  for (const double distance : {3.0, 0.7, 0.1}) {
+  for (const double distance : {3.0, 0.4, 0.1}) {
     SCOPED_TRACE("distance " + std::to_string(distance));
     const Camera camera = camera_of_ball(distance, 120, 90);
     EXPECT_GE(overdraw(splats, camera), 30);
