@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/little_endian.hpp"
 #include "formats/archive/npy_array.hpp"
 #include "formats/mesh/plain_mesh.hpp"
-#include "formats/splat/little_endian.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

@@ -4,8 +4,8 @@
 #include <system_error>
 
 #include "base/extension.hpp"
+#include "base/little_endian.hpp"
 #include "formats/mesh/plain_mesh.hpp"
-#include "formats/splat/little_endian.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

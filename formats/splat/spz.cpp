@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "base/little_endian.hpp"
 #include "formats/archive/inflater.hpp"
 #include "formats/mesh/plain_mesh.hpp"
-#include "formats/splat/little_endian.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 
