@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

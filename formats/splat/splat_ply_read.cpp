@@ -1,8 +1,8 @@
 #include <array>
 #include <optional>
 
-#include "formats/mesh/plain_mesh.hpp"
-#include "formats/mesh/ply_values.hpp"
+#include "formats/ply/ply_values.hpp"
+#include "formats/progress_meter.hpp"
 #include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "formats/splat/splat_ply_layout.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/truncation.hpp"

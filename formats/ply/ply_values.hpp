@@ -9,7 +9,7 @@
 
 #include "base/input.hpp"
 #include "base/text_scanner.hpp"
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
 
 namespace tureen {
 

@@ -1,4 +1,4 @@
-#include "formats/mesh/ply_values.hpp"
+#include "formats/ply/ply_values.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "formats/mesh/ply.hpp"
+#include "formats/mesh/mesh_ply.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,9 @@
 
 #include "base/output.hpp"
 #include "formats/mesh/plain_mesh.hpp"
-#include "formats/mesh/ply_bytes.hpp"
-#include "formats/mesh/ply_values.hpp"
-#include "formats/splat/compressed_ply.hpp"
-#include "formats/splat/splat_ply.hpp"
+#include "formats/ply/ply_bytes.hpp"
+#include "formats/ply/ply_values.hpp"
+#include "formats/progress_meter.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {
@@ -274,20 +273,11 @@ std::string color_properties(bool as_bytes) {
 
 }  // namespace
 
-Scene read_ply(Input& input, const ReadOptions& options) {
-  const PlyHeader header = read_ply_header(input);
-  if (is_compressed_ply(header)) return read_compressed_ply(input, header, options);
-  if (is_splat_ply(header)) return read_splat_ply(input, header, options);
+Scene read_mesh_ply(Input& input, const PlyHeader& header, const ReadOptions& options) {
   return PlyReader(input, header, options).read();
 }
 
-Scene read_ply(const std::filesystem::path& path, const ReadOptions& options) {
-  Input input = Input::open(path);
-  return read_ply(input, options);
-}
-
-std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path) {
-  if (fits_splat_ply(scene)) return write_splat_ply(scene, path);
+std::vector<std::string> write_mesh_ply(const Scene& scene, const std::filesystem::path& path) {
   PlainMesh mesh(scene, "PLY");
   const TriangleSoup& soup = mesh.soup();
   const auto* face_rgba = mesh.face_rgba();
