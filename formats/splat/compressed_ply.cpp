@@ -81,6 +81,7 @@ class CompressedPlyReader {
     }
     const SplatPlyProfile profile = splat_ply_profile(header_, SplatBuilder::Kind::gaussians);
     Scene scene = unpack(degree, profile);
+    add_profile_remarks(profile, scene);
     if (values_.anything_left())
       scene.info.remarks.push_back({Remark::Kind::bytes_ignored, {values_.remaining()}});
     return scene;

@@ -67,4 +67,7 @@ struct SplatPlyProfile {
 /// The profile that the header's comments select; `kind` is that of the properties.
 SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind kind);
 
+/// Adds the remarks about `assumed` and `unknown_mode` to a scene of one layer of splats.
+void add_profile_remarks(const SplatPlyProfile& profile, Scene& scene);
+
 }  // namespace tureen

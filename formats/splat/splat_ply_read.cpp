@@ -40,16 +40,10 @@ class SplatPlyReader {
     if (values_.anything_left())
       trailing = Remark{Remark::Kind::bytes_ignored, {values_.remaining()}};
     Scene scene = builder.finish(profile.profile, "PLY");
-    std::vector<Remark>& remarks = scene.info.remarks;
-    if (!profile.assumed.empty())
-      remarks.push_back({.kind = Remark::Kind::profile_assumed, .names = {profile.assumed}});
-    if (!profile.unknown_mode.empty())
-      remarks.push_back(
-          {.kind = Remark::Kind::render_mode_unknown,
-           .names = {profile.unknown_mode,
-                     std::string(profile_name(std::get<Splats>(only_layer(scene).primitives)))}});
-    if (trailing) remarks.push_back(*trailing);
-    if (has_doubles(vertex, layout)) remarks.push_back({Remark::Kind::coordinates_rounded});
+    add_profile_remarks(profile, scene);
+    if (trailing) scene.info.remarks.push_back(*trailing);
+    if (has_doubles(vertex, layout))
+      scene.info.remarks.push_back({Remark::Kind::coordinates_rounded});
     return scene;
   }
 

@@ -67,6 +67,18 @@ TEST(CompressedPly, ReadsKnownValues) {
   }
 }
 
+TEST(CompressedPly, ReportsAnUnknownRenderMode) {
+  const Scene scene =
+      read_packed_text(PlyFixture()
+                           .comment("SplatRenderMode: other")
+                           .element("chunk", chunk_columns(false), {chunk_row(false)})
+                           .element("vertex", packed_columns, {packed_row(1)})
+                           .text());
+  EXPECT_THAT(scene.info.remarks,
+              ::testing::Contains(
+                  Remark{.kind = Remark::Kind::render_mode_unknown, .names = {"other", "3dgs"}}));
+}
+
 TEST(CompressedPly, UnpacksRotationsForEachLargestPart) {
   for (std::uint32_t largest = 0; largest < 4; ++largest) {
     // Two parts at 1 / 4 of their range, and the third in its middle.
