@@ -258,6 +258,7 @@ std::string hint_of(const Remark& remark) {
   switch (remark.kind) {
     case Kind::up_unknown_to_format:
     case Kind::up_unknown_to_trimesh:
+    case Kind::up_unknown_to_checkpoint:
     case Kind::up_unknown_to_splats:
       return "--up changes it";
     case Kind::profile_assumed:

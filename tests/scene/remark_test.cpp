@@ -12,6 +12,7 @@ namespace remark_test {
 
 using Kind = Remark::Kind;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 TEST(Remark, EveryKindHasANameOfItsOwnAndASentence) {
   std::set<std::string> names;
@@ -59,6 +60,15 @@ TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
   EXPECT_THAT(all_notes(info), ElementsAre("a note; --not an option",
                                            "OFF stores no up axis: z is assumed; --up changes it"));
   EXPECT_EQ(describe(info.remarks[0]), "OFF stores no up axis: z is assumed");
+}
+
+TEST(Remark, EveryAssumedUpAxisHasTheHintHowToChangeIt) {
+  for (const Kind kind : {Kind::up_unknown_to_trimesh, Kind::up_unknown_to_checkpoint,
+                          Kind::up_unknown_to_format, Kind::up_unknown_to_splats}) {
+    SceneInfo info;
+    info.remarks = {{.kind = kind, .names = {"OFF"}}};
+    EXPECT_THAT(all_notes(info), ElementsAre(HasSubstr("--up changes it")));
+  }
 }
 
 }  // namespace remark_test
