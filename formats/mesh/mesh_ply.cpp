@@ -10,7 +10,6 @@
 #include "formats/mesh/plain_mesh.hpp"
 #include "formats/ply/ply_bytes.hpp"
 #include "formats/ply/ply_values.hpp"
-#include "formats/progress_meter.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {
@@ -33,7 +32,7 @@ struct Layout {
 class PlyReader {
  public:
   PlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
-      : input_(input), header_(header), values_(input, header), meter_(options) {}
+      : input_(input), header_(header), values_(input, header, options) {}
 
   Scene read() {
     check_kind();
@@ -45,7 +44,7 @@ class PlyReader {
       else if (element.name == "tristrips")
         read_strips(element);
       else
-        skip(element);
+        values_.skip_rows(element);
     }
     std::optional<Remark> trailing;
     if (values_.anything_left())
@@ -57,15 +56,6 @@ class PlyReader {
   }
 
  private:
-  void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;  // it has no bytes in the body
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      begin_row(element);
-      for (const PlyProperty& property : element.properties) values_.skip(property);
-      values_.end_row();
-    }
-  }
-
   /// Rejects files without triangles; the error describes their contents.
   void check_kind() {
     const PlyElement* vertex = header_.find("vertex");
@@ -132,11 +122,6 @@ class PlyReader {
       fail_header(element, "has '" + list.name + "' that are not a list of integers");
   }
 
-  void begin_row(const PlyElement& element) {
-    meter_.step([&] { return double(values_.position()) / double(input_.size()); });
-    values_.begin_row(element.name.c_str());
-  }
-
   /// The value of a slot; colours are divided as floats, so that a byte k is float(k) / 255.
   static float scaled(double value, double unit) {
     return unit == 1.0 ? static_cast<float>(value) : static_cast<float>(value) / float(unit);
@@ -152,7 +137,7 @@ class PlyReader {
     mesh_.reserve_vertices(element.count);
     if (layout.has_color) mesh_.reserve_colors_of_vertices(element.count);
     for (std::uint64_t v = 0; v < element.count; ++v) {
-      begin_row(element);
+      values_.begin_row(element);
       std::array<float, slots> row{0, 0, 0, 0, 0, 0, 1};
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const int slot = layout.slot[i];
@@ -177,7 +162,7 @@ class PlyReader {
     const std::uint64_t least = ascii() ? 8 : size_of(*list.count_type) + 3 * size_of(list.type);
     mesh_.reserve_faces(std::min(element.count, values_.remaining() / least + 1));
     for (std::uint64_t f = 0; f < element.count; ++f) {
-      begin_row(element);
+      values_.begin_row(element);
       mesh_.begin_face();
       glm::vec4 rgba(0.0f, 0.0f, 0.0f, 1.0f);
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -206,7 +191,7 @@ class PlyReader {
     Layout layout = layout_of(element);
     find_indices(element, layout);
     for (std::uint64_t s = 0; s < element.count; ++s) {
-      begin_row(element);
+      values_.begin_row(element);
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         if (i == *layout.indices)
           read_strip(element, s, element.properties[i]);
@@ -250,7 +235,6 @@ class PlyReader {
   Input& input_;
   const PlyHeader& header_;
   PlyValues values_;
-  ProgressMeter meter_;
   MeshBuilder mesh_{input_};
   std::uint64_t vertices_ = 0;
   bool rounded_ = false;
