@@ -36,11 +36,9 @@ TEST(Remark, InEnglish) {
             "soft triangles are drawn opaque: on average, a soft triangle covers 33% of its area "
             "(opacity 0.50), the opaque face covers all of it");
   EXPECT_EQ(describe({Kind::splats_dropped, {2, 7}}),
-            "2 of 7 splats have a value that is not a number, a size that is not finite, or no "
-            "rotation: dropped");
+            "2 of 7 splats have a value that is not finite or outside its range: dropped");
   EXPECT_EQ(describe({Kind::splats_dropped, {1, 7}}),
-            "1 of 7 splats has a value that is not a number, a size that is not finite, or no "
-            "rotation: dropped");
+            "1 of 7 splats has a value that is not finite or outside its range: dropped");
   EXPECT_EQ(describe({.kind = Kind::splat_colors_linear}),
             "the splats were trained and are blended in linear light; they are drawn as if their "
             "colours were display-referred, and look different");
