@@ -163,9 +163,9 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
   Command command = program.add_command("bench", "Measure frame times");
   command.footer(
       R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
-with the baseline if it supports the scene. Splats have only the plan, sorted anew for each view; the time
-of sorting is listed. Warm-up frames run until the times are stable. A
-frame ends when the device has finished. First, the first case is compared with itself (A/A).
+with the baseline if it supports the scene. Splats are drawn only with the plan, and sorted for
+each view; the table lists the time of sorting. Warm-up frames run until the times are stable.
+A frame ends when the device has finished. First, the first case is compared with itself (A/A).
 "best ms" is the smallest of the rounds' medians; ratios use it. Two times are "equal" if
 they differ by at most twice the spread. The spread is the larger of the A/A spread and the
 spread between rounds.

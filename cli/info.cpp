@@ -426,10 +426,10 @@ void add_info(Command& program) {
       program.add_command("info", "Print a scene's contents, memory use and lint findings");
   command.footer(
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
-faces, unused vertices, and coordinates so large that floats round them visibly. Of splats, it
-reports transparent, collapsed, needle-shaped, outlying and repeated ones, and harmonics that are
-0. Scenes with findings can still be drawn. Plan and lint are printed for each layer. The output of --json
-contains the cameras; tureen render --camera can read them from it.
+faces, unused vertices, and coordinates so large that floats round them visibly. It also
+reports transparent, collapsed, needle-shaped, outlying and repeated splats, and harmonics
+that are 0. Scenes with findings can still be drawn. Plan and lint are printed for each layer.
+The output of --json contains the cameras; tureen render --camera can read them from it.
 
 Examples:
   tureen info soup.glb

@@ -121,7 +121,7 @@ void check_images(const std::string& pattern, const RenderOptions& options) {
 
 /// Throws UsageError and OutputError.
 void check_output(const RenderOptions& options, const glm::vec4& background) {
-  require_measured_names(options.measured);
+  require_measured_names(options.measured, options.output);
   for (const MeasuredOutput& each : options.measured.list)
     if (!each.pattern.empty()) check_images(each.pattern, options);
   if (!is_video_name(options.output)) {
@@ -187,6 +187,7 @@ ExitCode render(RenderOptions options) {
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
+  require_measured_sizes(context.capabilities(), views.cameras, options.measured);
   const auto draw = options.show.what == DebugView::color ? draw_colors : draw_debug_view;
   const Drawn drawn = draw(context, scene, options, background, views);
   const std::vector<MeasuredImage> measured =

@@ -33,13 +33,17 @@ set(arrows
   "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing")
 
 set(modules "")
+set(folders "")
 foreach(line IN LISTS arrows)
   string(REGEX MATCH "^[^:]+" module "${line}")
   string(REGEX REPLACE "^[^:]+: *" "" allowed "${line}")
   string(REPLACE " " ";" allowed "${allowed}")
   list(APPEND modules ${module})
+  string(REGEX MATCH "^[^/]+" folder "${module}")
+  list(APPEND folders ${folder})
   set(allowed_${module} ${allowed})
 endforeach()
+list(REMOVE_DUPLICATES folders)
 # In descending order, so that runtime/gl is found before runtime.
 list(SORT modules ORDER DESCENDING)
 
@@ -56,7 +60,7 @@ function(module_of path out)
 endfunction()
 
 set(wrong "")
-foreach(folder IN ITEMS base image scene camera formats oracle runtime trainer jobs viewer web)
+foreach(folder IN LISTS folders)
   file(GLOB_RECURSE sources RELATIVE "${ROOT}"
     "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp" "${ROOT}/${folder}/*.cu*")
   foreach(source IN LISTS sources)

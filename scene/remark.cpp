@@ -138,7 +138,7 @@ std::string sentence_of(const Remark& remark) {
     case Kind::splats_dropped:
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) + " splats " +
              (counts[0] == 1 ? "has" : "have") +
-             " a value that is not a number, a size that is not finite, or no rotation: dropped";
+             " a value that is not finite or outside its range: dropped";
     case Kind::splat_colors_linear:
       return "the splats were trained and are blended in linear light; they are drawn as if their "
              "colours were display-referred, and look different";
@@ -258,6 +258,7 @@ std::string hint_of(const Remark& remark) {
   switch (remark.kind) {
     case Kind::up_unknown_to_format:
     case Kind::up_unknown_to_trimesh:
+    case Kind::up_unknown_to_checkpoint:
     case Kind::up_unknown_to_splats:
       return "--up changes it";
     case Kind::profile_assumed:

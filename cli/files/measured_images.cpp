@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
@@ -100,14 +102,26 @@ void add_measured_outputs(Command& command, MeasuredOutputs& outputs) {
         .value_name("FILE");
 }
 
-void require_measured_names(const MeasuredOutputs& outputs) {
+void require_measured_names(const MeasuredOutputs& outputs, const std::string& image) {
+  std::set<std::filesystem::path> names{std::filesystem::path(image).lexically_normal()};
   for (const MeasuredOutput& each : outputs.list) {
     if (each.pattern.empty()) continue;
     const std::string extension = extension_of(each.pattern);
     if (extension != ".exr" && extension != ".png")
       throw UsageError(
           fmt::format("{}: '{}' ends in neither .exr nor .png", each.option, each.pattern));
+    if (!names.insert(std::filesystem::path(each.pattern).lexically_normal()).second)
+      throw UsageError(fmt::format("{}: '{}' is also another output", each.option, each.pattern));
   }
+}
+
+void require_measured_sizes(const gl::Capabilities& device, const std::vector<Camera>& cameras,
+                            const MeasuredOutputs& outputs) {
+  for (const MeasuredOutput& output : outputs.list)
+    for (const Camera& camera : cameras)
+      if (!output.pattern.empty() && std::max(camera.width, camera.height) > device.max_image_side)
+        throw UsageError(fmt::format("{} supports images of at most {} pixels a side",
+                                     output.option, device.max_image_side));
 }
 
 std::vector<MeasuredImage> write_measured(const gl::Context& context, const Scene& scene,
@@ -125,9 +139,6 @@ std::vector<MeasuredImage> write_measured(const gl::Context& context, const Scen
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       progress.update(double(i) / double(cameras.size()));
       const Camera& camera = cameras[i];
-      if (std::max(camera.width, camera.height) > device.max_image_side)
-        throw UsageError(fmt::format("{} supports images of at most {} pixels a side",
-                                     output.option, device.max_image_side));
       renderer.draw({camera});
       MeasuredImage image{.path = image_name(output.pattern, int(i), int(cameras.size())).string(),
                           .what = output.what};

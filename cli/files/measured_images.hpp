@@ -34,8 +34,9 @@ struct MeasuredOutputs {
 
 void add_measured_outputs(Command& command, MeasuredOutputs& outputs);
 
-/// Throws UsageError for names that do not end in .exr or .png.
-void require_measured_names(const MeasuredOutputs& outputs);
+/// Throws UsageError for names that do not end in .exr or .png, and for a name that two outputs
+/// have; `image` is the name of the images themselves.
+void require_measured_names(const MeasuredOutputs& outputs, const std::string& image);
 
 struct MeasuredImage {
   std::string path;
@@ -44,9 +45,13 @@ struct MeasuredImage {
   double near = 0, far = 0;
 };
 
-/// Writes one file for each output and camera. Values have one sample a pixel. Nothing is visible:
-/// depth infinity (PNG: 0), normal 0, alpha 0. Throws UsageError for images beyond the limit of the
-/// device, and OutputError.
+/// Throws UsageError if an image is larger than the device supports: measured images have no tiles.
+void require_measured_sizes(const gl::Capabilities& device, const std::vector<Camera>& cameras,
+                            const MeasuredOutputs& outputs);
+
+/// Writes one file for each output and camera; require_measured_sizes() has accepted them. Values
+/// have one sample a pixel. Where nothing is visible: depth infinity (PNG: 0), normal 0, alpha 0.
+/// Throws OutputError.
 std::vector<MeasuredImage> write_measured(const gl::Context& context, const Scene& scene,
                                           const std::vector<Camera>& cameras,
                                           const MeasuredOutputs& outputs);

@@ -92,10 +92,15 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
   const bool has_soup = std::any_of(
       scene.layers.begin(), scene.layers.end(),
       [](const Layer& layer) { return std::holds_alternative<TriangleSoup>(layer.primitives); });
-  if (!has_soup && preferences.shading_stage != PlanPreferences{}.shading_stage)
-    say("--shading has no effect: the scene has only splats");
-  if (!has_soup && !(preferences.specialisations == SpecialisationSet::all()))
-    say("--keep has no effect: the scene has only splats");
+  const auto say_if_ignored = [&](bool is_given, const char* option) {
+    if (is_given && !has_soup)
+      say(std::string(option) + " has no effect: the scene has only splats");
+  };
+  say_if_ignored(preferences.shading_stage != PlanPreferences{}.shading_stage, "--shading");
+  say_if_ignored(!(preferences.specialisations == SpecialisationSet::all()), "--keep");
+  say_if_ignored(!preferences.specialise, "--no-specialise");
+  if (preferences.as_published && splat_count(scene) == 0)
+    say("--as-published has no effect: the scene has no splats");
   preferences.quality = scene.quality;
   // Each option replaces the scene's complete quality setting; they exclude each other.
   if (options.supersampling) preferences.quality = {.supersampling = *options.supersampling};

@@ -10,8 +10,8 @@
 #include <set>
 #include <string_view>
 
+#include "base/little_endian.hpp"
 #include "base/shown_text.hpp"
-#include "formats/splat/little_endian.hpp"
 
 namespace tureen {
 

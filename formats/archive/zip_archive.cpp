@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/little_endian.hpp"
 #include "formats/archive/inflater.hpp"
 
 namespace tureen {
@@ -18,15 +19,6 @@ constexpr std::uint32_t end64_signature = 0x06064b50;
 constexpr std::uint32_t locator64_signature = 0x07064b50;
 constexpr std::size_t local_size = 30, central_size = 46, end_size = 22, end64_size = 56,
                       locator64_size = 20;
-
-/// A little-endian number of `bytes` bytes, on any machine.
-std::uint64_t little(std::span<const std::byte> data, std::size_t at, std::size_t bytes) {
-  assert(at + bytes <= data.size());
-  std::uint64_t value = 0;
-  for (std::size_t i = bytes; i-- > 0;)
-    value = value << 8 | std::to_integer<std::uint64_t>(data[at + i]);
-  return value;
-}
 
 }  // namespace
 
@@ -48,11 +40,11 @@ ZipArchive::ZipArchive(Input input) : input_(std::move(input)) {
   for (std::uint64_t i = 0; i < directory.entries; ++i) {
     const auto rest = std::span(bytes).subspan(at);
     const std::uint64_t place = directory.offset + at;
-    if (rest.size() < central_size || little(rest, 0, 4) != central_signature)
+    if (rest.size() < central_size || little_number(rest, 0, 4) != central_signature)
       input_.fail_at(place, "entry " + std::to_string(i) + " of the zip directory is damaged");
-    const std::size_t length = central_size + static_cast<std::size_t>(little(rest, 28, 2)) +
-                               static_cast<std::size_t>(little(rest, 30, 2)) +
-                               static_cast<std::size_t>(little(rest, 32, 2));
+    const std::size_t length = central_size + static_cast<std::size_t>(little_number(rest, 28, 2)) +
+                               static_cast<std::size_t>(little_number(rest, 30, 2)) +
+                               static_cast<std::size_t>(little_number(rest, 32, 2));
     if (length > rest.size())
       input_.fail_at(place, "entry " + std::to_string(i) + " of the zip directory is cut short");
     read_entry(rest.first(length), place, directory.offset);
@@ -74,12 +66,14 @@ ZipArchive::Directory ZipArchive::find_directory() {
   const auto tail = input_.read_values<std::byte>(window, "the end of the zip archive");
   for (std::size_t at = tail.size() - end_size + 1; at-- > 0;) {
     const auto record = std::span(tail).subspan(at);
-    if (little(record, 0, 4) != end_signature || little(record, 20, 2) != record.size() - end_size)
+    if (little_number(record, 0, 4) != end_signature ||
+        little_number(record, 20, 2) != record.size() - end_size)
       continue;
     const std::uint64_t place = start + at;
-    if (little(record, 4, 2) != 0 && little(record, 4, 2) != 0xffff)
+    if (little_number(record, 4, 2) != 0 && little_number(record, 4, 2) != 0xffff)
       input_.fail_at(place, "a zip archive in several parts");
-    const Directory directory{little(record, 16, 4), little(record, 12, 4), little(record, 10, 2)};
+    const Directory directory{little_number(record, 16, 4), little_number(record, 12, 4),
+                              little_number(record, 10, 2)};
     const bool overflows = directory.offset == 0xffffffff || directory.size == 0xffffffff ||
                            directory.entries == 0xffff;
     if (!overflows) return directory;
@@ -93,46 +87,46 @@ ZipArchive::Directory ZipArchive::find_zip64_directory(std::uint64_t locator) {
   std::array<std::byte, end64_size> record;
   input_.seek(locator);
   input_.read(std::span(record).first(locator64_size), "the zip64 locator");
-  if (little(record, 0, 4) != locator64_signature)
+  if (little_number(record, 0, 4) != locator64_signature)
     input_.fail_at(locator, "the zip64 locator is missing");
-  const std::uint64_t end = little(record, 8, 8);
+  const std::uint64_t end = little_number(record, 8, 8);
   input_.seek(end);
   input_.read(record, "the zip64 end record");
-  if (little(record, 0, 4) != end64_signature)
+  if (little_number(record, 0, 4) != end64_signature)
     input_.fail_at(end, "the zip64 end record is missing");
-  return {little(record, 48, 8), little(record, 40, 8), little(record, 32, 8)};
+  return {little_number(record, 48, 8), little_number(record, 40, 8), little_number(record, 32, 8)};
 }
 
 void ZipArchive::read_entry(std::span<const std::byte> record, std::uint64_t at,
                             std::uint64_t directory) {
   ZipEntry entry;
-  const auto name_size = static_cast<std::size_t>(little(record, 28, 2));
-  const auto extra_size = static_cast<std::size_t>(little(record, 30, 2));
+  const auto name_size = static_cast<std::size_t>(little_number(record, 28, 2));
+  const auto extra_size = static_cast<std::size_t>(little_number(record, 30, 2));
   entry.name.assign(reinterpret_cast<const char*>(record.data()) + central_size, name_size);
-  entry.compressed_size = little(record, 20, 4);
-  entry.size = little(record, 24, 4);
-  entry.header = little(record, 42, 4);
+  entry.compressed_size = little_number(record, 20, 4);
+  entry.size = little_number(record, 24, 4);
+  entry.header = little_number(record, 42, 4);
   const std::string quoted = "zip entry \"" + entry.name + "\" ";
 
   // Zip64: the fields with the value 0xffffffff follow in this order in extra field 1.
   auto extra = record.subspan(central_size + name_size, extra_size);
   while (extra.size() >= 4) {
-    const std::size_t length = static_cast<std::size_t>(little(extra, 2, 2));
+    const std::size_t length = static_cast<std::size_t>(little_number(extra, 2, 2));
     if (length > extra.size() - 4) break;
-    if (little(extra, 0, 2) == 1) {
+    if (little_number(extra, 0, 2) == 1) {
       auto values = extra.subspan(4, length);
       for (std::uint64_t* field : {&entry.size, &entry.compressed_size, &entry.header}) {
         if (*field != 0xffffffff) continue;
         if (values.size() < 8) input_.fail_at(at, quoted + "lacks its zip64 sizes");
-        *field = little(values, 0, 8);
+        *field = little_number(values, 0, 8);
         values = values.subspan(8);
       }
     }
     extra = extra.subspan(4 + length);
   }
 
-  if (little(record, 8, 2) & 1) input_.fail_at(at, quoted + "is encrypted");
-  const std::uint64_t method = little(record, 10, 2);
+  if (little_number(record, 8, 2) & 1) input_.fail_at(at, quoted + "is encrypted");
+  const std::uint64_t method = little_number(record, 10, 2);
   if (method != 0 && method != 8)
     input_.fail_at(at, quoted + "is compressed by method " + std::to_string(method) +
                            ", only 0 (stored) and 8 (deflated) are supported");
@@ -165,9 +159,9 @@ std::uint64_t ZipArchive::data_offset(const ZipEntry& entry) {
   std::array<std::byte, local_size> header;
   input_.seek(entry.header);
   input_.read(header, "a zip entry's header");
-  if (little(header, 0, 4) != local_signature) fail_in(entry, "has a damaged header");
+  if (little_number(header, 0, 4) != local_signature) fail_in(entry, "has a damaged header");
   const std::uint64_t offset =
-      entry.header + local_size + little(header, 26, 2) + little(header, 28, 2);
+      entry.header + local_size + little_number(header, 26, 2) + little_number(header, 28, 2);
   if (offset > input_.size() || entry.compressed_size > input_.size() - offset)
     fail_in(entry, "does not lie within the file");
   return offset;

@@ -1,13 +1,13 @@
 #include "formats/gltf/gltf_splats.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "formats/gltf/gltf_accessor.hpp"
+#include "formats/splat/splat_values.hpp"
 #include "scene/edit/morton_order.hpp"
-#include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -28,15 +28,6 @@ std::string coefficient_name(int degree, int order) {
                              std::to_string(order));
 }
 
-/// The quaternion x, y, z, w with length 1. The bits stay if they already have this length up to
-/// rounding: four squares of floats, and half a step of 2^-24 each.
-glm::quat unit_rotation(const glm::vec4& xyzw) {
-  const glm::dvec4 q(xyzw);
-  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  const double scale = std::abs(squared - 1.0) <= 1e-6 ? 1.0 : 1.0 / std::sqrt(squared);
-  return glm::quat(float(q.w * scale), float(q.x * scale), float(q.y * scale), float(q.z * scale));
-}
-
 /// Three floats a splat as vectors.
 std::vector<glm::vec3> as_vec3(const std::vector<float>& values) {
   std::vector<glm::vec3> result(values.size() / 3);
@@ -45,15 +36,11 @@ std::vector<glm::vec3> as_vec3(const std::vector<float>& values) {
   return result;
 }
 
-bool is_valid_splat(const Gaussians& gaussians, const glm::vec4& rotation,
-                    std::span<const glm::vec3> coefficients, std::size_t i) {
-  const glm::vec3& scales = gaussians.scales[i];
-  const glm::dvec4 q(rotation);
-  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  return is_finite(gaussians.centers[i]) && is_finite(scales) && scales.x >= 0 && scales.y >= 0 &&
-         scales.z >= 0 && squared > 0 && std::isfinite(squared) && gaussians.opacity[i] >= 0 &&
-         gaussians.opacity[i] <= 1 &&
-         std::all_of(coefficients.begin(), coefficients.end(), is_finite<float>);
+/// Splat i; `xyzw` is its quaternion.
+SplatValues splat_at(const Gaussians& gaussians, const glm::vec4& xyzw, std::size_t i) {
+  const glm::dvec4 q(xyzw);
+  return {gaussians.centers[i], gaussians.scales[i], glm::dquat(q.w, q.x, q.y, q.z),
+          gaussians.opacity[i]};
 }
 
 }  // namespace
@@ -213,13 +200,14 @@ void GltfSplatBuilder::drop_invalid(Splats& splats, std::vector<glm::vec4>& rota
   gaussians.rotations.reserve(count);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!is_valid_splat(gaussians, rotations[i],
-                        std::span(coefficients).subspan(stride * i, stride), i))
+    const SplatValues splat = splat_at(gaussians, rotations[i], i);
+    const std::optional<glm::quat> rotation = unit_rotation(splat.rotation);
+    if (!rotation || !is_valid_splat(splat, std::span(coefficients).subspan(stride * i, stride)))
       continue;
     gaussians.centers[kept] = gaussians.centers[i];
     gaussians.scales[kept] = gaussians.scales[i];
     gaussians.opacity[kept] = gaussians.opacity[i];
-    gaussians.rotations.push_back(unit_rotation(rotations[i]));
+    gaussians.rotations.push_back(*rotation);
     std::copy_n(coefficients.begin() + std::ptrdiff_t(stride * i), stride,
                 coefficients.begin() + std::ptrdiff_t(stride * kept));
     ++kept;

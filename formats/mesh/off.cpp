@@ -10,6 +10,7 @@
 #include "base/output.hpp"
 #include "base/text_scanner.hpp"
 #include "formats/mesh/plain_mesh.hpp"
+#include "formats/progress_meter.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {

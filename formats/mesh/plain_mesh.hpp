@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -12,7 +11,6 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -70,20 +68,6 @@ class MeshBuilder {
   std::uint64_t polygons_ = 0;      // with more than three corners
   std::uint64_t too_small_ = 0;     // with fewer than three
   std::uint64_t uncolored_ = 0;     // uncoloured triangles in a coloured mesh
-};
-
-/// Calls `progress` with the fraction done, once every 65,536 calls.
-class ProgressMeter {
- public:
-  explicit ProgressMeter(const ReadOptions& options) : progress_(options.progress) {}
-  template <class Fraction>
-  void step(Fraction&& fraction) {
-    if (++steps_ % 65536 == 0 && progress_) progress_(fraction());
-  }
-
- private:
-  const std::function<void(double)>& progress_;
-  std::uint64_t steps_ = 0;
 };
 
 /// A scene as coloured triangles: its own soup if that has FaceColors or VertexColors. Otherwise a

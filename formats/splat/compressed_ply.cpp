@@ -4,8 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "formats/mesh/plain_mesh.hpp"
-#include "formats/mesh/ply_values.hpp"
+#include "formats/ply/ply_values.hpp"
 #include "formats/splat/splat_ply_layout.hpp"
 
 namespace tureen {
@@ -56,7 +55,7 @@ float unpacked_coefficient(std::uint8_t byte) {
 class CompressedPlyReader {
  public:
   CompressedPlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
-      : input_(input), header_(header), values_(input, header), meter_(options) {}
+      : input_(input), header_(header), values_(input, header, options) {}
 
   Scene read() {
     const PlyElement& vertex = *header_.find("vertex");
@@ -77,10 +76,11 @@ class CompressedPlyReader {
       else if (&element == sh)
         read_rest(element, degree);
       else
-        skip(element);
+        values_.skip_rows(element);
     }
     const SplatPlyProfile profile = splat_ply_profile(header_, SplatBuilder::Kind::gaussians);
     Scene scene = unpack(degree, profile);
+    add_profile_remarks(profile, scene);
     if (values_.anything_left())
       scene.info.remarks.push_back({Remark::Kind::bytes_ignored, {values_.remaining()}});
     return scene;
@@ -92,7 +92,7 @@ class CompressedPlyReader {
   void read_rows(const PlyElement& element, const PlySlots& required, Use&& use, End&& end) {
     const std::vector<int> slots = find_slots(input_, element, required);
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      begin_row(element);
+      values_.begin_row(element);
       for (std::size_t i = 0; i < slots.size(); ++i)
         if (slots[i] == splat_slot::none)
           values_.skip(element.properties[i]);
@@ -153,15 +153,6 @@ class CompressedPlyReader {
         [&] { rest_.insert(rest_.end(), row.begin(), row.end()); });
   }
 
-  void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;  // it has no bytes in the body
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      begin_row(element);
-      for (const PlyProperty& property : element.properties) values_.skip(property);
-      values_.end_row();
-    }
-  }
-
   Scene unpack(int degree, const SplatPlyProfile& profile) {
     const auto kind =
         profile.is_flat ? SplatBuilder::Kind::flat_gaussians : SplatBuilder::Kind::gaussians;
@@ -204,11 +195,6 @@ class CompressedPlyReader {
     rows.reserve(static_cast<std::size_t>(element.count));
   }
 
-  void begin_row(const PlyElement& element) {
-    meter_.step([&] { return double(values_.position()) / double(input_.size()); });
-    values_.begin_row(element.name.c_str());
-  }
-
   [[noreturn]] void fail_in(const PlyElement& element, const std::string& reason) const {
     throw InputError({input_.name(), {}, element.line}, "element '" + element.name + "' " + reason);
   }
@@ -216,7 +202,6 @@ class CompressedPlyReader {
   Input& input_;
   const PlyHeader& header_;
   PlyValues values_;
-  ProgressMeter meter_;
   std::vector<ChunkRanges> ranges_;
   std::vector<PackedSplat> packed_;
   std::vector<std::uint8_t> rest_;  // [splat][coefficient][rgb]

@@ -14,7 +14,7 @@
 #pragma once
 
 #include "base/input.hpp"
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
 #include "formats/scene_file.hpp"
 #include "scene/scene.hpp"
 

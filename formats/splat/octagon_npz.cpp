@@ -5,14 +5,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "base/little_endian.hpp"
 #include "formats/archive/npy_array.hpp"
-#include "formats/mesh/plain_mesh.hpp"
-#include "formats/splat/little_endian.hpp"
+#include "formats/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -102,7 +101,7 @@ Scene read_octagon_npz(Input input, const ReadOptions& options) {
     const std::size_t first = i * octagon_corners;
     for (std::size_t row = first + 1; row < first + octagon_corners; ++row)
       for (std::size_t column = 0; column < 4; ++column)
-        // NaN differs from itself: SplatBuilder drops it.
+        // Not !=, by which NaN would differ from itself; SplatBuilder drops NaN.
         if (colors.at(row, column) < colors.at(first, column) ||
             colors.at(row, column) > colors.at(first, column))
           colors.fail("changes within octagon " + std::to_string(i) + ": rows " +
@@ -113,8 +112,6 @@ Scene read_octagon_npz(Input input, const ReadOptions& options) {
     for (int c = 0; c < 3; ++c)
       coefficient[c] = float((colors.at(first, std::size_t(c)) - 0.5) / harmonics::y00);
     splat.opacity = colors.at(first, 3);
-    if (splat.opacity < 0 || splat.opacity > 1)
-      splat.opacity = std::numeric_limits<double>::quiet_NaN();
     builder.add(splat, std::span(&coefficient, 1));
   }
   Scene scene = builder.finish(*profile_named("redisplats"), "octagon mesh");

@@ -22,9 +22,10 @@ namespace tureen {
 /// Whether the file begins as a zip archive of .npy files.
 bool is_octagon_npz(std::span<const std::byte> head);
 
-/// Flat Gaussians of degree 0 with the profile redisplats. Drops octagons without an area. Adds a
-/// remark if `options` has no Q. Throws InputError if an array is missing, damaged or of another
-/// shape, if the faces are no such fans, or if a colour changes within an octagon.
+/// Flat Gaussians of degree 0 with the profile redisplats. Drops octagons without an area or with
+/// invalid values (splat_values.hpp). Adds a remark if `options` has no Q. Throws InputError if an
+/// array is missing, damaged or of another shape, if the faces are no such fans, or if a colour
+/// changes within an octagon.
 Scene read_octagon_npz(Input input, const ReadOptions& options = {});
 Scene read_octagon_npz(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -5,26 +5,18 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "scene/edit/morton_order.hpp"
-#include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// The quaternion of unit length, or zeros if its length is 0 or not finite.
-glm::quat unit_rotation(const glm::dquat& q) {
-  // Divided by the largest part first, so that no square underflows or overflows.
-  const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  const glm::dquat scaled = q / largest;
-  const double length = largest * glm::length(scaled);
-  if (!(length > 0) || !std::isfinite(length)) return {0.0f, 0.0f, 0.0f, 0.0f};
-  // The parts of a unit quaternion, rounded to float, have a length within 6e-8 of 1. Such a
-  // quaternion stays bit for bit, so that a file that was written from it reads back unchanged.
-  if (std::abs(length - 1) <= 6e-8) return glm::quat(q);
-  return glm::quat(scaled / glm::length(scaled));
+bool is_valid_density(const glm::vec3& semi_axes, std::span<const float> network) {
+  return semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z > 0 &&
+         std::all_of(network.begin(), network.end(), [](float v) { return std::isfinite(v); });
 }
 
 }  // namespace
@@ -56,40 +48,31 @@ SplatBuilder::SplatBuilder(Input& input, Kind kind, int degree, std::uint64_t co
   }
 }
 
-bool SplatBuilder::is_valid(const SplatValues& splat, std::span<const glm::vec3> coefficients,
-                            std::span<const float> network) const {
-  const glm::vec3 scales(splat.scales);
-  if (!is_finite(glm::vec3(splat.center)) || !is_finite(scales)) return false;
-  if (!(scales.x >= 0 && scales.y >= 0 && scales.z >= 0)) return false;
-  if (kind_ == Kind::neural_densities && !(scales.x > 0 && scales.y > 0 && scales.z > 0))
-    return false;
-  return !std::isnan(splat.opacity) &&
-         std::all_of(coefficients.begin(), coefficients.end(), is_finite<float>) &&
-         std::all_of(network.begin(), network.end(), [](float v) { return std::isfinite(v); });
-}
-
 void SplatBuilder::add(const SplatValues& splat, std::span<const glm::vec3> coefficients,
                        std::span<const float> network) {
   assert(coefficients.size() == std::size_t(harmonics::count(splats_.color.degree)));
   ++added_;
-  const glm::quat rotation = unit_rotation(splat.rotation);
-  if (rotation == glm::quat(0.0f, 0.0f, 0.0f, 0.0f) || !is_valid(splat, coefficients, network)) {
+  const std::optional<glm::quat> rotation = unit_rotation(splat.rotation);
+  const bool is_neural = kind_ == Kind::neural_densities;
+  if (!rotation || !is_valid_splat(splat, coefficients) ||
+      (is_neural && !is_valid_density(glm::vec3(splat.scales), network))) {
     ++dropped_;
     return;
   }
   auto& colors = splats_.color.coefficients;
   colors.insert(colors.end(), coefficients.begin(), coefficients.end());
-  if (auto* densities = std::get_if<NeuralDensities>(&splats_.kernel)) {
-    densities->centers.emplace_back(splat.center);
-    densities->semi_axes.emplace_back(splat.scales);
-    densities->rotations.push_back(rotation);
-    densities->networks.insert(densities->networks.end(), network.begin(), network.end());
+  if (is_neural) {
+    auto& densities = std::get<NeuralDensities>(splats_.kernel);
+    densities.centers.emplace_back(splat.center);
+    densities.semi_axes.emplace_back(splat.scales);
+    densities.rotations.push_back(*rotation);
+    densities.networks.insert(densities.networks.end(), network.begin(), network.end());
     return;
   }
   auto& gaussians = std::get<Gaussians>(splats_.kernel);
   gaussians.centers.emplace_back(splat.center);
   gaussians.scales.emplace_back(splat.scales);
-  gaussians.rotations.push_back(rotation);
+  gaussians.rotations.push_back(*rotation);
   gaussians.opacity.push_back(static_cast<float>(splat.opacity));
 }
 

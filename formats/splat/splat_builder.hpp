@@ -1,25 +1,17 @@
-// Collects the splats of a file. All readers of splats share it, and with it the rules for values
-// that are invalid, the order of splats, and losses of the formats.
+// Collects the splats of a file. It drops invalid ones, sorts the others, and adds the remarks that
+// all formats share.
 #pragma once
 
 #include <cstdint>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
 
 #include "base/input.hpp"
+#include "formats/splat/splat_values.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
-
-/// One splat after activation.
-struct SplatValues {
-  glm::dvec3 center{0.0};
-  glm::dvec3 scales{1.0};                   // or semi-axes, in layer units
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // layer from local coordinates, of any length but 0
-  double opacity = 1;                       // not for neural densities
-};
 
 class SplatBuilder {
  public:
@@ -29,10 +21,10 @@ class SplatBuilder {
   /// input can hold them. Throws InputError for 2^32 splats or more.
   SplatBuilder(Input& input, Kind kind, int degree, std::uint64_t count);
 
-  /// Rounds the values to float and adds the splat. Drops it if a value is NaN, or a scale
-  /// negative; if a centre, a scale, a coefficient or a network parameter is infinite; if the
-  /// quaternion is 0; or if a semi-axis of a neural density is not positive. `coefficients`:
-  /// harmonics::count(degree). `network`: NeuralDensities::parameters floats, or none.
+  /// Rounds the values to float and adds the splat. Drops it unless is_valid_splat() and
+  /// unit_rotation() accept it. Drops neural densities also if a semi-axis is 0 or a network
+  /// parameter is not finite. `coefficients`: harmonics::count(degree). `network`:
+  /// NeuralDensities::parameters floats, or none.
   void add(const SplatValues& splat, std::span<const glm::vec3> coefficients,
            std::span<const float> network = {});
 
@@ -41,9 +33,6 @@ class SplatBuilder {
   Scene finish(const SplatProfile& profile, const std::string& format);
 
  private:
-  bool is_valid(const SplatValues& splat, std::span<const glm::vec3> coefficients,
-                std::span<const float> network) const;
-
   Input& input_;
   Kind kind_;
   std::uint64_t added_ = 0, dropped_ = 0;

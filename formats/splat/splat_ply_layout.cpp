@@ -124,4 +124,14 @@ SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind ki
   return result;
 }
 
+void add_profile_remarks(const SplatPlyProfile& profile, Scene& scene) {
+  std::vector<Remark>& remarks = scene.info.remarks;
+  if (!profile.assumed.empty())
+    remarks.push_back({.kind = Remark::Kind::profile_assumed, .names = {profile.assumed}});
+  if (profile.unknown_mode.empty()) return;
+  const auto& splats = std::get<Splats>(only_layer(scene).primitives);
+  remarks.push_back({.kind = Remark::Kind::render_mode_unknown,
+                     .names = {profile.unknown_mode, std::string(profile_name(splats))}});
+}
+
 }  // namespace tureen

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -66,5 +66,8 @@ struct SplatPlyProfile {
 
 /// The profile that the header's comments select; `kind` is that of the properties.
 SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind kind);
+
+/// Adds the remarks about `assumed` and `unknown_mode` to a scene of one layer of splats.
+void add_profile_remarks(const SplatPlyProfile& profile, Scene& scene);
 
 }  // namespace tureen

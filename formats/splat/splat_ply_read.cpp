@@ -1,8 +1,7 @@
 #include <array>
 #include <optional>
 
-#include "formats/mesh/plain_mesh.hpp"
-#include "formats/mesh/ply_values.hpp"
+#include "formats/ply/ply_values.hpp"
 #include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "formats/splat/splat_ply_layout.hpp"
@@ -16,7 +15,7 @@ using SplatRow = std::array<double, splat_slot::count>;
 class SplatPlyReader {
  public:
   SplatPlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
-      : input_(input), header_(header), values_(input, header), meter_(options) {}
+      : input_(input), header_(header), values_(input, header, options) {}
 
   Scene read() {
     const PlyElement& vertex = *header_.find("vertex");
@@ -25,14 +24,13 @@ class SplatPlyReader {
     if (profile.is_flat) layout.kind = SplatBuilder::Kind::flat_gaussians;
     SplatBuilder builder(input_, layout.kind, layout.degree, vertex.count);
     for (const PlyElement& element : header_.elements) {
-      if (element.properties.empty()) continue;  // it has no bytes in the body
+      if (&element != &vertex) {
+        values_.skip_rows(element);
+        continue;
+      }
       for (std::uint64_t i = 0; i < element.count; ++i) {
-        meter_.step([&] { return double(values_.position()) / double(input_.size()); });
-        values_.begin_row(element.name.c_str());
-        if (&element == &vertex)
-          read_splat(element, layout, profile, builder);
-        else
-          for (const PlyProperty& property : element.properties) values_.skip(property);
+        values_.begin_row(element);
+        read_splat(element, layout, profile, builder);
         values_.end_row();
       }
     }
@@ -40,16 +38,10 @@ class SplatPlyReader {
     if (values_.anything_left())
       trailing = Remark{Remark::Kind::bytes_ignored, {values_.remaining()}};
     Scene scene = builder.finish(profile.profile, "PLY");
-    std::vector<Remark>& remarks = scene.info.remarks;
-    if (!profile.assumed.empty())
-      remarks.push_back({.kind = Remark::Kind::profile_assumed, .names = {profile.assumed}});
-    if (!profile.unknown_mode.empty())
-      remarks.push_back(
-          {.kind = Remark::Kind::render_mode_unknown,
-           .names = {profile.unknown_mode,
-                     std::string(profile_name(std::get<Splats>(only_layer(scene).primitives)))}});
-    if (trailing) remarks.push_back(*trailing);
-    if (has_doubles(vertex, layout)) remarks.push_back({Remark::Kind::coordinates_rounded});
+    add_profile_remarks(profile, scene);
+    if (trailing) scene.info.remarks.push_back(*trailing);
+    if (has_doubles(vertex, layout))
+      scene.info.remarks.push_back({Remark::Kind::coordinates_rounded});
     return scene;
   }
 
@@ -105,7 +97,6 @@ class SplatPlyReader {
   Input& input_;
   const PlyHeader& header_;
   PlyValues values_;
-  ProgressMeter meter_;
   SplatRow row_{};
 };
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "base/output.hpp"
-#include "formats/mesh/ply_bytes.hpp"
+#include "formats/ply/ply_bytes.hpp"
 #include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "formats/splat/splat_ply.hpp"

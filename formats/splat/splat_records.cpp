@@ -4,8 +4,8 @@
 #include <system_error>
 
 #include "base/extension.hpp"
-#include "formats/mesh/plain_mesh.hpp"
-#include "formats/splat/little_endian.hpp"
+#include "base/little_endian.hpp"
+#include "formats/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "base/little_endian.hpp"
 #include "formats/archive/inflater.hpp"
-#include "formats/mesh/plain_mesh.hpp"
-#include "formats/splat/little_endian.hpp"
+#include "formats/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -89,6 +89,10 @@ glm::dvec3 unpacked_position(std::span<const std::byte> bytes, const SpzHeader& 
   return value;
 }
 
+double unpacked_byte(std::span<const std::byte> bytes, std::size_t at) {
+  return std::to_integer<int>(bytes[at]);
+}
+
 /// (x, y, z, w). Never all zeros.
 glm::dvec4 unpacked_quaternion(std::span<const std::byte> bytes) {
   glm::dvec4 q(0.0);
@@ -121,9 +125,36 @@ std::array<float, harmonics::count(harmonics::max_degree)> signs_after_turn() {
   return signs;
 }
 
+/// The bytes of one splat in each array.
+using SpzParts = std::array<std::span<const std::byte>, spz_array::count>;
+
+/// On the axes of splat PLY.
+SplatValues unpacked_splat(const SpzParts& parts, const SpzHeader& header) {
+  SplatValues splat;
+  splat.center = unpacked_position(parts[spz_array::positions], header) * glm::dvec3(1, -1, -1);
+  for (int k = 0; k < 3; ++k)
+    splat.scales[k] = std::exp(unpacked_byte(parts[spz_array::scales], std::size_t(k)) / 16 - 10);
+  const glm::dvec4 q = unpacked_quaternion(parts[spz_array::rotations]);
+  splat.rotation = {q.w, q.x, -q.y, -q.z};
+  splat.opacity = unpacked_byte(parts[spz_array::alphas], 0) / 255;
+  return splat;
+}
+
+/// `signs` are those of signs_after_turn().
+void unpack_coefficients(const SpzParts& parts, std::span<const float> signs,
+                         std::span<glm::vec3> coefficients) {
+  const auto colors = parts[spz_array::colors], rest = parts[spz_array::rest];
+  for (std::size_t c = 0; c < 3; ++c) {
+    coefficients[0][int(c)] = float((unpacked_byte(colors, c) / 255 - 0.5) / 0.15);
+    for (std::size_t k = 1; k < coefficients.size(); ++k)
+      coefficients[k][int(c)] =
+          signs[k] * float((unpacked_byte(rest, 3 * (k - 1) + c) - 128) / 128);
+  }
+}
+
 class SpzReader {
  public:
-  SpzReader(Input& input, const ReadOptions& options) : input_(input), meter_(options) {}
+  SpzReader(Input& input, const ReadOptions& options) : input_(input), options_(options) {}
 
   Scene read() {
     std::array<std::byte, 4> head;
@@ -264,47 +295,30 @@ class SpzReader {
                   ", but only right, up, back (" + std::to_string(axes_of_spz) + ") are supported");
   }
 
-  Scene unpack() {
+  Scene unpack() const {
     const auto count = static_cast<std::size_t>(header_.splats);
     const auto strides = header_.strides();
-    std::array<std::span<const std::byte>, spz_array::count> arrays;
-    std::span<const std::byte> remaining(arrays_);
-    for (std::size_t a = 0; a < spz_array::count; ++a) {
-      arrays[a] = remaining.first(strides[a] * count);
-      remaining = remaining.subspan(arrays[a].size());
-    }
     SplatBuilder builder(input_, SplatBuilder::Kind::gaussians, header_.degree, count);
     const auto signs = signs_after_turn();
     std::array<glm::vec3, harmonics::count(harmonics::max_degree)> coefficients;
     const auto used = std::span(coefficients).first(std::size_t(harmonics::count(header_.degree)));
+    ProgressMeter meter(options_);
     for (std::size_t i = 0; i < count; ++i) {
-      meter_.step([&] { return double(i) / double(count); });
-      const auto part = [&](std::size_t a) {
-        return arrays[a].subspan(i * strides[a], strides[a]);
-      };
-      const auto number = [&](std::size_t a, std::size_t k) {
-        return double(std::to_integer<int>(part(a)[k]));
-      };
-      SplatValues splat;
-      splat.center = unpacked_position(part(spz_array::positions), header_) * glm::dvec3(1, -1, -1);
-      for (int k = 0; k < 3; ++k)
-        splat.scales[k] = std::exp(number(spz_array::scales, std::size_t(k)) / 16 - 10);
-      const glm::dvec4 q = unpacked_quaternion(part(spz_array::rotations));
-      splat.rotation = {q.w, q.x, -q.y, -q.z};
-      splat.opacity = number(spz_array::alphas, 0) / 255;
-      for (int c = 0; c < 3; ++c) {
-        used[0][c] = float((number(spz_array::colors, std::size_t(c)) / 255 - 0.5) / 0.15);
-        for (std::size_t k = 1; k < used.size(); ++k)
-          used[k][c] =
-              signs[k] * float((number(spz_array::rest, 3 * (k - 1) + std::size_t(c)) - 128) / 128);
+      meter.step([&] { return double(i) / double(count); });
+      SpzParts parts;
+      std::span<const std::byte> rest(arrays_);
+      for (std::size_t a = 0; a < spz_array::count; ++a) {
+        parts[a] = rest.subspan(i * strides[a], strides[a]);
+        rest = rest.subspan(count * strides[a]);
       }
-      builder.add(splat, used);
+      unpack_coefficients(parts, signs, used);
+      builder.add(unpacked_splat(parts, header_), used);
     }
     return builder.finish(*profile_named(header_.flags & flag_antialiased ? "mip" : "3dgs"), "SPZ");
   }
 
   Input& input_;
-  ProgressMeter meter_;
+  const ReadOptions& options_;
   SpzHeader header_;
   std::vector<std::byte> arrays_;  // in the order of spz_array, without gaps
   std::set<std::string> ignored_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/splat/splat_activation.hpp"
 #include "formats/torch/torch_archive.hpp"
 #include "scene/finite.hpp"
 #include "scene/lattice.hpp"
@@ -203,8 +204,6 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
   }
   return result;
 }
-
-double sigmoid(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 /// Whether defect() accepts the values of window `i`.
 bool is_valid_window(const Splats& splats, std::size_t i) {

@@ -203,8 +203,8 @@ Wording wording_of(LintFinding::Id id) {
       return {"splat", "splats", "is over 2000 times as long as wide",
               "are over 2000 times as long as wide"};
     case LintFinding::Id::outlying_splats:
-      return {"splat", "splats", "is far outside the others, or larger than they all",
-              "are far outside the others, or larger than they all"};
+      return {"splat", "splats", "is far from the others, or larger than their extent",
+              "are far from the others, or larger than their extent"};
     case LintFinding::Id::duplicate_splats:
       return {"splat", "splats", "repeats an earlier splat", "repeat an earlier splat"};
     case LintFinding::Id::zero_harmonics:

@@ -22,9 +22,8 @@ struct LintFinding {
     /// No area: the cross product of two edges is below 1e-12 of the longest edge squared.
     degenerate_faces,
     /// Faces with exactly the same three corners, in any order, as an earlier face. Where both
-    /// faces
-    /// are opaque, only one is visible. If their corners have the same order, the face with the
-    /// lower index is visible; otherwise rounding can decide. Degenerate faces are not counted
+    /// faces are opaque, only one is visible. If their corners have the same order, the face with
+    /// the lower index is visible; otherwise rounding can decide. Degenerate faces are not counted
     /// here.
     duplicate_faces,
     /// Faces with alpha below alpha_threshold (or the material's own threshold) everywhere. For UV
@@ -39,7 +38,7 @@ struct LintFinding {
     /// Splats whose opacity is below SplatProfile::min_alpha: they are never drawn. Those of neural
     /// densities depend on the view and are not counted.
     transparent_splats,
-    /// Gaussians with a scale of 0, flat ones with one of the first two; windows without area as
+    /// Gaussians with a scale of 0, of flat ones x or y; windows without area, by the rule of
     /// degenerate_faces. Some low passes still draw them as lines or dots.
     collapsed_splats,
     /// Splats that are more than `needle_aspect` times as long as they are wide: an error of the
@@ -51,7 +50,7 @@ struct LintFinding {
     outlying_splats,
     /// Splats with exactly the shape and place of an earlier one.
     duplicate_splats,
-    /// Harmonics coefficients that are 0 for all splats, from a degree on: the file may do without.
+    /// Harmonics coefficients that are 0 for all splats, from a degree on: the file can omit them.
     /// Counts coefficients, not splats.
     zero_harmonics
   };

@@ -73,11 +73,9 @@ class EvalOfSplats : public Eval {
     write_tureen_glb(scene, folder / "splats.glb");
   }
   /// The mean PSNR of splats.glb in dB.
-  double psnr(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"eval",   "splats.glb", "data",    "--no-flip", "--context",
-                                       "osmesa", "--json",     "--split", "all"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ChildResult result = run(arguments);
+  double psnr() const {
+    const ChildResult result = run({"eval", "splats.glb", "data", "--no-flip", "--context",
+                                    "osmesa", "--json", "--split", "all"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, Names("300 splats", "3 triangles"));
     return nlohmann::json::parse(result.out)["mean"]["psnr_db"];

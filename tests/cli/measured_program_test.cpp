@@ -69,4 +69,23 @@ TEST_F(MeasuredProgram, RejectsOtherExtensions) {
   EXPECT_FALSE(exists("out.png"));
 }
 
+TEST_F(MeasuredProgram, RejectsAFileWithTwoValues) {
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"--depth", "a.png", "--alpha", "./a.png"},
+        std::vector<std::string>{"--alpha", "out.png"}}) {
+    const ChildResult result = measured(names);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("--alpha"), std::string::npos);
+    EXPECT_FALSE(exists("a.png") || exists("out.png"));
+  }
+}
+
+TEST_F(MeasuredProgram, RejectsSizesBeforeItDraws) {
+  write_scene();
+  const ChildResult result = run({"render", "scene.off", "--size", "40000x1", "--depth", "d.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--depth supports images of at most"), std::string::npos);
+  EXPECT_FALSE(exists("out.png"));
+}
+
 }  // namespace tureen::test

@@ -13,7 +13,7 @@
 
 #include "formats/archive/zip_archive.hpp"
 #include "formats/mesh/off.hpp"
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"

@@ -1,4 +1,4 @@
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,3 @@
-#include "formats/mesh/ply.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/ply_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 

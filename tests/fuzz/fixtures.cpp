@@ -7,7 +7,7 @@
 
 #include "formats/dataset/camera_file.hpp"
 #include "formats/mesh/off.hpp"
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"
 #include "formats/tureen_glb/compressed_texels.hpp"
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"

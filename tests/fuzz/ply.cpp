@@ -1,6 +1,5 @@
 // A PLY, text or binary of either byte order.
-#include "formats/mesh/ply.hpp"
-
+#include "formats/ply_file.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {

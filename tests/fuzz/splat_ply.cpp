@@ -1,5 +1,5 @@
 // A PLY with splats, of every kind.
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {

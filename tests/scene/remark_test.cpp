@@ -12,6 +12,7 @@ namespace remark_test {
 
 using Kind = Remark::Kind;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 TEST(Remark, EveryKindHasANameOfItsOwnAndASentence) {
   std::set<std::string> names;
@@ -35,11 +36,9 @@ TEST(Remark, InEnglish) {
             "soft triangles are drawn opaque: on average, a soft triangle covers 33% of its area "
             "(opacity 0.50), the opaque face covers all of it");
   EXPECT_EQ(describe({Kind::splats_dropped, {2, 7}}),
-            "2 of 7 splats have a value that is not a number, a size that is not finite, or no "
-            "rotation: dropped");
+            "2 of 7 splats have a value that is not finite or outside its range: dropped");
   EXPECT_EQ(describe({Kind::splats_dropped, {1, 7}}),
-            "1 of 7 splats has a value that is not a number, a size that is not finite, or no "
-            "rotation: dropped");
+            "1 of 7 splats has a value that is not finite or outside its range: dropped");
   EXPECT_EQ(describe({.kind = Kind::splat_colors_linear}),
             "the splats were trained and are blended in linear light; they are drawn as if their "
             "colours were display-referred, and look different");
@@ -59,6 +58,15 @@ TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
   EXPECT_THAT(all_notes(info), ElementsAre("a note; --not an option",
                                            "OFF stores no up axis: z is assumed; --up changes it"));
   EXPECT_EQ(describe(info.remarks[0]), "OFF stores no up axis: z is assumed");
+}
+
+TEST(Remark, EveryAssumedUpAxisHasTheHintHowToChangeIt) {
+  for (const Kind kind : {Kind::up_unknown_to_trimesh, Kind::up_unknown_to_checkpoint,
+                          Kind::up_unknown_to_format, Kind::up_unknown_to_splats}) {
+    SceneInfo info;
+    info.remarks = {{.kind = kind, .names = {"OFF"}}};
+    EXPECT_THAT(all_notes(info), ElementsAre(HasSubstr("--up changes it")));
+  }
 }
 
 }  // namespace remark_test

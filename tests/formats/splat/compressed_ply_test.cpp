@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/truncation.hpp"
@@ -65,6 +65,18 @@ TEST(CompressedPly, ReadsKnownValues) {
     EXPECT_EQ(only_splats(scene).profile, *profile_named("mip"));
     EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
   }
+}
+
+TEST(CompressedPly, ReportsAnUnknownRenderMode) {
+  const Scene scene =
+      read_packed_text(PlyFixture()
+                           .comment("SplatRenderMode: other")
+                           .element("chunk", chunk_columns(false), {chunk_row(false)})
+                           .element("vertex", packed_columns, {packed_row(1)})
+                           .text());
+  EXPECT_THAT(scene.info.remarks,
+              ::testing::Contains(
+                  Remark{.kind = Remark::Kind::render_mode_unknown, .names = {"other", "3dgs"}}));
 }
 
 TEST(CompressedPly, UnpacksRotationsForEachLargestPart) {

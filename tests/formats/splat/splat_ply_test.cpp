@@ -4,7 +4,7 @@
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
 
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "formats/scene_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"

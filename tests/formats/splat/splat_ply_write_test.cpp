@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_ply.hpp"

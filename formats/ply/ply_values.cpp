@@ -1,4 +1,4 @@
-#include "formats/mesh/ply_values.hpp"
+#include "formats/ply/ply_values.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -42,7 +42,8 @@ constexpr std::size_t block = 64 * 1024;
 
 }  // namespace
 
-PlyValues::PlyValues(Input& input, const PlyHeader& header) : input_(input) {
+PlyValues::PlyValues(Input& input, const PlyHeader& header, const ReadOptions& options)
+    : input_(input), meter_(options) {
   input_.seek(header.body);
   if (header.encoding == PlyHeader::Encoding::ascii) {
     scanner_.emplace(input_, TextSyntax{.first_line = header.body_line});
@@ -52,8 +53,9 @@ PlyValues::PlyValues(Input& input, const PlyHeader& header) : input_(input) {
   }
 }
 
-void PlyValues::begin_row(const char* what) {
-  element_ = what;
+void PlyValues::begin_row(const PlyElement& element) {
+  meter_.step([&] { return double(position()) / double(input_.size()); });
+  element_ = element.name.c_str();
   if (scanner_ && !scanner_->next_content())
     scanner_->fail(std::string("the file ends before its last '") + element_ + "' element");
 }
@@ -83,6 +85,15 @@ std::uint64_t PlyValues::read_count(const PlyProperty& list) {
 void PlyValues::skip(const PlyProperty& property) {
   const std::uint64_t count = property.count_type ? read_count(property) : 1;
   for (std::uint64_t i = 0; i < count; ++i) read(property.type);
+}
+
+void PlyValues::skip_rows(const PlyElement& element) {
+  if (element.properties.empty()) return;  // it has no bytes in the body
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    begin_row(element);
+    for (const PlyProperty& property : element.properties) skip(property);
+    end_row();
+  }
 }
 
 bool PlyValues::anything_left() { return scanner_ ? scanner_->next_content() : remaining() > 0; }

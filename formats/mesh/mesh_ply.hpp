@@ -1,5 +1,4 @@
-// PLY files: ascii and binary of both byte orders, read and written. Files of splats are recognised
-// by their properties and left to formats/splat/; the rest of this page is about polygons.
+// Polygons in PLY files: ascii and binary of both byte orders, read and written.
 //
 // Supported for vertices: x y z of any type. Supported for faces: a list vertex_indices or
 // vertex_index with any polygon size (fans), or a tristrips element (-1 begins a new strip).
@@ -17,21 +16,19 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
 #include "formats/scene_file.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
 
-/// A soup with VertexColors or FaceColors and up (0, 0, 1), or splats (splat/splat_ply.hpp,
-/// splat/compressed_ply.hpp). Throws InputError with the byte
+/// A soup with VertexColors or FaceColors and up (0, 0, 1). Throws InputError with the byte
 /// (binary) or the line (header and ascii).
-Scene read_ply(Input& input, const ReadOptions& options = {});
-Scene read_ply(const std::filesystem::path& path, const ReadOptions& options = {});
+Scene read_mesh_ply(Input& input, const PlyHeader& header, const ReadOptions& options);
 
 /// Binary, little endian; reads back bit for bit. Colours are uchar if that is exact, otherwise
-/// float, always with alpha. Other appearances become a mean colour a face. A scene of one layer
-/// with Gaussians or neural densities is written as splats. Returns the losses. Throws OutputError.
-std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path);
+/// float, always with alpha. Other appearances become a mean colour a face. Returns the losses.
+/// Throws OutputError, and UsageError for more than 2^31 - 1 vertices or for several layers.
+std::vector<std::string> write_mesh_ply(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-#include "formats/mesh/ply.hpp"
+#include "formats/mesh/mesh_ply.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,8 @@
 
 #include "base/output.hpp"
 #include "formats/mesh/plain_mesh.hpp"
-#include "formats/mesh/ply_bytes.hpp"
-#include "formats/mesh/ply_values.hpp"
-#include "formats/splat/compressed_ply.hpp"
-#include "formats/splat/splat_ply.hpp"
+#include "formats/ply/ply_bytes.hpp"
+#include "formats/ply/ply_values.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {
@@ -34,7 +32,7 @@ struct Layout {
 class PlyReader {
  public:
   PlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
-      : input_(input), header_(header), values_(input, header), meter_(options) {}
+      : input_(input), header_(header), values_(input, header, options) {}
 
   Scene read() {
     check_kind();
@@ -46,7 +44,7 @@ class PlyReader {
       else if (element.name == "tristrips")
         read_strips(element);
       else
-        skip(element);
+        values_.skip_rows(element);
     }
     std::optional<Remark> trailing;
     if (values_.anything_left())
@@ -58,15 +56,6 @@ class PlyReader {
   }
 
  private:
-  void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;  // it has no bytes in the body
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      begin_row(element);
-      for (const PlyProperty& property : element.properties) values_.skip(property);
-      values_.end_row();
-    }
-  }
-
   /// Rejects files without triangles; the error describes their contents.
   void check_kind() {
     const PlyElement* vertex = header_.find("vertex");
@@ -133,11 +122,6 @@ class PlyReader {
       fail_header(element, "has '" + list.name + "' that are not a list of integers");
   }
 
-  void begin_row(const PlyElement& element) {
-    meter_.step([&] { return double(values_.position()) / double(input_.size()); });
-    values_.begin_row(element.name.c_str());
-  }
-
   /// The value of a slot; colours are divided as floats, so that a byte k is float(k) / 255.
   static float scaled(double value, double unit) {
     return unit == 1.0 ? static_cast<float>(value) : static_cast<float>(value) / float(unit);
@@ -153,7 +137,7 @@ class PlyReader {
     mesh_.reserve_vertices(element.count);
     if (layout.has_color) mesh_.reserve_colors_of_vertices(element.count);
     for (std::uint64_t v = 0; v < element.count; ++v) {
-      begin_row(element);
+      values_.begin_row(element);
       std::array<float, slots> row{0, 0, 0, 0, 0, 0, 1};
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const int slot = layout.slot[i];
@@ -178,7 +162,7 @@ class PlyReader {
     const std::uint64_t least = ascii() ? 8 : size_of(*list.count_type) + 3 * size_of(list.type);
     mesh_.reserve_faces(std::min(element.count, values_.remaining() / least + 1));
     for (std::uint64_t f = 0; f < element.count; ++f) {
-      begin_row(element);
+      values_.begin_row(element);
       mesh_.begin_face();
       glm::vec4 rgba(0.0f, 0.0f, 0.0f, 1.0f);
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -207,7 +191,7 @@ class PlyReader {
     Layout layout = layout_of(element);
     find_indices(element, layout);
     for (std::uint64_t s = 0; s < element.count; ++s) {
-      begin_row(element);
+      values_.begin_row(element);
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         if (i == *layout.indices)
           read_strip(element, s, element.properties[i]);
@@ -251,7 +235,6 @@ class PlyReader {
   Input& input_;
   const PlyHeader& header_;
   PlyValues values_;
-  ProgressMeter meter_;
   MeshBuilder mesh_{input_};
   std::uint64_t vertices_ = 0;
   bool rounded_ = false;
@@ -274,20 +257,11 @@ std::string color_properties(bool as_bytes) {
 
 }  // namespace
 
-Scene read_ply(Input& input, const ReadOptions& options) {
-  const PlyHeader header = read_ply_header(input);
-  if (is_compressed_ply(header)) return read_compressed_ply(input, header, options);
-  if (is_splat_ply(header)) return read_splat_ply(input, header, options);
+Scene read_mesh_ply(Input& input, const PlyHeader& header, const ReadOptions& options) {
   return PlyReader(input, header, options).read();
 }
 
-Scene read_ply(const std::filesystem::path& path, const ReadOptions& options) {
-  Input input = Input::open(path);
-  return read_ply(input, options);
-}
-
-std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path) {
-  if (fits_splat_ply(scene)) return write_splat_ply(scene, path);
+std::vector<std::string> write_mesh_ply(const Scene& scene, const std::filesystem::path& path) {
   PlainMesh mesh(scene, "PLY");
   const TriangleSoup& soup = mesh.soup();
   const auto* face_rgba = mesh.face_rgba();

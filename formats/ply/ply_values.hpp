@@ -9,18 +9,21 @@
 
 #include "base/input.hpp"
 #include "base/text_scanner.hpp"
-#include "formats/mesh/ply_header.hpp"
+#include "formats/ply/ply_header.hpp"
+#include "formats/progress_meter.hpp"
 
 namespace tureen {
 
 /// A double represents every value of every PLY type exactly; floats in ascii are rounded to float.
 class PlyValues {
  public:
-  /// Reads the body described by `header`. `input` must outlive this object.
-  PlyValues(Input& input, const PlyHeader& header);
+  /// Reads the body described by `header`, with progress. `input` and `options` must outlive this
+  /// object.
+  PlyValues(Input& input, const PlyHeader& header, const ReadOptions& options);
 
-  /// Advances to the next row of an element named `what`; in ascii, to its line.
-  void begin_row(const char* what);
+  /// Advances to the next row of an element; in ascii, to its line. The element must live until
+  /// the next call.
+  void begin_row(const PlyElement& element);
   /// Ends a row. In ascii the rest of the line must be empty.
   void end_row();
 
@@ -30,6 +33,8 @@ class PlyValues {
   std::uint64_t read_count(const PlyProperty& list);
   /// Skips one property; a list with all its values.
   void skip(const PlyProperty& property);
+  /// Skips all rows of the element.
+  void skip_rows(const PlyElement& element);
 
   std::uint64_t position() const {
     return scanner_ ? scanner_->position() : input_.position() - (end_ - next_);
@@ -82,6 +87,7 @@ class PlyValues {
   void refill(std::size_t wanted);
 
   Input& input_;
+  ProgressMeter meter_;
   std::optional<TextScanner> scanner_;  // for ascii
   bool swap_ = false;                   // the byte order of the file differs from the machine's
   std::vector<unsigned char> buffer_;
