@@ -77,13 +77,16 @@ void OrderedSplats::prepare(const Frame& frame) {
   for (DeviceSplats* layer : layers_) {
     const FrameCamera& camera = frame.layers[layer->layer()];
     if (camera.visible) layer->project(frame);
-    views.push_back(in_view(*layer, camera, fraction_));
-    if (!camera.visible) views.back() = {};
+    views.push_back(camera.visible ? in_view(*layer, camera, fraction_) : SplatsInView{});
   }
   in_order_ = order_texture_ && serves(ordered_, views);
   if (in_order_) return;
-  if (sorter_ && frame.may_use_earlier_order && has_many(views) && has_splats_of(ordered_, views))
-    continue_sorting(views);
+  const bool may_be_earlier = sorter_ && frame.may_use_earlier_order && has_many(views);
+  if (may_be_earlier) take_order(views);
+  if (in_order_) return;
+  // The camera may have turned back to splats that were behind it when their sort began.
+  if (may_be_earlier && has_splats_of(ordered_, views))
+    continue_sorting(std::move(views));
   else
     sort_now(std::move(views));
 }
@@ -96,16 +99,19 @@ void OrderedSplats::sort_now(std::vector<SplatsInView> views) {
   upload_order();
 }
 
-void OrderedSplats::continue_sorting(const std::vector<SplatsInView>& views) {
-  if (sorting_ && sorter_->take(order_)) {
-    ordered_ = std::move(*sorting_);
-    sorting_.reset();
-    in_order_ = serves(ordered_, views);
-    upload_order();
-  }
-  if (in_order_ || sorting_) return;
+/// Takes the sorter's order, if it is complete.
+void OrderedSplats::take_order(const std::vector<SplatsInView>& views) {
+  if (!sorting_ || !sorter_->take(order_)) return;
+  ordered_ = std::move(*sorting_);
+  sorting_.reset();
+  in_order_ = serves(ordered_, views);
+  upload_order();
+}
+
+void OrderedSplats::continue_sorting(std::vector<SplatsInView> views) {
+  if (sorting_) return;
   sorting_ = views;
-  sorter_->begin(views);
+  sorter_->begin(std::move(views));
 }
 
 void OrderedSplats::upload_order() {

@@ -50,7 +50,8 @@ class OrderedSplats {
 
  private:
   void sort_now(std::vector<SplatsInView> views);
-  void continue_sorting(const std::vector<SplatsInView>& views);
+  void take_order(const std::vector<SplatsInView>& views);
+  void continue_sorting(std::vector<SplatsInView> views);
   void stop_sorting();
   void upload_order();
 
