@@ -56,7 +56,8 @@ function(module_of path out)
 endfunction()
 
 set(wrong "")
-foreach(folder IN ITEMS base image scene camera formats oracle runtime trainer jobs viewer web)
+foreach(folder IN ITEMS base image scene camera formats oracle splatting runtime trainer jobs viewer
+    web)
   file(GLOB_RECURSE sources RELATIVE "${ROOT}"
     "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp" "${ROOT}/${folder}/*.cu*")
   foreach(source IN LISTS sources)

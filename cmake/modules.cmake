@@ -1,7 +1,7 @@
 # Checks the arrows between modules before compiling (cmake/arrows.cmake).
 file(GLOB_RECURSE arrows_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
-  base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp runtime/*.?pp
-  trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp web/engine/*.?pp)
+  base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp splatting/*.?pp
+  runtime/*.?pp trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp web/engine/*.?pp)
 set(arrows_stamp "${PROJECT_BINARY_DIR}/arrows.stamp")
 add_custom_command(
   OUTPUT "${arrows_stamp}"
