@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/radix_sort.hpp"
+
 namespace tureen {
 
 /// Splats of one layer and the view depth of a centre: dot(axis, center) - offset.
@@ -52,14 +54,10 @@ class SplatOrder {
   std::span<const SplatRun> runs() const { return runs_; }
 
  private:
-  struct Entry {
-    std::uint32_t key;
-    std::uint32_t place;  // of the splat, if the layers are numbered consecutively
-  };
-  void sort_by_key();
   void make_runs(std::span<const SplatsInView> layers);
 
-  std::vector<Entry> entries_, scratch_;
+  /// The index is that of the splat if the layers are numbered consecutively.
+  std::vector<KeyedIndex> entries_, scratch_;
   std::vector<std::uint32_t> splats_;
   std::vector<SplatRun> runs_;
 };
