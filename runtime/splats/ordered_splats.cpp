@@ -12,20 +12,21 @@ namespace {
 constexpr int order_columns = DeviceSplats::order_columns;
 constexpr TargetFormat order_format{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
 
-/// The view depth in world units.
-SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera, float fraction) {
-  const glm::dmat3 view_from_layer(camera.camera.view_from_world);
-  const glm::dvec3 axis = -camera.scale * glm::transpose(view_from_layer)[2];
-  SplatsInView view{.centers = splats.centers(),
-                    .axis = axis,
-                    .offset = glm::dot(axis, camera.eye),
-                    .fraction = fraction};
-  for (const Bounds& box : splats.chunks()) {
+/// For each box, whether it is behind the eye, and so behind the near plane.
+std::vector<bool> behind_eye(std::span<const Bounds> boxes, const glm::dvec3& axis,
+                             const glm::dvec3& eye) {
+  std::vector<bool> behind;
+  for (const Bounds& box : boxes) {
     const glm::dvec3 half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
-    const double farthest =
-        glm::dot(axis, box.centre() - camera.eye) + glm::dot(glm::abs(axis), half);
-    view.behind.push_back(farthest < 0);  // of the eye, and so of the near plane
+    behind.push_back(glm::dot(axis, box.centre() - eye) + glm::dot(glm::abs(axis), half) < 0);
   }
+  return behind;
+}
+
+SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera, float fraction) {
+  SplatsInView view = in_view(splats.centers(), camera);
+  view.fraction = fraction;
+  view.behind = behind_eye(splats.chunks(), view.axis, camera.eye);
   return view;
 }
 
@@ -39,6 +40,12 @@ bool has_many(std::span<const SplatsInView> views) {
 }
 
 }  // namespace
+
+SplatsInView in_view(std::span<const glm::vec3> centers, const FrameCamera& camera) {
+  const glm::dmat3 view_from_layer(camera.camera.view_from_world);
+  const glm::dvec3 axis = -camera.scale * glm::transpose(view_from_layer)[2];
+  return {.centers = centers, .axis = axis, .offset = glm::dot(axis, camera.eye)};
+}
 
 SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
                                           const FrameTarget& target) {

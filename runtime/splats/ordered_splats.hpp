@@ -15,6 +15,9 @@
 
 namespace tureen {
 
+/// The centres of splats in layer coordinates, with their view depth in world units.
+SplatsInView in_view(std::span<const glm::vec3> centers, const FrameCamera& camera);
+
 /// Framebuffers of the same colour textures, with and without the frame's depth: some kernels test
 /// depth themselves.
 struct SplatFramebuffers {
