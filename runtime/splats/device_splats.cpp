@@ -17,7 +17,7 @@ namespace {
 /// Columns of the textures with one texel a splat, or a colour of a splat: PROJECTED_COLUMNS.
 constexpr int projected_columns = 1024;
 
-constexpr TargetFormat projected_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+constexpr TargetFormat projected_format = target_formats::rgba32f;
 
 /// A number as a float constant of GLSL.
 std::string constant(double value) {

@@ -10,7 +10,7 @@ namespace tureen {
 namespace {
 
 constexpr int order_columns = DeviceSplats::order_columns;
-constexpr TargetFormat order_format{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+constexpr TargetFormat order_format = target_formats::r32ui;
 
 /// For each box, whether it is behind the eye, and so behind the near plane.
 std::vector<bool> behind_eye(std::span<const Bounds> boxes, const glm::dvec3& axis,
