@@ -144,7 +144,7 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
 struct WindowAlpha {
   const ImageView& view;
 
-  /// Sets the pixels with an alpha of at least the smallest. Returns them.
+  /// Returns the pixels where alpha reaches the smallest value, and sets `alpha` there.
   HWY_INLINE Mask operator()(const WindowEntry& entry, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const Floats dx = hn::Sub(x, constant(entry.x)), dy = hn::Sub(y, constant(entry.y));
