@@ -229,9 +229,7 @@ void DeviceSplats::leave_context() {
 }
 
 glm::vec4 ewa_slope_range(const Camera& camera) {
-  // 3DGS clamps at 1.3 times the half field of view, about the principal point of a centred image.
-  // Beyond the image, the same margin of 0.3 times half the image is left on either side.
-  const glm::dvec2 margin = 0.3 * 0.5 * glm::dvec2(camera.width, camera.height);
+  const glm::dvec2 margin = ewa_margin * glm::dvec2(camera.width, camera.height);
   const glm::dvec2 focal(camera.fx, camera.fy);
   const glm::dvec2 low(-camera.cx, camera.cy - camera.height),
       high(camera.width - camera.cx, camera.cy);
