@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -94,12 +93,5 @@ struct Lint {
 /// Finds the suspicious properties of a soup, or of splats. They must have no defect().
 Lint lint(const TriangleSoup& soup);
 Lint lint(const Splats& splats);
-
-/// Adds LintFinding::Id::far_from_origin if the box has it, and sets Lint::extent_over_offset.
-void add_distance_from_origin(Lint& lint, const Bounds& box);
-/// Adds the findings that count something.
-void add_counted(Lint& lint, std::initializer_list<LintFinding*> findings);
-/// Counts `index`.
-void count(LintFinding& finding, std::size_t index);
 
 }  // namespace tureen
