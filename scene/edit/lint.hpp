@@ -82,8 +82,8 @@ std::string describe(const LintFinding& finding);
 
 struct Lint {
   std::vector<LintFinding> findings;  // in the order of their ids; empty for a clean soup
-  /// The extent (the diagonal of its bounds) divided by its largest absolute coordinate; 0
-  /// if all coordinates are 0.
+  /// The diagonal of the bounds divided by the largest absolute coordinate; 0 if all coordinates
+  /// are 0.
   double extent_over_offset = 0;
 
   /// The finding, or null.
