@@ -1,6 +1,8 @@
 #include "runtime/splats/ordered_splats.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "runtime/gl/state.hpp"
@@ -12,21 +14,33 @@ namespace {
 constexpr int order_columns = DeviceSplats::order_columns;
 constexpr TargetFormat order_format = target_formats::r32ui;
 
-/// For each box, whether it is behind the eye, and so behind the near plane.
-std::vector<bool> behind_eye(std::span<const Bounds> boxes, const glm::dvec3& axis,
-                             const glm::dvec3& eye) {
-  std::vector<bool> behind;
-  for (const Bounds& box : boxes) {
-    const glm::dvec3 half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
-    behind.push_back(glm::dot(axis, box.centre() - eye) + glm::dot(glm::abs(axis), half) < 0);
+/// The smallest cosine between the viewing axis and the rays of the image with EWA's margin around
+/// it, which large splats may cross.
+double cosine_of_image(const Camera& camera) {
+  const glm::dvec2 size(camera.width, camera.height), middle(camera.cx, camera.cy);
+  const glm::dvec2 farthest =
+      (glm::max(middle, size - middle) + ewa_margin * size) / glm::dvec2(camera.fx, camera.fy);
+  return 1 / std::sqrt(1 + glm::dot(farthest, farthest));
+}
+
+/// Sets SplatsInView::behind and outside.
+void find_chunks_to_skip(std::span<const Bounds> chunks, const FrameCamera& camera,
+                         SplatsInView& view) {
+  const double cosine = cosine_of_image(camera.camera) * glm::length(view.axis);
+  for (const Bounds& box : chunks) {
+    const glm::dvec3 low(box.low), high(box.high);
+    const double farthest = glm::dot(view.axis, box.centre() - camera.eye) +
+                            glm::dot(glm::abs(view.axis), 0.5 * (high - low));
+    const double distance = glm::distance(camera.eye, glm::clamp(camera.eye, low, high));
+    view.behind.push_back(farthest < 0);  // of the eye, and so of the near plane
+    view.outside.push_back(farthest < 0 || farthest < cosine * distance);
   }
-  return behind;
 }
 
 SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera, float fraction) {
   SplatsInView view = in_view(splats.centers(), camera);
   view.fraction = fraction;
-  view.behind = behind_eye(splats.chunks(), view.axis, camera.eye);
+  find_chunks_to_skip(splats.chunks(), camera, view);
   return view;
 }
 
@@ -91,8 +105,8 @@ void OrderedSplats::prepare(const Frame& frame) {
   const bool may_be_earlier = sorter_ && frame.may_use_earlier_order && has_many(views);
   if (may_be_earlier) take_order(views);
   if (in_order_) return;
-  // The camera may have turned back to splats that were behind it when their sort began.
-  if (may_be_earlier && has_splats_of(ordered_, views))
+  // The camera may have turned to splats that were behind it when the sort began.
+  if (may_be_earlier && has_visible_splats_of(ordered_, views))
     continue_sorting(std::move(views));
   else
     sort_now(std::move(views));

@@ -19,23 +19,32 @@ bool is_kept(std::size_t index, float fraction) {
   return static_cast<float>(h) < fraction * 4294967296.0f;
 }
 
-}  // namespace
-
-bool has_splats_of(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views) {
+/// Whether `sorted` skips only chunks that the flags of `views` allow to miss.
+bool have_splats(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views,
+                 std::vector<bool> SplatsInView::*may_miss) {
   return std::equal(sorted.begin(), sorted.end(), views.begin(), views.end(),
-                    [](const SplatsInView& has, const SplatsInView& needs) {
+                    [&](const SplatsInView& has, const SplatsInView& needs) {
                       if (has.centers.data() != needs.centers.data() ||
                           has.centers.size() != needs.centers.size())
                         return false;
+                      const std::vector<bool>& allowed = needs.*may_miss;
                       for (std::size_t chunk = 0; chunk < has.behind.size(); ++chunk)
-                        if (has.skips(chunk) && !needs.skips(chunk)) return false;
+                        if (has.skips(chunk) && !(chunk < allowed.size() && allowed[chunk]))
+                          return false;
                       return true;
                     });
 }
 
+}  // namespace
+
+bool has_visible_splats_of(std::span<const SplatsInView> sorted,
+                           std::span<const SplatsInView> views) {
+  return have_splats(sorted, views, &SplatsInView::outside);
+}
+
 bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views) {
   // Differences of offsets matter only between layers.
-  return has_splats_of(sorted, views) &&
+  return have_splats(sorted, views, &SplatsInView::behind) &&
          std::equal(sorted.begin(), sorted.end(), views.begin(),
                     [&](const SplatsInView& a, const SplatsInView& b) {
                       return a.axis == b.axis && (views.size() == 1 || a.offset == b.offset);

@@ -19,6 +19,8 @@ struct SplatsInView {
   float fraction = 1;  // of the splats; a hash of the index chooses them
   /// For each chunk of splats_per_chunk centres, whether it is left out of the order. Empty: none.
   std::vector<bool> behind = {};
+  /// For each chunk, whether it is outside the image. A superset of `behind`.
+  std::vector<bool> outside = {};
 
   bool skips(std::size_t chunk) const { return chunk < behind.size() && behind[chunk]; }
 };
@@ -26,8 +28,9 @@ struct SplatsInView {
 /// Whether the order for the views `sorted` also serves `views`: it is their order, and has at
 /// least their splats.
 bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
-/// Whether that order has at least the splats of `views`.
-bool has_splats_of(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
+/// Whether that order has at least the splats of `views` that are inside the image.
+bool has_visible_splats_of(std::span<const SplatsInView> sorted,
+                           std::span<const SplatsInView> views);
 
 /// Consecutive splats of one layer in an order.
 struct SplatRun {

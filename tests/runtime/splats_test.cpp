@@ -545,6 +545,10 @@ TEST_P(SplatsIn, AnOrderWithoutTheSplatsOfTheViewIsNotDrawn) {
   may_finish = true;
   renderer.draw({towards({1, 0, 0})}, Renderer::SplatOrdering::earlier);
   EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
+  // No frame waits for a chunk that is no longer behind the eye, but still outside the image.
+  may_finish = false;
+  renderer.draw({towards({0.1, 0, -1})}, Renderer::SplatOrdering::earlier);
+  EXPECT_FALSE(renderer.splats_in_order());
 }
 
 TEST_P(SplatsIn, AThreadSortsUntilTheOrderIsThatOfTheView) {
