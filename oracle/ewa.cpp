@@ -11,9 +11,6 @@ namespace tureen::oracle {
 
 namespace {
 
-/// Fraction of the image's size, at each side: half of the 30 % in the 1.3 of 3DGS.
-constexpr double jacobian_margin = 0.15;
-
 /// One row of M, and the column of the low pass that belongs to it.
 struct CovarianceRow {
   glm::dvec3 shape;
@@ -50,8 +47,8 @@ std::optional<EwaInView> EwaInView::project(const Gaussians& gaussians, std::siz
 
   const Camera& camera = view.camera();
   const glm::dvec2 size(camera.width, camera.height);
-  const glm::dvec3 low = view.ray(-jacobian_margin * size);
-  const glm::dvec3 high = view.ray((1 + jacobian_margin) * size);
+  const glm::dvec3 low = view.ray(-ewa_margin * size);
+  const glm::dvec3 high = view.ray((1 + ewa_margin) * size);
   const double x = std::clamp(center.x / center.z, low.x, high.x);
   const double y = std::clamp(center.y / center.z, low.y, high.y);
 

@@ -6,11 +6,11 @@
 // below 1e-3. It divides by the depth of a corner behind the eye as by any other.
 //
 // 3DGS, Mip-Splatting and 2DGS draw a Gaussian only in the tiles of 16 x 16 pixels that a square
-// around a point touches (getRect() in auxiliary.h). 3DGS: the centre's image, half the side is
-// ceil(3 sqrt(lambda)) with the larger eigenvalue lambda of the covariance; at least 0.1 is taken
-// for the square of half the difference of the eigenvalues. 2DGS: the middle of the box around
-// three standard deviations, half the side is that of the box, but at least 3 sqrt(1/2), rounded
-// up.
+// touches (getRect() in auxiliary.h). 3DGS: the square's middle is the image of the Gaussian's
+// centre, and half its side is ceil(3 sqrt(m + sqrt(max(0.1, m^2 - det)))), with half the trace m
+// and the determinant det of the covariance. 2DGS: the square's middle is that of the box around
+// three standard deviations, and half its side is ceil(max(3 sqrt(1/2), half the box's longer
+// side)).
 //
 // REdiSplats has no such rule, and the tiles of Splat the Net are larger than its splats.
 #pragma once

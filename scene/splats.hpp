@@ -112,6 +112,9 @@ struct SplatProfile {
 inline constexpr float published_center_depth = 0.2f;
 /// Variance in px^2 that LowPass::dilation and LowPass::mip add along both axes of the image.
 inline constexpr double dilation_variance = 0.3;
+/// EWA splatting moves the centre in its Jacobian into the image and this margin, a fraction of the
+/// image's size at each side: 3DGS clamps at 1.3 times the half field of view.
+inline constexpr double ewa_margin = 0.15;
 /// Variance in px^2 of the Gaussian of LowPass::screen.
 inline constexpr double screen_variance = 0.5;
 

@@ -16,77 +16,96 @@
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
 
-/// The pixels of a block, in vectors.
+/// Vectors that hold the pixels of a block.
 inline constexpr std::size_t parts = std::size_t(block_pixels) / lanes;
 
-/// Blends entries front to back into the pixels, which may hold earlier splats. `alpha_of(entry, x,
-/// y, inverse_behind, alpha)` returns the pixels that the entry covers, and their alpha before its
-/// largest value is applied. A pixel is closed by a splat that would lower its transmittance below
-/// the profile's stop; its transmittance is stored with the sign changed.
-template <class Entry, class AlphaOf>
-HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entries,
-                              std::span<const std::uint32_t> tile, const AlphaOf& alpha_of,
-                              TilePixels& pixels) {
-  alignas(64) constexpr float column_of[block_pixels] = {0, 1, 2, 3, 0, 1, 2, 3,
-                                                         0, 1, 2, 3, 0, 1, 2, 3};
-  alignas(64) constexpr float row_of[block_pixels] = {0, 0, 0, 0, 1, 1, 1, 1,
-                                                      2, 2, 2, 2, 3, 3, 3, 3};
-  const Floats max_alpha = constant(view.max_alpha), zero = hn::Zero(d);
-  const Floats stop = constant(view.stop_transmittance);
-  for (int block = 0; block < blocks_a_tile; ++block) {
+/// The pixels of a block, in registers. A negative transmittance closes a pixel, as in TilePixels.
+struct Block {
+  Floats x[parts], y[parts], inverse_behind[parts];  // image coordinates; as TilePixels
+  Floats transmittance[parts], red[parts], green[parts], blue[parts];
+
+  HWY_INLINE Block(const TilePixels& pixels, int block) {
+    alignas(64) constexpr float column_of[block_pixels] = {0, 1, 2, 3, 0, 1, 2, 3,
+                                                           0, 1, 2, 3, 0, 1, 2, 3};
+    alignas(64) constexpr float row_of[block_pixels] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                        2, 2, 2, 2, 3, 3, 3, 3};
     const auto column = float(pixels.x + block_side * (block % (tile_side / block_side)));
     const auto row = float(pixels.y + block_side * (block / (tile_side / block_side)));
-    const std::size_t first = std::size_t(block) * block_pixels;
-    Floats x[parts], y[parts], transmittance[parts], red[parts], green[parts], blue[parts];
-    Floats inverse_behind[parts];
-    bool still_open = false;
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t at = part * lanes;
-      x[part] = hn::Add(hn::Load(d, column_of + at), constant(column + 0.5f));
-      y[part] = hn::Add(hn::Load(d, row_of + at), constant(row + 0.5f));
-      transmittance[part] = hn::Load(d, pixels.transmittance + first + at);
-      red[part] = hn::Load(d, pixels.red + first + at);
-      green[part] = hn::Load(d, pixels.green + first + at);
-      blue[part] = hn::Load(d, pixels.blue + first + at);
-      inverse_behind[part] = hn::Load(d, pixels.inverse_behind + first + at);
-      still_open |= !hn::AllFalse(d, hn::Gt(transmittance[part], zero));
+      const std::size_t inside = part * lanes, at = std::size_t(block) * block_pixels + inside;
+      x[part] = hn::Add(hn::Load(d, column_of + inside), constant(column + 0.5f));
+      y[part] = hn::Add(hn::Load(d, row_of + inside), constant(row + 0.5f));
+      transmittance[part] = hn::Load(d, pixels.transmittance + at);
+      red[part] = hn::Load(d, pixels.red + at);
+      green[part] = hn::Load(d, pixels.green + at);
+      blue[part] = hn::Load(d, pixels.blue + at);
+      inverse_behind[part] = hn::Load(d, pixels.inverse_behind + at);
     }
-    if (!still_open) continue;
-    for (const std::uint32_t splat : tile) {
-      const Entry& entry = entries[splat & place_mask];
-      bool any_open = false, closes = false;
-      for (std::size_t part = 0; part < parts; ++part) {
-        Floats alpha = zero;
-        Mask blended = alpha_of(entry, x[part], y[part], inverse_behind[part], alpha);
-        blended = hn::And(blended, hn::Gt(transmittance[part], zero));
-        if (hn::AllFalse(d, blended)) continue;
-        alpha = hn::Min(alpha, max_alpha);
-        const Floats behind = hn::NegMulAdd(alpha, transmittance[part], transmittance[part]);
-        const Mask ends = hn::And(blended, hn::Lt(behind, stop));
-        blended = hn::AndNot(ends, blended);
-        const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance[part]));
-        red[part] = hn::MulAdd(weight, constant(entry.red), red[part]);
-        green[part] = hn::MulAdd(weight, constant(entry.green), green[part]);
-        blue[part] = hn::MulAdd(weight, constant(entry.blue), blue[part]);
-        transmittance[part] = hn::IfThenElse(blended, behind, transmittance[part]);
-        if (!hn::AllFalse(d, ends)) {
-          transmittance[part] =
-              hn::IfThenElse(ends, hn::Neg(transmittance[part]), transmittance[part]);
-          closes = true;
-        }
-      }
-      if (!closes) continue;
-      for (std::size_t part = 0; part < parts; ++part)
-        any_open |= !hn::AllFalse(d, hn::Gt(transmittance[part], zero));
-      if (!any_open) break;
-    }
+  }
+
+  HWY_INLINE void store(TilePixels& pixels, int block) const {
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t at = first + part * lanes;
+      const std::size_t at = std::size_t(block) * block_pixels + part * lanes;
       hn::Store(red[part], d, pixels.red + at);
       hn::Store(green[part], d, pixels.green + at);
       hn::Store(blue[part], d, pixels.blue + at);
       hn::Store(transmittance[part], d, pixels.transmittance + at);
     }
+  }
+
+  HWY_INLINE bool has_open_pixels() const {
+    bool open = false;
+    for (std::size_t part = 0; part < parts; ++part)
+      open |= !hn::AllFalse(d, hn::Gt(transmittance[part], hn::Zero(d)));
+    return open;
+  }
+};
+
+/// Blends one entry into the open pixels of a block. Returns whether it closes any. `alpha_of` as
+/// in blend_entries().
+template <class Entry, class AlphaOf>
+HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, Floats max_alpha,
+                            Floats stop, Block& block) {
+  bool closes = false;
+  for (std::size_t part = 0; part < parts; ++part) {
+    Floats& transmittance = block.transmittance[part];
+    Floats alpha = hn::Zero(d);
+    Mask blended = alpha_of(entry, block.x[part], block.y[part], block.inverse_behind[part], alpha);
+    blended = hn::And(blended, hn::Gt(transmittance, hn::Zero(d)));
+    if (hn::AllFalse(d, blended)) continue;
+    alpha = hn::Min(alpha, max_alpha);
+    const Floats behind = hn::NegMulAdd(alpha, transmittance, transmittance);
+    const Mask ends = hn::And(blended, hn::Lt(behind, stop));
+    blended = hn::AndNot(ends, blended);
+    const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
+    block.red[part] = hn::MulAdd(weight, constant(entry.red), block.red[part]);
+    block.green[part] = hn::MulAdd(weight, constant(entry.green), block.green[part]);
+    block.blue[part] = hn::MulAdd(weight, constant(entry.blue), block.blue[part]);
+    transmittance = hn::IfThenElse(blended, behind, transmittance);
+    if (hn::AllFalse(d, ends)) continue;
+    transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
+    closes = true;
+  }
+  return closes;
+}
+
+/// Blends the entries at these places front to back into the pixels, which may hold earlier splats.
+/// `alpha_of(entry, x, y, inverse_behind, alpha)` returns the pixels that the entry covers, and
+/// sets their alpha before its largest value is applied. A splat that would lower a pixel's
+/// transmittance below the profile's stop closes the pixel.
+template <class Entry, class AlphaOf>
+HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entries,
+                              std::span<const std::uint32_t> tile, const AlphaOf& alpha_of,
+                              TilePixels& pixels) {
+  const Floats max_alpha = constant(view.max_alpha), stop = constant(view.stop_transmittance);
+  for (int i = 0; i < blocks_a_tile; ++i) {
+    Block block(pixels, i);
+    if (!block.has_open_pixels()) continue;
+    for (const std::uint32_t splat : tile)
+      if (blend_entry(entries[splat & place_mask], alpha_of, max_alpha, stop, block) &&
+          !block.has_open_pixels())
+        break;
+    block.store(pixels, i);
   }
 }
 

@@ -19,12 +19,54 @@ namespace tureen::splatting::HWY_NAMESPACE {
 /// log2(e) / 2: exp(-q / 2) = 2^-(factor q).
 constexpr float half_log2_e = 0.721347520f;
 
+/// The map of a disc's plane into the image, as projected_disc_row: (u, v, 1) to homogeneous pixels
+/// from an origin.
+struct DiscPlane {
+  Floats x, y;  // the origin
+  Vector3 of_x, of_y, of_w;
+};
+
+/// Of the disc with this centre and axes of one deviation, in view coordinates.
+HWY_INLINE DiscPlane plane_of(const ImageView& view, const Vector3& center, const Vector3& u,
+                              const Vector3& v, Mask in_front) {
+  const Floats zero = hn::Zero(d), one = constant(1.0f);
+  const Floats fx = constant(view.fx), fy = constant(view.fy);
+  const Floats scale = hn::Div(one, hn::IfThenElse(in_front, center.z, one));
+  const Floats slope_x = hn::IfThenElseZero(in_front, hn::Mul(center.x, scale));
+  const Floats slope_y = hn::IfThenElseZero(in_front, hn::Mul(center.y, scale));
+  return {hn::MulAdd(fx, slope_x, constant(view.cx)), hn::MulAdd(fy, slope_y, constant(view.cy)),
+          Vector3{hn::Mul(fx, hn::NegMulAdd(slope_x, u.z, u.x)),
+                  hn::Mul(fx, hn::NegMulAdd(slope_x, v.z, v.x)),
+                  hn::IfThenElse(in_front, zero, hn::Mul(fx, center.x))},
+          Vector3{hn::Mul(fy, hn::NegMulAdd(slope_y, u.z, u.y)),
+                  hn::Mul(fy, hn::NegMulAdd(slope_y, v.z, v.y)),
+                  hn::IfThenElse(in_front, zero, hn::Mul(fy, center.y))},
+          Vector3{u.z, v.z, center.z}};
+}
+
+/// The range of one image coordinate of a disc up to `radius` deviations, and of its screen filter
+/// up to `screen` pixels. `along` is of_x or of_y of the plane, `origin` x or y. Discs that are not
+/// `bounded` reach the near plane and may cover any pixel.
+HWY_INLINE void bounds_of(const Vector3& along, const Vector3& of_w, Floats origin, Floats radius,
+                          Floats screen, Mask bounded, Floats& low, Floats& high) {
+  const auto scaled = [&](const Vector3& axis) {
+    return Vector3{hn::Mul(radius, axis.x), hn::Mul(radius, axis.y), hn::Zero(d)};
+  };
+  range_of(scaled(along), scaled(of_w), of_w.z, low, high);
+  const auto bound = [&](Floats at, float side) {
+    // Half a pixel more, for rounding.
+    return hn::IfThenElse(bounded, hn::Add(hn::Add(origin, at), constant(0.5f * side)),
+                          constant(1e9f * side));
+  };
+  low = bound(hn::Min(low, hn::Neg(screen)), -1);
+  high = bound(hn::Max(high, screen), 1);
+}
+
 void project_discs_on(const ImageView& view, const ParameterRows& discs, int degree,
                       ParameterRows& projected) {
   namespace in = gaussian_row;
   namespace out = projected_disc_row;
   const Floats zero = hn::Zero(d), one = constant(1.0f), near = constant(view.near);
-  const Floats fx = constant(view.fx), fy = constant(view.fy);
   for (std::size_t i = 0; i < discs.count(); i += lanes) {
     const auto load = [&](std::size_t row) { return hn::Load(d, discs.row(row) + i); };
     const auto store = [&](std::size_t row, Floats value) {
@@ -33,10 +75,6 @@ void project_discs_on(const ImageView& view, const ParameterRows& discs, int deg
     const Vector3 offset = from_eye(view, {load(in::x), load(in::y), load(in::z)});
     const Vector3 center = product(view.view_from_layer, offset);
     const Mask in_front = hn::Gt(center.z, near);
-    const Floats scale = hn::Div(one, hn::IfThenElse(in_front, center.z, one));
-    const Floats slope_x = hn::IfThenElseZero(in_front, hn::Mul(center.x, scale));
-    const Floats slope_y = hn::IfThenElseZero(in_front, hn::Mul(center.y, scale));
-
     const Rotation rotation = rotation_of(load(in::rotation_x), load(in::rotation_y),
                                           load(in::rotation_z), load(in::rotation_w));
     const auto scaled_axis = [&](std::size_t k) {
@@ -44,55 +82,42 @@ void project_discs_on(const ImageView& view, const ParameterRows& discs, int deg
       const Floats size = load(in::scale_x + k);
       return Vector3{hn::Mul(axis.x, size), hn::Mul(axis.y, size), hn::Mul(axis.z, size)};
     };
-    const Vector3 u = scaled_axis(0), v = scaled_axis(1);
-    const Floats u_x = hn::Mul(fx, hn::NegMulAdd(slope_x, u.z, u.x));
-    const Floats v_x = hn::Mul(fx, hn::NegMulAdd(slope_x, v.z, v.x));
-    const Floats u_y = hn::Mul(fy, hn::NegMulAdd(slope_y, u.z, u.y));
-    const Floats v_y = hn::Mul(fy, hn::NegMulAdd(slope_y, v.z, v.y));
-    const Floats x = hn::MulAdd(fx, slope_x, constant(view.cx));
-    const Floats y = hn::MulAdd(fy, slope_y, constant(view.cy));
+    const DiscPlane plane = plane_of(view, center, scaled_axis(0), scaled_axis(1), in_front);
 
     const Floats opacity = load(in::opacity);
     const Mask visible = hn::Gt(opacity, zero);
     const Floats log_opacity = log2_of(hn::IfThenElse(visible, opacity, one));
     const Floats excess = hn::Sub(log_opacity, constant(std::log2(view.min_alpha)));
+    const Floats radius = hn::Sqrt(hn::Div(hn::Max(excess, zero), constant(half_log2_e)));
+    // How far the disc extends along the viewing axis.
+    const Floats reach = hn::Mul(radius, hn::Sqrt(hn::MulAdd(plane.of_w.x, plane.of_w.x,
+                                                             hn::Mul(plane.of_w.y, plane.of_w.y))));
     Mask drawn = hn::And(visible, hn::Ge(excess, zero));
     if (view.min_center_depth > 0)
       drawn = hn::And(drawn, hn::Gt(center.z, constant(view.min_center_depth)));
-    const Floats radius = hn::Sqrt(hn::Div(hn::Max(excess, zero), constant(half_log2_e)));
-    const Vector3 w{hn::Mul(radius, u.z), hn::Mul(radius, v.z), zero};
-    const Floats reach = hn::Sqrt(dot(w, w));
     drawn = hn::And(drawn,
                     view.screen_variance > 0 ? in_front : hn::Gt(hn::Add(center.z, reach), near));
-    // A disc that reaches the near plane may cover any pixel.
-    const Mask bounded = hn::Gt(hn::Sub(center.z, reach), near);
-    Floats left, right, top, bottom;
-    range_of({hn::Mul(radius, u_x), hn::Mul(radius, v_x), zero}, w, center.z, left, right);
-    range_of({hn::Mul(radius, u_y), hn::Mul(radius, v_y), zero}, w, center.z, top, bottom);
-    const Floats screen = hn::Mul(radius, constant(std::sqrt(view.screen_variance)));
-    const auto bound = [&](Floats low, Floats screen_low, Floats middle, float side) {
-      const Floats bounded_at =
-          hn::Add(middle, side < 0 ? hn::Min(low, screen_low) : hn::Max(low, screen_low));
-      // Half a pixel more, for rounding.
-      return hn::IfThenElse(bounded, hn::Add(bounded_at, constant(0.5f * side)),
-                            constant(1e9f * side));
-    };
-    store(out::left, bound(left, hn::Neg(screen), x, -1));
-    store(out::right, bound(right, screen, x, 1));
-    store(out::top, bound(top, hn::Neg(screen), y, -1));
-    store(out::bottom, bound(bottom, screen, y, 1));
 
-    store(out::x, x);
-    store(out::y, y);
-    store(out::u_x, u_x);
-    store(out::v_x, v_x);
-    store(out::c_x, hn::IfThenElse(in_front, zero, hn::Mul(fx, center.x)));
-    store(out::u_y, u_y);
-    store(out::v_y, v_y);
-    store(out::c_y, hn::IfThenElse(in_front, zero, hn::Mul(fy, center.y)));
-    store(out::u_w, u.z);
-    store(out::v_w, v.z);
-    store(out::c_w, center.z);
+    const Mask bounded = hn::Gt(hn::Sub(center.z, reach), near);
+    const Floats screen = hn::Mul(radius, constant(std::sqrt(view.screen_variance)));
+    Floats left, right, top, bottom;
+    bounds_of(plane.of_x, plane.of_w, plane.x, radius, screen, bounded, left, right);
+    bounds_of(plane.of_y, plane.of_w, plane.y, radius, screen, bounded, top, bottom);
+    store(out::left, left);
+    store(out::right, right);
+    store(out::top, top);
+    store(out::bottom, bottom);
+
+    store(out::x, plane.x);
+    store(out::y, plane.y);
+    const auto store_row = [&](std::size_t u, std::size_t v, std::size_t c, const Vector3& row) {
+      store(u, row.x);
+      store(v, row.y);
+      store(c, row.z);
+    };
+    store_row(out::u_x, out::v_x, out::c_x, plane.of_x);
+    store_row(out::u_y, out::v_y, out::c_y, plane.of_y);
+    store_row(out::u_w, out::v_w, out::c_w, plane.of_w);
     store(out::log_opacity, log_opacity);
     store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
     const Vector3 color =

@@ -20,7 +20,7 @@ constexpr float exponent_factor = 0.849321800f;
 void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians, int degree,
                           ParameterRows& projected) {
   namespace in = gaussian_row;
-  namespace out = projected_row;
+  namespace out = projected_gaussian_row;
   const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   const Floats zero = hn::Zero(d), one = constant(1.0f);
   for (std::size_t i = 0; i < gaussians.count(); i += lanes) {

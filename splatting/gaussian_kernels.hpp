@@ -1,5 +1,5 @@
-// The hot loops of Gaussians by EWA splatting (specs: 3DGS, Mip-Splatting), for the vectors of the
-// processor, chosen at run time.
+// The hot loops of Gaussians by EWA splatting (3DGS, arXiv 2308.04079; Mip-Splatting, arXiv
+// 2311.16493), for the vectors of the processor, chosen at run time.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ enum : std::size_t {
 
 /// Rows of projected Gaussians. At an offset (dx, dy) from the centre, in pixels,
 /// log2(alpha) = log_opacity - (p dx + q dy)^2 - (r dy)^2.
-namespace projected_row {
+namespace projected_gaussian_row {
 enum : std::size_t {
   x,
   y,
@@ -44,7 +44,7 @@ enum : std::size_t {
   red,
   green,
   blue,   // >= 0
-  depth,  // NaN: not drawn
+  depth,  // of the centre; NaN: not drawn
   half_width,
   half_height,  // in pixels, of the ellipse where alpha is the smallest
   count
@@ -56,7 +56,7 @@ struct alignas(64) GaussianEntry {
   float x, y, p, q, r, log_opacity, red, green, blue, inverse_depth;
 };
 
-/// `projected` has projected_row::count rows of as many splats.
+/// `projected` has projected_gaussian_row::count rows of as many splats.
 void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
                        ParameterRows& projected);
 

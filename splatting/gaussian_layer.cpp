@@ -11,15 +11,15 @@ GaussianLayer::GaussianLayer(const Gaussians& gaussians, const SplatColor& color
                              std::span<const std::uint32_t> which, int degree)
     : degree_(degree),
       rows_(rows_of(gaussians, color, which, degree)),
-      projected_(projected_row::count, which.size()) {}
+      projected_(projected_gaussian_row::count, which.size()) {}
 
 std::span<const float> GaussianLayer::project(const ImageView& view) {
   project_gaussians(view, rows_, degree_, projected_);
-  return {projected_.row(projected_row::depth), count()};
+  return {projected_.row(projected_gaussian_row::depth), count()};
 }
 
 void GaussianLayer::set_order(std::span<const std::uint32_t> splats) {
-  namespace row = projected_row;
+  namespace row = projected_gaussian_row;
   entries_.resize(splats.size());
   outlines_.resize(splats.size());
   for (std::size_t place = 0; place < splats.size(); ++place) {

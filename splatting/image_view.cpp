@@ -21,9 +21,7 @@ ImageView image_view(const Camera& camera, const glm::dvec3& eye, double near,
   view.fy = static_cast<float>(camera.fy);
   view.cx = static_cast<float>(camera.cx);
   view.cy = static_cast<float>(camera.cy);
-  // 3DGS clamps at 1.3 times the half field of view, about the principal point of a centred image.
-  // Beyond the image, the same margin of 0.3 times half the image is left on either side.
-  const double margin_x = 0.15 * whole.width, margin_y = 0.15 * whole.height;
+  const double margin_x = ewa_margin * whole.width, margin_y = ewa_margin * whole.height;
   view.slope_low[0] = static_cast<float>((-whole.cx - margin_x) / whole.fx);
   view.slope_low[1] = static_cast<float>((-whole.cy - margin_y) / whole.fy);
   view.slope_high[0] = static_cast<float>((whole.width - whole.cx + margin_x) / whole.fx);

@@ -10,7 +10,7 @@ namespace tureen::splatting {
 
 struct ImageView {
   float view_from_layer[9];           // rotation, row by row
-  float eye_high[3], eye_low[3];      // of the sum; positions relative to it keep their digits
+  float eye_high[3], eye_low[3];      // their sum is the eye: differences from it keep their digits
   float fx, fy, cx, cy;               // in pixels
   float slope_low[2], slope_high[2];  // range of x/z and y/z in EWA's Jacobian
   float near;

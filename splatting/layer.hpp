@@ -11,7 +11,8 @@
 
 namespace tureen::splatting {
 
-/// A splat in a tile's list: its layer, and its place in the layer's order.
+/// The low bits of a splat in a tile's list: its place in the layer's order. The others are its
+/// layer.
 inline constexpr int place_bits = 24;
 inline constexpr std::uint32_t place_mask = (1u << place_bits) - 1;
 
@@ -24,7 +25,7 @@ class Layer {
   virtual std::span<const float> project(const ImageView& view) = 0;
   /// Sets the order of blending of the next calls: drawn splats, near ones first.
   virtual void set_order(std::span<const std::uint32_t> splats) = 0;
-  /// Adds the splats at places [begin, end) of the order, as `tag` | place.
+  /// Adds the splats at places [begin, end) of the order, as `tag` | place. `tag` is the layer.
   virtual void list(const ImageView& view, std::uint32_t begin, std::uint32_t end,
                     std::uint32_t tag, TileLists& lists) const = 0;
   /// Blends splats from a tile's list, all of this layer, front to back.

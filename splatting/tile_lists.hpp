@@ -51,8 +51,8 @@ class TileLists {
     const auto top = float(row * tile_side);
     return {top + 0.5f, top + float(tile_side) - 0.5f};
   }
-  /// Adds a splat, the nearest ones first, to the tiles of a row with pixel centres between these x
-  /// coordinates. NaN: none.
+  /// Adds a splat to the tiles of a row with pixel centres between these x coordinates. NaN: none.
+  /// Nearer splats must be added earlier.
   void add(int row, float low, float high, std::uint32_t splat);
 
   /// Adds a splat to all tiles with pixel centres in a box.

@@ -23,27 +23,27 @@ Place place_of(int pixel) {
 
 void TileRenderer::sort(std::span<const LayerInView> layers) {
   keys_.clear();
-  std::vector<std::uint32_t> ends;  // of the layers' numbers
+  std::vector<std::uint32_t> ends;  // of the layers, whose splats are numbered consecutively
   std::uint32_t first = 0;
   for (const LayerInView& each : layers) {
     const std::span<const float> depths = each.layer->project(each.view);
     for (std::uint32_t i = 0; i < depths.size(); ++i)
       if (std::isfinite(depths[i]))
-        keys_.push_back({depth_key(static_cast<float>(each.scale * double(depths[i]))), first + i});
+        keys_.push_back({sort_key(static_cast<float>(each.scale * double(depths[i]))), first + i});
     ends.push_back(first += static_cast<std::uint32_t>(depths.size()));
   }
-  sort_by_depth(keys_, scratch_);
+  radix_sort(keys_, scratch_);
 
   orders_.resize(layers.size());
   for (std::vector<std::uint32_t>& order : orders_) order.clear();
   runs_.clear();
-  for (const DepthKey& key : keys_) {
+  for (const auto& [key, number] : keys_) {
     std::uint32_t layer = runs_.empty() ? 0 : runs_.back().layer;
-    while (key.splat >= ends[layer]) ++layer;
-    while (layer > 0 && key.splat < ends[layer - 1]) --layer;
+    while (number >= ends[layer]) ++layer;
+    while (layer > 0 && number < ends[layer - 1]) --layer;
     std::vector<std::uint32_t>& order = orders_[layer];
     const auto place = static_cast<std::uint32_t>(order.size());
-    order.push_back(key.splat - (layer > 0 ? ends[layer - 1] : 0));
+    order.push_back(number - (layer > 0 ? ends[layer - 1] : 0));
     if (runs_.empty() || runs_.back().layer != layer) runs_.push_back({layer, place, place});
     ++runs_.back().end;
   }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "splatting/depth_order.hpp"
+#include "base/radix_sort.hpp"
 #include "splatting/layer.hpp"
 
 namespace tureen::splatting {
@@ -45,7 +45,7 @@ class TileRenderer {
                  int row, std::span<float> rgba) const;
 
   Parallel parallel_;
-  std::vector<DepthKey> keys_, scratch_;
+  std::vector<KeyedIndex> keys_, scratch_;
   std::vector<std::vector<std::uint32_t>> orders_;  // of the layers
   std::vector<Run> runs_;
   TileLists lists_;

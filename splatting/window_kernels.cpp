@@ -14,118 +14,150 @@
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
 
+/// A vector from the eye in view coordinates, x and y times the focal lengths: the homogeneous
+/// image point, in pixels from the principal point.
+HWY_INLINE Vector3 in_pixels(const ImageView& view, const Vector3& from_eye) {
+  const Vector3 v = product(view.view_from_layer, from_eye);
+  return {hn::Mul(v.x, constant(view.fx)), hn::Mul(v.y, constant(view.fy)), v.z};
+}
+
+HWY_INLINE Floats mean(Floats a, Floats b, Floats c) {
+  return hn::Mul(hn::Add(hn::Add(a, b), c), constant(1.0f / 3.0f));
+}
+
+/// Linear functions of the image: projected_window_row::edges and inverse_depth.
+struct WindowPlane {
+  Floats edges[9], inverse_depth[3];
+  Mask exists;  // in front of the eye, and with an area in the image
+};
+
+/// Of the window with these corners in layer coordinates, and in pixels. The functions are around
+/// (x, y), in pixels from the principal point.
+///
+/// The homogeneous rule (docs/numerics.md, W14): with N_k = Q_i x Q_j and W = sum_k w_k |N_k.xy|,
+/// the distance from edge k over the inradius at the image point p is W (N_k . p) /
+/// (det |N_k.xy|), and one over the depth sum_k (N_k . p) / det.
+HWY_INLINE WindowPlane plane_of(const ImageView& view, const Vector3 (&corner)[3],
+                                const Vector3 (&point)[3], Floats x, Floats y) {
+  const Floats zero = hn::Zero(d);
+  WindowPlane result;
+  result.exists = hn::Eq(zero, zero);
+  Vector3 edge[3];
+  Floats normal_x[3], normal_y[3], at_center[3], length[3];
+  Floats weight = zero, normal_sum_x = zero, normal_sum_y = zero;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
+    // Differences of the stored corners are more exact than those of the points.
+    edge[k] = in_pixels(
+        view, {hn::Sub(corner[to].x, corner[from].x), hn::Sub(corner[to].y, corner[from].y),
+               hn::Sub(corner[to].z, corner[from].z)});
+    const Vector3& start = point[from];
+    normal_x[k] = hn::MulSub(start.y, edge[k].z, hn::Mul(start.z, edge[k].y));
+    normal_y[k] = hn::MulSub(start.z, edge[k].x, hn::Mul(start.x, edge[k].z));
+    // N_k . (x, y, 1), with both points relative to (x, y) first: this cancels less.
+    const Floats ax = hn::NegMulAdd(x, start.z, start.x), ay = hn::NegMulAdd(y, start.z, start.y);
+    const Floats bx = hn::NegMulAdd(x, edge[k].z, edge[k].x),
+                 by = hn::NegMulAdd(y, edge[k].z, edge[k].y);
+    at_center[k] = hn::MulSub(ax, by, hn::Mul(ay, bx));
+    length[k] = hn::Sqrt(hn::MulAdd(normal_x[k], normal_x[k], hn::Mul(normal_y[k], normal_y[k])));
+    weight = hn::MulAdd(point[k].z, length[k], weight);
+    result.exists = hn::And(result.exists, hn::Gt(length[k], zero));
+    normal_sum_x = hn::Add(normal_sum_x, normal_x[k]);
+    normal_sum_y = hn::Add(normal_sum_y, normal_y[k]);
+  }
+  const Floats determinant = dot(point[1], cross(edge[0], edge[1]));
+  result.exists = hn::And(result.exists, hn::Gt(weight, zero));
+  result.exists = hn::And(result.exists, hn::Gt(hn::Abs(determinant), zero));
+
+  const Floats inverse = hn::Div(constant(1.0f), determinant);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Floats factor = hn::Div(hn::Mul(weight, inverse), length[k]);
+    result.edges[3 * k] = hn::Mul(normal_x[k], factor);
+    result.edges[3 * k + 1] = hn::Mul(normal_y[k], factor);
+    result.edges[3 * k + 2] = hn::Mul(at_center[k], factor);
+  }
+  result.inverse_depth[0] = hn::Mul(normal_sum_x, inverse);
+  result.inverse_depth[1] = hn::Mul(normal_sum_y, inverse);
+  result.inverse_depth[2] =
+      hn::Mul(hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]), inverse);
+  return result;
+}
+
+/// projected_window_row::outline: the triangle with these corners in pixels, scaled about its
+/// incenter.
+HWY_INLINE void outline_of(const ImageView& view, const Vector3 (&point)[3], Floats min_rho,
+                           Floats (&outline)[6]) {
+  const Floats one = constant(1.0f), nan = constant(std::numeric_limits<float>::quiet_NaN());
+  const Mask in_front =
+      hn::Gt(hn::Min(point[0].z, hn::Min(point[1].z, point[2].z)), constant(view.near));
+  Floats image_x[3], image_y[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Floats by_depth = hn::Div(one, hn::IfThenElse(in_front, point[k].z, one));
+    image_x[k] = hn::MulAdd(point[k].x, by_depth, constant(view.cx));
+    image_y[k] = hn::MulAdd(point[k].y, by_depth, constant(view.cy));
+  }
+  Floats sum_x = hn::Zero(d), sum_y = hn::Zero(d), perimeter = hn::Zero(d);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
+    const Floats dx = hn::Sub(image_x[to], image_x[from]), dy = hn::Sub(image_y[to], image_y[from]);
+    const Floats opposite = hn::Sqrt(hn::MulAdd(dx, dx, hn::Mul(dy, dy)));
+    sum_x = hn::MulAdd(opposite, image_x[k], sum_x);
+    sum_y = hn::MulAdd(opposite, image_y[k], sum_y);
+    perimeter = hn::Add(perimeter, opposite);
+  }
+  const Floats incenter_x = hn::Div(sum_x, perimeter), incenter_y = hn::Div(sum_y, perimeter);
+  const Floats shrinking = hn::Sub(one, min_rho);
+  const auto shrunk = [&](Floats at, Floats middle) {
+    return hn::IfThenElse(in_front, hn::MulAdd(shrinking, hn::Sub(at, middle), middle), nan);
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    outline[2 * k] = shrunk(image_x[k], incenter_x);
+    outline[2 * k + 1] = shrunk(image_y[k], incenter_y);
+  }
+}
+
 void project_windows_on(const ImageView& view, const ParameterRows& windows, int degree,
                         ParameterRows& projected) {
   namespace in = window_row;
   namespace out = projected_window_row;
   const Floats zero = hn::Zero(d), one = constant(1.0f);
-  const Floats nan = constant(std::numeric_limits<float>::quiet_NaN());
-  const Floats near = constant(view.near);
   for (std::size_t i = 0; i < windows.count(); i += lanes) {
     const auto load = [&](std::size_t row) { return hn::Load(d, windows.row(row) + i); };
     const auto store = [&](std::size_t row, Floats value) {
       hn::Store(value, d, projected.row(row) + i);
-    };
-    // In view coordinates, x and y times the focal lengths: the homogeneous image point, relative
-    // to the principal point.
-    const auto in_pixels = [&](const Vector3& offset) {
-      const Vector3 v = product(view.view_from_layer, offset);
-      return Vector3{hn::Mul(v.x, constant(view.fx)), hn::Mul(v.y, constant(view.fy)), v.z};
     };
     Vector3 corner[3], offset[3], point[3];
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = {load(in::corners + 3 * k), load(in::corners + 3 * k + 1),
                    load(in::corners + 3 * k + 2)};
       offset[k] = from_eye(view, corner[k]);
-      point[k] = in_pixels(offset[k]);
+      point[k] = in_pixels(view, offset[k]);
     }
-    const auto third_of_sum = [&](Floats a, Floats b, Floats c) {
-      return hn::Mul(hn::Add(hn::Add(a, b), c), constant(1.0f / 3.0f));
-    };
-    const Vector3 center{third_of_sum(offset[0].x, offset[1].x, offset[2].x),
-                         third_of_sum(offset[0].y, offset[1].y, offset[2].y),
-                         third_of_sum(offset[0].z, offset[1].z, offset[2].z)};
-    const Floats depth = third_of_sum(point[0].z, point[1].z, point[2].z);
+    const Vector3 center{mean(offset[0].x, offset[1].x, offset[2].x),
+                         mean(offset[0].y, offset[1].y, offset[2].y),
+                         mean(offset[0].z, offset[1].z, offset[2].z)};
+    const Floats depth = mean(point[0].z, point[1].z, point[2].z);
     Mask drawn = hn::Gt(depth, constant(std::fmax(view.near, view.min_center_depth)));
     const Floats scale = hn::Div(one, hn::IfThenElse(drawn, depth, one));
     // The image of the centre, relative to the principal point.
-    const Floats x = hn::Mul(third_of_sum(point[0].x, point[1].x, point[2].x), scale);
-    const Floats y = hn::Mul(third_of_sum(point[0].y, point[1].y, point[2].y), scale);
+    const Floats x = hn::Mul(mean(point[0].x, point[1].x, point[2].x), scale);
+    const Floats y = hn::Mul(mean(point[0].y, point[1].y, point[2].y), scale);
 
-    // The homogeneous rule (docs/numerics.md, W14): with N_k = Q_i x Q_j and
-    // W = sum_k w_k |N_k.xy|, the distance from edge k over the inradius at the image point p is
-    // W (N_k . p) / (det |N_k.xy|), and one over the depth sum_k (N_k . p) / det.
-    Vector3 edge[3];
-    Floats normal_x[3], normal_y[3], at_center[3], length[3];
-    Floats weight = zero, normal_sum_x = zero, normal_sum_y = zero;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
-      // Differences of the stored corners are more exact than those of the points.
-      edge[k] =
-          in_pixels({hn::Sub(corner[to].x, corner[from].x), hn::Sub(corner[to].y, corner[from].y),
-                     hn::Sub(corner[to].z, corner[from].z)});
-      const Vector3& start = point[from];
-      normal_x[k] = hn::MulSub(start.y, edge[k].z, hn::Mul(start.z, edge[k].y));
-      normal_y[k] = hn::MulSub(start.z, edge[k].x, hn::Mul(start.x, edge[k].z));
-      // N_k . (x, y, 1), with both points relative to (x, y) first: this cancels less.
-      const Floats ax = hn::NegMulAdd(x, start.z, start.x), ay = hn::NegMulAdd(y, start.z, start.y);
-      const Floats bx = hn::NegMulAdd(x, edge[k].z, edge[k].x),
-                   by = hn::NegMulAdd(y, edge[k].z, edge[k].y);
-      at_center[k] = hn::MulSub(ax, by, hn::Mul(ay, bx));
-      length[k] = hn::Sqrt(hn::MulAdd(normal_x[k], normal_x[k], hn::Mul(normal_y[k], normal_y[k])));
-      weight = hn::MulAdd(point[k].z, length[k], weight);
-      drawn = hn::And(drawn, hn::Gt(length[k], zero));
-      normal_sum_x = hn::Add(normal_sum_x, normal_x[k]);
-      normal_sum_y = hn::Add(normal_sum_y, normal_y[k]);
-    }
-    const Floats determinant = dot(point[1], cross(edge[0], edge[1]));
-    drawn = hn::And(drawn, hn::Gt(weight, zero));
-    drawn = hn::And(drawn, hn::Gt(hn::Abs(determinant), zero));
+    const WindowPlane plane = plane_of(view, corner, point, x, y);
+    drawn = hn::And(drawn, plane.exists);
+    for (std::size_t k = 0; k < 9; ++k) store(out::edges + k, plane.edges[k]);
+    for (std::size_t k = 0; k < 3; ++k) store(out::inverse_depth + k, plane.inverse_depth[k]);
 
     const Floats opacity = load(in::opacity), sigma = load(in::sigma);
     const Floats log_opacity = log2_of(hn::IfThenElse(hn::Gt(opacity, zero), opacity, one));
     const Floats excess = hn::Sub(log_opacity, constant(std::log2(view.min_alpha)));
     drawn = hn::And(drawn, hn::And(hn::Gt(opacity, zero), hn::Gt(excess, zero)));
+    // -126: exp2_of() has no smaller values.
     const Floats min_rho = exp2_of(hn::Max(hn::Neg(hn::Div(excess, sigma)), constant(-126.0f)));
 
-    const Floats inverse = hn::Div(one, determinant);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Floats factor = hn::Div(hn::Mul(weight, inverse), length[k]);
-      store(out::edges + 3 * k, hn::Mul(normal_x[k], factor));
-      store(out::edges + 3 * k + 1, hn::Mul(normal_y[k], factor));
-      store(out::edges + 3 * k + 2, hn::Mul(at_center[k], factor));
-    }
-    store(out::inverse_depth, hn::Mul(normal_sum_x, inverse));
-    store(out::inverse_depth + 1, hn::Mul(normal_sum_y, inverse));
-    store(out::inverse_depth + 2,
-          hn::Mul(hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]), inverse));
-
-    // The outline: the triangle, scaled about its incenter.
-    const Mask in_front = hn::Gt(hn::Min(point[0].z, hn::Min(point[1].z, point[2].z)), near);
-    Floats image_x[3], image_y[3], opposite[3], sum_x = zero, sum_y = zero, perimeter = zero;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Floats by_depth = hn::Div(one, hn::IfThenElse(in_front, point[k].z, one));
-      image_x[k] = hn::MulAdd(point[k].x, by_depth, constant(view.cx));
-      image_y[k] = hn::MulAdd(point[k].y, by_depth, constant(view.cy));
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
-      const Floats dx = hn::Sub(image_x[to], image_x[from]),
-                   dy = hn::Sub(image_y[to], image_y[from]);
-      opposite[k] = hn::Sqrt(hn::MulAdd(dx, dx, hn::Mul(dy, dy)));
-      sum_x = hn::MulAdd(opposite[k], image_x[k], sum_x);
-      sum_y = hn::MulAdd(opposite[k], image_y[k], sum_y);
-      perimeter = hn::Add(perimeter, opposite[k]);
-    }
-    const Floats incenter_x = hn::Div(sum_x, perimeter), incenter_y = hn::Div(sum_y, perimeter);
-    const Floats shrinking = hn::Sub(one, min_rho);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto shrunk = [&](Floats at, Floats middle) {
-        return hn::IfThenElse(in_front, hn::MulAdd(shrinking, hn::Sub(at, middle), middle), nan);
-      };
-      store(out::outline + 2 * k, shrunk(image_x[k], incenter_x));
-      store(out::outline + 2 * k + 1, shrunk(image_y[k], incenter_y));
-    }
+    Floats outline[6];
+    outline_of(view, point, min_rho, outline);
+    for (std::size_t k = 0; k < 6; ++k) store(out::outline + k, outline[k]);
 
     store(out::x, hn::Add(x, constant(view.cx)));
     store(out::y, hn::Add(y, constant(view.cy)));
@@ -144,7 +176,7 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
 struct WindowAlpha {
   const ImageView& view;
 
-  /// Sets the pixels with an alpha of at least the smallest. Returns them.
+  /// Returns the pixels where alpha reaches the smallest value, and sets `alpha` there.
   HWY_INLINE Mask operator()(const WindowEntry& entry, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const Floats dx = hn::Sub(x, constant(entry.x)), dy = hn::Sub(y, constant(entry.y));
@@ -159,6 +191,7 @@ struct WindowAlpha {
     const Floats inverse_depth = linear(entry.inverse_depth);
     covered = hn::And(covered, hn::Gt(inverse_depth, inverse_behind));
     covered = hn::And(covered, hn::Lt(inverse_depth, constant(1.0f / view.near)));
+    // log2_of() needs normal numbers, also where the pixel is not covered.
     const Floats log_rho = log2_of(hn::Min(hn::Max(rho, constant(1e-30f)), constant(1.0f)));
     const Floats log_alpha =
         hn::MulAdd(constant(entry.sigma), log_rho, constant(entry.log_opacity));

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 #include <vector>
 
 #include "runtime/passes/pass.hpp"
-#include "runtime/splats/splat_order.hpp"
+#include "runtime/splats/ordered_splats.hpp"
 
 namespace tureen {
 
@@ -17,14 +15,6 @@ namespace {
 
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-SplatsInView in_view(std::span<const glm::vec3> centers, const Camera& camera,
-                     const glm::dmat4& world_from_layer) {
-  const FrameCamera in_layer = camera_in_layer(camera, world_from_layer, {});
-  const glm::dvec3 backward =
-      glm::transpose(glm::dmat3(in_layer.camera.view_from_world))[2] * in_layer.scale;
-  return {.centers = centers, .axis = -backward, .offset = glm::dot(-backward, in_layer.eye)};
 }
 
 }  // namespace
@@ -50,7 +40,7 @@ std::optional<double> order_ms(const Scene& scene, std::span<const Camera> camer
   for (const Camera& camera : cameras) {
     std::vector<SplatsInView> views;
     for (const Centers& layer : layers)
-      views.push_back(in_view(layer.centers, camera, layer.world_from_layer));
+      views.push_back(in_view(layer.centers, camera_in_layer(camera, layer.world_from_layer, {})));
     double best = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < 3; ++repeat) {
       const double start = now();

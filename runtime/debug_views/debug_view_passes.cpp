@@ -175,6 +175,27 @@ std::unique_ptr<Pass> splat_color_pass(std::span<const std::unique_ptr<DeviceSpl
       device.float_blending ? SplatPass::Precision::single : SplatPass::Precision::half, fraction);
 }
 
+/// Measures the splats, if there are any, and the soups. `counts` as MeasurePass::Inputs.
+std::unique_ptr<MeasurePass> measure_pass(const std::vector<DeviceSoup*>& soups,
+                                          std::span<const std::unique_ptr<DeviceSplats>> splats,
+                                          std::span<const DebugViewSubject> subjects,
+                                          ShownDebugView& shown, const FragmentCountPass* counts) {
+  const std::vector<DeviceSplats*> present_splats = present(splats);
+  const auto make_surfaces = [&](const gl::Framebuffer& surface) {
+    Passes passes;
+    for (DeviceSoup* soup : soups)
+      passes.push_back(std::make_unique<ValuePass>(*soup, subjects, shown, &surface));
+    return passes;
+  };
+  return std::make_unique<MeasurePass>(MeasurePass::Inputs{
+      .device = present_splats.empty() ? soups.front()->device() : present_splats.front()->device(),
+      .splats = splats,
+      .subjects = subjects,
+      .shown = shown,
+      .counts = counts,
+      .make_surfaces = make_surfaces});
+}
+
 }  // namespace
 
 DebugViewSubject::DebugViewSubject(const Splats& splats) : middle(middle_bounds(splats)) {
@@ -266,19 +287,7 @@ DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> a
     // Splats are grey over the alpha of soups; every other view is computed from the surfaces.
     if (shown.what == DebugView::alpha && !shown.as_values)
       for (DeviceSoup* soup : soups) add(std::make_unique<ValuePass>(*soup, subjects, shown));
-    const auto make_surfaces = [&](const gl::Framebuffer& surface) {
-      Passes passes;
-      for (DeviceSoup* soup : soups)
-        passes.push_back(std::make_unique<ValuePass>(*soup, subjects, shown, &surface));
-      return passes;
-    };
-    auto pass = std::make_unique<MeasurePass>(MeasurePass::Inputs{
-        .device = has_splats ? present(splats).front()->device() : soups.front()->device(),
-        .splats = splats,
-        .subjects = subjects,
-        .shown = shown,
-        .counts = result.counts,
-        .make_surfaces = make_surfaces});
+    auto pass = measure_pass(soups, splats, subjects, shown, result.counts);
     result.measures = pass.get();
     add(std::move(pass));
     return result;

@@ -48,8 +48,8 @@ class DebugViews {
   void measure(Renderer& renderer, DebugView what);
 
   /// The values of the last frame after measure(), for each pixel, row 0 on top. The fourth
-  /// component is 1, or 0 where nothing is visible; then all are 0. The others, of which soups are
-  /// the last contribution, opaque:
+  /// component is 1; where nothing is visible, all four are 0. A soup counts as the last, opaque
+  /// contribution to the other three:
   /// - depth: the mean view depth, weighted by contribution, in world units, three times
   /// - median_depth: that at which the transmittance falls to 1/2 or below
   /// - normals: the weighted mean, of unit length, in world axes; 0 if normals cancel

@@ -1,5 +1,6 @@
 #include "runtime/debug_views/measure_pass.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/gl/state.hpp"
@@ -9,8 +10,6 @@
 namespace tureen {
 
 namespace {
-
-constexpr TargetFormat float_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 
 SplatMeasure measure_of(DebugView what) {
   switch (what) {
@@ -29,9 +28,9 @@ SplatMeasure measure_of(DebugView what) {
 
 MeasurePass::MeasurePass(const Inputs& inputs)
     : subjects_(inputs.subjects), shown_(inputs.shown), counts_(inputs.counts) {
-  for (const std::unique_ptr<DeviceSplats>& layer : inputs.splats)
-    if (layer && !measures_)
-      measures_.emplace(inputs.device, inputs.splats, measure_of(shown_.what));
+  if (std::any_of(inputs.splats.begin(), inputs.splats.end(),
+                  [](const std::unique_ptr<DeviceSplats>& layer) { return layer != nullptr; }))
+    measures_.emplace(inputs.device, inputs.splats, measure_of(shown_.what));
   if (inputs.make_surfaces) surfaces_ = inputs.make_surfaces(surface_framebuffer_);
   auto constants = debug_view_constants(shown_.what);
   constants["HAS_SPLATS"] = measures_ ? "1" : "0";
@@ -46,11 +45,11 @@ void MeasurePass::resize(const FrameTarget& target) {
   size_ = target.size();
   if (measures_) measures_->resize(target);
   if (!surfaces_.empty()) {
-    surface_ = make_target(float_format, size_.x, size_.y);
+    surface_ = make_target(target_formats::rgba32f, size_.x, size_.y);
     surface_framebuffer_ = make_framebuffer({surface_.id()}, target.depth_attachment());
   }
   if (shown_.as_values) {
-    values_ = make_target(float_format, size_.x, size_.y);
+    values_ = make_target(target_formats::rgba32f, size_.x, size_.y);
     values_framebuffer_ = make_framebuffer({values_.id()});
   }
 }
@@ -109,7 +108,8 @@ std::size_t MeasurePass::device_bytes() const { return measures_ ? measures_->de
 
 std::size_t MeasurePass::target_bytes() const {
   const std::size_t own = (surface_ ? 1u : 0u) + (values_ ? 1u : 0u);
-  return own * bytes_of(float_format, size_) + (measures_ ? measures_->target_bytes() : 0);
+  return own * bytes_of(target_formats::rgba32f, size_) +
+         (measures_ ? measures_->target_bytes() : 0);
 }
 
 void MeasurePass::leave_context() {

@@ -24,7 +24,7 @@ class MeasurePass final : public Pass {
     ShownDebugView& shown;
     /// Of the soups; null without soups. Only DebugView::overdraw reads it.
     const FragmentCountPass* counts = nullptr;
-    /// Draw normals and depths of the soups into the framebuffer that make_surfaces gets.
+    /// Makes the passes that draw the normals and depths of the soups into `surface`.
     std::function<Passes(const gl::Framebuffer& surface)> make_surfaces = {};
   };
   /// The references of `inputs` outlive the pass. Passes before it have drawn the soups' depth.

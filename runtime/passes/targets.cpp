@@ -68,49 +68,50 @@ void require_complete_framebuffer() {
       "the device has no memory for the targets of an image of this size: draw a smaller image");
 }
 
+namespace {
+
+/// Reads the first color attachment, or the window for 0. The first row of `pixels` is the top one.
+template <class Pixel>
+void read_to(std::vector<Pixel>& pixels, GLuint framebuffer, glm::ivec2 size, GLenum format,
+             GLenum type) {
+  const auto width = std::ptrdiff_t(size.x);
+  pixels.resize(std::size_t(size.x) * std::size_t(size.y));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(framebuffer ? GL_COLOR_ATTACHMENT0 : GL_BACK);
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, size.x, size.y, format, type, pixels.data());
+  gl::throw_if_lost();
+  for (auto top = pixels.begin(), bottom = pixels.end(); bottom - top >= 2 * width; top += width) {
+    bottom -= width;
+    std::swap_ranges(top, top + width, bottom);
+  }
+}
+
+}  // namespace
+
 Image8 read_pixels(GLuint framebuffer, int width, int height) {
   Image8 image(width, height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glReadBuffer(framebuffer ? GL_COLOR_ATTACHMENT0 : GL_BACK);  // 0 is a window's
-  gl::use_plain_pixel_transfer();
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-  gl::throw_if_lost();
-  for (int y = 0; y < height / 2; ++y)
-    std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
+  read_to(image.pixels, framebuffer, {width, height}, GL_RGBA, GL_UNSIGNED_BYTE);
   return image;
 }
 
 std::vector<glm::vec4> read_float_pixels(GLuint framebuffer, glm::ivec2 size) {
-  const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);
-  std::vector<glm::vec4> pixels(width * height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl::use_plain_pixel_transfer();
-  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, pixels.data());
-  gl::throw_if_lost();
-  for (std::size_t y = 0; y < height / 2; ++y)
-    std::swap_ranges(&pixels[y * width], &pixels[y * width] + width,
-                     &pixels[(height - 1 - y) * width]);
+  std::vector<glm::vec4> pixels;
+  read_to(pixels, framebuffer, size, GL_RGBA, GL_FLOAT);
   return pixels;
 }
 
 std::vector<std::uint32_t> read_visible_slots(GLuint framebuffer, glm::ivec2 size) {
-  const auto width = std::size_t(size.x), height = std::size_t(size.y);
   // Reading must wait for the pass that wrote this target. Mesa 22.3's llvmpipe waits only for a
   // running pass that writes it. The shading pass only reads it, so an older frame would be
   // returned.
   glFinish();
   // Four channels, although two are stored: ES 3.0 guarantees only this format for integers.
-  std::vector<glm::uvec4> fragments(width * height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl::use_plain_pixel_transfer();
-  glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragments.data());
-  gl::throw_if_lost();
-  std::vector<std::uint32_t> result(fragments.size());
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x)
-      result[y * width + x] = fragments[(height - 1 - y) * width + x].x;
+  std::vector<glm::uvec4> fragments;
+  read_to(fragments, framebuffer, size, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+  std::vector<std::uint32_t> result;
+  result.reserve(fragments.size());
+  for (const glm::uvec4& fragment : fragments) result.push_back(fragment.x);
   return result;
 }
 

@@ -17,7 +17,7 @@ namespace {
 /// Columns of the textures with one texel a splat, or a colour of a splat: PROJECTED_COLUMNS.
 constexpr int projected_columns = 1024;
 
-constexpr TargetFormat projected_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+constexpr TargetFormat projected_format = target_formats::rgba32f;
 
 /// A number as a float constant of GLSL.
 std::string constant(double value) {
@@ -229,9 +229,7 @@ void DeviceSplats::leave_context() {
 }
 
 glm::vec4 ewa_slope_range(const Camera& camera) {
-  // 3DGS clamps at 1.3 times the half field of view, about the principal point of a centred image.
-  // Beyond the image, the same margin of 0.3 times half the image is left on either side.
-  const glm::dvec2 margin = 0.3 * 0.5 * glm::dvec2(camera.width, camera.height);
+  const glm::dvec2 margin = ewa_margin * glm::dvec2(camera.width, camera.height);
   const glm::dvec2 focal(camera.fx, camera.fy);
   const glm::dvec2 low(-camera.cx, camera.cy - camera.height),
       high(camera.width - camera.cx, camera.cy);

@@ -1,6 +1,8 @@
 #include "runtime/splats/ordered_splats.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "runtime/gl/state.hpp"
@@ -10,22 +12,35 @@ namespace tureen {
 namespace {
 
 constexpr int order_columns = DeviceSplats::order_columns;
-constexpr TargetFormat order_format{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+constexpr TargetFormat order_format = target_formats::r32ui;
 
-/// The view depth in world units.
-SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera, float fraction) {
-  const glm::dmat3 view_from_layer(camera.camera.view_from_world);
-  const glm::dvec3 axis = -camera.scale * glm::transpose(view_from_layer)[2];
-  SplatsInView view{.centers = splats.centers(),
-                    .axis = axis,
-                    .offset = glm::dot(axis, camera.eye),
-                    .fraction = fraction};
-  for (const Bounds& box : splats.chunks()) {
-    const glm::dvec3 half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
-    const double farthest =
-        glm::dot(axis, box.centre() - camera.eye) + glm::dot(glm::abs(axis), half);
+/// The smallest cosine between the viewing axis and the rays of the image with EWA's margin around
+/// it, which large splats may cross.
+double cosine_of_image(const Camera& camera) {
+  const glm::dvec2 size(camera.width, camera.height), middle(camera.cx, camera.cy);
+  const glm::dvec2 farthest =
+      (glm::max(middle, size - middle) + ewa_margin * size) / glm::dvec2(camera.fx, camera.fy);
+  return 1 / std::sqrt(1 + glm::dot(farthest, farthest));
+}
+
+/// Sets SplatsInView::behind and outside.
+void find_chunks_to_skip(std::span<const Bounds> chunks, const FrameCamera& camera,
+                         SplatsInView& view) {
+  const double cosine = cosine_of_image(camera.camera) * glm::length(view.axis);
+  for (const Bounds& box : chunks) {
+    const glm::dvec3 low(box.low), high(box.high);
+    const double farthest = glm::dot(view.axis, box.centre() - camera.eye) +
+                            glm::dot(glm::abs(view.axis), 0.5 * (high - low));
+    const double distance = glm::distance(camera.eye, glm::clamp(camera.eye, low, high));
     view.behind.push_back(farthest < 0);  // of the eye, and so of the near plane
+    view.outside.push_back(farthest < 0 || farthest < cosine * distance);
   }
+}
+
+SplatsInView in_view(const DeviceSplats& splats, const FrameCamera& camera, float fraction) {
+  SplatsInView view = in_view(splats.centers(), camera);
+  view.fraction = fraction;
+  find_chunks_to_skip(splats.chunks(), camera, view);
   return view;
 }
 
@@ -39,6 +54,12 @@ bool has_many(std::span<const SplatsInView> views) {
 }
 
 }  // namespace
+
+SplatsInView in_view(std::span<const glm::vec3> centers, const FrameCamera& camera) {
+  const glm::dmat3 view_from_layer(camera.camera.view_from_world);
+  const glm::dvec3 axis = -camera.scale * glm::transpose(view_from_layer)[2];
+  return {.centers = centers, .axis = axis, .offset = glm::dot(axis, camera.eye)};
+}
 
 SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
                                           const FrameTarget& target) {
@@ -77,13 +98,16 @@ void OrderedSplats::prepare(const Frame& frame) {
   for (DeviceSplats* layer : layers_) {
     const FrameCamera& camera = frame.layers[layer->layer()];
     if (camera.visible) layer->project(frame);
-    views.push_back(in_view(*layer, camera, fraction_));
-    if (!camera.visible) views.back() = {};
+    views.push_back(camera.visible ? in_view(*layer, camera, fraction_) : SplatsInView{});
   }
   in_order_ = order_texture_ && serves(ordered_, views);
   if (in_order_) return;
-  if (sorter_ && frame.may_use_earlier_order && has_many(views) && has_splats_of(ordered_, views))
-    continue_sorting(views);
+  const bool may_be_earlier = sorter_ && frame.may_use_earlier_order && has_many(views);
+  if (may_be_earlier) take_order(views);
+  if (in_order_) return;
+  // The camera may have turned to splats that were behind it when the sort began.
+  if (may_be_earlier && has_visible_splats_of(ordered_, views))
+    continue_sorting(std::move(views));
   else
     sort_now(std::move(views));
 }
@@ -96,16 +120,19 @@ void OrderedSplats::sort_now(std::vector<SplatsInView> views) {
   upload_order();
 }
 
-void OrderedSplats::continue_sorting(const std::vector<SplatsInView>& views) {
-  if (sorting_ && sorter_->take(order_)) {
-    ordered_ = std::move(*sorting_);
-    sorting_.reset();
-    in_order_ = serves(ordered_, views);
-    upload_order();
-  }
-  if (in_order_ || sorting_) return;
+/// Takes the sorter's order, if it is complete.
+void OrderedSplats::take_order(const std::vector<SplatsInView>& views) {
+  if (!sorting_ || !sorter_->take(order_)) return;
+  ordered_ = std::move(*sorting_);
+  sorting_.reset();
+  in_order_ = serves(ordered_, views);
+  upload_order();
+}
+
+void OrderedSplats::continue_sorting(std::vector<SplatsInView> views) {
+  if (sorting_) return;
   sorting_ = views;
-  sorter_->begin(views);
+  sorter_->begin(std::move(views));
 }
 
 void OrderedSplats::upload_order() {

@@ -15,6 +15,9 @@
 
 namespace tureen {
 
+/// The centres of splats in layer coordinates, with their view depth in world units.
+SplatsInView in_view(std::span<const glm::vec3> centers, const FrameCamera& camera);
+
 /// Framebuffers of the same colour textures, with and without the frame's depth: some kernels test
 /// depth themselves.
 struct SplatFramebuffers {
@@ -50,7 +53,8 @@ class OrderedSplats {
 
  private:
   void sort_now(std::vector<SplatsInView> views);
-  void continue_sorting(const std::vector<SplatsInView>& views);
+  void take_order(const std::vector<SplatsInView>& views);
+  void continue_sorting(std::vector<SplatsInView> views);
   void stop_sorting();
   void upload_order();
 

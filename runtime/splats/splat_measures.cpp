@@ -9,9 +9,6 @@ namespace tureen {
 
 namespace {
 
-constexpr TargetFormat single_floats{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-constexpr TargetFormat half_floats{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
-
 /// A step of the search leaves this part of a range of prefixes (splat_prefixes.glsl).
 constexpr std::uint32_t parts = 5;
 
@@ -21,7 +18,7 @@ SplatMeasures::SplatMeasures(const gl::Capabilities& device,
                              std::span<const std::unique_ptr<DeviceSplats>> layers,
                              SplatMeasure what)
     : what_(what),
-      blended_format_(device.float_blending ? single_floats : half_floats),
+      blended_format_(device.float_blending ? target_formats::rgba32f : target_formats::rgba16f),
       splats_(layers) {
   if (what_ != SplatMeasure::sums)
     narrow_ = gl::Program(assemble({.file = "full_screen.vert"}, device.api),
@@ -37,8 +34,9 @@ void SplatMeasures::resize(const FrameTarget& target) {
     return;
   }
   // Depths are not blended.
-  results_.push_back(make_target(
-      what_ == SplatMeasure::median_depth ? single_floats : blended_format_, size_.x, size_.y));
+  results_.push_back(
+      make_target(what_ == SplatMeasure::median_depth ? target_formats::rgba32f : blended_format_,
+                  size_.x, size_.y));
   result_framebuffers_ = make_splat_framebuffers({results_[0].id()}, target);
   for (int i = 0; i < 2; ++i) {
     bounds_[i] = make_target(target_formats::rg32ui, size_.x, size_.y);
@@ -120,7 +118,7 @@ std::size_t SplatMeasures::target_bytes() const {
   const std::size_t blended = bytes_of(blended_format_, size_);
   if (what_ == SplatMeasure::sums) return 2 * blended;
   const std::size_t result =
-      what_ == SplatMeasure::median_depth ? bytes_of(single_floats, size_) : blended;
+      what_ == SplatMeasure::median_depth ? bytes_of(target_formats::rgba32f, size_) : blended;
   return result + blended + 2 * bytes_of(target_formats::rg32ui, size_);
 }
 

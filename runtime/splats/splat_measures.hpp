@@ -6,6 +6,7 @@
 // prefixes, one in each channel: a fifth of the range remains. 100,000 splats take eight steps.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,8 +33,8 @@ inline constexpr float closed_transmittance = 1e-4f;
 /// Normals are in world axes, towards the eye: of a Gaussian, the axis of the smallest scale; of a
 /// neural density, the ellipsoid's normal where the ray enters it.
 ///
-/// Devices that cannot blend 32-bit floats blend 16-bit floats: sums have steps of 1/2048, and
-/// places above 2048 are rounded.
+/// Devices that cannot blend 32-bit floats blend 16-bit floats: sums have steps of 1/2048, counts
+/// end at 2048, and places are rounded above 2048 and infinite above 65,504.
 class SplatMeasures {
  public:
   /// `layers` outlive this object; null for layers without splats.

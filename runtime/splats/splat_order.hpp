@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/radix_sort.hpp"
+
 namespace tureen {
 
 /// Splats of one layer and the view depth of a centre: dot(axis, center) - offset.
@@ -17,6 +19,8 @@ struct SplatsInView {
   float fraction = 1;  // of the splats; a hash of the index chooses them
   /// For each chunk of splats_per_chunk centres, whether it is left out of the order. Empty: none.
   std::vector<bool> behind = {};
+  /// For each chunk, whether it is outside the image. A superset of `behind`.
+  std::vector<bool> outside = {};
 
   bool skips(std::size_t chunk) const { return chunk < behind.size() && behind[chunk]; }
 };
@@ -24,8 +28,9 @@ struct SplatsInView {
 /// Whether the order for the views `sorted` also serves `views`: it is their order, and has at
 /// least their splats.
 bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
-/// Whether that order has at least the splats of `views`.
-bool has_splats_of(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
+/// Whether that order has at least the splats of `views` that are inside the image.
+bool has_visible_splats_of(std::span<const SplatsInView> sorted,
+                           std::span<const SplatsInView> views);
 
 /// Consecutive splats of one layer in an order.
 struct SplatRun {
@@ -52,14 +57,10 @@ class SplatOrder {
   std::span<const SplatRun> runs() const { return runs_; }
 
  private:
-  struct Entry {
-    std::uint32_t key;
-    std::uint32_t place;  // of the splat, if the layers are numbered consecutively
-  };
-  void sort_by_key();
   void make_runs(std::span<const SplatsInView> layers);
 
-  std::vector<Entry> entries_, scratch_;
+  /// The index is that of the splat if the layers are numbered consecutively.
+  std::vector<KeyedIndex> entries_, scratch_;
   std::vector<std::uint32_t> splats_;
   std::vector<SplatRun> runs_;
 };

@@ -6,13 +6,6 @@
 
 namespace tureen {
 
-namespace {
-
-constexpr TargetFormat single_format{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-constexpr TargetFormat half_format{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
-
-}  // namespace
-
 SplatPass::SplatPass(const gl::Capabilities& device,
                      std::span<const std::unique_ptr<DeviceSplats>> layers, Precision precision,
                      float fraction)
@@ -22,7 +15,7 @@ SplatPass::SplatPass(const gl::Capabilities& device,
                assemble({.file = "splat_resolve.frag"}, device.api)) {}
 
 const TargetFormat& SplatPass::blended_format() const {
-  return precision_ == Precision::single ? single_format : half_format;
+  return precision_ == Precision::single ? target_formats::rgba32f : target_formats::rgba16f;
 }
 
 void SplatPass::resize(const FrameTarget& target) {

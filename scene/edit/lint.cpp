@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "scene/edit/lint_findings.hpp"
 #include "scene/finite.hpp"
 #include "scene/lattice.hpp"
 

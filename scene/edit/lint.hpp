@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -82,8 +81,8 @@ std::string describe(const LintFinding& finding);
 
 struct Lint {
   std::vector<LintFinding> findings;  // in the order of their ids; empty for a clean soup
-  /// The extent (the diagonal of its bounds) divided by its largest absolute coordinate; 0
-  /// if all coordinates are 0.
+  /// The diagonal of the bounds divided by the largest absolute coordinate; 0 if all coordinates
+  /// are 0.
   double extent_over_offset = 0;
 
   /// The finding, or null.
@@ -93,12 +92,5 @@ struct Lint {
 /// Finds the suspicious properties of a soup, or of splats. They must have no defect().
 Lint lint(const TriangleSoup& soup);
 Lint lint(const Splats& splats);
-
-/// Adds LintFinding::Id::far_from_origin if the box has it, and sets Lint::extent_over_offset.
-void add_distance_from_origin(Lint& lint, const Bounds& box);
-/// Adds the findings that count something.
-void add_counted(Lint& lint, std::initializer_list<LintFinding*> findings);
-/// Counts `index`.
-void count(LintFinding& finding, std::size_t index);
 
 }  // namespace tureen

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "scene/edit/lint.hpp"
+#include "scene/edit/lint_findings.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {

@@ -37,7 +37,7 @@ vec3 shown(uint face, vec2 b) {
 #if SHOWN == SHOW_DEPTH || SHOWN == SHOW_MEDIAN_DEPTH
   vec3 ray = ray_through(gl_FragCoord.xy);
   float z = depth_on(face, face_normal(face), ray);
-  return heat_ramp(1.0 - (log(z) - depth_scale.x) * depth_scale.y);
+  return depth_color(z, depth_scale);
 #elif SHOWN == SHOW_NORMALS
   vec3 normal = face_normal(face);
   if (dot(normal, ray_through(gl_FragCoord.xy)) > 0.0) normal = -normal;

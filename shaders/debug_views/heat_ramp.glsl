@@ -7,3 +7,9 @@ vec3 heat_ramp(float t) {
   int below = min(int(at), 3);
   return mix(stops[below], stops[below + 1], at - float(below));
 }
+
+// A count, at least 1; as overdraw_color() in runtime/debug_views/debug_view.cpp.
+vec3 count_color(float count) { return heat_ramp(log2(count) / 8.0); }
+
+// A depth; near is bright. `scale`: ln(near) and 1 / ln(far / near) of DepthScale.
+vec3 depth_color(float depth, vec2 scale) { return heat_ramp(1.0 - (log(depth) - scale.x) * scale.y); }

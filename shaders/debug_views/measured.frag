@@ -7,12 +7,10 @@ uniform sampler2D first, second;  // SplatMeasures (runtime/splats/splat_measure
 uniform sampler2D surface;        // of the soups: normal and depth; 0 without a soup
 uniform sampler2D counts;         // fragments of the soups (fragment_count.frag)
 uniform vec4 background;
-uniform vec2 depth_scale;   // ln(near), 1 / ln(far / near)
+uniform vec2 depth_scale;   // depth_color()
 uniform float splat_count;  // in the order of blending
 
 layout(location = 0) out vec4 result;
-
-float count_color(float count) { return log2(max(count, 1.0)) / 8.0; }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -36,7 +34,7 @@ void main() {
   is_there = depth > 0.0;
 #endif
   value = vec3(depth);
-  shown = heat_ramp(1.0 - (log(depth) - depth_scale.x) * depth_scale.y);
+  shown = depth_color(depth, depth_scale);
 #elif SHOWN == SHOW_NORMALS
   vec3 sum = a.xyz + through * behind.xyz;
   value = dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0);
@@ -55,11 +53,11 @@ void main() {
   value += 255.0 * texelFetch(counts, pixel, 0).r;
 #endif
   is_there = value.x > 0.0;
-  shown = heat_ramp(count_color(value.x));
+  shown = count_color(max(value.x, 1.0));
 #elif SHOWN == SHOW_CONTRIBUTIONS
   value = vec3(a.y);
   is_there = a.x > 0.0;
-  shown = heat_ramp(count_color(value.x));
+  shown = count_color(max(value.x, 1.0));
 #elif SHOWN == SHOW_ORDER
   value = vec3(a.w);
   is_there = a.x > 0.0;

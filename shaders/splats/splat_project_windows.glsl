@@ -1,5 +1,5 @@
-// Windows are projected per vertex (splat_windows.vert); here only their colours have a direction.
-// With COLORS_PER_SPLAT 3, a texel belongs to a corner.
+// Windows are projected per vertex (splat_windows.vert). This file only gives the directions of their
+// colours. With COLORS_PER_SPLAT 3, a texel belongs to a corner.
 vec3 corner_from_eye(uint splat, int corner) {
   return (kernel_texel(splat, corner).xyz - eye_high) - eye_low;
 }

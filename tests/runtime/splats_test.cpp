@@ -525,6 +525,32 @@ TEST_P(SplatsIn, FramesDoNotWaitForTheSorter) {
   EXPECT_EQ(draw(other), expected.pixels);
 }
 
+TEST_P(SplatsIn, AnOrderWithoutTheSplatsOfTheViewIsNotDrawn) {
+  Scene scene = many_gaussians();
+  auto& gaussians = std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel);
+  // Two chunks, one on either side of the eye.
+  for (std::size_t i = 0; i < gaussians.centers.size(); ++i)
+    gaussians.centers[i].x += i < splats_per_chunk ? -10.0f : 10.0f;
+  Renderer renderer = renderer_of_scene(context, scene);
+  const auto towards = [](const glm::dvec3& target) {
+    return look_at({0, 0, 0}, target, {0, 1, 0}, 0.5, 32, 24);
+  };
+  renderer.draw({towards({1, 0, 0})});
+  const Image8 expected = renderer.read_color();
+  bool may_finish = false;
+  renderer.sort_splats_with(std::make_unique<HeldSorter>(may_finish));
+  renderer.draw({towards({0, 0, -1})});  // neither chunk is behind the eye
+  renderer.draw({towards({-1, 0, 0})}, Renderer::SplatOrdering::earlier);
+  EXPECT_FALSE(renderer.splats_in_order());
+  may_finish = true;
+  renderer.draw({towards({1, 0, 0})}, Renderer::SplatOrdering::earlier);
+  EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
+  // No frame waits for a chunk that is no longer behind the eye, but still outside the image.
+  may_finish = false;
+  renderer.draw({towards({0.1, 0, -1})}, Renderer::SplatOrdering::earlier);
+  EXPECT_FALSE(renderer.splats_in_order());
+}
+
 TEST_P(SplatsIn, AThreadSortsUntilTheOrderIsThatOfTheView) {
   Scene scene = many_gaussians();
   scene.layers.push_back({.primitives = random_splats(splat_kinds[0], 100, 0.1, 7)});

@@ -79,8 +79,8 @@ Json sorted(const Json& number) {
 
 // -- the instance in the worker -------------------------------------------------------------------
 
-/// {"layers"} of a task. The buffer holds the centres, unless they are those of the last task.
-/// Writes the order to the buffer.
+/// {"layers"} of a task. The buffer has the centres; it is empty if they are those of the last
+/// task. Writes the order to the buffer.
 Json sort(const Json& task) {
   static std::vector<std::vector<glm::vec3>> centers;
   static SplatOrder order;

@@ -9,6 +9,7 @@
 namespace tureen::web {
 
 /// A sorter whose tasks the command "sort_task" returns. Only one may exist at a time.
+/// Requires SplatsInView::fraction 1, which tasks do not have.
 std::unique_ptr<SplatSorter> make_page_sorter();
 
 /// Commands of both instances.

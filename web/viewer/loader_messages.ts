@@ -1,4 +1,4 @@
-// Messages between the page and the worker that loads a scene.
+// Messages between the page and its workers: one loads a scene, another sorts splats.
 
 import type { Parcel } from './engine.js';
 import type { LoadProgress, DebugViewChoice, SceneFile, Vec3, ViewerError } from './types.js';

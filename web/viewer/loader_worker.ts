@@ -1,5 +1,6 @@
-// The script of all workers. A worker sorts splats (splat_sorting.ts), or loads one scene: fetches it, reads it, prepares the device's data and transfers them. The
-// end of the worker frees all its memory, so a load is cancelled by ending it.
+// The script of all workers. A worker sorts splats (splat_sorting.ts) or loads one scene: it fetches and reads the
+// scene, prepares the device's data and transfers them. The end of the worker frees all its memory, so a load is
+// cancelled by ending it.
 
 import { download } from './download.js';
 import { Engine, type Parcel } from './engine.js';
@@ -151,7 +152,7 @@ let loader: Loader | null = null;
 let giveLimits: (limits: unknown) => void;
 const limits = new Promise<unknown>((resolve) => { giveLimits = resolve; });
 
-async function obey(message: ToLoader): Promise<void> {
+async function handle(message: ToLoader): Promise<void> {
   switch (message.kind) {
     case 'load':
       loader = new Loader(await Engine.create(message.program), limits, 'url' in message.source ? 'url' : 'files',
@@ -165,7 +166,7 @@ async function obey(message: ToLoader): Promise<void> {
 }
 
 self.onmessage = ({ data }: MessageEvent<ToLoader>) => {
-  obey(data).catch((error: unknown) => {
+  handle(data).catch((error: unknown) => {
     const known = error instanceof ViewerError;
     post({ kind: 'error', error: { kind: known ? error.kind : 'device',
                                    message: known ? error.message : `The loader failed: ${String(error)}` } });

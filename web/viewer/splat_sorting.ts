@@ -18,8 +18,8 @@ export class SplatSorting {
     try {
       const task = this.engine.call<SortTask | null>('sort_task');
       if (!task) return;
+      if (this.failed) return this.fail();
       const centers = this.engine.buffer().slice();
-      if (this.failed) throw new Error('an earlier task failed');
       const worker = await (this.worker ??= this.start());
       const message: ToLoader = { kind: 'sort', program: await this.program, task, centers };
       worker.postMessage(message, [centers.buffer]);
@@ -41,6 +41,7 @@ export class SplatSorting {
     return worker;
   }
 
+  /** From now on, the engine sorts in its frames, until it shows another scene. */
   private fail(): void {
     this.failed = true;
     this.engine.call('sort_in_frames');

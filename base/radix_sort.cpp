@@ -1,11 +1,11 @@
-#include "splatting/depth_order.hpp"
+#include "base/radix_sort.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstring>
 #include <utility>
 
-namespace tureen::splatting {
+namespace tureen {
 
 namespace {
 
@@ -20,26 +20,26 @@ std::uint32_t digit(std::uint32_t key, std::size_t place) {
 
 }  // namespace
 
-std::uint32_t depth_key(float depth) {
-  if (depth == 0.0f) depth = 0.0f;  // of -0
+std::uint32_t sort_key(float value) {
+  if (value == 0.0f) value = 0.0f;  // of -0
   std::uint32_t bits = 0;
-  std::memcpy(&bits, &depth, sizeof bits);  // Emscripten's library lacks std::bit_cast
+  std::memcpy(&bits, &value, sizeof bits);  // Emscripten's library lacks std::bit_cast
   return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
 /// Least significant digit first, which keeps the order of equal keys.
-void sort_by_depth(std::vector<DepthKey>& keys, std::vector<DepthKey>& scratch) {
+void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch) {
   std::array<std::array<std::uint32_t, digit_values>, digits> counts{};
-  for (const DepthKey& key : keys)
-    for (std::size_t place = 0; place < digits; ++place) ++counts[place][digit(key.key, place)];
-  scratch.resize(keys.size());
+  for (const KeyedIndex& item : items)
+    for (std::size_t place = 0; place < digits; ++place) ++counts[place][digit(item.key, place)];
+  scratch.resize(items.size());
   for (std::size_t place = 0; place < digits; ++place) {
     std::array<std::uint32_t, digit_values>& next = counts[place];
     std::uint32_t sum = 0;
     for (std::uint32_t& count : next) sum += std::exchange(count, sum);
-    for (const DepthKey& key : keys) scratch[next[digit(key.key, place)]++] = key;
-    keys.swap(scratch);
+    for (const KeyedIndex& item : items) scratch[next[digit(item.key, place)]++] = item;
+    items.swap(scratch);
   }
 }
 
-}  // namespace tureen::splatting
+}  // namespace tureen
