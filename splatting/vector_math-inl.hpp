@@ -62,6 +62,12 @@ HWY_INLINE Floats log2_of(Floats x) {
   return hn::MulAdd(y, t, hn::ConvertTo(d, exponent));
 }
 
+/// The largest power of 2 up to x; 0 for x below the smallest normal number.
+HWY_INLINE Floats power_of_2_in(Floats x) {
+  const hn::RebindToSigned<FloatTag> di;
+  return hn::BitCast(d, hn::And(hn::BitCast(di, x), hn::Set(di, 0x7f800000)));
+}
+
 struct Vector3 {
   Floats x, y, z;
 };

@@ -33,10 +33,23 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
       return Vector3{hn::Mul(v.x, constant(view.fx)), hn::Mul(v.y, constant(view.fy)), v.z};
     };
     Vector3 corner[3], offset[3], point[3];
+    Floats extent = zero;
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = {load(in::corners + 3 * k), load(in::corners + 3 * k + 1),
                    load(in::corners + 3 * k + 2)};
       offset[k] = from_eye(view, corner[k]);
+      extent = hn::Max(extent, hn::Max(hn::Max(hn::Abs(offset[k].x), hn::Abs(offset[k].y)),
+                                       hn::Abs(offset[k].z)));
+    }
+    // Fourth powers of lengths would underflow below 1e-10 and overflow beyond 1e9
+    // (docs/numerics.md, E8). Homogeneous points keep their image in another unit; a power of 2
+    // adds no rounding.
+    const Floats size = power_of_2_in(extent), by_size = hn::Div(one, size);
+    const auto in_units = [&](const Vector3& v) {
+      return Vector3{hn::Mul(v.x, by_size), hn::Mul(v.y, by_size), hn::Mul(v.z, by_size)};
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      offset[k] = in_units(offset[k]);
       point[k] = in_pixels(offset[k]);
     }
     const auto third_of_sum = [&](Floats a, Floats b, Floats c) {
@@ -45,9 +58,10 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     const Vector3 center{third_of_sum(offset[0].x, offset[1].x, offset[2].x),
                          third_of_sum(offset[0].y, offset[1].y, offset[2].y),
                          third_of_sum(offset[0].z, offset[1].z, offset[2].z)};
-    const Floats depth = third_of_sum(point[0].z, point[1].z, point[2].z);
+    const Floats relative_depth = third_of_sum(point[0].z, point[1].z, point[2].z);
+    const Floats depth = hn::Mul(relative_depth, size);
     Mask drawn = hn::Gt(depth, constant(std::fmax(view.near, view.min_center_depth)));
-    const Floats scale = hn::Div(one, hn::IfThenElse(drawn, depth, one));
+    const Floats scale = hn::Div(one, hn::IfThenElse(drawn, relative_depth, one));
     // The image of the centre, relative to the principal point.
     const Floats x = hn::Mul(third_of_sum(point[0].x, point[1].x, point[2].x), scale);
     const Floats y = hn::Mul(third_of_sum(point[0].y, point[1].y, point[2].y), scale);
@@ -61,9 +75,9 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
       // Differences of the stored corners are more exact than those of the points.
-      edge[k] =
-          in_pixels({hn::Sub(corner[to].x, corner[from].x), hn::Sub(corner[to].y, corner[from].y),
-                     hn::Sub(corner[to].z, corner[from].z)});
+      edge[k] = in_pixels(
+          in_units({hn::Sub(corner[to].x, corner[from].x), hn::Sub(corner[to].y, corner[from].y),
+                    hn::Sub(corner[to].z, corner[from].z)}));
       const Vector3& start = point[from];
       normal_x[k] = hn::MulSub(start.y, edge[k].z, hn::Mul(start.z, edge[k].y));
       normal_y[k] = hn::MulSub(start.z, edge[k].x, hn::Mul(start.x, edge[k].z));
@@ -95,13 +109,16 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
       store(out::edges + 3 * k + 1, hn::Mul(normal_y[k], factor));
       store(out::edges + 3 * k + 2, hn::Mul(at_center[k], factor));
     }
-    store(out::inverse_depth, hn::Mul(normal_sum_x, inverse));
-    store(out::inverse_depth + 1, hn::Mul(normal_sum_y, inverse));
-    store(out::inverse_depth + 2,
-          hn::Mul(hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]), inverse));
+    const auto store_inverse_depth = [&](std::size_t row, Floats sum) {
+      store(out::inverse_depth + row, hn::Mul(hn::Mul(sum, inverse), by_size));
+    };
+    store_inverse_depth(0, normal_sum_x);
+    store_inverse_depth(1, normal_sum_y);
+    store_inverse_depth(2, hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]));
 
     // The outline: the triangle, scaled about its incenter.
-    const Mask in_front = hn::Gt(hn::Min(point[0].z, hn::Min(point[1].z, point[2].z)), near);
+    const Mask in_front =
+        hn::Gt(hn::Min(point[0].z, hn::Min(point[1].z, point[2].z)), hn::Mul(near, by_size));
     Floats image_x[3], image_y[3], opposite[3], sum_x = zero, sum_y = zero, perimeter = zero;
     for (std::size_t k = 0; k < 3; ++k) {
       const Floats by_depth = hn::Div(one, hn::IfThenElse(in_front, point[k].z, one));

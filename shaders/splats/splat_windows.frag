@@ -6,6 +6,7 @@ in vec4 weighted_color;
 #endif
 #if OUTPUT != OUTPUT_COLOR
 flat in vec3 normal;
+flat in float unit;
 #endif
 
 #include "splat_blended.glsl"
@@ -22,6 +23,6 @@ void main() {
 #endif
   blend(rgb, color.a * window);
 #else
-  measure(color.a * window, 1.0 / gl_FragCoord.w, normal, color.a, sigma);
+  measure(color.a * window, unit / gl_FragCoord.w, normal, color.a, sigma);
 #endif
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/numerics/splat_tiles.hpp"
+#include "tests/support/random_splats.hpp"
 
 namespace tureen::test {
 namespace splat_projection_test {
@@ -169,6 +170,64 @@ TEST(Numerics, E5_ScalesWhoseSquaresUnderflow) {
                   .naive = worse(naive, 0),
                   .ours = ours,
                   .tolerance = 2 * 1.3 * vertex_rounding(width) + 2e-6});
+  }
+}
+
+/// The splats with all lengths times `unit`, and no rule for near centres.
+Splats in_unit(Splats splats, double unit) {
+  const auto scale = [factor = float(unit)](std::vector<glm::vec3>& lengths) {
+    for (glm::vec3& each : lengths) each *= factor;
+  };
+  if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
+    scale(windows->corners);
+  } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
+    scale(gaussians->centers);
+    scale(gaussians->scales);
+  } else {
+    auto& densities = std::get<NeuralDensities>(splats.kernel);
+    scale(densities.centers);
+    scale(densities.semi_axes);
+  }
+  splats.profile.min_center_depth *= float(unit);
+  return splats;
+}
+
+/// Whether a range of an ellipse's image by squares of squares of lengths in floats is right: a
+/// ball of radius 0.3 at distance 3.
+bool is_range_right(double unit) {
+  const auto depth = float(3 * unit), radius = float(0.3 * unit), along = 50 * radius;
+  const float a = radius * radius - depth * depth, b = along * radius;
+  const float range = (b + std::sqrt(b * b - a * (along * along))) / a;
+  return std::abs(double(range) + 50 * 0.3 / 3 * (0.1 + 1) / (1 - 0.01)) < 1;
+}
+
+TEST(Numerics, E8_AnyUnitOfLength) {
+  Recorder recorder({.stressed =
+                         "sixty splats of each kernel and profile in another unit of length, "
+                         "device and, where they support the kernel, tiles",
+                     .parameter = "size of the scene / units",
+                     .unit = "alpha",
+                     .naive = "borders of images by squares of squares of lengths"});
+  for (const double unit : {1e-12, 1.0, 1e10, 1e15}) {
+    double ours = 0;
+    for (const SplatKind& kind : splat_kinds) {
+      // The same shaders as 3DGS.
+      if (kind.name == std::string("flat_games") || kind.name == std::string("gaussians_mip"))
+        continue;
+      const Scene scene = scene_of(in_unit(random_splats(kind, 60, 0.3, 5), unit));
+      const Camera camera =
+          look_at(unit * glm::dvec3(1, 2, -2), glm::dvec3(0), {0, 1, 0}, 0.8, 24, 18);
+      const std::vector<double> expected = alpha_of_oracle(scene, camera);
+      EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.9) << kind.name;
+      const bool in_tiles = kind.kernel != SplatKind::Kernel::neural && !kind.per_corner;
+      ours = worse(ours, in_tiles ? alpha_error_of_both(scene, camera, expected)
+                                  : alpha_error(scene, camera, expected));
+    }
+    // By rounding, a splat may be blended or not where its alpha is min_alpha.
+    recorder.add({.at = unit,
+                  .naive = is_range_right(unit) ? 0.0 : 1.0,
+                  .ours = ours,
+                  .tolerance = 1.0 / 255});
   }
 }
 
