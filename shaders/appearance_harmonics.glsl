@@ -11,11 +11,8 @@ uniform sampler2DArray anchors;       // the point of an element from which d po
 vec3 element_color(uint element) {
   vec3 anchor = texelFetch(anchors, texel_position(element), 0).xyz;
   vec3 to_eye = -((anchor - eye_high) - eye_low);
-  float distance = length(to_eye);
-  // At the eye the direction is undefined; any finite one is valid (docs/numerics.md, V5).
-  vec3 d = distance > 0.0 ? VIEW_SIGN * to_eye / distance : vec3(0.0, 0.0, 1.0);
   float basis[HARMONICS_COUNT];
-  harmonics_basis(d, basis);
+  harmonics_basis(direction_of(VIEW_SIGN * to_eye), basis);
   vec3 sum = vec3(0.5);
   for (int i = 0; i < HARMONICS_COUNT; ++i)
     sum += basis[i] *

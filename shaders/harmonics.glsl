@@ -2,6 +2,14 @@
 // scene/spherical_harmonics.hpp; a test compares the two. `d` is of unit length.
 #define HARMONICS_COUNT ((HARMONICS_DEGREE + 1) * (HARMONICS_DEGREE + 1))
 
+// `v` with length 1. It is scaled first: squares of floats underflow below 1e-19 and overflow beyond
+// 1e19. At 0 any direction is valid (docs/numerics.md, V5).
+vec3 direction_of(vec3 v) {
+  float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+  v *= largest > 1e15 ? 1e-20 : largest < 1e-15 ? 1e30 : 1.0;
+  return largest > 0.0 ? v / length(v) : vec3(0.0, 0.0, 1.0);
+}
+
 void harmonics_basis(vec3 d, out float basis[HARMONICS_COUNT]) {
   float x = d.x, y = d.y, z = d.z;
   float xx = x * x, yy = y * y, zz = z * z, xy = x * y, yz = y * z, xz = x * z;

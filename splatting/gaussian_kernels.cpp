@@ -34,10 +34,10 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     const Floats depth = hn::IfThenElse(drawn, center.z, one);
 
     // Rows of the Jacobian times the scaled axes: a 2 x 3 matrix M, with covariance M M^T. Beyond
-    // 1e7 pixels a splat is constant over the image, and the fourth powers below overflow.
+    // 1e18 pixels the squares below overflow.
     const Rotation rotation = rotation_of(load(in::rotation_x), load(in::rotation_y),
                                           load(in::rotation_z), load(in::rotation_w));
-    const Floats largest = hn::Mul(constant(1e7f / std::fmax(view.fx, view.fy)), depth);
+    const Floats largest = hn::Mul(constant(1e18f / std::fmax(view.fx, view.fy)), depth);
     const auto clamped = [&](Floats value, int axis) {
       return hn::Clamp(value, constant(view.slope_low[axis]), constant(view.slope_high[axis]));
     };
@@ -54,7 +54,16 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
       x[k] = hn::Mul(hn::Mul(hn::NegMulAdd(along_x, axis.z, axis.x), scale), focal_x);
       y[k] = hn::Mul(hn::Mul(hn::NegMulAdd(along_y, axis.z, axis.y), scale), focal_y);
     }
-    const Vector3 row_x{x[0], x[1], x[2]}, row_y{y[0], y[1], y[2]};
+    // The fourth powers below overflow beyond 1e9 pixels, which centres near the eye's plane reach
+    // (docs/numerics.md, E2): large Gaussians are measured in another unit.
+    const Floats size = hn::Sqrt(hn::Max(dot({x[0], x[1], x[2]}, {x[0], x[1], x[2]}),
+                                         dot({y[0], y[1], y[2]}, {y[0], y[1], y[2]})));
+    const Floats unit_size = hn::IfThenElse(hn::Gt(size, constant(1e7f)), size, one);
+    const Floats by_unit = hn::Div(one, unit_size);
+    const auto in_units = [&](const Floats(&row)[3]) {
+      return Vector3{hn::Mul(row[0], by_unit), hn::Mul(row[1], by_unit), hn::Mul(row[2], by_unit)};
+    };
+    const Vector3 row_x = in_units(x), row_y = in_units(y);
     Floats xx = dot(row_x, row_x), yy = dot(row_y, row_y);
     const Floats xy = dot(row_x, row_y);
     // The determinant as a cross product: xx yy - xy^2 cancels for needles (docs/numerics.md, E1).
@@ -62,7 +71,8 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     Floats determinant = dot(normal, normal);
     Floats opacity = load(in::opacity);
     if (view.dilation > 0) {
-      const Floats dilation = constant(view.dilation), before = determinant;
+      const Floats dilation = hn::Mul(hn::Mul(constant(view.dilation), by_unit), by_unit),
+                   before = determinant;
       determinant = hn::MulAdd(dilation, hn::Add(hn::Add(xx, yy), dilation), determinant);
       xx = hn::Add(xx, dilation);
       yy = hn::Add(yy, dilation);
@@ -81,12 +91,12 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     const Floats inverse_area = hn::Div(factor, hn::Sqrt(determinant));
     store(out::x, hn::MulAdd(constant(view.fx), slope_x, constant(view.cx)));
     store(out::y, hn::MulAdd(constant(view.fy), slope_y, constant(view.cy)));
-    store(out::p, hn::Mul(root_y, inverse_area));
-    store(out::q, hn::Neg(hn::Mul(hn::Mul(xy, inverse_y), inverse_area)));
-    store(out::r, hn::Mul(factor, inverse_y));
+    store(out::p, hn::Mul(hn::Mul(root_y, inverse_area), by_unit));
+    store(out::q, hn::Neg(hn::Mul(hn::Mul(hn::Mul(xy, inverse_y), inverse_area), by_unit)));
+    store(out::r, hn::Mul(hn::Mul(factor, inverse_y), by_unit));
     store(out::log_opacity, log_opacity);
     store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
-    const Floats radius = hn::Div(hn::Sqrt(hn::Max(excess, zero)), factor);
+    const Floats radius = hn::Mul(hn::Div(hn::Sqrt(hn::Max(excess, zero)), factor), unit_size);
     store(out::half_width, hn::Mul(radius, hn::Sqrt(xx)));
     store(out::half_height, hn::Mul(radius, root_y));
 

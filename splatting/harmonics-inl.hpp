@@ -56,8 +56,8 @@ HWY_INLINE void harmonics_basis(int degree, const Vector3& at, Floats (&out)[25]
   out[24] = times(0.62583573544917614f, hn::Sub(hn::Mul(xx, steep_x), hn::Mul(yy, steep_y)));
 }
 
-/// max(0, 1/2 + sum_i Y_i c_i) for the splats from `i` on. `coefficients` is the row of the first
-/// red one.
+/// max(0, 1/2 + sum_i Y_i c_i) for the splats from `i` on, but at most 65504, as on the device: no
+/// product with it is infinite. `coefficients` is the row of the first red one.
 HWY_INLINE Vector3 harmonics_color(int degree, const Vector3& direction, const float* coefficients,
                                    std::size_t stride, std::size_t i) {
   Floats basis[25];
@@ -70,8 +70,11 @@ HWY_INLINE Vector3 harmonics_color(int degree, const Vector3& direction, const f
     sum.y = hn::MulAdd(basis[k], hn::Load(d, row + stride), sum.y);
     sum.z = hn::MulAdd(basis[k], hn::Load(d, row + 2 * stride), sum.z);
   }
-  const Floats zero = hn::Zero(d);
-  return {hn::Max(sum.x, zero), hn::Max(sum.y, zero), hn::Max(sum.z, zero)};
+  // The comparison is false for NaN, which overflow gives.
+  const auto limited = [](Floats value) {
+    return hn::IfThenElseZero(hn::Gt(value, hn::Zero(d)), hn::Min(value, constant(65504.0f)));
+  };
+  return {limited(sum.x), limited(sum.y), limited(sum.z)};
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE

@@ -32,10 +32,15 @@ HWY_INLINE Rotation rotation_of(Floats x, Floats y, Floats z, Floats w) {
 /// centre, and the quadric lies in front of the eye.
 HWY_INLINE void range_of(const Vector3& along, const Vector3& w, Floats center_w, Floats& low,
                          Floats& high) {
-  const Floats a = hn::NegMulAdd(center_w, center_w, dot(w, w));  // < 0
-  const Floats b = dot(along, w);
-  const Floats root =
-      hn::Sqrt(hn::Max(hn::NegMulAdd(a, dot(along, along), hn::Mul(b, b)), hn::Zero(d)));
+  // Relative to the depth: fourth powers of lengths overflow beyond 1e9 (docs/numerics.md, E8).
+  const Floats by_depth = hn::Div(constant(1.0f), center_w);
+  const auto relative = [&](const Vector3& v) {
+    return Vector3{hn::Mul(v.x, by_depth), hn::Mul(v.y, by_depth), hn::Mul(v.z, by_depth)};
+  };
+  const Vector3 p = relative(along), q = relative(w);
+  const Floats a = hn::Sub(dot(q, q), constant(1.0f));  // < 0
+  const Floats b = dot(p, q);
+  const Floats root = hn::Sqrt(hn::Max(hn::NegMulAdd(a, dot(p, p), hn::Mul(b, b)), hn::Zero(d)));
   low = hn::Div(hn::Add(b, root), a);
   high = hn::Div(hn::Sub(b, root), a);
 }

@@ -62,6 +62,12 @@ HWY_INLINE Floats log2_of(Floats x) {
   return hn::MulAdd(y, t, hn::ConvertTo(d, exponent));
 }
 
+/// The largest power of 2 up to x; 0 for x below the smallest normal number.
+HWY_INLINE Floats power_of_2_in(Floats x) {
+  const hn::RebindToSigned<FloatTag> di;
+  return hn::BitCast(d, hn::And(hn::BitCast(di, x), hn::Set(di, 0x7f800000)));
+}
+
 struct Vector3 {
   Floats x, y, z;
 };
@@ -81,12 +87,22 @@ HWY_INLINE Vector3 from_eye(const ImageView& view, const Vector3& position) {
   return {axis(position.x, 0), axis(position.y, 1), axis(position.z, 2)};
 }
 
-/// `v` with length 1. At 0 the direction is undefined, and the result is 0.
+HWY_INLINE Vector3 product(const Vector3& v, Floats factor) {
+  return {hn::Mul(v.x, factor), hn::Mul(v.y, factor), hn::Mul(v.z, factor)};
+}
+
+/// `v` with length 1. It is scaled first: squares of floats underflow below 1e-19 and overflow
+/// beyond 1e19. At 0 the direction is undefined, and the result is 0.
 HWY_INLINE Vector3 unit(const Vector3& v) {
-  const Floats squared = dot(v, v), zero = hn::Zero(d);
+  const Floats largest = hn::Max(hn::Abs(v.x), hn::Max(hn::Abs(v.y), hn::Abs(v.z)));
+  const Floats one = constant(1.0f), zero = hn::Zero(d);
+  const Floats factor =
+      hn::IfThenElse(hn::Gt(largest, constant(1e15f)), constant(1e-20f),
+                     hn::IfThenElse(hn::Lt(largest, constant(1e-15f)), constant(1e30f), one));
+  const Vector3 w = product(v, factor);
   const Floats inverse =
-      hn::IfThenElse(hn::Gt(squared, zero), hn::Div(constant(1.0f), hn::Sqrt(squared)), zero);
-  return {hn::Mul(v.x, inverse), hn::Mul(v.y, inverse), hn::Mul(v.z, inverse)};
+      hn::IfThenElse(hn::Gt(largest, zero), hn::Div(one, hn::Sqrt(dot(w, w))), zero);
+  return product(w, inverse);
 }
 
 /// A matrix, row by row, times a vector.

@@ -31,8 +31,8 @@ struct WindowPlane {
   Mask exists;  // in front of the eye, and with an area in the image
 };
 
-/// Of the window with these corners in layer coordinates, and in pixels. The functions are around
-/// (x, y), in pixels from the principal point.
+/// Of the window with these corners in layer coordinates, and in pixels, in the same unit of
+/// length. The functions are around (x, y), in pixels from the principal point.
 ///
 /// The homogeneous rule (docs/numerics.md, W14): with N_k = Q_i x Q_j and W = sum_k w_k |N_k.xy|,
 /// the distance from edge k over the inradius at the image point p is W (N_k . p) /
@@ -84,12 +84,11 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const Vector3 (&corner)[3
 }
 
 /// projected_window_row::outline: the triangle with these corners in pixels, scaled about its
-/// incenter.
-HWY_INLINE void outline_of(const ImageView& view, const Vector3 (&point)[3], Floats min_rho,
-                           Floats (&outline)[6]) {
+/// incenter. `near` is in the unit of the corners.
+HWY_INLINE void outline_of(const ImageView& view, const Vector3 (&point)[3], Floats near,
+                           Floats min_rho, Floats (&outline)[6]) {
   const Floats one = constant(1.0f), nan = constant(std::numeric_limits<float>::quiet_NaN());
-  const Mask in_front =
-      hn::Gt(hn::Min(point[0].z, hn::Min(point[1].z, point[2].z)), constant(view.near));
+  const Mask in_front = hn::Gt(hn::Min(point[0].z, hn::Min(point[1].z, point[2].z)), near);
   Floats image_x[3], image_y[3];
   for (std::size_t k = 0; k < 3; ++k) {
     const Floats by_depth = hn::Div(one, hn::IfThenElse(in_front, point[k].z, one));
@@ -127,18 +126,30 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
       hn::Store(value, d, projected.row(row) + i);
     };
     Vector3 corner[3], offset[3], point[3];
+    Floats extent = zero;
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = {load(in::corners + 3 * k), load(in::corners + 3 * k + 1),
                    load(in::corners + 3 * k + 2)};
       offset[k] = from_eye(view, corner[k]);
+      extent = hn::Max(extent, hn::Max(hn::Abs(offset[k].x),
+                                       hn::Max(hn::Abs(offset[k].y), hn::Abs(offset[k].z))));
+    }
+    // Fourth powers of lengths would underflow below 1e-10 and overflow beyond 1e9
+    // (docs/numerics.md, E8). Homogeneous points keep their image in another unit; a power of 2
+    // adds no rounding.
+    const Floats size = power_of_2_in(extent), by_size = hn::Div(one, size);
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = product(corner[k], by_size);
+      offset[k] = product(offset[k], by_size);
       point[k] = in_pixels(view, offset[k]);
     }
     const Vector3 center{mean(offset[0].x, offset[1].x, offset[2].x),
                          mean(offset[0].y, offset[1].y, offset[2].y),
                          mean(offset[0].z, offset[1].z, offset[2].z)};
-    const Floats depth = mean(point[0].z, point[1].z, point[2].z);
+    const Floats relative_depth = mean(point[0].z, point[1].z, point[2].z);
+    const Floats depth = hn::Mul(relative_depth, size);
     Mask drawn = hn::Gt(depth, constant(std::fmax(view.near, view.min_center_depth)));
-    const Floats scale = hn::Div(one, hn::IfThenElse(drawn, depth, one));
+    const Floats scale = hn::Div(one, hn::IfThenElse(drawn, relative_depth, one));
     // The image of the centre, relative to the principal point.
     const Floats x = hn::Mul(mean(point[0].x, point[1].x, point[2].x), scale);
     const Floats y = hn::Mul(mean(point[0].y, point[1].y, point[2].y), scale);
@@ -146,7 +157,8 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     const WindowPlane plane = plane_of(view, corner, point, x, y);
     drawn = hn::And(drawn, plane.exists);
     for (std::size_t k = 0; k < 9; ++k) store(out::edges + k, plane.edges[k]);
-    for (std::size_t k = 0; k < 3; ++k) store(out::inverse_depth + k, plane.inverse_depth[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      store(out::inverse_depth + k, hn::Mul(plane.inverse_depth[k], by_size));
 
     const Floats opacity = load(in::opacity), sigma = load(in::sigma);
     const Floats log_opacity = log2_of(hn::IfThenElse(hn::Gt(opacity, zero), opacity, one));
@@ -156,7 +168,7 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     const Floats min_rho = exp2_of(hn::Max(hn::Neg(hn::Div(excess, sigma)), constant(-126.0f)));
 
     Floats outline[6];
-    outline_of(view, point, min_rho, outline);
+    outline_of(view, point, hn::Mul(constant(view.near), by_size), min_rho, outline);
     for (std::size_t k = 0; k < 6; ++k) store(out::outline + k, outline[k]);
 
     store(out::x, hn::Add(x, constant(view.cx)));

@@ -4,7 +4,10 @@
 // `along` are the coordinates of H's columns and `w` their depths; `center_w` is the depth of the
 // centre, and the quadric lies in front of the eye.
 vec2 range_of(vec3 along, vec3 w, float center_w) {
-  float a = dot(w, w) - center_w * center_w;  // < 0
+  // Relative to the depth: fourth powers of lengths overflow beyond 1e9 (docs/numerics.md, E8).
+  along /= center_w;
+  w /= center_w;
+  float a = dot(w, w) - 1.0;  // < 0
   float b = dot(along, w);
   float root = sqrt(max(b * b - a * dot(along, along), 0.0));
   return vec2(b + root, b - root) / a;

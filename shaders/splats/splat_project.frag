@@ -8,7 +8,7 @@ uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels a splat or corne
 uniform int projected_count;
 uniform mat3 view_from_layer;  // rotation, perhaps a mirror
 
-layout(location = 0) out vec4 color;  // rgb >= 0, and opacity
+layout(location = 0) out vec4 color;  // rgb from 0 to 65504, and opacity
 
 // SplatProfile::min_center_depth
 bool is_center_drawn(float depth) { return MIN_CENTER_DEPTH == 0.0 || depth > MIN_CENTER_DEPTH; }
@@ -17,16 +17,15 @@ bool is_center_drawn(float depth) { return MIN_CENTER_DEPTH == 0.0 || depth > MI
 #include "splat_project_kernel.glsl"
 
 vec3 color_of(uint element, vec3 from_eye) {
-  float distance = length(from_eye);
-  // At the eye the direction is undefined; any finite one is valid (docs/numerics.md, V5).
-  vec3 d = distance > 0.0 ? from_eye / distance : vec3(0.0, 0.0, 1.0);
   float basis[HARMONICS_COUNT];
-  harmonics_basis(d, basis);
+  harmonics_basis(direction_of(from_eye), basis);
   vec3 sum = vec3(0.5);
   for (int i = 0; i < HARMONICS_COUNT; ++i)
     sum += basis[i] *
            texelFetch(coefficients, texel_position(element * uint(HARMONICS_COUNT) + uint(i)), 0).rgb;
-  return max(sum, 0.0);
+  // The largest half float: in targets of halves, larger ones would become infinite, and 0 times
+  // them NaN (docs/numerics.md, E7). The comparison is false for NaN.
+  return mix(vec3(0.0), min(sum, 65504.0), greaterThan(sum, vec3(0.0)));
 }
 
 void main() {

@@ -21,8 +21,8 @@ float project(uint splat, out vec3 from_eye) {
   axes = vec4(0.0);
   if (!(depth > near && is_center_drawn(depth))) return 0.0;
 
-  // Beyond 1e7 pixels a splat is constant over the image, and the fourth powers below overflow.
-  vec3 scales = min(kernel_texel(splat, 1).xyz, 1e7 * depth / max(focal.x, focal.y));
+  // Beyond 1e18 pixels the squares below overflow.
+  vec3 scales = min(kernel_texel(splat, 1).xyz, 1e18 * depth / max(focal.x, focal.y));
   mat3 rotation = view_from_layer * rotation_of(kernel_texel(splat, 2));
   // Rows of the Jacobian times the scaled axes: a 2 x 3 matrix M, with covariance M M^T.
   vec2 slope = clamp(center.xy / depth, slope_range.xy, slope_range.zw);
@@ -30,15 +30,21 @@ float project(uint splat, out vec3 from_eye) {
             slope.x * vec3(rotation[0].z, rotation[1].z, rotation[2].z)) * scales * (focal.x / depth);
   vec3 y = (vec3(rotation[0].y, rotation[1].y, rotation[2].y) +
             slope.y * vec3(rotation[0].z, rotation[1].z, rotation[2].z)) * scales * (focal.y / depth);
+  // The fourth powers below overflow beyond 1e9 pixels, which centres near the eye's plane reach
+  // (docs/numerics.md, E2): large Gaussians are measured in another unit.
+  float unit = max(length(x), length(y));
+  unit = unit > 1e7 ? unit : 1.0;
+  x /= unit;
+  y /= unit;
   float xx = dot(x, x), xy = dot(x, y), yy = dot(y, y);
   // The determinant as a cross product: xx yy - xy^2 cancels for needles (docs/numerics.md, E1).
   vec3 normal = cross(x, y);
   float determinant = dot(normal, normal);
 #if DILATION
-  float before = determinant;
-  determinant += DILATION_VARIANCE * (xx + yy + DILATION_VARIANCE);
-  xx += DILATION_VARIANCE;
-  yy += DILATION_VARIANCE;
+  float before = determinant, variance = DILATION_VARIANCE / unit / unit;
+  determinant += variance * (xx + yy + variance);
+  xx += variance;
+  yy += variance;
 #endif
 #if KEEP_INTEGRAL
   opacity *= sqrt(before / determinant);
@@ -54,7 +60,7 @@ float project(uint splat, out vec3 from_eye) {
                                          : vec2(xy, root - half_difference);
   float direction_length = length(direction);
   direction = direction_length > 0.0 ? direction / direction_length : vec2(1.0, 0.0);
-  axes = vec4(sqrt(larger) * direction, sqrt(smaller) * vec2(-direction.y, direction.x));
+  axes = unit * vec4(sqrt(larger) * direction, sqrt(smaller) * vec2(-direction.y, direction.x));
   place = vec4(focal * (center.xy / depth) + principal_point, center.z, sqrt(excess));
   return opacity;
 }

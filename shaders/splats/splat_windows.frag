@@ -7,6 +7,7 @@ in vec4 weighted_color;
 #if OUTPUT != OUTPUT_COLOR
 in float weight;
 flat in vec3 normal;
+flat in float unit;
 #endif
 
 #include "splat_blended.glsl"
@@ -23,6 +24,6 @@ void main() {
 #endif
   blend(rgb, color.a * window);
 #else
-  measure(color.a * window, 1.0 / (gl_FragCoord.w * weight), normal, color.a, sigma);
+  measure(color.a * window, unit / (gl_FragCoord.w * weight), normal, color.a, sigma);
 #endif
 }

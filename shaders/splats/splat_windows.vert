@@ -20,6 +20,9 @@ uniform sampler2D colors;
 out vec3 distances;
 flat out vec4 color;
 flat out float sigma;
+#if OUTPUT != OUTPUT_COLOR
+flat out float unit;  // layer units in one unit of w
+#endif
 #if COLORS_PER_SPLAT == 3
 out vec4 weighted_color;
 #endif
@@ -60,10 +63,18 @@ void main() {
   vec4 texels[3];
   vec3 corners[3];
   vec4 clip[3];
+  vec3 extent = vec3(0.0);
   for (int k = 0; k < 3; ++k) {
     texels[k] = kernel_texel(splat, k);
     corners[k] = (texels[k].xyz - eye_high) - eye_low;
-    clip[k] = clip_from_camera * vec4(corners[k], 1.0);
+    extent = max(extent, abs(corners[k]));
+  }
+  // Fourth powers of lengths would underflow below 1e-10 and overflow beyond 1e9 (docs/numerics.md,
+  // E8). Homogeneous points keep their image in another unit; a power of 2 adds no rounding.
+  float size = uintBitsToFloat(floatBitsToUint(max(extent.x, max(extent.y, extent.z))) & 0x7f800000u);
+  for (int k = 0; k < 3; ++k) {
+    corners[k] /= size;
+    clip[k] = clip_from_camera * vec4(corners[k], 1.0 / size);
   }
   vec3 lengths;  // |N_k.xy|
   float total = 0.0;
@@ -71,14 +82,14 @@ void main() {
   for (int k = 0; k < 3; ++k) {
     int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
     // The difference of the stored positions is more exact than that of the image points.
-    vec4 edge = clip_from_camera * vec4(texels[j].xyz - texels[i].xyz, 0.0);
+    vec4 edge = clip_from_camera * vec4((texels[j].xyz - texels[i].xyz) / size, 0.0);
     vec2 normal = half_size.yx * vec2(clip[i].y * edge.w - clip[i].w * edge.y,
                                       clip[i].w * edge.x - clip[i].x * edge.w);
     lengths[k] = length(normal);
     total += clip[k].w * lengths[k];
     if (abs(clip[i].w) > largest_w) {
       largest_w = abs(clip[i].w);
-      vec4 other = clip_from_camera * vec4(texels[k].xyz - texels[i].xyz, 0.0);
+      vec4 other = clip_from_camera * vec4((texels[k].xyz - texels[i].xyz) / size, 0.0);
       vec2 across = half_size * (other.xy * clip[i].w - clip[i].xy * other.w);
       determinant = abs(dot(normal, across)) / largest_w;
     }
@@ -86,8 +97,10 @@ void main() {
   color = texelFetch(colors, projected_position(splat * uint(COLORS_PER_SPLAT)), 0);
   sigma = texels[0].w;
 #if OUTPUT != OUTPUT_COLOR
-  measure_vertex(cross(texels[1].xyz - texels[0].xyz, texels[2].xyz - texels[0].xyz),
-                 (texels[0].xyz - eye_high) - eye_low);
+  measure_vertex(cross((texels[1].xyz - texels[0].xyz) / size,
+                       (texels[2].xyz - texels[0].xyz) / size),
+                 corners[0]);
+  unit = size;
 #endif
   // Behind the eye, or without area in the image.
   bool visible = color.a > 0.0 && total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "tests/numerics/splat_scenes.hpp"
+#include "tests/numerics/splat_tiles.hpp"
 #include "tests/support/random.hpp"
 
 namespace tureen::test {
@@ -165,6 +165,197 @@ TEST(Numerics, W15_LargeSigmasAreExact) {
     recorder.add({.at = sigma,
                   .ours = alpha_error(scene, camera, expected),
                   .tolerance = 10 * epsilon * double(sigma) + 1e-5});
+  }
+}
+
+/// One window in the middle of the image.
+TriangleWindows middle_window(float sigma, float opacity) {
+  return {.corners = {{-1.1f, -0.7f, -2.9f}, {1.3f, -0.9f, -3.2f}, {0.1f, 1.2f, -3}},
+          .sigma = {sigma},
+          .opacity = {opacity}};
+}
+
+/// A profile whose windows the tiles support.
+SplatProfile published_profile() { return *profile_named("triangle-splatting"); }
+
+TEST(Numerics, W1_TheSmallestSigmasAreSteps) {
+  Recorder recorder({.stressed = "windows whose sigma approaches 0, device and tiles",
+                     .parameter = "sigma",
+                     .unit = "alpha",
+                     .naive = "limit rho to at least 1e-6, as for gradients"});
+  const Camera camera = straight_camera(width, height, width);
+  for (const float sigma : {0.1f, 0.01f, 1e-3f, 1e-6f, 1e-20f, 1e-38f, 1e-45f}) {
+    const TriangleWindows window = middle_window(sigma, 0.9f);
+    const Scene scene = scene_of(white_splats(window, published_profile()));
+    const std::vector<double> expected = alpha_of_oracle(scene, camera);
+    // Outside, rho is 0.
+    EXPECT_EQ(expected[0], 0);
+    const double outside = double(0.9f) * std::pow(1e-6, double(sigma));
+    // d alpha = alpha sigma d(distance) / distance. No edge passes a pixel's centre within a
+    // thousandth of a pixel. 1e-5 for pow.
+    recorder.add({.at = double(sigma),
+                  .naive = outside,
+                  .ours = alpha_error_of_both(scene, camera, expected),
+                  .tolerance = double(sigma) * vertex_rounding(width) / 1e-3 + 1e-5});
+  }
+}
+
+TEST(Numerics, W2_FaintWindowsAreNotDrawn) {
+  Recorder recorder(
+      {.stressed = "windows with an opacity around min_alpha (W3), sigma 0.01 to 1e4, "
+                   "device and tiles",
+       .parameter = "opacity / min_alpha",
+       .unit = "alpha",
+       .naive = "the triangle, shrunk by 1 - (min_alpha / opacity)^(1 / sigma), which "
+                "is negative for faint ones, without a test of alpha"});
+  const Camera camera = straight_camera(width, height, width);
+  const SplatProfile profile = published_profile();
+  std::vector<double> rhos =
+      alpha_of_oracle(scene_of(white_splats(middle_window(1, 0.9f), profile)), camera);
+  for (double& rho : rhos) rho /= double(0.9f);
+  const double largest_rho = *std::max_element(rhos.begin(), rhos.end());
+  for (const double factor : {0.0, 0.5, 0.999, 1.001, 2.0, 200.0}) {
+    const auto opacity = float(factor * double(profile.min_alpha));
+    double ours = 0, naive = 0;
+    for (const float sigma : {0.01f, 1.0f, 100.0f, 1e4f}) {
+      const Scene scene = scene_of(white_splats(middle_window(sigma, opacity), profile));
+      const std::vector<double> expected = alpha_of_oracle(scene, camera);
+      const double most = *std::max_element(expected.begin(), expected.end());
+      EXPECT_EQ(most > 0, factor * std::pow(largest_rho, double(sigma)) > 1) << sigma;
+      ours = worse(ours, alpha_error_of_both(scene, camera, expected));
+      const double shrunk = std::abs(1 - std::pow(1 / factor, 1 / double(sigma)));
+      for (std::size_t i = 0; i < rhos.size(); ++i) {
+        const bool covered = rhos[i] > 0 && rhos[i] >= 1 - shrunk;
+        const double alpha = covered ? double(opacity) * std::pow(rhos[i], double(sigma)) : 0;
+        naive = worse(naive, std::abs(alpha - expected[i]));
+      }
+    }
+    // As in W15, for the largest sigma that is visible with this opacity; 1e-5 for pow.
+    recorder.add(
+        {.at = factor, .naive = naive, .ours = ours, .tolerance = 10 * epsilon * 100 + 1e-5});
+  }
+}
+
+/// rho in floats by lines n . p + d, whose origin is this far from the image.
+float rho_by_lines(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& pixel,
+                   const glm::dvec2& origin) {
+  std::array<glm::vec2, 3> at;
+  for (std::size_t k = 0; k < 3; ++k) at[k] = glm::vec2(corners[k] + origin);
+  const glm::vec2 p(pixel + origin);
+  const auto cross = [](const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; };
+  float perimeter = 0, doubled_area = 0, nearest = 3e38f;
+  for (std::size_t k = 0; k < 3; ++k) doubled_area += cross(at[k], at[(k + 1) % 3]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::vec2 edge = at[(k + 1) % 3] - at[k];
+    const float length = glm::length(edge), sign = doubled_area < 0 ? -1.0f : 1.0f;
+    const glm::vec2 normal = sign * glm::vec2(-edge.y, edge.x) / length;
+    perimeter += length;
+    nearest = std::min(nearest, glm::dot(normal, p) - glm::dot(normal, at[k]));
+  }
+  return std::clamp(nearest / (std::abs(doubled_area) / perimeter), 0.0f, 1.0f);
+}
+
+TEST(Numerics, W13_ShortEdges) {
+  Recorder recorder(
+      {.stressed = "windows with one short edge, 40 pixels long, device and tiles",
+       .parameter = "length / width",
+       .unit = "alpha",
+       .naive = "distances n . p + d in floats, 4,000 pixels from the image's corner"});
+  const Camera camera = straight_camera(width, height, width);
+  for (const double aspect : {1.0, 100.0, 1e3, 1e4}) {
+    double ours = 0, naive = 0;
+    for (const glm::dvec2 slope : {glm::dvec2(2, 1), glm::dvec2(1, -1), glm::dvec2(1, 3)}) {
+      // The axis passes through the centres of pixels.
+      const double pixel = 3.0 / width, length = 40 * pixel;
+      const glm::dvec3 along(glm::normalize(slope), 0), across(-along.y, along.x, 0.2);
+      const glm::dvec3 middle = 3.0 * ray_of_pixel(camera, width / 2, height / 2);
+      const glm::dvec3 tip = middle - 0.5 * length * along;
+      const glm::dvec3 end = tip + length * along, half = 0.5 * length / aspect * across;
+      const TriangleWindows window{
+          .corners = {glm::vec3(tip), glm::vec3(end - half), glm::vec3(end + half)},
+          .sigma = {1},
+          .opacity = {0.9f}};
+      const Scene scene = scene_of(white_splats(window, published_profile()));
+      const std::vector<double> expected = alpha_of_oracle(scene, camera);
+      EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](double a) { return a > 0.1; }),
+                5);
+      ours = worse(ours, alpha_error_of_both(scene, camera, expected));
+      std::array<glm::dvec2, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 p(window.corners[k]);
+        corners[k] = {camera.cx - camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z};
+      }
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          float alpha = 0.9f * rho_by_lines(corners, {x + 0.5, y + 0.5}, {4000, 2000});
+          if (alpha < published_profile().min_alpha) alpha = 0;
+          naive = worse(naive, std::abs(double(alpha) - expected[std::size_t(y * width + x)]));
+        }
+    }
+    // Vertices are rounded, relative to an inradius of half the width; 1e-6 for pow.
+    const double inradius = 0.5 * 40 / aspect;
+    recorder.add({.at = aspect,
+                  .naive = naive,
+                  .ours = ours,
+                  .tolerance = 0.9 * vertex_rounding(width) / inradius + 1e-6});
+  }
+}
+
+TEST(Numerics, W17_WindowsFarLargerThanTheImage) {
+  Recorder recorder({.stressed =
+                         "windows with an edge through the image and corners far outside it, "
+                         "device and tiles",
+                     .parameter = "size / pixels",
+                     .unit = "pixels, of the distance from the edge",
+                     .naive = "vertices of 16 bits and 8 binary digits, limited to 32,767 pixels",
+                     .naive_fails_from = 1e5});
+  const Camera camera = straight_camera(width, height, width);
+  constexpr float sigma = 0.1f, opacity = 0.9f;
+  for (const double size : {1e3, 1.6e4, 1e5, 1e6}) {
+    double ours = 0, naive = 0;
+    for (const double angle : {0.2, 1.3, 2.9}) {
+      const glm::dvec2 inwards(std::cos(angle), std::sin(angle)), along(-inwards.y, inwards.x);
+      TriangleWindows window{.corners = {}, .sigma = {sigma}, .opacity = {opacity}};
+      std::array<glm::dvec2, 3> limited;
+      const std::array<glm::dvec2, 3> in_image{-size * along, 0.7 * size * along,
+                                               0.9 * size * inwards};
+      double perimeter = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        window.corners.emplace_back(3.0 / width * in_image[k], -3);
+        limited[k] = glm::round(256.0 * glm::clamp(in_image[k], -32767.0, 32767.0)) / 256.0;
+        perimeter += glm::length(in_image[(k + 1) % 3] - in_image[k]);
+      }
+      const double inradius = 1.7 * 0.9 * size * size / perimeter;
+      const auto distance = [&](double alpha) {
+        return std::pow(alpha / double(opacity), 1 / double(sigma)) * inradius;
+      };
+      const Scene scene = scene_of(white_splats(window, published_profile()));
+      const std::vector<double> expected = alpha_of_oracle(scene, camera);
+      const std::vector<glm::vec4> device = blended_by_device(scene, camera),
+                                   tiles = blended_by_tiles(scene, camera);
+      const glm::dvec2 edge = glm::normalize(limited[1] - limited[0]);
+      int covered = 0;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          const std::size_t i = std::size_t(y * width + x);
+          const double truth = distance(expected[i]);
+          covered += truth > 0;
+          for (const auto* blended : {&device, &tiles})
+            ours = worse(ours, std::abs(distance(double((*blended)[i].a)) - truth));
+          const glm::dvec2 from(x + 0.5 - camera.cx - limited[0].x,
+                                camera.cy - y - 0.5 - limited[0].y);
+          const double clamped = edge.y * from.x - edge.x * from.y;
+          naive = worse(naive, std::abs(std::max(clamped, 0.0) - truth));
+        }
+      EXPECT_GT(covered, 1000);
+      EXPECT_LT(covered, 2100);
+    }
+    // Vertices are rounded relative to their distance from the eye's axis. A power of 10 has ten
+    // times the rounding of alpha and the error of pow, relative to 40 pixels.
+    recorder.add({.at = size,
+                  .naive = naive,
+                  .ours = ours,
+                  .tolerance = vertex_rounding(size) + 40 * 10 * (2 * epsilon + 1e-6)});
   }
 }
 
