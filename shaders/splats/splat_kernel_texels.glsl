@@ -16,3 +16,9 @@ mat3 rotation_of(vec4 q) {
   return mat3(1.0 - yy - zz, xy + w.z, xz - w.y, xy - w.z, 1.0 - xx - zz, yz + w.x, xz + w.y,
               yz - w.x, 1.0 - xx - yy);
 }
+
+// The power of two at or below a float > 0, so that dividing by it is exact. Squares of lengths in
+// this unit neither overflow nor underflow (docs/numerics.md, N10).
+float power_of_two_below(float x) {
+  return uintBitsToFloat(max(floatBitsToUint(x) & 0x7f800000u, 0x00800000u));
+}

@@ -35,9 +35,11 @@ void main() {
   vec3 ray = ray_through(gl_FragCoord.xy);
   float ray_length = length(ray);
   vec3 direction = ray / ray_length;
-  vec3 to_eye = -((kernel_texel(splat, 0).xyz - eye_high) - eye_low);
   vec4 texel = kernel_texel(splat, 1);
-  vec3 semi_axes = texel.xyz;
+  // Lengths below are in this unit.
+  float unit = power_of_two_below(max(texel.x, max(texel.y, texel.z)));
+  vec3 semi_axes = texel.xyz / unit;
+  vec3 to_eye = -((kernel_texel(splat, 0).xyz - eye_high) - eye_low) / unit;
   float density = texel.w;  // b2
   mat3 local_from_layer = transpose(rotation_of(kernel_texel(splat, 2)));
   float largest = max(semi_axes.x, max(semi_axes.y, semi_axes.z));
@@ -64,9 +66,9 @@ void main() {
 
   // The part of the chord between the near plane and the soups.
   float middle_t = t + shift;
-  float begin = max(middle_t - half_chord, near * ray_length);
+  float begin = max(middle_t - half_chord, near / unit * ray_length);
   float behind = depth_behind();
-  float end = behind < infinity ? min(middle_t + half_chord, behind * ray_length)
+  float end = behind < infinity ? min(middle_t + half_chord, behind / unit * ray_length)
                                 : middle_t + half_chord;
   if (!(end > begin)) {
     blend_nothing();
@@ -97,6 +99,6 @@ void main() {
   // The normal of the ellipsoid where the ray enters it.
   vec3 entry = middle - sqrt(discriminant / squared_speed) * unit_direction;
   vec3 normal = normalize((entry / semi_axes) * local_from_layer);
-  measure(alpha, 0.5 * (begin + end) / ray_length, world_from_layer * normal, 0.0, 0.0);
+  measure(alpha, 0.5 * (begin + end) * unit / ray_length, world_from_layer * normal, 0.0, 0.0);
 #endif
 }

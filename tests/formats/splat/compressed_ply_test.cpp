@@ -1,5 +1,6 @@
 #include "formats/splat/compressed_ply.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "formats/ply_file.hpp"
@@ -11,6 +12,7 @@ namespace tureen {
 namespace compressed_ply_test {
 
 using namespace test;
+using ::testing::Each;
 using Row = std::vector<double>;
 
 PlyFixture::Columns chunk_columns(bool colors) {
@@ -130,15 +132,61 @@ TEST(CompressedPly, AChunkHolds256SplatsAndHarmonicsFollow) {
       EXPECT_EQ(color.coefficients[std::size_t(4 + 1 + k)][c], value(3 * c + k));
 }
 
-TEST(CompressedPly, DropsSplatsOfInvalidChunks) {
-  Row chunk = chunk_row(false);
-  chunk[3] = NAN;
-  const Scene scene = read_packed_text(PlyFixture()
-                                           .element("chunk", chunk_columns(false), {chunk})
-                                           .element("vertex", packed_columns, {packed_row(2)})
-                                           .text());
-  EXPECT_THAT(scene.info.remarks,
-              ::testing::Contains(Remark{Remark::Kind::splats_dropped, {1, 1}}));
+TEST(CompressedPly, P2_RangesWithoutAnExtentHaveOneValue) {
+  Row chunk = chunk_row(true);
+  for (const std::size_t first : {0u, 6u, 12u})
+    for (std::size_t k = 0; k < 3; ++k) chunk[first + 3 + k] = chunk[first + k];
+  const Scene scene =
+      read_packed_text(PlyFixture()
+                           .element("chunk", chunk_columns(true), {chunk})
+                           .element("vertex", packed_columns, {packed_row(0), packed_row(2)})
+                           .text());
+  const Gaussians& g = only_gaussians(scene);
+  EXPECT_THAT(g.centers, Each(glm::vec3(0, 10, 20)));
+  EXPECT_THAT(g.scales, Each(glm::vec3(std::exp(-4.0), std::exp(-3.0), std::exp(-2.0))));
+  EXPECT_THAT(only_splats(scene).color.coefficients,
+              Each(glm::vec3((glm::dvec3(-1, 0, 0.5) - 0.5) / harmonics::y00)));
+}
+
+TEST(CompressedPly, P2_SplatsOfChunksThatAreNotFiniteAreDropped) {
+  for (const double value : {double(NAN), double(INFINITY), -double(INFINITY)})
+    for (std::size_t at = 0; at < 18; ++at) {
+      Row bad = chunk_row(true, 50);
+      bad[at] = value;
+      std::vector<Row> packed(257, packed_row(0));
+      const Scene scene =
+          read_packed_text(PlyFixture()
+                               .element("chunk", chunk_columns(true), {chunk_row(true), bad})
+                               .element("vertex", packed_columns, packed)
+                               .text());
+      EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
+      // Only this range has an end that is used alone, as the fraction is 1: a scale of
+      // e^-infinity.
+      EXPECT_EQ(only_gaussians(scene).centers.size(), at == 10 && value < 0 ? 257u : 256u) << at;
+    }
+}
+
+TEST(CompressedPly, P2_NumbersAroundThatOfAChunk) {
+  for (const std::size_t splats : {1u, 255u, 256u, 257u, 512u, 513u}) {
+    const auto file = [&](std::size_t chunks) {
+      std::vector<Row> ranges;
+      for (std::size_t i = 0; i < chunks; ++i) ranges.push_back(chunk_row(false, 10.0 * double(i)));
+      return PlyFixture()
+          .element("chunk", chunk_columns(false), ranges)
+          .element("vertex", packed_columns, std::vector<Row>(splats, packed_row(0)))
+          .text();
+    };
+    const std::size_t chunks = (splats + 255) / 256;
+    const Scene scene = read_packed_text(file(chunks));
+    const Gaussians& g = only_gaussians(scene);
+    ASSERT_EQ(g.centers.size(), splats);
+    const float last = 10 * float(chunks - 1) + 1;
+    const auto of_last = std::count(g.centers.begin(), g.centers.end(), glm::vec3(last, 10, 24));
+    EXPECT_EQ(std::size_t(of_last), splats - 256 * (chunks - 1));
+    for (const std::size_t wrong : {chunks - 1, chunks + 1})
+      EXPECT_THAT(error_of([&] { read_packed_text(file(wrong)); }),
+                  ErrorAt("a.compressed.ply:3", "chunk", wrong, splats));
+  }
 }
 
 TEST(CompressedPly, RejectsByElement) {

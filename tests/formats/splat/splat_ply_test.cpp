@@ -97,6 +97,25 @@ TEST(SplatPly, FindsPropertiesByNameInAnyOrderAndType) {
   EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::coordinates_rounded}));
 }
 
+TEST(SplatPly, X6_ScalesAndHarmonicsAreFoundByName) {
+  for (const int scales : {2, 3}) {
+    PlyFixture::Columns columns = splat_columns(9, scales);
+    Row row = splat_row(1, 9, scales);
+    const Scene expected = read_text(PlyFixture().element("vertex", columns, {row}).text());
+    EXPECT_EQ(only_gaussians(expected).flat, scales == 2);
+    std::reverse(columns.begin(), columns.end());
+    std::reverse(row.begin(), row.end());
+    // Columns in between, so that a reader by offset would find other ones.
+    columns.insert(columns.begin() + 6, "float extra");
+    row.insert(row.begin() + 6, 77);
+    const Scene scene = read_text(PlyFixture().element("vertex", columns, {row}).text());
+    EXPECT_EQ(only_splats(scene).color.coefficients, only_splats(expected).color.coefficients);
+    EXPECT_EQ(only_gaussians(scene).scales, only_gaussians(expected).scales);
+    EXPECT_EQ(only_gaussians(scene).rotations, only_gaussians(expected).rotations);
+    EXPECT_EQ(only_gaussians(scene).flat, scales == 2);
+  }
+}
+
 TEST(SplatPly, CommentsSelectTheProfileAndTheLastCounts) {
   const auto profile = [](int scales, std::initializer_list<const char*> comments) {
     PlyFixture file;

@@ -52,6 +52,19 @@ TEST(SplatRecords, DropsInvalidSplats) {
   EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
 }
 
+TEST(SplatRecords, P3_AZeroQuaternionIsAUnitRotation) {
+  // Writers round 0 to 127 or 128, where no byte means 0. Bytes of 0 are parts of -1.
+  for (const int byte : {0, 127, 128, 255}) {
+    const std::string text = record({1, 2, 3, 1, 1, 1}, {9, 9, 9, 9, byte, byte, byte, byte});
+    Input input = input_of(text);
+    const Scene scene = read_splat_records(input);
+    const glm::quat q = only_gaussians(scene).rotations.at(0);
+    EXPECT_NEAR(glm::length(q), 1, 1e-6) << byte;
+    for (int k = 1; k < 4; ++k) EXPECT_EQ(q[k], q[0]) << byte;
+    EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
+  }
+}
+
 TEST(SplatRecords, AreRecognisedByExtensionAndSize) {
   const TemporaryFolder folder;
   std::string many;

@@ -96,6 +96,29 @@ TEST_P(Spz, TurnsHarmonicsWithTheAxes) {
   }
 }
 
+TEST(Spz, P1_ValuesAtTheEndsOfTheirRangesKeepTheirSigns) {
+  SpzFixture spz = spz_splat(4, 1);
+  spz.arrays[0].clear();
+  for (const std::uint32_t fixed : {0x7fffffu, 0x800000u, 0xffffffu})
+    append_little(spz.arrays[0], fixed, 3);
+  spz.arrays[5] = std::string(3, '\x00') + std::string(3, '\xff') + std::string(3, '\x80');
+  const Scene scene = read(spz.bytes());
+  // With 12 bits behind the point, at most 2048 units.
+  const double step = std::ldexp(1.0, -12);
+  EXPECT_THAT(only_gaussians(scene).centers,
+              ElementsAre(glm::vec3(glm::dvec3(2048 - step, 2048, step))));
+  const std::vector<glm::vec3>& coefficients = only_splats(scene).color.coefficients;
+  const float values[] = {-1, 127 / 128.0f, 0};
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(glm::abs(coefficients[k + 1]), glm::vec3(std::abs(values[k]))) << k;
+  // The turn about x changes the signs of y and z, and not that of x.
+  EXPECT_EQ(coefficients[1], glm::vec3(1));
+  EXPECT_EQ(coefficients[2], glm::vec3(-values[1]));
+  // Fewer bits behind the point reach farther.
+  spz.fractional_bits = 0;
+  EXPECT_EQ(only_gaussians(read(spz.bytes())).centers[0], glm::vec3(8388607, 8388608, 1));
+}
+
 TEST(Spz, HasEachLargestPartOfARotation) {
   for (std::uint32_t largest = 0; largest < 4; ++largest) {
     SpzFixture spz = spz_splat(3, 0);
