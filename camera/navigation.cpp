@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "scene/middle_bounds.hpp"
+
 namespace tureen {
 
 namespace {
@@ -37,7 +39,8 @@ Camera camera_at(const Subject& subject, const Bearing& bearing, const Lens& len
 
 Subject subject_of(const Scene& scene) {
   std::vector<PlacedBounds> boxes;
-  for (const Layer& layer : scene.layers) boxes.push_back({bounds(layer), layer.world_from_layer});
+  for (const Layer& layer : scene.layers)
+    boxes.push_back({framed_bounds(layer), layer.world_from_layer});
   return subject_of(boxes, glm::dvec3(scene.info.up));
 }
 

@@ -22,8 +22,8 @@ struct Subject {
   glm::dvec3 centre() const { return 0.5 * (low + high); }
 };
 
-/// The box in world coordinates around the boxes of all layers, also of invisible ones, and the
-/// scene's up axis. A layer without triangles counts as its origin. O(data).
+/// The box in world coordinates around the framed_bounds() of all layers, also of invisible ones,
+/// and the scene's up axis. A layer without triangles counts as its origin. O(data).
 Subject subject_of(const Scene& scene);
 /// The same for boxes that are known. O(boxes).
 Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up);

@@ -174,6 +174,8 @@ ExitCode convert_scene(ConvertOptions options) {
   say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
   if (!options.layer.empty()) keep_layer(scene, options.layer);
   apply(options.edits, scene);
+  if (triangle_count(scene) + splat_count(scene) == 0)
+    throw UsageError("there is nothing to write: no triangles or splats are left");
   if (options.quality) scene.quality = *options.quality;
   const Json figures = page ? write_page(*page, std::move(scene), options)
                             : write(std::move(scene), options, options.output);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runtime/layer_errors.hpp"
+#include "scene/middle_bounds.hpp"
 
 namespace tureen {
 
@@ -25,6 +26,7 @@ PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimi
     });
     prepared.layers.push_back({.name = layer.name,
                                .bounds = bounds(layer.soup),
+                               .framed = bounds(layer.soup),
                                .world_from_layer = layer.world_from_layer,
                                .visible = layer.visible,
                                .soup = std::move(soup)});
@@ -61,6 +63,7 @@ void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
     prepared.layers.insert(prepared.layers.begin() + at,
                            {.name = layer.name,
                             .bounds = bounds(*splats),
+                            .framed = framed_bounds(*splats),
                             .world_from_layer = layer.world_from_layer,
                             .visible = layer.visible,
                             .splats = prepare_splats(*splats, plan, layout)});

@@ -31,6 +31,7 @@ struct PreparedSoup {
 struct PreparedLayer {
   std::string name = {};
   Bounds bounds = {};  // in layer coordinates
+  Bounds framed = {};  // framed_bounds()
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
   /// Either `soup` or `splats` is set. Both are empty if the passes from PreparedScene::make_passes

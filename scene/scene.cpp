@@ -194,8 +194,8 @@ void make_opaque(Scene& scene) {
     auto* splats = std::get_if<Splats>(&layer.primitives);
     if (!splats) continue;
     if (!std::holds_alternative<TriangleWindows>(splats->kernel))
-      throw UsageError("this command supports only triangles; " + label(layer, i) + " holds " +
-                       kernel_name(splats->kernel));
+      throw UsageError("only triangle windows become opaque triangles; " + label(layer, i) +
+                       " holds " + kernel_name(splats->kernel));
     OpaqueResult result = to_opaque(std::move(*splats));
     for (Remark& remark : result.remarks) scene.info.remarks.push_back(std::move(remark));
     layer.primitives = std::move(result.soup);

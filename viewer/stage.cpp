@@ -12,6 +12,7 @@
 #include "formats/scene_file.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/splats/splat_sorter.hpp"
+#include "scene/middle_bounds.hpp"
 #include "viewer/names.hpp"
 
 namespace tureen::viewer {
@@ -38,7 +39,7 @@ void append_file(StageSource& source, const fs::path& path,
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
   for (std::size_t i = 0; i < scene->layers.size(); ++i) {
     Layer& layer = scene->layers[i];
-    const Bounds box = bounds(layer);
+    const Bounds box = framed_bounds(layer);
     source.layers.push_back({.primitives = std::make_shared<const Primitives>(
                                  std::exchange(layer.primitives, TriangleSoup{})),
                              .box = box,

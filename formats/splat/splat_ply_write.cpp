@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/output.hpp"
 #include "formats/ply/ply_bytes.hpp"
 #include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "formats/splat/splat_ply.hpp"
+#include "scene/edit/baked_transform.hpp"
+#include "scene/edit/moved_splats.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -41,6 +45,17 @@ SplatProfile stored_profile(const Splats& splats) {
                                                                             : "redisplats");
 }
 
+/// Moves the splats into world coordinates; relative to the layer's origin if that is so far away
+/// that positions would lose more than 7 of their 24 bits.
+void place_in_world(Layer& layer) {
+  constexpr double farthest = 128;  // in radii of the layer
+  bake_transform(layer);
+  const Bounds box = bounds(layer);
+  if (glm::length(origin_of(layer)) > farthest * box.radius()) return;
+  move_splats(std::get<Splats>(layer.primitives), layer.world_from_layer);
+  layer.world_from_layer = glm::dmat4(1.0);
+}
+
 std::vector<std::string> splat_ply_losses(const Scene& scene, const Layer& layer,
                                           const Splats& splats) {
   std::vector<std::string> lost;
@@ -51,7 +66,7 @@ std::vector<std::string> splat_ply_losses(const Scene& scene, const Layer& layer
   if (densities && densities->omega != NeuralDensities{}.omega)
     lost.push_back("PLY holds no omega; readers use 30.");
   if (layer.world_from_layer != glm::dmat4(1.0))
-    lost.push_back("PLY holds no transform: the splats are written in layer coordinates.");
+    lost.push_back("PLY holds no origin: the splats are written relative to it.");
   if (scene.info.up != splat_up)
     lost.push_back("PLY stores no up axis; readers assume (0, -1, 0).");
   if (scene.info.background != glm::vec3(0.0f)) lost.push_back("PLY holds no background colour.");
@@ -166,12 +181,18 @@ bool fits_splat_ply(const Scene& scene) {
 }
 
 std::vector<std::string> write_splat_ply(const Scene& scene, const std::filesystem::path& path) {
-  const Layer& layer = only_layer(scene);
-  const auto& splats = std::get<Splats>(layer.primitives);
+  std::optional<Layer> placed;
+  const Layer* layer = &only_layer(scene);
+  if (layer->world_from_layer != glm::dmat4(1.0)) {
+    placed = *layer;
+    place_in_world(*placed);
+    layer = &*placed;
+  }
+  const auto& splats = std::get<Splats>(layer->primitives);
   Output output(path);
   SplatPlyWriter(output, splats).write();
   output.commit();
-  return splat_ply_losses(scene, layer, splats);
+  return splat_ply_losses(scene, *layer, splats);
 }
 
 }  // namespace tureen

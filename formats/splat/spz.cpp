@@ -247,7 +247,8 @@ class SpzReader {
       input_.fail_at(4,
                      "SPZ version " + std::to_string(header_.version) +
                          (newest == 4 ? " is not supported" : " is not supported in gzip files"),
-                     "supported versions are 1 to 4");
+                     newest == 4 ? "supported versions are 1 to 4"
+                                 : "supported versions in gzip files are 1 to 3");
     header_.splats = little_number(head, 8, 4);
     // Niantic's bound: a file may expand to 1024 times its size, and a splat has at least 9 bytes.
     if (header_.splats * 9 / 1024 > input_.size())

@@ -94,29 +94,6 @@ Legend feature_legend(const FeatureChoice& choice) {
   return entries;
 }
 
-/// The box around the middle 98 % of the points that visit(add) adds, along each axis; `all` for
-/// fewer than 100 points.
-template <class Visit>
-Bounds middle_of(const Bounds& all, const Visit& visit) {
-  Bounds result = all;
-  std::vector<float> along;
-  for (int axis = 0; axis < 3; ++axis) {
-    along.clear();
-    visit([&](const glm::vec3& point) {
-      if (std::isfinite(point[axis])) along.push_back(point[axis]);
-    });
-    const std::size_t cut = along.size() / 100;
-    if (cut == 0) continue;
-    const auto low = along.begin() + std::ptrdiff_t(cut),
-               high = along.end() - 1 - std::ptrdiff_t(cut);
-    std::nth_element(along.begin(), low, along.end());
-    result.low[axis] = *low;
-    std::nth_element(low, high, along.end());
-    result.high[axis] = *high;
-  }
-  return result;
-}
-
 }  // namespace
 
 std::span<const DebugViewName> debug_view_names() { return debug_views; }
@@ -210,19 +187,6 @@ DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye) {
   const double distance = glm::length(bounds.centre() - eye);
   const double far = distance + radius;
   return {std::max(distance - radius, far / 50), far};
-}
-
-Bounds middle_bounds(const TriangleSoup& soup) {
-  return middle_of(bounds(soup), [&](const auto& add) {
-    for (const glm::uvec3& t : soup.triangles)
-      for (int k = 0; k < 3; ++k) add(soup.positions[t[k]]);
-  });
-}
-
-Bounds middle_bounds(const Splats& splats) {
-  return middle_of(bounds(splats), [&](const auto& add) {
-    for (std::size_t i = 0; i < count(splats); ++i) add(glm::vec3(center(splats, i)));
-  });
 }
 
 glm::vec3 overdraw_color(int count) { return heat_ramp(std::log2(float(count)) / 8.0f); }

@@ -83,12 +83,6 @@ struct DepthScale {
 /// distance d from the eye. It is independent of the viewing direction and of the image.
 DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye);
 
-/// The box of the middle 98 % of the faces' corners along each axis, so that a few distant faces do
-/// not dominate the scale. For soups with very few faces it returns bounds().
-Bounds middle_bounds(const TriangleSoup& soup);
-/// The same for the centres of splats.
-Bounds middle_bounds(const Splats& splats);
-
 /// Largest fragment count with its own colour.
 inline constexpr int max_counted_fragments = 255;
 

@@ -8,6 +8,7 @@
 #include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/soup_passes.hpp"
 #include "runtime/splats/splat_pass.hpp"
+#include "scene/middle_bounds.hpp"
 
 namespace tureen {
 

@@ -3,7 +3,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "base/error.hpp"
-#include "scene/similarity.hpp"
+#include "scene/edit/moved_splats.hpp"
 
 namespace tureen {
 
@@ -43,21 +43,16 @@ std::vector<glm::vec3> baked_positions(const std::vector<glm::vec3>& positions,
 
 void bake_transform(Layer& layer) {
   if (is_translation(layer)) return;
-  if (depends_on_view(layer))
-    throw UsageError(
-        "the layer is rotated, scaled or mirrored, and its colours depend on the view: they cannot "
-        "be moved into world coordinates");
-  auto* splats = std::get_if<Splats>(&layer.primitives);
-  if (splats && !std::holds_alternative<TriangleWindows>(splats->kernel))
-    throw UsageError("the layer is rotated, scaled or mirrored, and holds " +
-                     std::string(kernel_name(splats->kernel)) +
-                     ": they cannot be moved into world coordinates");
-  // A length in layer coordinates, as the positions.
-  if (splats)
-    splats->profile.min_center_depth *= float(similarity_of(layer.world_from_layer).scale);
-  auto& positions = splats ? std::get<TriangleWindows>(splats->kernel).corners
-                           : std::get<TriangleSoup>(layer.primitives).positions;
-  positions = baked_positions(positions, layer);
+  if (auto* splats = std::get_if<Splats>(&layer.primitives)) {
+    move_splats(*splats, glm::dmat4(glm::dmat3(layer.world_from_layer)));
+  } else {
+    if (depends_on_view(layer))
+      throw UsageError(
+          "the layer is rotated, scaled or mirrored, and its colours depend on the view: they "
+          "cannot be moved into world coordinates");
+    auto& positions = std::get<TriangleSoup>(layer.primitives).positions;
+    positions = baked_positions(positions, layer);
+  }
   layer.world_from_layer = at_origin(origin_of(layer));
 }
 

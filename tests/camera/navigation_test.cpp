@@ -107,6 +107,22 @@ TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
   EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
 }
 
+TEST(Navigation, TheSubjectOmitsStraySplats) {
+  Gaussians gaussians;
+  for (int i = 0; i < 200; ++i)
+    gaussians.centers.emplace_back(i % 5 / 4.0f, i / 5 % 5 / 4.0f, i / 25 / 7.0f);
+  gaussians.centers[17].x = 1000;
+  gaussians.scales.assign(200, glm::vec3(0.01f));
+  gaussians.rotations.assign(200, glm::quat(1, 0, 0, 0));
+  gaussians.opacity.assign(200, 1.0f);
+  Scene scene;
+  scene.layers.push_back({.primitives = Splats{.kernel = std::move(gaussians)}});
+  const Subject subject = subject_of(scene);
+  EXPECT_GE(subject.high.x, 1);
+  EXPECT_LE(subject.high.x, 2);
+  EXPECT_NEAR(subject.high.y, 1, 0.1);
+}
+
 TEST(Navigation, TheSubjectOfSeveralLayersContainsAll) {
   TriangleSoup soup;
   soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};

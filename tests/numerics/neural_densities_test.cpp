@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/numerics/splat_scenes.hpp"

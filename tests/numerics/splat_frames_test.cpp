@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "formats/mesh/ply.hpp"
+#include "formats/ply_file.hpp"
 #include "formats/splat/octagon_npz.hpp"
 #include "scene/similarity.hpp"
 #include "tests/formats/splat/octagon_fixture.hpp"

@@ -16,6 +16,7 @@
 #include "oracle/uv_sampling.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/lattice.hpp"
+#include "scene/middle_bounds.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/errors.hpp"

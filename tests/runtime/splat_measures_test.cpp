@@ -15,6 +15,7 @@
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/clip_range.hpp"
+#include "scene/middle_bounds.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"

@@ -67,11 +67,9 @@ TEST(BakedTransform, LengthsOfTheProfileAreScaled) {
 }
 
 TEST(BakedTransform, ColoursThatDependOnTheViewAreRefused) {
-  Layer soft = layer_of(FaceColors{});
-  soft.primitives = Splats{.color = {.degree = 1}};
   for (Layer layer : {layer_of(harmonics_of(1)),
                       layer_of(with_network<LatticeTexture>(DirectionEncoding::harmonics2)),
-                      layer_of(with_network<UvTextures>(DirectionEncoding::xyz)), soft}) {
+                      layer_of(with_network<UvTextures>(DirectionEncoding::xyz))}) {
     EXPECT_TRUE(depends_on_view(layer));
     EXPECT_THROW(bake_transform(layer), UsageError);
   }

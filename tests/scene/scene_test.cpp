@@ -160,7 +160,8 @@ TEST(Scene, OnlyTriangleWindowsBecomeOpaque) {
     make_opaque(scene);
     ADD_FAILURE();
   } catch (const UsageError& error) {
-    EXPECT_EQ(error.reason(), "this command supports only triangles; cloud holds Gaussians");
+    EXPECT_EQ(error.reason(),
+              "only triangle windows become opaque triangles; cloud holds Gaussians");
   }
 }
 

@@ -25,7 +25,7 @@ std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
     const PreparedLayer& layer = prepared.layers[i];
     const LayerPlan& plan = prepared.plan.layers[i];
     const auto* splats = std::get_if<SplatPlan>(&plan);
-    layers.push_back({.box = {layer.bounds, layer.world_from_layer},
+    layers.push_back({.box = {layer.framed, layer.world_from_layer},
                       .visible = layer.visible,
                       .triangles = splats ? 0 : std::get<SoupPlan>(plan).soup_faces,
                       .splats = splats ? splats->splats : 0});

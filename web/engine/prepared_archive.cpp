@@ -116,8 +116,8 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  auto& [name, bounds, world_from_layer, visible, soup, splats] = value;
-  archive(name, bounds, world_from_layer, visible);
+  auto& [name, bounds, framed, world_from_layer, visible, soup, splats] = value;
+  archive(name, bounds, framed, world_from_layer, visible);
   bool of_splats = splats.has_value();
   archive(of_splats);
   if constexpr (!std::is_const_v<Value>) {

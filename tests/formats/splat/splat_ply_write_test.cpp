@@ -6,6 +6,7 @@
 #include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "scene/edit/morton_order.hpp"
+#include "scene/edit/moved_splats.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 
@@ -132,6 +133,23 @@ TEST(SplatPlyWrite, StoredValuesAreFinite) {
   EXPECT_TRUE(std::isfinite(stored_opacity(double(std::numeric_limits<float>::denorm_min()))));
 }
 
+TEST(SplatPlyWrite, SplatsAreMovedIntoWorldCoordinates) {
+  Scene scene = scene_of(random_gaussians(1, 20, "3dgs", 1));
+  scene.layers[0].world_from_layer = {{0, 2, 0, 0}, {-2, 0, 0, 0}, {0, 0, 2, 0}, {10, 20, 30, 1}};
+  const TemporaryFolder folder;
+  write_scene(scene, folder / "a.ply");
+  const Scene read = read_scene(folder / "a.ply");
+  EXPECT_EQ(read.layers[0].world_from_layer, glm::dmat4(1));
+  auto moved = std::get<Splats>(scene.layers[0].primitives);
+  const glm::dvec3 first(scene.layers[0].world_from_layer * glm::dvec4(center(moved, 0), 1));
+  move_splats(moved, scene.layers[0].world_from_layer);
+  // A coordinate of up to 64, rounded to float.
+  EXPECT_LT(glm::length(center(moved, 0) - first), 1e-5);
+  sort_in_morton_order(moved);
+  EXPECT_EQ(std::get<Gaussians>(std::get<Splats>(read.layers[0].primitives).kernel).centers,
+            std::get<Gaussians>(moved.kernel).centers);
+}
+
 TEST(SplatPlyWrite, NamesTheLosses) {
   Splats splats = random_gaussians(1, 2, "3dgs", 0);
   splats.profile.min_alpha = 0.01f;
@@ -140,7 +158,9 @@ TEST(SplatPlyWrite, NamesTheLosses) {
   scene.info.background = {1, 1, 1};
   scene.cameras.resize(1);
   const TemporaryFolder folder;
-  EXPECT_EQ(write_scene(scene, folder / "a.ply").size(), 5u);
+  EXPECT_EQ(write_scene(scene, folder / "a.ply").size(), 4u);
+  scene.layers[0].world_from_layer = at_origin({1e6, 2, 3});
+  EXPECT_EQ(write_scene(scene, folder / "far.ply").size(), 5u);
   Splats densities = random_densities(1, 2, 3);
   std::get<NeuralDensities>(densities.kernel).omega = 20;
   scene = scene_of(densities);

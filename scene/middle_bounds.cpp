@@ -1,0 +1,64 @@
+#include "scene/middle_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <variant>
+#include <vector>
+
+namespace tureen {
+
+namespace {
+
+/// The box around the middle 98 % of the points that visit(add) adds, along each axis; `all` for
+/// fewer than 100 points.
+template <class Visit>
+Bounds middle_of(const Bounds& all, const Visit& visit) {
+  Bounds result = all;
+  std::vector<float> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along.clear();
+    visit([&](const glm::vec3& point) {
+      if (std::isfinite(point[axis])) along.push_back(point[axis]);
+    });
+    const std::size_t cut = along.size() / 100;
+    if (cut == 0) continue;
+    const auto low = along.begin() + std::ptrdiff_t(cut),
+               high = along.end() - 1 - std::ptrdiff_t(cut);
+    std::nth_element(along.begin(), low, along.end());
+    result.low[axis] = *low;
+    std::nth_element(low, high, along.end());
+    result.high[axis] = *high;
+  }
+  return result;
+}
+
+}  // namespace
+
+Bounds middle_bounds(const TriangleSoup& soup) {
+  return middle_of(bounds(soup), [&](const auto& add) {
+    for (const glm::uvec3& t : soup.triangles)
+      for (int k = 0; k < 3; ++k) add(soup.positions[t[k]]);
+  });
+}
+
+Bounds middle_bounds(const Splats& splats) {
+  return middle_of(bounds(splats), [&](const auto& add) {
+    for (std::size_t i = 0; i < count(splats); ++i) add(glm::vec3(center(splats, i)));
+  });
+}
+
+Bounds framed_bounds(const Splats& splats) {
+  const Bounds all = bounds(splats), middle = middle_bounds(splats);
+  const glm::vec3 sizes = middle.high - middle.low;
+  const float size = std::max({sizes.x, sizes.y, sizes.z});
+  return {glm::max(all.low, middle.low - size), glm::min(all.high, middle.high + size)};
+}
+
+Bounds framed_bounds(const Layer& layer) {
+  const auto* splats = std::get_if<Splats>(&layer.primitives);
+  return splats ? framed_bounds(*splats) : bounds(layer);
+}
+
+}  // namespace tureen
