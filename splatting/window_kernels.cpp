@@ -48,8 +48,10 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     const auto in_units = [&](const Vector3& v) {
       return Vector3{hn::Mul(v.x, by_size), hn::Mul(v.y, by_size), hn::Mul(v.z, by_size)};
     };
+    Floats distance[3];  // squared, from the eye
     for (std::size_t k = 0; k < 3; ++k) {
       offset[k] = in_units(offset[k]);
+      distance[k] = dot(offset[k], offset[k]);
       point[k] = in_pixels(offset[k]);
     }
     const auto third_of_sum = [&](Floats a, Floats b, Floats c) {
@@ -78,7 +80,11 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
       edge[k] = in_pixels(
           in_units({hn::Sub(corner[to].x, corner[from].x), hn::Sub(corner[to].y, corner[from].y),
                     hn::Sub(corner[to].z, corner[from].z)}));
-      const Vector3& start = point[from];
+      // Either end may stand for the edge's line; the nearer one has the smaller rounding.
+      const Mask from_is_nearer = hn::Lt(distance[from], distance[to]);
+      const auto nearer = [&](Floats a, Floats b) { return hn::IfThenElse(from_is_nearer, a, b); };
+      const Vector3 start{nearer(point[from].x, point[to].x), nearer(point[from].y, point[to].y),
+                          nearer(point[from].z, point[to].z)};
       normal_x[k] = hn::MulSub(start.y, edge[k].z, hn::Mul(start.z, edge[k].y));
       normal_y[k] = hn::MulSub(start.z, edge[k].x, hn::Mul(start.x, edge[k].z));
       // N_k . (x, y, 1), with both points relative to (x, y) first: this cancels less.
@@ -92,7 +98,11 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
       normal_sum_x = hn::Add(normal_sum_x, normal_x[k]);
       normal_sum_y = hn::Add(normal_sum_y, normal_y[k]);
     }
-    const Floats determinant = dot(point[1], cross(edge[0], edge[1]));
+    // Three times N_k . centre, for any k; the edge opposite the farthest corner rounds least.
+    const Floats opposite_farthest = hn::IfThenElse(
+        hn::Gt(distance[0], hn::Max(distance[1], distance[2])), at_center[0],
+        hn::IfThenElse(hn::Gt(distance[1], distance[2]), at_center[1], at_center[2]));
+    const Floats determinant = hn::Mul(hn::Mul(constant(3.0f), relative_depth), opposite_farthest);
     drawn = hn::And(drawn, hn::Gt(weight, zero));
     drawn = hn::And(drawn, hn::Gt(hn::Abs(determinant), zero));
 
