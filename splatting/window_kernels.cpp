@@ -31,33 +31,39 @@ struct WindowPlane {
   Mask exists;  // in front of the eye, and with an area in the image
 };
 
-/// Of the window with these corners in layer coordinates, and in pixels, in the same unit of
-/// length. The functions are around (x, y), in pixels from the principal point.
+/// Of the window with these corners in layer coordinates, relative to the eye, and in
+/// pixels, in the same unit of length. The functions are around (x, y), in pixels from the
+/// principal point.
 ///
 /// The homogeneous rule (docs/numerics.md, W14): with N_k = Q_i x Q_j and W = sum_k w_k |N_k.xy|,
 /// the distance from edge k over the inradius at the image point p is W (N_k . p) /
 /// (det |N_k.xy|), and one over the depth sum_k (N_k . p) / det.
 HWY_INLINE WindowPlane plane_of(const ImageView& view, const Vector3 (&corner)[3],
-                                const Vector3 (&point)[3], Floats x, Floats y) {
+                                const Vector3 (&offset)[3], const Vector3 (&point)[3], Floats x,
+                                Floats y) {
   const Floats zero = hn::Zero(d);
   WindowPlane result;
   result.exists = hn::Eq(zero, zero);
-  Vector3 edge[3];
+  Floats distance[3];  // squared, from the eye
+  for (std::size_t k = 0; k < 3; ++k) distance[k] = dot(offset[k], offset[k]);
   Floats normal_x[3], normal_y[3], at_center[3], length[3];
   Floats weight = zero, normal_sum_x = zero, normal_sum_y = zero;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
     // Differences of the stored corners are more exact than those of the points.
-    edge[k] = in_pixels(
+    const Vector3 edge = in_pixels(
         view, {hn::Sub(corner[to].x, corner[from].x), hn::Sub(corner[to].y, corner[from].y),
                hn::Sub(corner[to].z, corner[from].z)});
-    const Vector3& start = point[from];
-    normal_x[k] = hn::MulSub(start.y, edge[k].z, hn::Mul(start.z, edge[k].y));
-    normal_y[k] = hn::MulSub(start.z, edge[k].x, hn::Mul(start.x, edge[k].z));
+    // Either end may stand for the edge's line; the nearer one has the smaller rounding.
+    const Mask from_is_nearer = hn::Lt(distance[from], distance[to]);
+    const auto nearer = [&](Floats a, Floats b) { return hn::IfThenElse(from_is_nearer, a, b); };
+    const Vector3 start{nearer(point[from].x, point[to].x), nearer(point[from].y, point[to].y),
+                        nearer(point[from].z, point[to].z)};
+    normal_x[k] = hn::MulSub(start.y, edge.z, hn::Mul(start.z, edge.y));
+    normal_y[k] = hn::MulSub(start.z, edge.x, hn::Mul(start.x, edge.z));
     // N_k . (x, y, 1), with both points relative to (x, y) first: this cancels less.
     const Floats ax = hn::NegMulAdd(x, start.z, start.x), ay = hn::NegMulAdd(y, start.z, start.y);
-    const Floats bx = hn::NegMulAdd(x, edge[k].z, edge[k].x),
-                 by = hn::NegMulAdd(y, edge[k].z, edge[k].y);
+    const Floats bx = hn::NegMulAdd(x, edge.z, edge.x), by = hn::NegMulAdd(y, edge.z, edge.y);
     at_center[k] = hn::MulSub(ax, by, hn::Mul(ay, bx));
     length[k] = hn::Sqrt(hn::MulAdd(normal_x[k], normal_x[k], hn::Mul(normal_y[k], normal_y[k])));
     weight = hn::MulAdd(point[k].z, length[k], weight);
@@ -65,7 +71,12 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const Vector3 (&corner)[3
     normal_sum_x = hn::Add(normal_sum_x, normal_x[k]);
     normal_sum_y = hn::Add(normal_sum_y, normal_y[k]);
   }
-  const Floats determinant = dot(point[1], cross(edge[0], edge[1]));
+  // Three times N_k . centre, for any k; the edge opposite the farthest corner rounds least.
+  const Floats opposite_farthest =
+      hn::IfThenElse(hn::Gt(distance[0], hn::Max(distance[1], distance[2])), at_center[0],
+                     hn::IfThenElse(hn::Gt(distance[1], distance[2]), at_center[1], at_center[2]));
+  const Floats determinant =
+      hn::Mul(hn::Add(hn::Add(point[0].z, point[1].z), point[2].z), opposite_farthest);
   result.exists = hn::And(result.exists, hn::Gt(weight, zero));
   result.exists = hn::And(result.exists, hn::Gt(hn::Abs(determinant), zero));
 
@@ -154,7 +165,7 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     const Floats x = hn::Mul(mean(point[0].x, point[1].x, point[2].x), scale);
     const Floats y = hn::Mul(mean(point[0].y, point[1].y, point[2].y), scale);
 
-    const WindowPlane plane = plane_of(view, corner, point, x, y);
+    const WindowPlane plane = plane_of(view, corner, offset, point, x, y);
     drawn = hn::And(drawn, plane.exists);
     for (std::size_t k = 0; k < 9; ++k) store(out::edges + k, plane.edges[k]);
     for (std::size_t k = 0; k < 3; ++k)

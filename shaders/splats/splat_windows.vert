@@ -83,8 +83,10 @@ void main() {
     int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
     // The difference of the stored positions is more exact than that of the image points.
     vec4 edge = clip_from_camera * vec4((texels[j].xyz - texels[i].xyz) / size, 0.0);
-    vec2 normal = half_size.yx * vec2(clip[i].y * edge.w - clip[i].w * edge.y,
-                                      clip[i].w * edge.x - clip[i].x * edge.w);
+    // Either end may stand for the edge's line; the nearer one has the smaller rounding.
+    vec3 start = dot(corners[i], corners[i]) < dot(corners[j], corners[j]) ? clip[i].xyw : clip[j].xyw;
+    vec2 normal = half_size.yx * vec2(start.y * edge.w - start.z * edge.y,
+                                      start.z * edge.x - start.x * edge.w);
     lengths[k] = length(normal);
     total += clip[k].w * lengths[k];
     if (abs(clip[i].w) > largest_w) {

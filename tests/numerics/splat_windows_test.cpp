@@ -301,6 +301,59 @@ TEST(Numerics, W13_ShortEdges) {
   }
 }
 
+/// rho in floats by homogeneous points; the line of each edge starts at its first end.
+float rho_from_first_ends(const TriangleWindows& windows, const Camera& camera, int x, int y) {
+  std::array<glm::vec3, 3> points, normals;
+  for (std::size_t k = 0; k < 3; ++k)
+    points[k] = windows.corners[k] * glm::vec3(camera.fx, -camera.fy, -1);
+  float weight = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::vec3 &from = points[(k + 1) % 3], &to = points[(k + 2) % 3];
+    normals[k] = glm::cross(from, to - from);
+    weight += points[k].z * glm::length(glm::vec2(normals[k]));
+  }
+  const float determinant = glm::dot(points[0], normals[0]);
+  const glm::vec3 pixel(float(x) + 0.5f - float(camera.cx), float(y) + 0.5f - float(camera.cy), 1);
+  float rho = 1;
+  for (const glm::vec3& n : normals)
+    rho = std::min(rho, weight * glm::dot(n, pixel) / (determinant * glm::length(glm::vec2(n))));
+  return std::max(rho, 0.0f);
+}
+
+TEST(Numerics, W13b_OneCornerFarAway) {
+  Recorder recorder({.stressed = "windows with two near corners and one far away, device and tiles",
+                     .parameter = "distance / units",
+                     .unit = "alpha",
+                     .naive = "the line of each edge starts at its first end",
+                     .naive_fails_from = 1e6});
+  const Camera camera = straight_camera(width, height, width);
+  for (const double distance : {5.0, 1e2, 1e4, 1e6, 1e7}) {
+    const TriangleWindows window{.corners = {{-0.9f, -0.7f, -3},
+                                             {1.1f, -0.5f, -3.2f},
+                                             glm::vec3(distance * glm::dvec3(0.1, 0.25, -1))},
+                                 .sigma = {1},
+                                 .opacity = {0.9f}};
+    const Scene scene = scene_of(white_splats(window, published_profile()));
+    const std::vector<double> expected = alpha_of_oracle(scene, camera);
+    EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](double a) { return a > 0.1; }),
+              100);
+    double naive = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        float alpha = 0.9f * rho_from_first_ends(window, camera, x, y);
+        if (alpha < 1 / 255.0f) alpha = 0;
+        naive = worse(naive, std::abs(double(alpha) - expected[std::size_t(y * width + x)]));
+      }
+    // Over the inradius of about ten pixels, alpha changes by a tenth a pixel. The far corner's
+    // rounding is relative to its distance, and moves what is interpolated between it and corners
+    // at a distance of 3. 1e-5 for pow.
+    recorder.add({.at = distance,
+                  .naive = naive,
+                  .ours = alpha_error_of_both(scene, camera, expected),
+                  .tolerance = 1e-5 + 0.1 * epsilon * distance});
+  }
+}
+
 TEST(Numerics, W17_WindowsFarLargerThanTheImage) {
   Recorder recorder({.stressed =
                          "windows with an edge through the image and corners far outside it, "
