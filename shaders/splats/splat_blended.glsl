@@ -1,13 +1,16 @@
 // Output of a splat's fragment. OUTPUT is one of the OUTPUT_.. constants, SplatOutput in C++: its
 // colour, or what is measured of a pixel besides its colour.
+
+// False for NaN, of which min() may make MAX_ALPHA (docs/numerics.md, B3).
+bool is_blended(float alpha) { return alpha >= MIN_ALPHA && MAX_ALPHA >= MIN_ALPHA; }
+
 #if OUTPUT == OUTPUT_COLOR
 layout(location = 0) out vec4 blended;  // premultiplied, for blending front to back
 
 void blend(vec3 color, float alpha) {
-  alpha = min(alpha, MAX_ALPHA);
-  // A comparison that is false for NaN. Zero instead of discard, which is slower on software
-  // devices.
-  blended = alpha >= MIN_ALPHA ? vec4(color * alpha, alpha) : vec4(0.0);
+  float limited = min(alpha, MAX_ALPHA);
+  // Zero instead of discard, which is slower on software devices.
+  blended = is_blended(alpha) ? vec4(color * limited, limited) : vec4(0.0);
 }
 
 void blend_nothing() { blended = vec4(0.0); }
@@ -25,8 +28,8 @@ layout(location = 1) out vec4 measured_more;
 
 // Depth in layer units, normal in world axes.
 void measure(float alpha, float depth, vec3 normal, float opacity, float sigma) {
+  if (!is_blended(alpha)) discard;
   alpha = min(alpha, MAX_ALPHA);
-  if (!(alpha >= MIN_ALPHA)) discard;
 #if OUTPUT == OUTPUT_SUMS
   measured = alpha * vec4(normal, 1.0);
   measured_more = alpha * vec4(world_scale * depth, opacity, sigma, 1.0);

@@ -14,7 +14,10 @@ layout(location = 2) out vec4 axes;  // of one standard deviation, in pixels
 float project(uint splat, out vec3 from_eye) {
   vec4 texel = kernel_texel(splat, 0);
   from_eye = (texel.xyz - eye_high) - eye_low;
-  float opacity = texel.w;
+  // min() below may hide a NaN (docs/numerics.md, B3). Mesa makes a < b of !(a >= b), and a >= 0 && b >= 0
+  // into min(a, b) >= 0: both lose NaN.
+  float sum = dot(kernel_texel(splat, 1).xyz, vec3(1.0));
+  float opacity = sum >= 0.0 ? texel.w : 0.0;
   vec3 center = view_from_layer * from_eye;
   float depth = -center.z;
   place = vec4(0.0);

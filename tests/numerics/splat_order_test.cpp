@@ -57,7 +57,10 @@ TEST(Numerics, Z2_KeysBelowZeroAndNegativeZero) {
     Random random(8);
     for (int i = 0; i < 1000; ++i) {
       const auto depth = float(random.uniform(-1, 1) * largest);
-      centers.emplace_back(0, 0, i % 10 > 1 ? depth : i % 10 == 0 ? 0.0f : -0.0f);
+      // A depth of -0 is a sum of products that all are -0.
+      centers.push_back(i % 10 == 0   ? glm::vec3(0.0f)
+                        : i % 10 == 1 ? glm::vec3(-0.0f)
+                                      : glm::vec3(0, 0, depth));
       const float key = centers.back().z;
       depths.push_back(double(key));
       bits.push_back(0);
