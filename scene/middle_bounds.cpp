@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <variant>
 #include <vector>
@@ -50,10 +51,18 @@ Bounds middle_bounds(const Splats& splats) {
 }
 
 Bounds framed_bounds(const Splats& splats) {
-  const Bounds all = bounds(splats), middle = middle_bounds(splats);
+  const Bounds middle = middle_bounds(splats);
   const glm::vec3 sizes = middle.high - middle.low;
   const float size = std::max({sizes.x, sizes.y, sizes.z});
-  return {glm::max(all.low, middle.low - size), glm::min(all.high, middle.high + size)};
+  const glm::vec3 low = middle.low - size, high = middle.high + size;
+  std::vector<std::uint32_t> near;
+  for (std::size_t i = 0; i < count(splats); ++i) {
+    const glm::vec3 at(center(splats, i));
+    if (glm::clamp(at, low, high) == at) near.push_back(std::uint32_t(i));
+  }
+  const Bounds box = bounds(splats, near, splats.profile);
+  if (box.low == box.high) return box;  // nothing is visible
+  return {glm::max(box.low, low), glm::min(box.high, high)};
 }
 
 Bounds framed_bounds(const Layer& layer) {

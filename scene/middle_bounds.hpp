@@ -11,8 +11,9 @@ Bounds middle_bounds(const TriangleSoup& soup);
 /// The same for the centres of splats.
 Bounds middle_bounds(const Splats& splats);
 
-/// The box that a view of splats shows. Trained splats include strays far out, so it is the part of
-/// bounds() that is no farther from middle_bounds() than the longest side of that box.
+/// The box that a view of splats shows: bounds() without strays, which trained splats include. A
+/// stray is farther from middle_bounds() than the longest side of that box. The box ends there,
+/// also if a large splat reaches farther.
 Bounds framed_bounds(const Splats& splats);
 /// The same for a layer; bounds() of triangles.
 Bounds framed_bounds(const Layer& layer);

@@ -11,6 +11,7 @@
 
 #include "formats/splat/splat_activation.hpp"
 #include "formats/torch/torch_archive.hpp"
+#include "scene/edit/morton_order.hpp"
 #include "scene/finite.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -217,11 +218,16 @@ bool is_valid_window(const Splats& splats, std::size_t i) {
          finite(&splats.color.coefficients[each * i], each);
 }
 
-/// The scene of the valid windows.
-Scene scene_of_windows(Splats splats) {
+/// The scene of the valid windows, in Morton order. `origin`: of errors about memory.
+Scene scene_of_windows(TorchArchive& archive, const TorchTensor& origin, Splats splats) {
   const std::size_t all = count(splats);
   const std::size_t kept =
       keep_windows(splats, [&](std::size_t i) { return is_valid_window(splats, i); });
+  {
+    PassingMemory passing(archive.budget());
+    archive.take_memory(origin, morton_order_bytes(splats), 1);
+    sort_in_morton_order(splats);
+  }
   Scene scene = scene_of(std::move(splats));
   if (kept < all) scene.info.remarks.push_back({Remark::Kind::splats_dropped, {all - kept, all}});
   scene.info.up = colmap_up;
@@ -252,7 +258,7 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
 
   splats.color.degree = sh.degree;
   splats.color.coefficients = std::move(sh.coefficients);
-  Scene scene = scene_of_windows(std::move(splats));
+  Scene scene = scene_of_windows(archive, points, std::move(splats));
   scene.info.source = "Triangle Splatting checkpoint";
   return scene;
 }
@@ -329,7 +335,7 @@ Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options
     passing.keep(triangles.size() * (3 * sizeof(glm::vec3) + 2 * sizeof(float) +
                                      coefficients_per_splat(color) * sizeof color.coefficients[0]));
   }
-  Scene scene = scene_of_windows(std::move(splats));
+  Scene scene = scene_of_windows(archive, points, std::move(splats));
   scene.info.source =
       mesh_splatting ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";
   return scene;
