@@ -34,4 +34,14 @@ std::string counted(std::uint64_t number) {
   return text;
 }
 
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  const auto text = [](long long number, const char* unit) {
+    return std::to_string(number) + " " + unit;
+  };
+  if (whole < 60) return text(whole, "s");
+  if (whole < 3600) return text(whole / 60, "min ") + text(whole % 60, "s");
+  return text(whole / 3600, "h ") + text(whole / 60 % 60, "min");
+}
+
 }  // namespace tureen

@@ -15,4 +15,7 @@ std::string fixed_decimal(double value, int places);
 /// "33,417".
 std::string counted(std::uint64_t number);
 
+/// "7 s", "3 min 20 s", "2 h 5 min".
+std::string duration_text(double seconds);
+
 }  // namespace tureen

@@ -67,11 +67,4 @@ void Progress::draw_bar(double fraction, const std::string& detail) {
                std::string(std::size_t(width - full), '.').c_str(), shown_text(text).c_str());
 }
 
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
-}
-
 }  // namespace tureen::cli

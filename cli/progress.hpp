@@ -41,7 +41,4 @@ class Progress {
   bool shown_ = false;
 };
 
-/// "7 s", "3 min 20 s", "2 h 5 min".
-std::string duration_text(double seconds);
-
 }  // namespace tureen::cli

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
@@ -14,6 +16,7 @@
 #include "cli/commands.hpp"
 #include "cli/files/eval_images.hpp"
 #include "cli/files/train_files.hpp"
+#include "cli/files/window_program.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/config_options.hpp"
@@ -27,6 +30,7 @@
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
 #include "trainer/common/kernels/projection.hpp"
+#include "trainer/common/run_control.hpp"
 #include "trainer/common/run_lock.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
@@ -56,6 +60,7 @@ struct TrainOptions {
   int preview_every = 0;
   bool resume = false;
   bool print_config = false;
+  bool watch = false;
   bool json = false;
 };
 
@@ -94,7 +99,7 @@ void check_images(const TrainOptions& options, const Dataset& dataset) {
 }
 
 std::string progress_text(const trainer::SessionStatus& now) {
-  std::string text = fmt::format("{}/{}", now.step, now.steps);
+  std::string text = fmt::format("{}{}/{}", now.paused ? "paused, " : "", now.step, now.steps);
   if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
   if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
   if (now.seconds_per_step > 0)
@@ -194,6 +199,33 @@ void say_beginning(const Dataset& dataset, const Config& config, const trainer::
                   counted(std::uint64_t(config.triangles)), backend.description()));
 }
 
+/// The window of --watch. It is an aid: its failures do not end the run.
+class TrainingWindow {
+ public:
+  TrainingWindow(const TrainOptions& options, const TrainingFiles& files)
+      : options_(options), files_(files) {}
+
+  /// Writes the scene for the window, which the first call starts.
+  void show(const Scene& scene) {
+    if (failed_) return;
+    try {
+      write_scene(scene, files_.watched);
+      if (!std::exchange(started_, true))
+        start_window({fs::absolute(files_.watched).string(),
+                      fs::absolute(options_.dataset.path).string(), "--training",
+                      fs::absolute(files_.log).string()});
+    } catch (const Error& error) {
+      failed_ = true;
+      say(std::string("The training goes on without its window: ") + error.what());
+    }
+  }
+
+ private:
+  const TrainOptions& options_;
+  const TrainingFiles& files_;
+  bool started_ = false, failed_ = false;
+};
+
 /// The scene of --init.
 std::optional<Scene> read_mesh(const ConfigOptions& options) {
   const fs::path path = options.mesh();
@@ -237,6 +269,7 @@ ExitCode train(const TrainOptions& options) {
   // Wrong arguments are reported before the photographs are read.
   TrainingFiles files;
   std::optional<trainer::RunLock> lock, log_lock;
+  std::optional<trainer::RunControl> control;
   if (!options.print_config) {
     outlive_readers();  // a closed pipe must not end hours of training
     files = files_of(options);
@@ -244,6 +277,7 @@ ExitCode train(const TrainOptions& options) {
     lock.emplace(files.lock);
     if (!options.log.empty()) log_lock.emplace(fs::path(files.log) += ".lock");
     check_existing(options, files);
+    control.emplace(trainer::control_file(files.log));
     trainer::require_device(options.device);
     if (options.preview_every > 0) make_folder(files.previews);
   }
@@ -275,6 +309,9 @@ ExitCode train(const TrainOptions& options) {
   output.line_seconds = 10;
   std::optional<Progress> progress;
   Result result;
+  TrainingWindow window(options, files);
+  std::function<void(const Scene&)> snapshot;
+  if (options.watch) snapshot = [&](const Scene& scene) { window.show(scene); };
   result.training = trainer::train(
       dataset,
       {.config = config,
@@ -288,6 +325,7 @@ ExitCode train(const TrainOptions& options) {
                    .previews = files.previews,
                    .checkpoint_every = options.checkpoint_every,
                    .preview_every = options.preview_every,
+                   .control = &*control,
                    .progress =
                        [&](const trainer::SessionStatus& now) {
                          if (!progress) progress.emplace("training", output);
@@ -308,6 +346,7 @@ ExitCode train(const TrainOptions& options) {
              if (!visible)
                say("No training image shows a triangle yet: check the cameras of the dataset.");
            },
+       .snapshot = snapshot,
        .finished =
            [&](const Scene& scene) {
              progress.reset();
@@ -350,6 +389,9 @@ void add_file_options(Command& command, TrainOptions& options) {
           "view beside its photograph; no previews by default")
       .check(between(1, 10'000'000))
       .value_name("N");
+  command.add_flag("--watch", options.watch,
+                   "show the training in a window: the soup, curves, pause, stop and keep; the "
+                   "window's scene is OUT.watch.glb");
   command
       .add_option("--export-diffsoup", options.diffsoup_export,
                   "also write a folder for DiffSoup's web viewer")
@@ -372,6 +414,7 @@ Examples:
   tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
   tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
   tureen train lego -o lego.glb --preview-every 500          write previews
+  tureen train lego -o lego.glb --watch                      show the training in a window
   tureen train lego -o better.glb --init lego.glb            continue from a trained soup
   tureen train lego --print-config > lego.json               all constants, for --config
 

@@ -105,6 +105,7 @@ Application::Application(ApplicationOptions options)
   window_.set_vsync(vsync_);
   if (options_.scenes.size() == 1) state_.ask(OpenPath{options_.scenes.front()});
   if (options_.scenes.size() > 1) state_.ask(AddPaths{options_.scenes});
+  if (!options_.training.empty()) state_.training.emplace(options_.training).update();
   if (!options_.dataset.empty()) state_.ask(OpenPhotographs{options_.dataset});
 }
 
@@ -207,7 +208,7 @@ void Application::frame() {
   if (recorder_ && was_loading && !state_.busy)
     recorder_->add(now, std::vector<Event>{AwaitRest{}});
   if (state_.busy || state_.writing || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
-  watch_file();
+  watch_files();
   if (const bool wanted = state_.settings.vsync && !replay_; wanted != vsync_)
     window_.set_vsync(vsync_ = wanted);
   state_.messages.age(now);

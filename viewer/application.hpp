@@ -25,6 +25,7 @@ namespace tureen::viewer {
 struct ApplicationOptions {
   std::vector<std::filesystem::path> scenes;  // several are combined, each as a layer
   std::filesystem::path dataset;              // empty: none
+  std::filesystem::path training;             // log of a run to follow; empty: none
   DrawingChoice drawing = {};
   gl::Api api = gl::Api::desktop;
   std::optional<glm::ivec2> window = {};          // in points; default: of the last run
@@ -99,6 +100,7 @@ class Application {
   void carry_out(const SavePath& request);
   void carry_out(const LoadPath& request);
   void carry_out(const WriteAnimation& request);
+  void carry_out(const TellTraining& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
   /// The relation of a loaded scene to the one that is shown.
@@ -135,7 +137,7 @@ class Application {
   void report_refused(const std::vector<RefusedLayer>& layers);
   void compare_when_needed();
   void prepare_debug_view_when_needed();
-  void watch_file();
+  void watch_files();
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
   bool has_scene();

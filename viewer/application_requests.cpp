@@ -323,15 +323,18 @@ void Application::carry_out(const CloseDataset&) {
   state_.recorded = -1;
 }
 
-void Application::watch_file() {
-  // Not while another scene is loading: a reload of this one would replace it.
-  if (!state_.stage || state_.busy || state_.now - watched_ < watch_seconds) return;
+void Application::watch_files() {
+  if (state_.now - watched_ < watch_seconds) return;
   watched_ = state_.now;
+  if (state_.training && state_.training->update()) frames_wanted_ = std::max(frames_wanted_, 1);
+  // Not while another scene is loading: a reload of this one would replace it.
+  if (!state_.stage || state_.busy) return;
   bool changed = false;
   for (FileWatch& watch : watches_) changed |= watch.changed();
   if (!changed) return;
-  state_.messages.note(short_names(state_.stage->paths()) + " has changed: reading it again",
-                       state_.now);
+  if (!state_.training)  // changes every few seconds
+    state_.messages.note(short_names(state_.stage->paths()) + " has changed: reading it again",
+                         state_.now);
   state_.ask(ReloadScene{});
 }
 
@@ -378,6 +381,10 @@ void Application::carry_out(const FocusAt& request) {
   image_is_current_ = false;  // the last one may have had another view
   const glm::dvec2 scale = glm::dvec2(state_.pixels) / glm::dvec2(state_.points);
   if (const auto point = renderer.point_at(request.place * scale)) state_.controls.focus(*point);
+}
+
+void Application::carry_out(const TellTraining& request) {
+  if (state_.training) state_.training->send(request.command);
 }
 
 void Application::carry_out(const ToggleFullscreen&) {

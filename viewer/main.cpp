@@ -38,7 +38,7 @@ extern "C" void note_interrupt(int) { was_interrupted = 1; }
 
 struct Arguments {
   std::vector<std::string> paths;
-  std::string api = "gl", size, replay, record, images;
+  std::string api = "gl", size, replay, record, images, training;
   std::string pipeline = "auto", profile;
   bool as_published = false;
   bool no_specialise = false, no_settings = false, report = false;
@@ -65,6 +65,11 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
                   "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
       ->check(CLI::IsMember({"auto", "baseline", "published"}))
       ->option_text("NAME");
+  program
+      .add_option("--training", arguments.training,
+                  "log of a run of tureen train to follow: curves, pause, stop and keep; SCENE is "
+                  "its OUT.watch.glb")
+      ->option_text("OUT.jsonl");
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
@@ -136,6 +141,7 @@ int run(const Arguments& arguments) {
   options.window = parse_size(arguments.size);
   options.record = arguments.record;
   options.images = arguments.images;
+  options.training = arguments.training;
   if (arguments.pipeline != "auto") options.drawing.pipeline = PipelineKind::baseline;
   options.drawing.plan.specialise = !arguments.no_specialise;
   options.drawing.plan.as_published = arguments.as_published;
@@ -173,6 +179,7 @@ Examples:
   tureen view soup.glb
   tureen view soup.glb photographs/          the keys [ and ] select the photographs' cameras
   tureen view room.glb chair.glb             both, as layers of one scene
+  tureen view out.watch.glb --training out.jsonl    a run of tureen train --watch
 
 Exit codes: 0 done, 1 the window showed an error at the end of a replay, 2 wrong usage, 3 the
 session or the settings cannot be read, 4 no display or no OpenGL, 5 any other error.)");

@@ -19,6 +19,7 @@ void draw_overlays(State& state);
 
 // The parts of both, in their order. Panels are drawn between ImGui::Begin and End.
 void scene_panel(State& state);
+void training_panel(State& state);
 void layers_panel(State& state);
 void view_panel(State& state);
 void debug_view_panel(State& state);

@@ -19,6 +19,7 @@
 #include "viewer/debug_view_choice.hpp"
 #include "viewer/files/file_list.hpp"
 #include "viewer/files/settings.hpp"
+#include "viewer/followed_training.hpp"
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/stage.hpp"
@@ -77,14 +78,19 @@ struct LoadPath {
   std::filesystem::path file;
 };
 struct WriteAnimation {};
+/// Tells the training run to pause, continue or finish.
+struct TellTraining {
+  trainer::RunCommand command = trainer::RunCommand::run;
+};
 /// Stops writing images and animations.
 struct StopWriting {};
 struct Quit {};
 
-using Request = std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset,
-                             ReloadScene, ChooseDrawing, ShowRecorded, FocusAt, TakeImage,
-                             CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
-                             MakeTurntable, SavePath, LoadPath, WriteAnimation, StopWriting, Quit>;
+using Request =
+    std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset, ReloadScene,
+                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, CopyCommand, ToggleFullscreen,
+                 AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath, WriteAnimation,
+                 TellTraining, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -116,6 +122,7 @@ struct State {
   DrawingChoice wanted;          // options of the stage in preparation, otherwise of `stage`
   DebugViewChoice debug_view;
   std::optional<Photographs> photographs;
+  std::optional<FollowedTraining> training;
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;

@@ -8,6 +8,7 @@
 #include "base/extension.hpp"
 #include "base/input.hpp"
 #include "cli/options/output_argument.hpp"
+#include "trainer/common/run_control.hpp"
 
 namespace tureen::cli {
 
@@ -29,7 +30,8 @@ void check_kind(const fs::path& file, std::string_view beginning, const char* ki
 }
 
 void check_log(const TrainingFiles& files) {
-  for (const fs::path& other : {files.scene, files.checkpoint, files.previews, files.lock})
+  for (const fs::path& other : {files.scene, files.checkpoint, files.previews, files.lock,
+                                files.watched, trainer::control_file(files.log)})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("--log cannot be " + other.string() + ", which is another output file");
   // Every line of a log begins like this, also a truncated line.
@@ -49,6 +51,7 @@ TrainingFiles training_files(const fs::path& scene) {
           .log = beside(".jsonl"),
           .previews = beside(".previews"),
           .lock = beside(".lock"),
+          .watched = beside(".watch.glb"),
           .diffsoup_export = {}};
 }
 
@@ -59,7 +62,7 @@ void check_writable(const TrainingFiles& files) {
   const fs::path& folder = files.diffsoup_export;
   if (folder.empty()) return;
   for (const fs::path& other :
-       {files.scene, files.checkpoint, files.log, files.previews, files.lock})
+       {files.scene, files.checkpoint, files.log, files.previews, files.lock, files.watched})
     if (folder.lexically_normal() == other.lexically_normal())
       throw UsageError("--export-diffsoup cannot be " + other.string() +
                        ", which is another output file");

@@ -12,6 +12,7 @@ struct TrainingFiles {
   std::filesystem::path log;              // OUT.jsonl
   std::filesystem::path previews;         // OUT.previews
   std::filesystem::path lock;             // OUT.lock, during the run
+  std::filesystem::path watched;          // OUT.watch.glb, with --watch
   std::filesystem::path diffsoup_export;  // empty: none
 };
 

@@ -21,5 +21,14 @@ TEST(DecimalText, HoldsEveryDouble) {
   EXPECT_EQ(fixed_decimal(std::numeric_limits<double>::quiet_NaN(), 2), "nan");
 }
 
+TEST(DurationText, IsShortAndRounded) {
+  EXPECT_EQ(duration_text(0.4), "0 s");
+  EXPECT_EQ(duration_text(59.4), "59 s");
+  EXPECT_EQ(duration_text(59.6), "1 min 0 s");
+  EXPECT_EQ(duration_text(425), "7 min 5 s");
+  EXPECT_EQ(duration_text(3599.7), "1 h 0 min");
+  EXPECT_EQ(duration_text(90061), "25 h 1 min");
+}
+
 }  // namespace decimal_text_test
 }  // namespace tureen

@@ -20,15 +20,6 @@ namespace fs = std::filesystem;
 using trainer::Config;
 using trainer::Preset;
 
-TEST(DurationText, IsShortAndRounded) {
-  EXPECT_EQ(duration_text(0.4), "0 s");
-  EXPECT_EQ(duration_text(59.4), "59 s");
-  EXPECT_EQ(duration_text(59.6), "1 min 0 s");
-  EXPECT_EQ(duration_text(425), "7 min 5 s");
-  EXPECT_EQ(duration_text(3599.7), "1 h 0 min");
-  EXPECT_EQ(duration_text(90061), "25 h 1 min");
-}
-
 TEST(TrainingFiles, LieBesideTheSoup) {
   const TrainingFiles files = training_files("runs/a.b.glb");
   EXPECT_EQ(files.scene, "runs/a.b.glb");

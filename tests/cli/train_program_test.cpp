@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "formats/scene_file.hpp"
 #include "tests/cli/train_fixture.hpp"
 #include "tests/support/errors.hpp"
+#include "trainer/common/training_log.hpp"
 
 namespace tureen {
 namespace train_program_test {
@@ -141,6 +144,73 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   // There is one log, and each step is in it once.
   const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
+}
+
+/// Writes a command for the run.
+void tell(const fs::path& control, std::string_view word) { write_file(control, word); }
+
+TEST_F(Train, AWatchedAndPausedRunMakesTheSameSoup) {
+  ::unsetenv("DISPLAY");  // the window cannot open; the training goes on
+  make_dataset();
+  fs::create_directories(folder / "whole");
+  const std::string steps = "2000";
+  ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
+  test::Child child(arguments("ball.glb", {"--watch"}, steps), folder);
+  ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
+  EXPECT_TRUE(exists("ball.watch.glb"));
+  tell(folder / "ball.control", "pause\n");
+  // The run reads it within 0.1 s, and a step takes a few milliseconds.
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const std::string log = bytes("ball.jsonl");
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(bytes("ball.jsonl"), log);
+  EXPECT_TRUE(child.running());
+  tell(folder / "ball.control", "run\n");
+  const ChildResult result = child.wait();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
+  EXPECT_EQ(bytes("ball.watch.glb"), bytes("ball.glb"));  // the finished scene at last
+  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.watch.glb", "whole/ball.glb",
+                                   "whole/ball.jsonl"));
+}
+
+TEST_F(Train, StopsAndKeepsWhatIsTrained) {
+  make_dataset();
+  test::Child child(arguments("ball.glb", {"--json", "--preview-every", "90000"}, "100000"),
+                    folder);
+  ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
+  tell(folder / "ball.control", "finish\n");
+  const ChildResult result = child.wait();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  const int step = json["steps"];
+  EXPECT_LT(step, 100'000);
+  EXPECT_EQ(json["test"]["views"], 2);
+  const auto log = trainer::read_training_log(folder / "ball.jsonl");
+  EXPECT_EQ(log.back().step, step);
+  EXPECT_EQ(log.back().steps, 100'000);
+  EXPECT_TRUE(log.back().ended_early);
+  EXPECT_TRUE(log.back().test_psnr_db);
+  EXPECT_FALSE(log.front().ended_early);
+  EXPECT_EQ(read_scene(folder / "ball.glb").info.source,
+            "Tureen trainer, " + std::to_string(step) + " steps");
+  EXPECT_EQ(files().size(), 3u);  // with the last preview
+}
+
+TEST_F(Train, TakesNoOtherFileForItsControlFile) {
+  make_dataset();
+  write("ball.control", "Dear diary");
+  const ChildResult refused = train("ball.glb");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, Names("ball.control"));
+  EXPECT_THAT(files(), ElementsAre("ball.control"));
+  EXPECT_EQ(bytes("ball.control"), "Dear diary");
+  EXPECT_EQ(train("ball.glb", {"--log", "ball.control"}).exit_code, 2);
+  // That of a killed run ends no other.
+  write("ball.control", "finish\n");
+  ASSERT_EQ(train("ball.glb").exit_code, 0);
+  EXPECT_EQ(trainer::read_training_log(folder / "ball.jsonl").back().step, 40);
+  EXPECT_FALSE(exists("ball.control"));
 }
 
 TEST_F(Train, SaysThatCtrlCBeforeTheFirstStepLeavesNoCheckpoint) {

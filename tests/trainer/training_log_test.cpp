@@ -49,6 +49,8 @@ TrainingRecord record(int step) {
                         .it_per_second = 7.1,
                         .non_finite = std::size_t(step / 100)};
   if (step % 200 == 0) result.test_psnr_db = 19 + step / 1000.0;
+  if (step % 300 == 0) result.steps = 10 * step;
+  result.ended_early = step == 500;
   return result;
 }
 
@@ -63,6 +65,8 @@ void expect_equal(const TrainingRecord& a, const TrainingRecord& b) {
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.it_per_second, b.it_per_second);
   EXPECT_EQ(a.non_finite, b.non_finite);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.ended_early, b.ended_early);
 }
 
 TEST_F(Log, IsWholeAfterEveryLine) {
@@ -126,6 +130,43 @@ TEST_F(Log, IsReadAtEveryLengthThatARunMayLeave) {
     const auto lines = std::count(whole.begin(), whole.begin() + std::ptrdiff_t(length), '\n');
     ASSERT_EQ(std::ptrdiff_t(read_training_log(path).size()), lines) << length;
   }
+}
+
+TEST_F(Log, IsFollowedLineByLine) {
+  TrainingLogTail tail(path);
+  EXPECT_FALSE(tail.update());  // no file
+  std::string whole;
+  {
+    TrainingLog log = TrainingLog::create(path);
+    for (int step = 100; step <= 300; step += 100) log.append(record(step));
+    whole = text();
+  }
+  fs::remove(path);
+  for (std::size_t length = 1; length <= whole.size(); ++length) {
+    write(whole.substr(0, length));
+    ASSERT_TRUE(tail.update()) << length;
+    ASSERT_FALSE(tail.update()) << length;
+    const auto lines = std::count(whole.begin(), whole.begin() + std::ptrdiff_t(length), '\n');
+    ASSERT_EQ(std::ptrdiff_t(tail.records().size()), lines) << length;
+  }
+  for (std::size_t i = 0; i < 3; ++i) expect_equal(tail.records().at(i), record(int(i + 1) * 100));
+
+  // A wrong line; the ones before it stay.
+  write(whole + "hello\n");
+  EXPECT_THROW(tail.update(), InputError);
+  EXPECT_EQ(tail.records().size(), 3u);
+  EXPECT_FALSE(tail.update());
+  // A shorter log of another run, and a longer one.
+  TrainingLog::create(path).append(record(50));
+  EXPECT_TRUE(tail.update());
+  ASSERT_EQ(tail.records().size(), 1u);
+  EXPECT_EQ(tail.records().front().step, 50);
+  write(whole);
+  EXPECT_TRUE(tail.update());
+  EXPECT_EQ(tail.records().size(), 3u);
+  fs::remove(path);
+  EXPECT_TRUE(tail.update());
+  EXPECT_TRUE(tail.records().empty());
 }
 
 TEST_F(Log, SaysWhichLineIsWrong) {

@@ -19,6 +19,8 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/viewer/display.hpp"
+#include "trainer/common/run_control.hpp"
+#include "trainer/common/training_log.hpp"
 #include "viewer/files/session.hpp"
 #include "viewer/messages.hpp"
 
@@ -520,6 +522,67 @@ TEST_F(Window, EveryFileOfALayerIsWatched) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GT(count(image("before"), red), 1000);
   EXPECT_EQ(count(image("after"), blue), count(image("before"), red));
+}
+
+/// Positions in the panel Training in a window of 720 x 640, from the golden.
+constexpr glm::dvec2 pause_button{430, 416}, stop_button{510, 416}, stop_now_button{505, 453};
+
+/// A run of 1,000 steps in its 250th.
+void write_run(const fs::path& folder) {
+  trainer::TrainingLog log = trainer::TrainingLog::create(folder / "run.jsonl");
+  for (int step = 50; step <= 250; step += 50) {
+    trainer::TrainingRecord record{.step = step,
+                                   .steps = 1000,
+                                   .seconds = step / 2.0,
+                                   .loss = 5.0 / step,
+                                   .train_psnr_db = 20 + step / 50.0,
+                                   .triangles = 7000,
+                                   .it_per_second = 2};
+    if (step % 100 == 0) record.test_psnr_db = 19 + step / 60.0;
+    log.append(record);
+  }
+}
+
+TEST_F(Window, FollowsATraining) {
+  write_run(folder_);
+  const trainer::RunControl run(folder_ / "run.control");
+  fs::copy(folder_ / "soup.glb", folder_ / "next.glb");
+  Person person({720, 640});
+  person.wait().press(Key::digit_7).wait().look("running");
+  // The next snapshot keeps the view, without a note.
+  person.replace("soup.glb", "next.glb").hold(Key::super, 4).look("again");
+  person.click(pause_button).point({200, 300}).look("paused");
+  const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
+  ChildResult result = replay(person, arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("running"), "window_training");
+  expect_equal(image("again"), image("running"));
+  EXPECT_NE(image("paused").pixels, image("running").pixels);
+  EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::pause);
+
+  // The same button continues the run; the other one asks before it stops it.
+  Person stopping({720, 640});
+  stopping.wait().click(pause_button).wait().click(stop_button).wait().look("asked");
+  EXPECT_EQ(replay(stopping, arguments).exit_code, 0);
+  EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::run);
+  stopping.click(stop_now_button).wait();
+  EXPECT_EQ(replay(stopping, arguments).exit_code, 0);
+  EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::finish);
+}
+
+TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
+  const Person person = Person({720, 640}).wait().click(pause_button).look("training");
+  const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
+  EXPECT_EQ(replay(person, arguments).exit_code, 0);
+  const Image8 none = image("training");
+  write_run(folder_);
+  EXPECT_EQ(replay(person, arguments).exit_code, 0);
+  const Image8 ended = image("training");
+  EXPECT_NE(ended.pixels, none.pixels);
+  std::ofstream(folder_ / "run.jsonl", std::ios::app) << "hello\n";
+  EXPECT_EQ(replay(person, arguments).exit_code, 0);
+  EXPECT_NE(image("training").pixels, ended.pixels);
+  EXPECT_FALSE(fs::exists(folder_ / "run.control"));
 }
 
 TEST_F(Window, TheBaselineRefusesAFurtherLayer) {

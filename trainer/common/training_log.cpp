@@ -18,12 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A log and the ends of its lines.
-struct ParsedLog {
-  std::vector<TrainingRecord> records;
-  std::vector<std::uint64_t> ends;  // byte after each record's line
-};
-
 double number_or_nan(const JsonView& value) {
   return value.value().is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number();
 }
@@ -31,6 +25,8 @@ double number_or_nan(const JsonView& value) {
 TrainingRecord record_of(const JsonView& line) {
   TrainingRecord record;
   record.step = int(line["step"].natural(std::numeric_limits<int>::max()));
+  if (const auto value = line.find("steps"))
+    record.steps = int(value->natural(std::numeric_limits<int>::max()));
   record.seconds = line["seconds"].number();
   record.loss = number_or_nan(line["loss"]);
   record.l1 = number_or_nan(line["l1"]);
@@ -40,44 +36,53 @@ TrainingRecord record_of(const JsonView& line) {
   record.triangles = line["triangles"].natural();
   record.it_per_second = number_or_nan(line["it_per_second"]);
   record.non_finite = line["non_finite"].natural();
+  record.ended_early = line.find("ended_early").has_value();
   return record;
 }
 
-ParsedLog parse_log(const std::filesystem::path& path) {
+/// Appends the records of the complete lines after the last of `ends`, and the ends of these lines.
+/// On an error, those of the lines before the wrong one.
+void read_lines(const std::filesystem::path& path, std::vector<TrainingRecord>& records,
+                std::vector<std::uint64_t>& ends) {
   Input input = Input::open(path);
+  const std::uint64_t first = ends.empty() ? 0 : ends.back();
+  input.seek(first);
   const std::vector<std::byte> bytes = input.read_rest();
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  ParsedLog log;
-  for (std::size_t begin = 0, number = 1; begin < text.size(); ++number) {
-    const std::size_t end = text.find('\n', begin);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin), number = records.size() + 1;
     if (end == std::string_view::npos) break;
+    TrainingRecord record;
     try {
-      const auto line = parse_json(text.substr(begin, end - begin), input.name(), begin);
-      log.records.push_back(record_of(JsonView(line, input.name())));
+      const auto line = parse_json(text.substr(begin, end - begin), input.name(), first + begin);
+      record = record_of(JsonView(line, input.name()));
     } catch (const InputError& error) {
       throw InputError({input.name(), {}, number}, "not a training record: " + error.reason(),
                        error.hint());
     }
-    const std::size_t count = log.records.size();
-    if (count > 1 && log.records[count - 1].step <= log.records[count - 2].step)
-      throw InputError({input.name(), {}, number}, "step " +
-                                                       std::to_string(log.records[count - 1].step) +
+    if (!records.empty() && record.step <= records.back().step)
+      throw InputError({input.name(), {}, number}, "step " + std::to_string(record.step) +
                                                        " does not follow the previous step");
+    records.push_back(record);
     begin = end + 1;
-    log.ends.push_back(begin);
+    ends.push_back(first + begin);
   }
-  return log;
 }
 
 /// JSON has no NaN and no infinity: nlohmann writes null for them.
 Json to_json(const TrainingRecord& record) {
-  Json json{{"step", record.step}, {"seconds", record.seconds},
-            {"loss", record.loss}, {"l1", record.l1},
-            {"ssim", record.ssim}, {"train_psnr_db", record.train_psnr_db}};
+  Json json{{"step", record.step}};
+  if (record.steps) json["steps"] = *record.steps;
+  json.update({{"seconds", record.seconds},
+               {"loss", record.loss},
+               {"l1", record.l1},
+               {"ssim", record.ssim},
+               {"train_psnr_db", record.train_psnr_db}});
   if (record.test_psnr_db) json["test_psnr_db"] = *record.test_psnr_db;
   json["triangles"] = record.triangles;
   json["it_per_second"] = record.it_per_second;
   json["non_finite"] = record.non_finite;
+  if (record.ended_early) json["ended_early"] = true;
   return json;
 }
 
@@ -96,10 +101,11 @@ TrainingLog TrainingLog::create(const std::filesystem::path& path) {
 TrainingLog TrainingLog::resume(const std::filesystem::path& path, int step) {
   std::error_code error;
   if (std::filesystem::exists(path, error)) {
-    const ParsedLog log = parse_log(path);
+    std::vector<TrainingRecord> records;
+    std::vector<std::uint64_t> ends;
+    read_lines(path, records, ends);
     std::uint64_t keep = 0;
-    for (std::size_t i = 0; i < log.records.size() && log.records[i].step <= step; ++i)
-      keep = log.ends[i];
+    for (std::size_t i = 0; i < records.size() && records[i].step <= step; ++i) keep = ends[i];
     std::filesystem::resize_file(path, keep, error);
     if (error)
       throw OutputError({path.string(), {}, {}}, "cannot be shortened: " + error.message());
@@ -116,7 +122,36 @@ void TrainingLog::append(const TrainingRecord& record) {
 
 std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path) {
   require_there(path);
-  return parse_log(path).records;
+  std::vector<TrainingRecord> records;
+  std::vector<std::uint64_t> ends;
+  read_lines(path, records, ends);
+  return records;
+}
+
+void TrainingLogTail::clear() {
+  records_.clear();
+  ends_.clear();
+}
+
+bool TrainingLogTail::update() {
+  std::error_code missing;
+  const std::uint64_t found = std::filesystem::file_size(path_, missing);
+  const std::uint64_t size = missing ? 0 : found;
+  if (size == size_) return false;
+  size_ = size;
+  if (ends_.empty() || size < ends_.back()) clear();
+  if (missing) return true;
+  if (ends_.empty()) {
+    read_lines(path_, records_, ends_);
+    return true;
+  }
+  try {
+    read_lines(path_, records_, ends_);
+  } catch (const InputError&) {  // another run may have written more than was there
+    clear();
+    read_lines(path_, records_, ends_);
+  }
+  return true;
 }
 
 }  // namespace tureen::trainer

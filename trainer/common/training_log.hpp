@@ -1,24 +1,29 @@
 // The log of a training run: JSON lines, one object per line. The run appends and flushes each
 // line, so the log can be followed, and it is complete up to its last line however the run ends.
 //
-//   {"step":200,"seconds":14.2,"loss":0.081,"l1":0.052,"ssim":0.79,"train_psnr_db":21.3,
+//   {"step":200,"steps":10000,"seconds":14.2,"loss":0.081,"l1":0.052,"ssim":0.79,"train_psnr_db":21.3,
 //    "test_psnr_db":20.8,"triangles":15000,"it_per_second":14.1,"non_finite":0}      in one line
+//
+// The last line of a run that was told to finish also has "ended_early":true.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tureen::trainer {
 
 /// One line. NaN (from a run that diverges) is null in JSON.
 struct TrainingRecord {
-  int step = 0;        // steps done; grows from line to line
-  double seconds = 0;  // training time over all sessions of a resumed run
+  int step = 0;                   // steps done; grows from line to line
+  std::optional<int> steps = {};  // of the whole run; older logs lack it
+  double seconds = 0;             // training time over all sessions of a resumed run
   double loss = 0;
   double l1 = 0;                            // the loss's two parts, unweighted
   double ssim = 0;                          // 1 for equal images
@@ -27,6 +32,7 @@ struct TrainingRecord {
   std::size_t triangles = 0;
   double it_per_second = 0;    // since the previous line
   std::size_t non_finite = 0;  // numbers quarantined so far because they were not finite
+  bool ended_early = false;    // the last record of a run that was told to finish
 };
 
 class TrainingLog {
@@ -56,5 +62,25 @@ class TrainingLog {
 /// InputError with the number of a line that is not a record, or whose step is not larger than the
 /// previous one.
 std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path);
+
+/// A log that a run is writing. Each update reads only what was appended.
+class TrainingLogTail {
+ public:
+  explicit TrainingLogTail(std::filesystem::path path) : path_(std::move(path)) {}
+
+  /// Reads the new complete lines. Begins again if another run replaced the log, and has no records
+  /// while the file is missing. Returns whether the file has changed. Throws the errors of
+  /// read_training_log; the records before the wrong line remain.
+  bool update();
+  const std::vector<TrainingRecord>& records() const { return records_; }
+
+ private:
+  void clear();
+
+  std::filesystem::path path_;
+  std::vector<TrainingRecord> records_;
+  std::vector<std::uint64_t> ends_;  // byte after each record's line
+  std::uint64_t size_ = 0;           // of the file at the last update
+};
 
 }  // namespace tureen::trainer

@@ -85,15 +85,32 @@ void TrainingSession::keep() {
 }
 
 void TrainingSession::train_to_the_end() {
-  while (!trainer_.done()) {
+  while (!at_the_end()) {
     if (options_.progress) options_.progress(status());
+    make_snapshot();
+    wait_while_paused();
     const double before = seconds();
     in_step_ = true;
     const StepReport report = trainer_.step();
     in_step_ = false;
     seconds_per_step_ = smoothed(seconds_per_step_, seconds() - before);
+    finishes_ = options_.control && options_.control->command() == RunCommand::finish;
     after_step(report);
   }
+}
+
+void TrainingSession::wait_while_paused() {
+  if (!options_.control) return;
+  start_ += options_.control->wait_while_paused([this] {
+    if (options_.progress) options_.progress(status(true));
+  });
+}
+
+void TrainingSession::make_snapshot() {
+  const double begin = seconds() - options_.seconds_before;
+  if (!options_.snapshot || !snapshots_.due(begin)) return;
+  options_.snapshot();
+  snapshots_.made(begin, seconds() - options_.seconds_before);
 }
 
 void TrainingSession::after_step(const StepReport& report) {
@@ -106,12 +123,12 @@ void TrainingSession::after_step(const StepReport& report) {
   loss_ = smoothed(loss_, report.loss);
 
   const int step = trainer_.steps_done();
-  const bool test = step % test_every_ == 0 || trainer_.done();
+  const bool test = step % test_every_ == 0 || at_the_end();
   if (test) measure();
   if (test || step % record_every == 0) record();
-  if (options_.preview_every > 0 && (step % options_.preview_every == 0 || trainer_.done()))
+  if (options_.preview_every > 0 && (step % options_.preview_every == 0 || at_the_end()))
     write_preview();
-  if (trainer_.done()) return;
+  if (at_the_end()) return;
   if (options_.checkpoint_every ? step % *options_.checkpoint_every == 0
                                 : seconds() - last_checkpoint_ >= checkpoint_seconds)
     save_checkpoint();
@@ -125,6 +142,7 @@ void TrainingSession::measure() {
 void TrainingSession::record() {
   const double n = recent_.steps, now = seconds();
   log_.append({.step = trainer_.steps_done(),
+               .steps = trainer_.config().steps,
                .seconds = now,
                .loss = recent_.loss / n,
                .l1 = recent_.l1 / n,
@@ -133,7 +151,8 @@ void TrainingSession::record() {
                .test_psnr_db = fresh_test_psnr_,
                .triangles = trainer_.faces(),
                .it_per_second = n / (now - recent_.begin),
-               .non_finite = non_finite_});
+               .non_finite = non_finite_,
+               .ended_early = finishes_ && !trainer_.done()});
   recent_ = {.begin = now};
   fresh_test_psnr_.reset();
 }
@@ -154,12 +173,13 @@ void TrainingSession::save_checkpoint() {
   last_checkpoint_ = seconds();
 }
 
-SessionStatus TrainingSession::status() const {
+SessionStatus TrainingSession::status(bool paused) const {
   return {.step = trainer_.steps_done(),
           .steps = trainer_.config().steps,
           .loss = loss_,
           .test_psnr_db = shown_test_psnr_,
-          .seconds_per_step = seconds_per_step_};
+          .seconds_per_step = seconds_per_step_,
+          .paused = paused};
 }
 
 }  // namespace tureen::trainer

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "scene/photographs.hpp"
+#include "trainer/common/run_control.hpp"
+#include "trainer/common/snapshot_timer.hpp"
 #include "trainer/common/training_log.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
 #include "trainer/diffsoup/trainer.hpp"
@@ -22,6 +24,7 @@ struct SessionStatus {
   double loss = 0;                     // smoothed; 0 before the first step
   std::optional<double> test_psnr_db;  // last measurement on held-out views
   double seconds_per_step = 0;         // smoothed; 0 before the first step
+  bool paused = false;                 // by SessionOptions::control
 };
 
 struct SessionOptions {
@@ -32,7 +35,10 @@ struct SessionOptions {
   int preview_every = 0;                        // steps; 0 for no previews
   std::span<const Photograph> test_views = {};  // at least one
   double seconds_before = 0;                    // training time of earlier sessions of this run
-  /// Called before each step; an exception ends the run.
+  RunControl* control = nullptr;                // pauses the run, and finishes it early
+  /// Called before the first step, and then as SnapshotTimer says.
+  std::function<void()> snapshot = {};
+  /// Called before each step and during a pause; an exception ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
   std::function<void(int step)> interrupted = {};
@@ -44,14 +50,15 @@ class TrainingSession {
   /// `trainer` and the spans in `options` must outlive the session.
   TrainingSession(Trainer& trainer, SessionOptions options, Checkpoint run);
 
-  /// Trains to the last step. Throws OutputError if a file cannot be written, and the exceptions of
-  /// SessionOptions::progress. In both cases it first writes a checkpoint if possible.
+  /// Trains to the last step, or until `control` tells it to finish. Throws OutputError if a file
+  /// cannot be written, and the exceptions of SessionOptions::progress. In both cases it first
+  /// writes a checkpoint if possible.
   void run();
 
   /// Runs `work` after run(). If it throws, writes a checkpoint and then passes the error on.
   void keep_if_it_fails(const std::function<void()>& work);
 
-  /// Training time, including earlier sessions.
+  /// Training time, including earlier sessions, without pauses.
   double seconds() const;
 
  private:
@@ -63,13 +70,16 @@ class TrainingSession {
   };
 
   void train_to_the_end();
+  void wait_while_paused();
+  void make_snapshot();
+  bool at_the_end() const { return trainer_.done() || finishes_; }
   void after_step(const StepReport& report);
   void measure();
   void record();
   void write_preview();
   void save_checkpoint();
   void keep();
-  SessionStatus status() const;
+  SessionStatus status(bool paused = false) const;
 
   Trainer& trainer_;
   SessionOptions options_;
@@ -80,7 +90,9 @@ class TrainingSession {
   double start_ = 0;            // of the clock
   double last_checkpoint_ = 0;  // seconds()
   Recent recent_;
-  bool in_step_ = false;  // the state may be between two steps: no checkpoint then
+  SnapshotTimer snapshots_;
+  bool finishes_ = false;  // early
+  bool in_step_ = false;   // the state may be between two steps: no checkpoint then
   std::uint64_t non_finite_ = 0;
   double loss_ = 0;  // smoothed, as shown
   double seconds_per_step_ = 0;

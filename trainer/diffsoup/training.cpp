@@ -84,6 +84,10 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
 
   request.session.test_views = dataset.test;
   request.session.seconds_before = run.seconds;
+  if (request.snapshot)
+    request.session.snapshot = [&] {
+      request.snapshot(scene_of(request.name, dataset, config, trainer.state()));
+    };
   TrainingSession session(trainer, std::move(request.session), std::move(run));
   session.run();
   result.seconds = session.seconds();
@@ -91,6 +95,7 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   result.opacity_binary_fraction = opacity_binary_fraction(result.state.model);
   const Scene scene = scene_of(request.name, dataset, config, result.state);
   if (request.finished) session.keep_if_it_fails([&] { request.finished(scene); });
+  if (request.snapshot) request.snapshot(scene);
   result.test_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config, request.measuring);
   if (request.evaluate) request.evaluate(scene);
   return result;

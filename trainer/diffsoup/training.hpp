@@ -20,12 +20,14 @@ struct TrainingRequest {
   std::optional<Checkpoint> checkpoint;  // to continue from
   Device device = Device::automatic;
   int threads = 0;         // 0: one per core
-  SessionOptions session;  // `test_views` and `seconds_before` are set by train()
+  SessionOptions session;  // train() sets `test_views`, `seconds_before` and `snapshot`
 
   // Each of the following callbacks may be empty. A callback may throw to end the run.
 
   /// Before the first step. `visible`: some training image shows a triangle.
   std::function<void(const Backend&, bool visible)> begun = {};
+  /// Shows the scene before the first step, then every few seconds, and the finished scene.
+  std::function<void(const Scene&)> snapshot = {};
   /// Stores the finished scene. If it throws, train() writes a checkpoint and then passes the error
   /// on.
   std::function<void(const Scene&)> finished = {};

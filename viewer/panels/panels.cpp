@@ -41,6 +41,7 @@ void draw_panels(State& state, const FrameClock& clock) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   section("Scene", true, [&] { scene_panel(state); });
+  if (state.training) section("Training", true, [&] { training_panel(state); });
   // A single unchanged layer needs no list.
   if (state.stage->layers.size() > 1 || !state.stage->is_as_read())
     section("Layers", true, [&] { layers_panel(state); });
