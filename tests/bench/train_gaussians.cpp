@@ -1,7 +1,7 @@
 // Trains Gaussians on a dataset, on one core, and prints the PSNR of held-out views and the time of
 // each stage against seconds of processor time in steps. Prints JSON lines.
 //
-//   train_gaussians DATASET SCALE STEPS [SPLATS] [MARKS]
+//   train_gaussians DATASET SCALE STEPS [SPLATS] [MARKS] [FIRST]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
   config.steps = std::atoi(argv[3]);
   if (argc > 4) config.max_splats = std::size_t(std::atoi(argv[4]));
   const int marks = argc > 5 ? std::atoi(argv[5]) : 10;
+  if (argc > 6) config.first_splats = std::size_t(std::atoi(argv[6]));
   Dataset dataset = read_dataset(argv[1], {.scale = std::atof(argv[2])});
   const Region region = region_of_interest(dataset);
   const std::span<const float, 3> background(config.background);
@@ -91,7 +92,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "train_gaussians DATASET SCALE STEPS [SPLATS] [MARKS]\n");
+    std::fprintf(stderr, "train_gaussians DATASET SCALE STEPS [SPLATS] [MARKS] [FIRST]\n");
     return 2;
   }
   try {

@@ -26,8 +26,8 @@ struct DensifyReport {
 /// A splat is dead if it was not evident in any step since the last call, or its opacity is low.
 /// Parents are drawn without replacement from the others, by gaussian_statistic::motion: the first
 /// child takes the parent's place, the second one that of a dead splat or a new one. The moments of
-/// children, and all statistics except steps of the other splats, begin at 0. Splats that are not
-/// finite are dead. If all splats are dead, or none moves, nothing changes.
+/// children begin at 0, and so do all statistics except the steps of other splats. Splats that are
+/// not finite are dead. If all splats are dead, or none moves, nothing changes.
 DensifyReport densify(const DensifyOptions& options, Random& random, GaussianParameters& parameters,
                       GaussianMemory& memory);
 

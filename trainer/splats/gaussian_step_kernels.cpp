@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include "splatting/harmonics-inl.hpp"
 #include "splatting/rotation-inl.hpp"
 
@@ -371,6 +373,10 @@ std::size_t step_on(const GaussianBackwardInput& input, const GaussianStep& step
   for (std::size_t r = 0; r < rows; ++r) rates[r] = step.rates[kind_of(r)];
   std::size_t quarantined = 0;
   for (std::size_t i = begin; i < end; i += lanes) {
+    // More rows than the processor recognises as streams. Two blocks ahead.
+    if (i + 3 * row_alignment <= parameters.drawn.stride() && i % row_alignment == 0)
+      for (std::size_t r = 0; r < rows; ++r)
+        hwy::Prefetch(parameters.trained(r) + i + 2 * row_alignment);
     const Moments moments = moments_of(input, i);
     if (hn::AllFalse(d, moments.drawn)) continue;
     Gradient gradient;

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include "splatting/blending-inl.hpp"
 #include "splatting/gaussian_alpha-inl.hpp"
 
@@ -31,6 +33,8 @@ void blend_recorded_on(const ImageView& view, std::span<const GaussianEntry> ent
   const Floats evident = constant(evident_weight);
   const GaussianAlpha alpha_of{constant(std::log2(view.min_alpha))};
   std::uint32_t* end = record.blended;
+  // Splats that are neighbours in the order are not so in the image: each is a cache miss.
+  for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   for (int i = 0; i < blocks_a_tile; ++i) {
     Block block(pixels, i);
     if (block.has_open_pixels()) {
@@ -66,7 +70,7 @@ constexpr std::size_t evident_column = 7;
 /// Entries whose sums are in registers at the same time.
 constexpr std::size_t batch = lanes == 16 ? 8 : 4;
 
-// Pairs as vectors of one number have no vectors of pairs.
+// Highway's target without vectors has no pairs of lanes.
 #define TUREEN_HAS_VECTORS (HWY_TARGET != HWY_SCALAR)
 
 /// The pixel of the pair at a place of the buffer, as store_pairs() orders them.
@@ -221,6 +225,7 @@ void blend_backward_on(const ImageView& view, std::span<const GaussianEntry> ent
   const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   if (scratch.lines.size() < tile.size()) scratch.lines.resize(tile.size());
   MomentScratch::Line* lines = scratch.lines.data();
+  for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   std::memset(lines, 0, tile.size() * sizeof *lines);
   Buffers buffers{};
   for (int i = 0; i < blocks_a_tile; ++i) {
