@@ -21,6 +21,7 @@ set(arrows
   "runtime/debug_views: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "trainer/common: base image scene"
   "trainer/diffsoup: base image scene trainer/common"
+  "trainer/splats: base image scene splatting trainer/common"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"

@@ -8,14 +8,12 @@
 #include <hwy/highway.h>
 
 #include "splatting/blending-inl.hpp"
+#include "splatting/gaussian_alpha-inl.hpp"
 #include "splatting/harmonics-inl.hpp"
 #include "splatting/rotation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
-
-/// sqrt(log2(e) / 2): exp(-u^2 / 2) = 2^-(factor u)^2.
-constexpr float exponent_factor = 0.849321800f;
 
 void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians, int degree,
                           ParameterRows& projected) {
@@ -107,23 +105,6 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     store(out::blue, color.z);
   }
 }
-
-struct GaussianAlpha {
-  Floats min_log_alpha;
-
-  HWY_INLINE Mask operator()(const GaussianEntry& entry, Floats x, Floats y, Floats inverse_behind,
-                             Floats& alpha) const {
-    const Floats dx = hn::Sub(x, constant(entry.x)), dy = hn::Sub(y, constant(entry.y));
-    const Floats u = hn::MulAdd(constant(entry.p), dx, hn::Mul(constant(entry.q), dy));
-    const Floats v = hn::Mul(constant(entry.r), dy);
-    const Floats log_alpha = hn::NegMulAdd(u, u, hn::NegMulAdd(v, v, constant(entry.log_opacity)));
-    Mask covered = hn::Ge(log_alpha, min_log_alpha);
-    if (hn::AllFalse(d, covered)) return covered;
-    covered = hn::And(covered, hn::Gt(constant(entry.inverse_depth), inverse_behind));
-    alpha = exp2_of(hn::Max(log_alpha, min_log_alpha));
-    return covered;
-  }
-};
 
 void blend_gaussians_on(const ImageView& view, std::span<const GaussianEntry> entries,
                         std::span<const std::uint32_t> tile, TilePixels& pixels) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "splatting/gaussian_kernels.hpp"
+#include "splatting/gaussian_entries.hpp"
 #include "splatting/layer.hpp"
 
 namespace tureen::splatting {
@@ -22,13 +22,10 @@ class GaussianLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  struct Outline {
-    float half_width, half_height;
-  };
   int degree_;
   ParameterRows rows_, projected_;
-  std::vector<GaussianEntry> entries_;  // in the order of blending
-  std::vector<Outline> outlines_;       // of the entries
+  std::vector<GaussianEntry> entries_;     // in the order of blending
+  std::vector<GaussianOutline> outlines_;  // of the entries
 };
 
 }  // namespace tureen::splatting

@@ -56,6 +56,48 @@ HWY_INLINE void harmonics_basis(int degree, const Vector3& at, Floats (&out)[25]
   out[24] = times(0.62583573544917614f, hn::Sub(hn::Mul(xx, steep_x), hn::Mul(yy, steep_y)));
 }
 
+/// The sum of the gradients of the basis functions up to `degree` <= 3, times `weights`, at the
+/// unit direction `at`. Only its part across `at` has a meaning: the functions are defined on the
+/// sphere.
+HWY_INLINE Vector3 harmonics_slope(int degree, const Vector3& at, const Floats (&weights)[16]) {
+  const Floats zero = hn::Zero(d);
+  Vector3 sum{zero, zero, zero};
+  if (degree < 1) return sum;
+  const auto times = [](float factor, Floats value) { return hn::Mul(constant(factor), value); };
+  const Floats x = at.x, y = at.y, z = at.z;
+  const auto add = [&](Floats weight, Floats by_x, Floats by_y, Floats by_z) {
+    sum.x = hn::MulAdd(weight, by_x, sum.x);
+    sum.y = hn::MulAdd(weight, by_y, sum.y);
+    sum.z = hn::MulAdd(weight, by_z, sum.z);
+  };
+  sum.y = times(-0.48860251190291992f, weights[1]);
+  sum.z = times(0.48860251190291992f, weights[2]);
+  sum.x = times(-0.48860251190291992f, weights[3]);
+  if (degree < 2) return sum;
+  add(times(1.0925484305920792f, weights[4]), y, x, zero);
+  add(times(-1.0925484305920792f, weights[5]), zero, z, y);
+  add(times(0.63078313050504009f, weights[6]), hn::Neg(x), hn::Neg(y), hn::Add(z, z));
+  add(times(-1.0925484305920792f, weights[7]), z, zero, x);
+  add(times(1.0925484305920792f, weights[8]), x, hn::Neg(y), zero);
+  if (degree < 3) return sum;
+  const Floats xx = hn::Mul(x, x), yy = hn::Mul(y, y), zz = hn::Mul(z, z);
+  const Floats xy = hn::Mul(x, y), yz = hn::Mul(y, z), xz = hn::Mul(x, z);
+  const Floats difference = hn::Sub(xx, yy), four_zz = times(4.0f, zz);
+  const Floats twice_xy = hn::Add(xy, xy);
+  const Floats steep = times(3.0f, difference);
+  add(times(-0.59004358992664352f, weights[9]), times(6.0f, xy), steep, zero);
+  add(times(2.8906114426405538f, weights[10]), yz, xz, xy);
+  add(times(-0.45704579946446572f, weights[11]), hn::Neg(twice_xy),
+      hn::Sub(hn::Sub(four_zz, xx), times(3.0f, yy)), times(8.0f, yz));
+  add(times(1.11952899777034638f, weights[12]), times(-2.0f, xz), times(-2.0f, yz),
+      hn::Sub(hn::Add(zz, zz), hn::Add(xx, yy)));
+  add(times(-0.45704579946446572f, weights[13]), hn::Sub(hn::Sub(four_zz, yy), times(3.0f, xx)),
+      hn::Neg(twice_xy), times(8.0f, xz));
+  add(times(1.4453057213202769f, weights[14]), hn::Add(xz, xz), times(-2.0f, yz), difference);
+  add(times(-0.59004358992664352f, weights[15]), steep, times(-6.0f, xy), zero);
+  return sum;
+}
+
 /// max(0, 1/2 + sum_i Y_i c_i) for the splats from `i` on, but at most 65504, as on the device: no
 /// product with it is infinite. `coefficients` is the row of the first red one.
 HWY_INLINE Vector3 harmonics_color(int degree, const Vector3& direction, const float* coefficients,

@@ -22,6 +22,7 @@ std::pair<int, int> tiles_between(float low, float high, int count) {
 }  // namespace
 
 void TileLists::begin(int width, int height) {
+  pairs_ = 0;
   columns_ = (width + tile_side - 1) / tile_side;
   const auto rows = std::size_t((height + tile_side - 1) / tile_side);
   spans_.resize(rows);
@@ -35,8 +36,9 @@ std::pair<int, int> TileLists::rows_between(float low, float high) const {
 
 void TileLists::add(int row, float low, float high, std::uint32_t splat) {
   const auto [first, last] = tiles_between(low, high, columns_);
-  if (first < last)
-    spans_[std::size_t(row)].push_back({splat, std::uint16_t(first), std::uint16_t(last)});
+  if (first >= last) return;
+  spans_[std::size_t(row)].push_back({splat, pairs_, std::uint16_t(first), std::uint16_t(last)});
+  pairs_ += std::uint32_t(last - first);
 }
 
 void TileLists::add(const Box& box, std::uint32_t splat) {
@@ -44,7 +46,8 @@ void TileLists::add(const Box& box, std::uint32_t splat) {
   for (int row = first; row < last; ++row) add(row, box.left, box.right, splat);
 }
 
-void TileLists::finish(int row) {
+template <bool numbered>
+void TileLists::finish_row(int row) {
   const std::vector<Span>& spans = spans_[std::size_t(row)];
   Lists& lists = lists_[std::size_t(row)];
   // Lengths as sums of differences: +1 where a span begins, -1 where it ends.
@@ -61,9 +64,16 @@ void TileLists::finish(int row) {
     sum += length;
   }
   lists.splats.resize(sum);
+  if constexpr (numbered) lists.numbers.resize(sum);
   for (const Span& span : spans)
-    for (std::uint32_t column = span.first; column < span.last; ++column)
-      lists.splats[starts[column + 1]++] = span.splat;
+    for (std::uint32_t column = span.first; column < span.last; ++column) {
+      const std::uint32_t place = starts[column + 1]++;
+      lists.splats[place] = span.splat;
+      if constexpr (numbered) lists.numbers[place] = span.number + (column - span.first);
+    }
 }
+
+void TileLists::finish(int row) { finish_row<false>(row); }
+void TileLists::finish_with_numbers(int row) { finish_row<true>(row); }
 
 }  // namespace tureen::splatting

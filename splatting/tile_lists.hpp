@@ -58,8 +58,13 @@ class TileLists {
   /// Adds a splat to all tiles with pixel centres in a box.
   void add(const Box& box, std::uint32_t splat);
 
+  /// Pairs of a splat and a tile so far. The pairs of one splat have consecutive numbers.
+  std::uint32_t pairs() const { return pairs_; }
+
   /// Makes the lists of one row. Rows are independent.
   void finish(int row);
+  /// The same, and the lists of pair_numbers().
+  void finish_with_numbers(int row);
 
   /// The splats of a tile, in the order of blending.
   std::span<const std::uint32_t> tile(int column, int row) const {
@@ -67,18 +72,30 @@ class TileLists {
     return {lists.splats.data() + lists.starts[std::size_t(column)],
             lists.splats.data() + lists.starts[std::size_t(column) + 1]};
   }
+  /// The numbers of these pairs, 0 .. pairs() - 1. Needs finish_with_numbers().
+  std::span<const std::uint32_t> pair_numbers(int column, int row) const {
+    const Lists& lists = lists_[std::size_t(row)];
+    return {lists.numbers.data() + lists.starts[std::size_t(column)],
+            lists.numbers.data() + lists.starts[std::size_t(column) + 1]};
+  }
 
  private:
   /// Columns from first to last - 1.
   struct Span {
     std::uint32_t splat;
+    std::uint32_t number;  // of the pair with the first column
     std::uint16_t first, last;
   };
   struct Lists {
     std::vector<std::uint32_t> starts;  // of the columns' lists, and the end
     std::vector<std::uint32_t> splats;
+    std::vector<std::uint32_t> numbers;  // of the pairs
   };
+  template <bool numbered>
+  void finish_row(int row);
+
   int columns_ = 0;
+  std::uint32_t pairs_ = 0;
   std::vector<std::vector<Span>> spans_;  // for each row
   std::vector<Lists> lists_;              // for each row
 };

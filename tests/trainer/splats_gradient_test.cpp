@@ -1,0 +1,266 @@
+// Gradients of Gaussians: derivatives in double precision against central differences and, as
+// images, against the oracle; the vector kernels against these; the same bits with any number of
+// threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "oracle/oracle.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/gaussian_reference.hpp"
+#include "trainer/splats/gaussian_raster.hpp"
+
+namespace tureen::trainer {
+namespace splats_gradient_test {
+
+namespace row = splatting::gaussian_row;
+using test::Dual;
+using tureen::test::Random;
+
+constexpr int width = 22, height = 19;  // no multiples of a tile
+constexpr std::array<float, 3> background{0.2f, 0.5f, 0.9f};
+
+Camera camera() {
+  Camera result = look_at({0.3, -0.4, 4}, {0, 0, 0}, {0.1, 1, 0}, 0.7, width, height);
+  result.fx *= 1.1;
+  result.cx += 0.7;
+  return result;
+}
+
+/// Splats in the ball of radius 1 about the origin.
+GaussianParameters random_parameters(std::uint64_t seed, std::size_t count, int degree,
+                                     double mean_logit = 0) {
+  Random random(seed);
+  GaussianParameters result(count, degree);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto set = [&](std::size_t r, double value) { result.trained(r)[i] = float(value); };
+    const glm::dvec3 centre = random.uniform(0, 1) * random.direction();
+    for (int axis = 0; axis < 3; ++axis) {
+      set(row::x + std::size_t(axis), centre[axis]);
+      set(row::scale_x + std::size_t(axis), -1.8 + 0.6 * random.normal());
+    }
+    for (std::size_t k = 0; k < 4; ++k) set(row::rotation_x + k, 1.7 * random.normal());
+    set(row::opacity, mean_logit + random.normal());
+    for (std::size_t r = row::harmonics; r < result.rows(); ++r) set(r, 0.25 * random.normal());
+    result.activate(i);
+  }
+  return result;
+}
+
+/// The trained values, splat after splat.
+template <class Real>
+std::vector<Real> values_of(const GaussianParameters& parameters) {
+  std::vector<Real> result;
+  for (std::size_t i = 0; i < parameters.count(); ++i)
+    for (std::size_t r = 0; r < parameters.rows(); ++r)
+      result.emplace_back(double(parameters.trained(r)[i]));
+  return result;
+}
+
+/// The derivatives of a loss by the image: noise.
+std::vector<float> random_gradient(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<float> result(3 * width * height);
+  for (float& value : result) value = float(random.normal());
+  return result;
+}
+
+/// The derivative of sum(image . gradient) by each value.
+std::vector<double> reference_gradient(const GaussianParameters& parameters, int degree,
+                                       const std::vector<float>& gradient) {
+  std::vector<Dual> values = values_of<Dual>(parameters);
+  std::vector<double> result;
+  for (Dual& variable : values) {
+    variable.slope = 1;
+    const std::vector<Dual> image =
+        test::reference_image(values, parameters.rows(), degree, camera(), background);
+    variable.slope = 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < image.size(); ++k) sum += image[k].slope * double(gradient[k]);
+    result.push_back(sum);
+  }
+  return result;
+}
+
+/// Of the kernels, splat after splat.
+std::vector<float> kernel_gradient(const GaussianParameters& parameters, int degree,
+                                   const std::vector<float>& gradient, int threads = 1) {
+  ThreadPool pool(threads);
+  GaussianRaster raster(pool);
+  std::vector<float> planes(gradient.size());
+  raster.forward(parameters, camera(), degree, background, planes);
+  const GaussianBackwardInput input = raster.backward(planes, gradient);
+  splatting::ParameterRows rows(parameters.rows(), parameters.count());
+  gaussian_gradients(input, parameters, 0, parameters.count(), rows);
+  std::vector<float> result;
+  for (std::size_t i = 0; i < parameters.count(); ++i)
+    for (std::size_t r = 0; r < parameters.rows(); ++r) result.push_back(rows.row(r)[i]);
+  return result;
+}
+
+/// Each kind of parameter of each splat, relative to its length. Single precision gives about 1e-5
+/// through the inverse covariance and the sums over pixels; thin splats lose a digit.
+void expect_agreement(const GaussianParameters& parameters, int degree, std::uint64_t seed) {
+  const std::vector<float> by_image = random_gradient(seed);
+  const std::vector<double> expected = reference_gradient(parameters, degree, by_image);
+  const std::vector<float> actual = kernel_gradient(parameters, degree, by_image);
+  const std::size_t rows = parameters.rows();
+  std::size_t moving = 0;
+  for (std::size_t i = 0; i < parameters.count(); ++i)
+    for (const ParameterKind& kind : gaussian_parameter_kinds) {
+      double difference = 0, length = 0;
+      for (std::size_t r = kind.first; r < std::min(kind.first + kind.size, rows); ++r) {
+        const double e = expected[i * rows + r];
+        difference += std::pow(double(actual[i * rows + r]) - e, 2);
+        length += e * e;
+      }
+      moving += length > 0;
+      EXPECT_LE(std::sqrt(difference), 3e-4 * std::sqrt(length) + 1e-5)
+          << kind.name << " of splat " << i << ", seed " << seed << ", length "
+          << std::sqrt(length);
+    }
+  EXPECT_GT(moving, parameters.count()) << "too little to compare";
+}
+
+TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
+  for (const double mean_logit : {0.0, 4.0}) {  // with 4, many pixels reach the largest alpha
+    const GaussianParameters parameters = random_parameters(1, 6, 3, mean_logit);
+    const std::vector<float> by_image = random_gradient(2);
+    const std::vector<double> gradient = reference_gradient(parameters, 3, by_image);
+    std::vector<double> values = values_of<double>(parameters);
+    const auto loss = [&] {
+      const std::vector<double> image =
+          test::reference_image(values, parameters.rows(), 3, camera(), background);
+      double sum = 0;
+      for (std::size_t k = 0; k < image.size(); ++k) sum += image[k] * double(by_image[k]);
+      return sum;
+    };
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      // The error of central differences is of the order of step^2, and rounding / step: 1e-9.
+      // No pixel crosses a limit of alpha within such a step.
+      constexpr double step = 1e-6;
+      const double middle = values[k];
+      values[k] = middle + step;
+      const double above = loss();
+      values[k] = middle - step;
+      const double below = loss();
+      values[k] = middle;
+      const double difference = (above - below) / (2 * step);
+      EXPECT_NEAR(gradient[k], difference, 1e-6 * std::max(1.0, std::abs(difference)))
+          << "row " << k % parameters.rows() << ", logit " << mean_logit;
+    }
+  }
+}
+
+TEST(SplatsGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
+  const GaussianParameters parameters = random_parameters(3, 40, 3, 1);
+  Scene scene;
+  scene.layers.push_back({.primitives = parameters.splats()});
+  const OracleImage expected = render_oracle(
+      scene, {camera()}, {.background = glm::vec3(background[0], background[1], background[2])});
+  const std::vector<double> image = test::reference_image(
+      values_of<double>(parameters), parameters.rows(), 3, camera(), background);
+  for (std::size_t pixel = 0; pixel < expected.color.pixels.size(); ++pixel)
+    for (std::size_t c = 0; c < 3; ++c)
+      // Scales, rotations and opacities are rounded to floats before the oracle draws.
+      EXPECT_NEAR(std::clamp(image[c * width * height + pixel], 0.0, 1.0),
+                  expected.color.pixels[pixel][int(c)], 1e-5);
+}
+
+TEST(SplatsGradient, ImagesOfTheKernelsAreThoseOfTheReference) {
+  const GaussianParameters parameters = random_parameters(4, 40, 3, 1);
+  ThreadPool pool(1);
+  GaussianRaster raster(pool);
+  std::vector<float> planes(3 * width * height);
+  raster.forward(parameters, camera(), 3, background, planes);
+  const std::vector<double> image = test::reference_image(
+      values_of<double>(parameters), parameters.rows(), 3, camera(), background);
+  for (std::size_t k = 0; k < image.size(); ++k)
+    EXPECT_NEAR(double(planes[k]), image[k], 2e-5);  // rounding; no splat is near a limit here
+}
+
+TEST(SplatsGradient, OfTheKernelsIsThatOfTheReference) {
+  for (std::uint64_t seed = 10; seed < 14; ++seed)
+    expect_agreement(random_parameters(seed, 9, 3), 3, seed);
+}
+
+/// More splats than a batch in each block, which reach the stop.
+TEST(SplatsGradient, HoldsBehindManySplats) {
+  expect_agreement(random_parameters(20, 40, 1, 1.5), 1, 20);
+}
+
+TEST(SplatsGradient, HoldsWhereAlphaIsLimited) {
+  expect_agreement(random_parameters(21, 12, 0, 5), 0, 21);
+}
+
+/// Of the harmonics of lower degrees only, if only those are drawn.
+TEST(SplatsGradient, HoldsForFewerDegrees) {
+  for (int degree = 0; degree < 3; ++degree)
+    expect_agreement(random_parameters(22, 6, 3), degree, 22);
+}
+
+TEST(SplatsGradient, OfLimitedColorsAndHiddenSplatsIsZero) {
+  GaussianParameters parameters = random_parameters(23, 3, 0);
+  parameters.trained(row::harmonics)[0] = -5;  // no red
+  parameters.trained(row::z)[1] = 3.9f;        // before the least depth
+  parameters.trained(row::opacity)[2] = -9;    // below the smallest alpha
+  for (std::size_t i = 0; i < 3; ++i) parameters.activate(i);
+  const std::vector<float> gradient = kernel_gradient(parameters, 0, random_gradient(1));
+  const std::size_t rows = parameters.rows();
+  EXPECT_EQ(gradient[row::harmonics], 0);
+  EXPECT_NE(gradient[row::harmonics + 1], 0);
+  for (std::size_t k = rows; k < gradient.size(); ++k) EXPECT_EQ(gradient[k], 0) << k;
+  expect_agreement(parameters, 0, 23);
+}
+
+/// A centre outside of the image, beyond the margin of the Jacobian.
+TEST(SplatsGradient, HoldsBesideTheImage) {
+  GaussianParameters parameters = random_parameters(24, 2, 1, 2);
+  for (std::size_t axis = 0; axis < 3; ++axis) parameters.trained(row::scale_x + axis)[0] = 0.5f;
+  parameters.trained(row::x)[0] = 3.5f;
+  for (std::size_t i = 0; i < 2; ++i) parameters.activate(i);
+  expect_agreement(parameters, 1, 24);
+}
+
+TEST(SplatsGradient, HasTheSameBitsWithMoreThreads) {
+  const GaussianParameters parameters = random_parameters(30, 500, 2);
+  const std::vector<float> by_image = random_gradient(30);
+  const std::vector<float> one = kernel_gradient(parameters, 2, by_image, 1);
+  for (const int threads : {2, 5}) {
+    const std::vector<float> more = kernel_gradient(parameters, 2, by_image, threads);
+    EXPECT_EQ(std::memcmp(one.data(), more.data(), one.size() * sizeof(float)), 0) << threads;
+  }
+}
+
+/// One splat that is not finite neither moves nor stops the others.
+TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
+  GaussianParameters parameters = random_parameters(31, 20, 1);
+  ThreadPool pool(1);
+  GaussianRaster raster(pool);
+  std::vector<float> planes(3 * width * height);
+  raster.forward(parameters, camera(), 1, background, planes);
+  const GaussianBackwardInput input = raster.backward(planes, random_gradient(31));
+  std::vector<GaussianMoments> moments(input.moments.begin(), input.moments.end());
+  ASSERT_LT(input.pairs[7].begin, input.pairs[7].end);
+  moments[input.pairs[7].begin].xy = std::numeric_limits<float>::quiet_NaN();
+  const GaussianParameters before = parameters;
+  GaussianMemory memory(parameters);
+  const GaussianStep step{.rates = {1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f},
+                          .min_log_scale = -20,
+                          .max_log_scale = 20};
+  const GaussianBackwardInput damaged{input.view, input.degree, input.pairs, moments};
+  EXPECT_EQ(step_gaussians(damaged, step, 0, 20, parameters, memory), 1u);
+  for (std::size_t i = 0; i < 20; ++i) {
+    if (input.pairs[i].begin == input.pairs[i].end) continue;
+    EXPECT_EQ(parameters.trained(row::opacity)[i] == before.trained(row::opacity)[i], i == 7) << i;
+    // The first step of Adam is the rate.
+    if (i != 7) {
+      EXPECT_NEAR(std::abs(parameters.trained(row::x)[i] - before.trained(row::x)[i]), 1e-3, 1e-6);
+    }
+  }
+}
+
+}  // namespace splats_gradient_test
+}  // namespace tureen::trainer

@@ -1,0 +1,127 @@
+// Densification of Gaussians, and whole runs of their trainer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "trainer/splats/gaussian_trainer.hpp"
+
+namespace tureen::trainer {
+namespace splats_training_test {
+
+namespace row = splatting::gaussian_row;
+namespace statistic = gaussian_statistic;
+
+/// Splats along the x axis, longest along their y axis, opaque, evident, each with motion 1.
+struct Line {
+  GaussianParameters parameters;
+  GaussianMemory memory;
+
+  explicit Line(std::size_t count) : parameters(count, 0) {
+    for (std::size_t i = 0; i < count; ++i) {
+      parameters.trained(row::x)[i] = float(i);
+      parameters.trained(row::scale_y)[i] = 1;
+      parameters.trained(row::rotation_w)[i] = 2;
+      parameters.trained(row::opacity)[i] = 1;
+      parameters.activate(i);
+    }
+    memory = GaussianMemory(parameters);
+    for (std::size_t i = 0; i < count; ++i) {
+      memory.statistics.row(statistic::motion)[i] = 1;
+      memory.statistics.row(statistic::evident)[i] = 1;
+    }
+  }
+};
+
+TEST(SplatsDensify, SplitsAlongTheLongestAxis) {
+  Line line(3);
+  for (const std::size_t i : {0u, 2u}) line.memory.statistics.row(statistic::motion)[i] = 0;
+  Random random(1);
+  const DensifyReport report =
+      densify({.max_splats = 10, .growth = 0.4}, random, line.parameters, line.memory);
+  EXPECT_EQ(report.split, 1u);
+  ASSERT_EQ(line.parameters.count(), 4u);
+  const float reach = 0.75f * std::exp(1.0f);
+  EXPECT_FLOAT_EQ(line.parameters.trained(row::y)[1], -reach);
+  EXPECT_FLOAT_EQ(line.parameters.trained(row::y)[3], reach);
+  for (const std::size_t i : {1u, 3u}) {
+    EXPECT_FLOAT_EQ(line.parameters.trained(row::x)[i], 1);
+    EXPECT_FLOAT_EQ(line.parameters.drawn.row(row::scale_y)[i], std::exp(1.0f) / 1.8f);
+    EXPECT_FLOAT_EQ(line.parameters.drawn.row(row::scale_x)[i], 1 / 1.1f);
+    EXPECT_EQ(line.parameters.trained(row::opacity)[i], 1);
+  }
+}
+
+TEST(SplatsDensify, RelocatesDeadSplatsAndKeepsTheLimit) {
+  Line line(20);
+  line.memory.statistics.row(statistic::evident)[4] = 0;
+  line.parameters.trained(row::opacity)[5] = -5;
+  line.parameters.activate(5);
+  line.parameters.trained(row::x)[6] = std::nanf("");
+  Random random(1);
+  const DensifyReport report =
+      densify({.max_splats = 21, .growth = 0.5}, random, line.parameters, line.memory);
+  EXPECT_EQ(report.dead, 3u);
+  EXPECT_EQ(report.split, 4u);
+  EXPECT_EQ(line.parameters.count(), 21u);
+  for (const std::size_t i : {4u, 5u, 6u}) {
+    EXPECT_GT(line.parameters.drawn.row(row::opacity)[i], 0.5f);
+    EXPECT_NE(line.parameters.trained(row::y)[i], 0);  // a child of another one
+  }
+}
+
+TEST(SplatsDensify, OfDeadSplatsOnlyChangesNothing) {
+  Line line(20);
+  for (std::size_t i = 0; i < 20; ++i) line.memory.statistics.row(statistic::evident)[i] = 0;
+  Random random(1);
+  EXPECT_EQ(densify({.max_splats = 100}, random, line.parameters, line.memory).split, 0u);
+  EXPECT_EQ(line.parameters.count(), 20u);
+}
+
+/// Views of a bright disc on black, from around.
+std::vector<TrainingView> views_of_a_disc() {
+  std::vector<TrainingView> views;
+  for (int k = 0; k < 6; ++k) {
+    TrainingView& view = views.emplace_back();
+    const double turn = k * 1.05;
+    view.camera =
+        look_at({4 * std::cos(turn), 4 * std::sin(turn), 1}, {0, 0, 0}, {0, 0, 1}, 0.6, 40, 33);
+    for (int i = 0; i < 3 * 40 * 33; ++i) {
+      const int x = i % 40 - 20, y = i / 40 % 33 - 16;
+      view.target.push_back(x * x + y * y < 80 ? std::uint8_t(120 + 40 * (i / (40 * 33))) : 0);
+    }
+  }
+  return views;
+}
+
+TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<TrainingView> views = views_of_a_disc();
+  std::vector<float> images[3];
+  const int threads[] = {1, 2, 5};
+  for (int run = 0; run < 3; ++run) {
+    GaussianTrainer trainer({.steps = 150,
+                             .max_splats = 300,
+                             .first_splats = 200,
+                             .densify_every = 40,
+                             .background = {0, 0, 0}},
+                            views, {.centre = {0, 0, 0}, .half_side = 1}, threads[run]);
+    double first = 0, last = 0;
+    std::size_t quarantined = 0;
+    while (!trainer.done()) {
+      const GaussianStepReport report = trainer.step();
+      if (trainer.steps_done() <= 6) first += report.loss;
+      if (trainer.steps_done() > 144) last += report.loss;
+      quarantined += report.quarantined;
+    }
+    EXPECT_LT(last, 0.5 * first);
+    EXPECT_EQ(quarantined, 0u);
+    EXPECT_EQ(trainer.parameters().count(), 300u);
+    images[run] = trainer.render(views[0].camera);
+  }
+  for (const int run : {1, 2})
+    EXPECT_EQ(std::memcmp(images[0].data(), images[run].data(), images[0].size() * sizeof(float)),
+              0);
+}
+
+}  // namespace splats_training_test
+}  // namespace tureen::trainer

@@ -1,0 +1,65 @@
+// The parameters of Gaussians in training: one table says what each is, and how the optimiser and
+// the densifier treat it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "scene/splats.hpp"
+#include "splatting/gaussian_kernels.hpp"
+#include "splatting/parameter_rows.hpp"
+
+namespace tureen::trainer {
+
+/// The drawn value, as a function of the trained one.
+enum class Activation { identity, exponential, unit_length, sigmoid };
+
+/// What the children of a split inherit. A relocated splat is the second child of another one.
+enum class Inheritance { copied, moved_apart, shortened };
+
+/// A row of the table: the parameters gaussian_row `first` to `first` + `size` - 1.
+struct ParameterKind {
+  std::string_view name;
+  std::size_t first, size;
+  Activation activation;
+  float rate, last_rate;  // of Adam, at the first and the last step; centres: times a length
+  Inheritance inheritance;
+};
+
+/// The highest degree of harmonics that is trained.
+inline constexpr int max_trained_degree = 3;
+
+/// The table, for harmonics of the highest degree. Rates as in 3DGS (arXiv 2308.04079), for runs of
+/// about 5,000 steps.
+extern const std::array<ParameterKind, 6> gaussian_parameter_kinds;
+
+/// Values of splats. Rows are gaussian_row's, with harmonics up to `degree`.
+struct GaussianParameters {
+  /// Rows of gaussian_row whose trained values differ from the drawn ones.
+  static constexpr std::size_t first_raw = splatting::gaussian_row::scale_x;
+  static constexpr std::size_t raw_rows = splatting::gaussian_row::harmonics - first_raw;
+
+  int degree = 0;
+  splatting::ParameterRows drawn;  // after activation
+  splatting::ParameterRows raw;    // raw_rows rows: logarithms of scales, any quaternion, logits
+
+  GaussianParameters() = default;
+  GaussianParameters(std::size_t count, int degree);
+  /// Opacities are limited to [0.001, 0.999], and scales to 1e-30 or more.
+  GaussianParameters(const Gaussians& gaussians, const SplatColor& color, int degree);
+
+  std::size_t count() const { return drawn.count(); }
+  std::size_t rows() const;
+  /// The trained values of a row of gaussian_row.
+  float* trained(std::size_t row);
+  const float* trained(std::size_t row) const;
+  /// Computes the drawn values of splat `i`.
+  void activate(std::size_t i);
+
+  Splats splats() const;
+};
+
+}  // namespace tureen::trainer

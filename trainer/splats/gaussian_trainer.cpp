@@ -1,0 +1,127 @@
+#include "trainer/splats/gaussian_trainer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "trainer/splats/stopwatch.hpp"
+
+namespace tureen::trainer {
+
+namespace row = splatting::gaussian_row;
+
+namespace {
+
+constexpr std::size_t splats_a_task = 1024;
+
+/// Uniform in the cube of the region.
+GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
+                                    Random& random) {
+  GaussianParameters result(config.first_splats, config.degree);
+  const double scale =
+      0.5 * region.half_side * std::cbrt(1 / double(std::max<std::size_t>(config.first_splats, 1)));
+  for (std::size_t i = 0; i < result.count(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      result.trained(row::x + std::size_t(axis))[i] =
+          float(region.centre[axis] + region.half_side * random.uniform(-1, 1));
+      result.trained(row::scale_x + std::size_t(axis))[i] = float(std::log(scale));
+    }
+    result.trained(row::rotation_w)[i] = 1;
+    result.trained(row::opacity)[i] = std::log(config.first_opacity / (1 - config.first_opacity));
+    result.activate(i);
+  }
+  return result;
+}
+
+}  // namespace
+
+GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
+                                 const Region& region, int threads)
+    : config_(config),
+      views_(views),
+      length_(region.half_side),
+      pool_(threads),
+      raster_(pool_),
+      random_(config.seed) {
+  assert(!views.empty() && config.degree <= max_trained_degree);
+  parameters_ = random_gaussians(config_, region, random_);
+  memory_ = GaussianMemory(parameters_);
+}
+
+int GaussianTrainer::degree_now() const {
+  const int reached = int(step_ / std::max(1.0, config_.degree_steps * config_.steps));
+  return std::min(config_.degree, reached);
+}
+
+const TrainingView& GaussianTrainer::next_view() {
+  if (epoch_.empty()) epoch_ = draw(random_, views_.size(), views_.size());
+  const TrainingView& view = views_[epoch_.back()];
+  epoch_.pop_back();
+  return view;
+}
+
+GaussianStepReport GaussianTrainer::step() {
+  assert(!done());
+  const TrainingView& view = next_view();
+  const int width = view.camera.width, height = view.camera.height;
+  planes_.resize(3 * std::size_t(width) * std::size_t(height));
+  gradient_.resize(planes_.size());
+  raster_.forward(parameters_, view.camera, degree_now(),
+                  std::span<const float, 3>(config_.background), planes_);
+  GaussianStepReport report;
+  {
+    const Stopwatch watch(times().loss);
+    const ImageLoss loss = image_loss<float>({.width = width,
+                                              .height = height,
+                                              .rendered = planes_,
+                                              .target = view.target,
+                                              .ignored = view.ignored,
+                                              .l1_weight = config_.l1_weight,
+                                              .ssim_weight = config_.ssim_weight,
+                                              .gradient = gradient_},
+                                             loss_scratch_, pool_);
+    report = {.loss = loss.loss, .l1 = loss.l1, .ssim = loss.ssim, .quarantined = loss.non_finite};
+  }
+  const GaussianBackwardInput input = raster_.backward(planes_, gradient_);
+  {
+    const Stopwatch watch(times().update);
+    const double done = double(step_) / config_.steps;
+    GaussianStep step{.rates = {},
+                      .min_log_scale = float(std::log(config_.min_scale * length_)),
+                      .max_log_scale = float(std::log(config_.max_scale * length_))};
+    for (std::size_t k = 0; k < gaussian_parameter_kinds.size(); ++k) {
+      const ParameterKind& kind = gaussian_parameter_kinds[k];
+      step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
+    }
+    step.rates[0] *= float(length_);
+    const std::size_t count = parameters_.count();
+    std::vector<std::size_t> quarantined((count + splats_a_task - 1) / splats_a_task);
+    pool_.run(quarantined.size(), [&](std::size_t task) {
+      const std::size_t begin = task * splats_a_task;
+      quarantined[task] = step_gaussians(input, step, begin, std::min(begin + splats_a_task, count),
+                                         parameters_, memory_);
+    });
+    for (const std::size_t each : quarantined) report.quarantined += each;
+  }
+  ++times().steps;
+  ++step_;
+  if (step_ % config_.densify_every == 0 && step_ <= config_.densify_until * config_.steps) {
+    const Stopwatch watch(times().update);
+    const DensifyReport densified =
+        densify({.max_splats = config_.max_splats}, random_, parameters_, memory_);
+    report.dead = densified.dead;
+    report.split = densified.split;
+  }
+  return report;
+}
+
+std::vector<float> GaussianTrainer::render(const Camera& camera) {
+  const SplatTimes times = raster_.times();
+  std::vector<float> planes(3 * std::size_t(camera.width) * std::size_t(camera.height));
+  raster_.forward(parameters_, camera, config_.degree,
+                  std::span<const float, 3>(config_.background), planes);
+  raster_.times() = times;
+  return planes;
+}
+
+}  // namespace tureen::trainer

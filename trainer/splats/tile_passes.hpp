@@ -1,0 +1,38 @@
+// What the forward and backward passes of a tile exchange, for splats of any kernel.
+//
+// The backward pass blends again front to back. With the rendered colour C (background included),
+// its derivative g, and the sum S of what is behind the current splat, S = sum_{j > i} w_j c_j . g
+// + T_end background . g, a splat of weight w_i = alpha_i T_i has
+//
+//   dL/dalpha_i = T_i c_i . g - S / (1 - alpha_i)
+//
+// S begins as C . g and loses w_i c_i . g at each splat: one scalar a pixel. alpha <= max_alpha
+// < 1.
+#pragma once
+
+#include <cstdint>
+
+#include "splatting/tile_lists.hpp"
+
+namespace tureen::trainer {
+
+/// A splat that reaches this weight in some pixel is evident: its removal would change the image.
+inline constexpr float evident_weight = 0.02f;
+
+/// The splats that the forward pass blended, block by block.
+struct TileRecord {
+  static constexpr std::uint32_t evident_bit = 1u << 31;
+  /// Indices in the tile's list, perhaps with evident_bit. Room for its length times the blocks.
+  std::uint32_t* blended = nullptr;
+  std::uint32_t ends[splatting::blocks_a_tile] = {};  // of the blocks in `blended`
+};
+
+/// The input of a tile's backward pass, in the order of TilePixels.
+struct alignas(64) TileGradient {
+  float red[splatting::tile_pixels], green[splatting::tile_pixels], blue[splatting::tile_pixels];
+  float behind[splatting::tile_pixels];         // S
+  float transmittance[splatting::tile_pixels];  // 1, or negative outside the image
+  int x = 0, y = 0;                             // of the upper left pixel
+};
+
+}  // namespace tureen::trainer
