@@ -1,4 +1,4 @@
-// What lint.cpp and lint_splats.cpp share: findings in the making.
+// Counting of lint's findings, for triangles (lint.cpp) and splats (lint_splats.cpp).
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ inline Dual root(Dual x) { return {std::sqrt(x.value), 0.5 / std::sqrt(x.value) 
 inline double power(double x) { return std::exp(x); }
 inline Dual power(Dual x) { return {std::exp(x.value), std::exp(x.value) * x.slope}; }
 
-/// What all pixels of a splat share.
+/// The values of a splat that do not depend on the pixel.
 template <class Real>
 struct ReferenceSplat {
   Real x, y, inverse_xx, inverse_xy, inverse_yy, opacity;

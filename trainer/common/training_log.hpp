@@ -4,7 +4,7 @@
 //   {"step":200,"steps":10000,"seconds":14.2,"loss":0.081,"l1":0.052,"ssim":0.79,"train_psnr_db":21.3,
 //    "test_psnr_db":20.8,"triangles":15000,"it_per_second":14.1,"non_finite":0}      in one line
 //
-// The last line of a run that was told to finish also has "ended_early":true.
+// If RunControl ended the run before its last step, the last line also has "ended_early":true.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct TrainingRecord {
   std::size_t triangles = 0;
   double it_per_second = 0;    // since the previous line
   std::size_t non_finite = 0;  // numbers quarantined so far because they were not finite
-  bool ended_early = false;    // the last record of a run that was told to finish
+  bool ended_early = false;    // by RunControl; only in the last record
 };
 
 class TrainingLog {

@@ -1,5 +1,5 @@
-// The parameters of Gaussians in training: one table says what each is, and how the optimiser and
-// the densifier treat it.
+// The parameters of Gaussians in training. One table lists their names, sizes, activations, rates,
+// and their values after a split.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace tureen::trainer {
 /// The drawn value, as a function of the trained one.
 enum class Activation { identity, exponential, unit_length, sigmoid };
 
-/// What the children of a split inherit. A relocated splat is the second child of another one.
+/// The values of the children of a split. A relocated splat is the second child of another one.
 enum class Inheritance { copied, moved_apart, shortened };
 
 /// A row of the table: the parameters gaussian_row `first` to `first` + `size` - 1.

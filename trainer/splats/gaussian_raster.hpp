@@ -43,7 +43,7 @@ class GaussianRaster {
   std::size_t pairs() const { return lists_.pairs(); }
 
  private:
-  /// What the forward pass of a row of tiles leaves for the backward pass.
+  /// The results of the forward pass of a row of tiles, for the backward pass.
   struct Row {
     std::vector<std::uint32_t> blended;
     std::vector<TileRecord> records;

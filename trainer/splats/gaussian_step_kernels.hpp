@@ -31,7 +31,7 @@ struct GaussianBackwardInput {
 void gaussian_gradients(const GaussianBackwardInput& input, const GaussianParameters& parameters,
                         std::size_t begin, std::size_t end, splatting::ParameterRows& gradients);
 
-/// What Adam and the densifier remember of each splat; at first zeros.
+/// The state of Adam and of the densifier, for each splat; zeros at first.
 struct GaussianMemory {
   /// A value of row_alignment consecutive splats.
   struct alignas(64) Line {

@@ -1,4 +1,4 @@
-// What the forward and backward passes of a tile exchange, for splats of any kernel.
+// The data between the forward and backward passes of a tile, for splats of any kernel.
 //
 // The backward pass blends again front to back. With the rendered colour C (background included),
 // its derivative g, and the sum S of what is behind the current splat, S = sum_{j > i} w_j c_j . g
