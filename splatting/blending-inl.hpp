@@ -19,22 +19,31 @@ namespace tureen::splatting::HWY_NAMESPACE {
 /// Vectors that hold the pixels of a block.
 inline constexpr std::size_t parts = std::size_t(block_pixels) / lanes;
 
+/// The centres of the pixels of a tile's block, in image coordinates. (tile_x, tile_y): the tile's
+/// upper left pixel.
+HWY_INLINE void pixel_centers(int tile_x, int tile_y, int block, Floats (&x)[parts],
+                              Floats (&y)[parts]) {
+  alignas(64) constexpr float column_of[block_pixels] = {0, 1, 2, 3, 0, 1, 2, 3,
+                                                         0, 1, 2, 3, 0, 1, 2, 3};
+  alignas(64) constexpr float row_of[block_pixels] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                      2, 2, 2, 2, 3, 3, 3, 3};
+  const auto column = float(tile_x + block_side * (block % (tile_side / block_side)));
+  const auto row = float(tile_y + block_side * (block / (tile_side / block_side)));
+  for (std::size_t part = 0; part < parts; ++part) {
+    x[part] = hn::Add(hn::Load(d, column_of + part * lanes), constant(column + 0.5f));
+    y[part] = hn::Add(hn::Load(d, row_of + part * lanes), constant(row + 0.5f));
+  }
+}
+
 /// The pixels of a block, in registers. A negative transmittance closes a pixel, as in TilePixels.
 struct Block {
   Floats x[parts], y[parts], inverse_behind[parts];  // image coordinates; as TilePixels
   Floats transmittance[parts], red[parts], green[parts], blue[parts];
 
   HWY_INLINE Block(const TilePixels& pixels, int block) {
-    alignas(64) constexpr float column_of[block_pixels] = {0, 1, 2, 3, 0, 1, 2, 3,
-                                                           0, 1, 2, 3, 0, 1, 2, 3};
-    alignas(64) constexpr float row_of[block_pixels] = {0, 0, 0, 0, 1, 1, 1, 1,
-                                                        2, 2, 2, 2, 3, 3, 3, 3};
-    const auto column = float(pixels.x + block_side * (block % (tile_side / block_side)));
-    const auto row = float(pixels.y + block_side * (block / (tile_side / block_side)));
+    pixel_centers(pixels.x, pixels.y, block, x, y);
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t inside = part * lanes, at = std::size_t(block) * block_pixels + inside;
-      x[part] = hn::Add(hn::Load(d, column_of + inside), constant(column + 0.5f));
-      y[part] = hn::Add(hn::Load(d, row_of + inside), constant(row + 0.5f));
+      const std::size_t at = std::size_t(block) * block_pixels + part * lanes;
       transmittance[part] = hn::Load(d, pixels.transmittance + at);
       red[part] = hn::Load(d, pixels.red + at);
       green[part] = hn::Load(d, pixels.green + at);

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "trainer/splats/stopwatch.hpp"
+#include "trainer/common/stopwatch.hpp"
 
 namespace tureen::trainer {
 

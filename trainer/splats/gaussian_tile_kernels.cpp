@@ -151,16 +151,9 @@ struct BlockGradient {
       transmittance[parts];
 
   HWY_INLINE BlockGradient(const TileGradient& tile, int block) {
-    alignas(64) constexpr float column_of[block_pixels] = {0, 1, 2, 3, 0, 1, 2, 3,
-                                                           0, 1, 2, 3, 0, 1, 2, 3};
-    alignas(64) constexpr float row_of[block_pixels] = {0, 0, 0, 0, 1, 1, 1, 1,
-                                                        2, 2, 2, 2, 3, 3, 3, 3};
-    const auto column = float(tile.x + block_side * (block % (tile_side / block_side)));
-    const auto row = float(tile.y + block_side * (block / (tile_side / block_side)));
+    pixel_centers(tile.x, tile.y, block, x, y);
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t inside = part * lanes, at = std::size_t(block) * block_pixels + inside;
-      x[part] = hn::Add(hn::Load(d, column_of + inside), constant(column + 0.5f));
-      y[part] = hn::Add(hn::Load(d, row_of + inside), constant(row + 0.5f));
+      const std::size_t at = std::size_t(block) * block_pixels + part * lanes;
       red[part] = hn::Load(d, tile.red + at);
       green[part] = hn::Load(d, tile.green + at);
       blue[part] = hn::Load(d, tile.blue + at);

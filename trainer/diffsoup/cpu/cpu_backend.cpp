@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "trainer/common/cpu/image_loss.hpp"
 #include "trainer/common/cpu/thread_pool.hpp"
 #include "trainer/common/kernels/random.hpp"
+#include "trainer/common/stopwatch.hpp"
 #include "trainer/diffsoup/backend.hpp"
 #include "trainer/diffsoup/cpu/face_stage.hpp"
 #include "trainer/diffsoup/cpu/shading.hpp"
@@ -19,21 +19,6 @@
 namespace tureen::trainer {
 
 namespace {
-
-/// Adds the seconds of its lifetime to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() {
-    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  double& sum_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of starting a task
 
