@@ -1,5 +1,5 @@
-// Blended splats against the oracle, in centre order. The file exceeds 600 lines: one comparison and
-// its limits serve every kernel, context, target and scene.
+// Blended splats against the oracle, in centre order. The file exceeds 600 lines: one comparison
+// and its limits serve every kernel, context, target and scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
