@@ -5,19 +5,9 @@
 
 namespace tureen::splatting {
 
-void read_entry(const ParameterRows& projected, std::size_t i, GaussianEntry& entry,
-                GaussianOutline& outline) {
-  namespace row = projected_gaussian_row;
-  const auto value = [&](std::size_t which) { return projected.row(which)[i]; };
-  entry = {value(row::x),    value(row::y),           value(row::p),   value(row::q),
-           value(row::r),    value(row::log_opacity), value(row::red), value(row::green),
-           value(row::blue), 1.0f / value(row::depth)};
-  outline = {value(row::half_width), value(row::half_height)};
-}
-
-void list_gaussian(const GaussianEntry& entry, const GaussianOutline& outline, float min_log_alpha,
-                   std::uint32_t splat, TileLists& lists) {
-  const auto [half_width, half_height] = outline;
+void list_gaussian(const GaussianEntry& entry, float min_log_alpha, std::uint32_t splat,
+                   TileLists& lists) {
+  const float half_width = entry.half_width, half_height = entry.half_height;
   const auto [first, last] = lists.rows_between(entry.y - half_height, entry.y + half_height);
   if (last - first == 1) {
     lists.add(first, entry.x - half_width, entry.x + half_width, splat);

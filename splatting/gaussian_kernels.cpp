@@ -1,5 +1,6 @@
 #include "splatting/gaussian_kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -15,16 +16,51 @@
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
 
+/// The members of GaussianEntry, in their order.
+namespace entry_member {
+enum : std::size_t {
+  x,
+  y,
+  p,
+  q,
+  r,
+  log_opacity,
+  red,
+  green,
+  blue,
+  inverse_depth,
+  depth,
+  half_width,
+  half_height,
+  count
+};
+}
+
+/// The entries of a vector of splats, member by member.
+struct ProjectedVector {
+  alignas(64) float values[entry_member::count][lanes];
+
+  HWY_INLINE void write(std::span<GaussianEntry> entries) const {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const auto of = [&](std::size_t k) { return values[k][i]; };
+      entries[i] = {of(0), of(1), of(2), of(3),  of(4),  of(5), of(6),
+                    of(7), of(8), of(9), of(10), of(11), of(12)};
+    }
+  }
+};
+
 void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians, int degree,
-                          ParameterRows& projected) {
+                          std::size_t begin, std::span<GaussianEntry> entries) {
   namespace in = gaussian_row;
-  namespace out = projected_gaussian_row;
+  namespace out = entry_member;
   const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   const Floats zero = hn::Zero(d), one = constant(1.0f);
-  for (std::size_t i = 0; i < gaussians.count(); i += lanes) {
+  for (std::size_t first = 0; first < entries.size(); first += lanes) {
+    const std::size_t i = begin + first;
+    ProjectedVector result;
     const auto load = [&](std::size_t row) { return hn::Load(d, gaussians.row(row) + i); };
-    const auto store = [&](std::size_t row, Floats value) {
-      hn::Store(value, d, projected.row(row) + i);
+    const auto store = [&](std::size_t member, Floats value) {
+      hn::Store(value, d, result.values[member]);
     };
     const Vector3 offset = from_eye(view, {load(in::x), load(in::y), load(in::z)});
     const Vector3 center = product(view.view_from_layer, offset);
@@ -93,6 +129,7 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     store(out::q, hn::Neg(hn::Mul(hn::Mul(hn::Mul(xy, inverse_y), inverse_area), by_unit)));
     store(out::r, hn::Mul(hn::Mul(factor, inverse_y), by_unit));
     store(out::log_opacity, log_opacity);
+    store(out::inverse_depth, inverse_depth);
     store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
     const Floats radius = hn::Mul(hn::Div(hn::Sqrt(hn::Max(excess, zero)), factor), unit_size);
     store(out::half_width, hn::Mul(radius, hn::Sqrt(xx)));
@@ -103,6 +140,7 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     store(out::red, color.x);
     store(out::green, color.y);
     store(out::blue, color.z);
+    result.write(entries.subspan(first, std::min(lanes, entries.size() - first)));
   }
 }
 
@@ -124,8 +162,8 @@ HWY_EXPORT(blend_gaussians_on);
 HWY_EXPORT(target_name);
 
 void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
-                       ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_gaussians_on)(view, gaussians, harmonics_degree, projected);
+                       std::size_t begin, std::span<GaussianEntry> entries) {
+  HWY_DYNAMIC_DISPATCH(project_gaussians_on)(view, gaussians, harmonics_degree, begin, entries);
 }
 
 void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,

@@ -31,34 +31,18 @@ enum : std::size_t {
 };
 }
 
-/// Rows of projected Gaussians. At an offset (dx, dy) from the centre, in pixels,
+/// A projected Gaussian. At an offset (dx, dy) from the centre, in pixels,
 /// log2(alpha) = log_opacity - (p dx + q dy)^2 - (r dy)^2.
-namespace projected_gaussian_row {
-enum : std::size_t {
-  x,
-  y,
-  p,
-  q,
-  r,
-  log_opacity,
-  red,
-  green,
-  blue,   // >= 0
-  depth,  // of the centre; NaN: not drawn
-  half_width,
-  half_height,  // in pixels, of the ellipse where alpha is the smallest
-  count
-};
-}
-
-/// A projected Gaussian, as the compositing loop reads it.
 struct alignas(64) GaussianEntry {
-  float x, y, p, q, r, log_opacity, red, green, blue, inverse_depth;
+  float x, y, p, q, r, log_opacity;
+  float red, green, blue;         // >= 0
+  float inverse_depth, depth;     // of the centre; NaN: not drawn
+  float half_width, half_height;  // in pixels, of the ellipse where alpha is the smallest
 };
 
-/// `projected` has projected_gaussian_row::count rows of as many splats.
+/// Projects the splats from `begin`, a multiple of row_alignment, to entries[0] and on.
 void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
-                       ParameterRows& projected);
+                       std::size_t begin, std::span<GaussianEntry> entries);
 
 /// Blends the entries front to back into the pixels of a tile.
 void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,

@@ -23,9 +23,10 @@ class GaussianLayer final : public Layer {
 
  private:
   int degree_;
-  ParameterRows rows_, projected_;
-  std::vector<GaussianEntry> entries_;     // in the order of blending
-  std::vector<GaussianOutline> outlines_;  // of the entries
+  ParameterRows rows_;
+  std::vector<GaussianEntry> projected_;
+  std::vector<float> depths_;
+  std::vector<GaussianEntry> entries_;  // in the order of blending
 };
 
 }  // namespace tureen::splatting

@@ -47,7 +47,7 @@ void TileLists::add(const Box& box, std::uint32_t splat) {
 }
 
 template <bool numbered>
-void TileLists::finish_row(int row) {
+void TileLists::finish_row(int row, std::span<const std::uint32_t> shifts) {
   const std::vector<Span>& spans = spans_[std::size_t(row)];
   Lists& lists = lists_[std::size_t(row)];
   // Lengths as sums of differences: +1 where a span begins, -1 where it ends.
@@ -69,11 +69,14 @@ void TileLists::finish_row(int row) {
     for (std::uint32_t column = span.first; column < span.last; ++column) {
       const std::uint32_t place = starts[column + 1]++;
       lists.splats[place] = span.splat;
-      if constexpr (numbered) lists.numbers[place] = span.number + (column - span.first);
+      if constexpr (numbered)
+        lists.numbers[place] = span.number + (column - span.first) + shifts[span.splat];
     }
 }
 
-void TileLists::finish(int row) { finish_row<false>(row); }
-void TileLists::finish_with_numbers(int row) { finish_row<true>(row); }
+void TileLists::finish(int row) { finish_row<false>(row, {}); }
+void TileLists::finish_with_numbers(int row, std::span<const std::uint32_t> shifts) {
+  finish_row<true>(row, shifts);
+}
 
 }  // namespace tureen::splatting

@@ -58,13 +58,14 @@ class TileLists {
   /// Adds a splat to all tiles with pixel centres in a box.
   void add(const Box& box, std::uint32_t splat);
 
-  /// Pairs of a splat and a tile so far. The pairs of one splat have consecutive numbers.
+  /// Pairs of a splat and a tile so far. Pairs are numbered as they are added.
   std::uint32_t pairs() const { return pairs_; }
 
   /// Makes the lists of one row. Rows are independent.
   void finish(int row);
-  /// The same, and the lists of pair_numbers().
-  void finish_with_numbers(int row);
+  /// The same, and the lists of pair_numbers(): the numbers of the pairs of splat i plus shifts[i],
+  /// modulo 2^32.
+  void finish_with_numbers(int row, std::span<const std::uint32_t> shifts);
 
   /// The splats of a tile, in the order of blending.
   std::span<const std::uint32_t> tile(int column, int row) const {
@@ -72,7 +73,7 @@ class TileLists {
     return {lists.splats.data() + lists.starts[std::size_t(column)],
             lists.splats.data() + lists.starts[std::size_t(column) + 1]};
   }
-  /// The numbers of these pairs, 0 .. pairs() - 1. Needs finish_with_numbers().
+  /// The shifted numbers of these pairs. Needs finish_with_numbers().
   std::span<const std::uint32_t> pair_numbers(int column, int row) const {
     const Lists& lists = lists_[std::size_t(row)];
     return {lists.numbers.data() + lists.starts[std::size_t(column)],
@@ -92,7 +93,7 @@ class TileLists {
     std::vector<std::uint32_t> numbers;  // of the pairs
   };
   template <bool numbered>
-  void finish_row(int row);
+  void finish_row(int row, std::span<const std::uint32_t> shifts);
 
   int columns_ = 0;
   std::uint32_t pairs_ = 0;

@@ -1,14 +1,20 @@
 // Trains Gaussians on a dataset, on one core, and prints the PSNR of held-out views and the time of
 // each stage against seconds of processor time in steps. Prints JSON lines.
 //
-//   train_gaussians DATASET SCALE STEPS [SPLATS] [MARKS] [FIRST]
+//   train_gaussians DATASET SCALE [NAME=VALUE]..
+//
+// Names: steps, splats, first, degree, seed, growth, half (GaussianConfig); marks, the number of
+// lines; threads; held_out=1: leaves every eighth training view out, and measures these.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "formats/dataset/dataset.hpp"
@@ -38,16 +44,39 @@ double mean_psnr(GaussianTrainer& trainer, const std::vector<TrainingView>& view
 
 int run(int argc, char** argv) {
   GaussianConfig config;
-  config.steps = std::atoi(argv[3]);
-  if (argc > 4) config.max_splats = std::size_t(std::atoi(argv[4]));
-  const int marks = argc > 5 ? std::atoi(argv[5]) : 10;
-  if (argc > 6) config.first_splats = std::size_t(std::atoi(argv[6]));
+  std::map<std::string, double> values;
+  for (int i = 3; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::size_t at = word.find('=');
+    values[word.substr(0, at)] = std::atof(word.substr(at + 1).c_str());
+  }
+  const auto value = [&](const char* name, double otherwise) {
+    const auto found = values.extract(name);
+    return found ? found.mapped() : otherwise;
+  };
+  config.steps = int(value("steps", config.steps));
+  config.max_splats = std::size_t(value("splats", double(config.max_splats)));
+  config.first_splats = std::size_t(value("first", double(config.first_splats)));
+  config.degree = int(value("degree", config.degree));
+  config.seed = std::uint64_t(value("seed", 0));
+  config.growth = value("growth", config.growth);
+  config.half_size_until = value("half", config.half_size_until);
+  const int marks = int(value("marks", 10)), threads = int(value("threads", 1));
+  const bool held_out = value("held_out", 0) != 0;
+  if (!values.empty()) throw std::runtime_error("unknown name: " + values.begin()->first);
   Dataset dataset = read_dataset(argv[1], {.scale = std::atof(argv[2])});
   const Region region = region_of_interest(dataset);
   const std::span<const float, 3> background(config.background);
+  if (held_out) {
+    dataset.test.clear();
+    std::vector<Photograph> rest;
+    for (std::size_t i = 0; i < dataset.train.size(); ++i)
+      (i % 8 == 0 ? dataset.test : rest).push_back(std::move(dataset.train[i]));
+    dataset.train = std::move(rest);
+  }
   const std::vector<TrainingView> train = take_training_views(dataset.train, background);
   const std::vector<TrainingView> test = take_training_views(dataset.test, background);
-  GaussianTrainer trainer(config, train, region, 1);
+  GaussianTrainer trainer(config, train, region, threads);
   double seconds = 0, loss = 0;
   std::size_t quarantined = 0, dead = 0;
   while (!trainer.done()) {
@@ -91,8 +120,8 @@ int run(int argc, char** argv) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "train_gaussians DATASET SCALE STEPS [SPLATS] [MARKS] [FIRST]\n");
+  if (argc < 3) {
+    std::fprintf(stderr, "train_gaussians DATASET SCALE [NAME=VALUE]..\n");
     return 2;
   }
   try {

@@ -40,4 +40,32 @@ std::vector<TrainingView> take_training_views(std::vector<Photograph>& photograp
   return views;
 }
 
+TrainingView halved(const TrainingView& view) {
+  const auto from_width = std::size_t(view.camera.width),
+             from_height = std::size_t(view.camera.height);
+  TrainingView result{.camera = view.camera, .target = {}, .ignored = {}};
+  Camera& camera = result.camera;
+  camera.width /= 2;
+  camera.height /= 2;
+  for (double* length : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *length /= 2;
+  const auto width = std::size_t(camera.width), height = std::size_t(camera.height);
+  assert(width > 0 && height > 0);
+  const auto for_each_four = [&](const std::vector<std::uint8_t>& from, std::size_t plane,
+                                 std::vector<std::uint8_t>& to, const auto& of_four) {
+    for (std::size_t y = 0; y < height; ++y)
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::uint8_t* four = from.data() + (plane * from_height + 2 * y) * from_width + 2 * x;
+        to.push_back(
+            std::uint8_t(of_four(four[0], four[1], four[from_width], four[from_width + 1])));
+      }
+  };
+  for (std::size_t plane = 0; plane < 3; ++plane)
+    for_each_four(view.target, plane, result.target,
+                  [](int a, int b, int c, int e) { return (a + b + c + e + 2) / 4; });
+  if (!view.ignored.empty())
+    for_each_four(view.ignored, 0, result.ignored,
+                  [](int a, int b, int c, int e) { return a | b | c | e; });
+  return result;
+}
+
 }  // namespace tureen::trainer

@@ -1,5 +1,7 @@
 #include "trainer/splats/gaussian_raster.hpp"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -39,37 +41,54 @@ void for_each_run(int x, int y, int width, int height, const Act& act) {
 
 void GaussianRaster::project(const GaussianParameters& parameters) {
   const Stopwatch watch(times_.projection);
-  if (projected_.count() != parameters.count())
-    projected_ =
-        splatting::ParameterRows(splatting::projected_gaussian_row::count, parameters.count());
-  splatting::project_gaussians(view_, parameters.drawn, degree_, projected_);
+  const std::size_t count = parameters.count();
+  entries_.resize(count);
+  pool_.run((count + splats_a_task - 1) / splats_a_task, [&](std::size_t task) {
+    const std::size_t begin = task * splats_a_task;
+    splatting::project_gaussians(
+        view_, parameters.drawn, degree_, begin,
+        std::span(entries_).subspan(begin, std::min(splats_a_task, count - begin)));
+  });
 }
 
-void GaussianRaster::make_lists(std::size_t count) {
+void GaussianRaster::make_lists() {
   const Stopwatch watch(times_.lists);
   keys_.clear();
-  const float* depths = projected_.row(splatting::projected_gaussian_row::depth);
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (std::isfinite(depths[i])) keys_.push_back({sort_key(depths[i]), i});
+  for (std::uint32_t i = 0; i < entries_.size(); ++i)
+    if (std::isfinite(entries_[i].depth)) keys_.push_back({sort_key(entries_[i].depth), i});
   radix_sort(keys_, scratch_);
 
   const float min_log_alpha = std::log2(view_.min_alpha);
   lists_.begin(view_.width, view_.height);
-  entries_.resize(keys_.size());
-  ranges_.assign(count, {0, 0});
-  for (std::uint32_t place = 0; place < keys_.size(); ++place) {
+  ranges_.assign(entries_.size(), {0, 0});
+  for (std::size_t place = 0; place < keys_.size(); ++place) {
+    // Neighbours in the order are not so in memory.
+    if (place + 8 < keys_.size()) hwy::Prefetch(&entries_[keys_[place + 8].index]);
     const std::uint32_t splat = keys_[place].index;
-    splatting::GaussianOutline outline;
-    splatting::read_entry(projected_, splat, entries_[place], outline);
     const std::uint32_t begin = lists_.pairs();
-    splatting::list_gaussian(entries_[place], outline, min_log_alpha, place, lists_);
+    splatting::list_gaussian(entries_[splat], min_log_alpha, splat, lists_);
     ranges_[splat] = {begin, lists_.pairs()};
   }
+  // Renumbers the pairs in the order of the splats in memory, in which their moments are read.
+  shifts_.resize(entries_.size());
+  std::uint32_t pairs = 0;
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const auto [begin, end] = ranges_[i];
+    shifts_[i] = pairs - begin;
+    ranges_[i] = {pairs, pairs + (end - begin)};
+    pairs += end - begin;
+  }
+}
+
+/// Reads the entries of a tile into the cache, while the tile before it is drawn: each is a miss.
+void GaussianRaster::prefetch(int column, int row) const {
+  if (column >= lists_.columns()) return;
+  for (const std::uint32_t splat : lists_.tile(column, row)) hwy::Prefetch(&entries_[splat]);
 }
 
 void GaussianRaster::draw_row(int row, std::span<const float, 3> background,
                               std::span<float> planes) {
-  lists_.finish_with_numbers(row);
+  lists_.finish_with_numbers(row, shifts_);
   Row& kept = rows_[std::size_t(row)];
   kept.records.resize(std::size_t(lists_.columns()));
   std::size_t listed = 0;
@@ -78,7 +97,9 @@ void GaussianRaster::draw_row(int row, std::span<const float, 3> background,
   kept.blended.resize(listed * blocks_a_tile + 1);  // one place is written but not used
   std::uint32_t* blended = kept.blended.data();
   const std::size_t pixels_a_plane = planes.size() / 3;
+  prefetch(0, row);
   for (int column = 0; column < lists_.columns(); ++column) {
+    prefetch(column + 1, row);
     splatting::TilePixels pixels{};
     pixels.x = column * tile_side;
     pixels.y = row * tile_side;
@@ -111,7 +132,7 @@ void GaussianRaster::forward(const GaussianParameters& parameters, const Camera&
   view_ = splatting::image_view(camera, camera.eye(), near_plane, *profile_named("3dgs"), camera);
   degree_ = std::min(degree, parameters.degree);
   project(parameters);
-  make_lists(parameters.count());
+  make_lists();
   const Stopwatch watch(times_.forward);
   rows_.resize(std::size_t(lists_.rows()));
   pool_.run(rows_.size(), [&](std::size_t row) { draw_row(int(row), background, planes); });
@@ -121,7 +142,9 @@ void GaussianRaster::draw_row_backward(int row, std::span<const float> planes,
                                        std::span<const float> gradient) {
   Row& kept = rows_[std::size_t(row)];
   const std::size_t pixels_a_plane = planes.size() / 3;
+  prefetch(0, row);
   for (int column = 0; column < lists_.columns(); ++column) {
+    prefetch(column + 1, row);
     if (lists_.tile(column, row).empty()) continue;
     TileGradient tile{};
     tile.x = column * tile_side;

@@ -25,6 +25,9 @@ struct SplatTimes {
   double total() const { return projection + lists + forward + loss + backward + update; }
 };
 
+/// Threads share splats in groups of this many, a multiple of splatting::row_alignment.
+inline constexpr std::size_t splats_a_task = 1024;
+
 class GaussianRaster {
  public:
   explicit GaussianRaster(ThreadPool& pool) : pool_(pool) {}
@@ -50,17 +53,18 @@ class GaussianRaster {
     MomentScratch scratch;
   };
   void project(const GaussianParameters& parameters);
-  void make_lists(std::size_t count);
+  void make_lists();
+  void prefetch(int column, int row) const;
   void draw_row(int row, std::span<const float, 3> background, std::span<float> planes);
   void draw_row_backward(int row, std::span<const float> planes, std::span<const float> gradient);
 
   ThreadPool& pool_;
   splatting::ImageView view_{};
   int degree_ = 0;
-  splatting::ParameterRows projected_;
+  std::vector<splatting::GaussianEntry> entries_;
   std::vector<KeyedIndex> keys_, scratch_;
-  std::vector<splatting::GaussianEntry> entries_;  // in the order of blending
-  std::vector<PairRange> ranges_;                  // of each splat
+  std::vector<PairRange> ranges_;      // of each splat
+  std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
   splatting::TileLists lists_;
   std::vector<Row> rows_;
   std::vector<GaussianMoments> moments_;  // of the pairs

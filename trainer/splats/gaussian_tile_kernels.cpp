@@ -5,7 +5,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trainer/splats/gaussian_tile_kernels.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -25,34 +24,76 @@ using splatting::place_mask;
 using splatting::tile_side;
 using splatting::TilePixels;
 
+/// Entries that are tested together for the pixels of a block.
+constexpr std::size_t tested_batch = 16;
+
+/// The entries of a batch that cover an open pixel of a block.
+struct Covering {
+  alignas(64) float log_alpha[tested_batch][block_pixels];
+  std::uint32_t place[tested_batch];  // in the tile's list
+  std::size_t count = 0;
+};
+
+/// Without branches: whether an entry covers a block is hard to predict.
+HWY_INLINE void find_covering(std::span<const GaussianEntry> entries,
+                              std::span<const std::uint32_t> tile, std::size_t begin,
+                              Floats min_log_alpha, const Block& block, Covering& covering) {
+  Mask open[parts];
+  for (std::size_t part = 0; part < parts; ++part)
+    open[part] = hn::Gt(block.transmittance[part], hn::Zero(d));
+  covering.count = 0;
+  const std::size_t end = std::min(begin + tested_batch, tile.size());
+  for (std::size_t k = begin; k < end; ++k) {
+    const GaussianEntry& entry = entries[tile[k] & place_mask];
+    Floats largest = constant(-1e30f);  // of the open pixels
+    for (std::size_t part = 0; part < parts; ++part) {
+      const Floats log_alpha = log_alpha_of(entry, block.x[part], block.y[part]);
+      largest = hn::IfThenElse(open[part], hn::Max(largest, log_alpha), largest);
+      hn::Store(log_alpha, d, covering.log_alpha[covering.count] + part * lanes);
+    }
+    covering.place[covering.count] = std::uint32_t(k);
+    covering.count += !hn::AllFalse(d, hn::Ge(largest, min_log_alpha));
+  }
+}
+
 void blend_recorded_on(const ImageView& view, std::span<const GaussianEntry> entries,
                        std::span<const std::uint32_t> tile, TilePixels& pixels,
                        TileRecord& record) {
   const Floats max_alpha = constant(view.max_alpha), stop = constant(view.stop_transmittance);
-  const Floats evident = constant(evident_weight);
-  const GaussianAlpha alpha_of{constant(std::log2(view.min_alpha))};
+  const Floats evident = constant(evident_weight), zero = hn::Zero(d);
+  const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   std::uint32_t* end = record.blended;
-  // Splats that are neighbours in the order are not so in the image: each is a cache miss.
-  for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   for (int i = 0; i < blocks_a_tile; ++i) {
     Block block(pixels, i);
-    if (block.has_open_pixels()) {
-      for (std::uint32_t k = 0; k < tile.size(); ++k) {
+    Covering covering;
+    for (std::size_t begin = 0; begin < tile.size() && block.has_open_pixels();
+         begin += tested_batch) {
+      find_covering(entries, tile, begin, min_log_alpha, block, covering);
+      for (std::size_t e = 0; e < covering.count; ++e) {
+        const GaussianEntry& entry = entries[tile[covering.place[e]] & place_mask];
+        Floats largest = zero;  // weight
+        for (std::size_t part = 0; part < parts; ++part) {
+          Floats& transmittance = block.transmittance[part];
+          const Floats log_alpha = hn::Load(d, covering.log_alpha[e] + part * lanes);
+          Mask blended = hn::And(hn::Ge(log_alpha, min_log_alpha), hn::Gt(transmittance, zero));
+          const Floats alpha = hn::Min(exp2_of(hn::Max(log_alpha, min_log_alpha)), max_alpha);
+          const Floats behind = hn::NegMulAdd(alpha, transmittance, transmittance);
+          const Mask ends = hn::And(blended, hn::Lt(behind, stop));
+          blended = hn::AndNot(ends, blended);
+          const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
+          block.red[part] = hn::MulAdd(weight, constant(entry.red), block.red[part]);
+          block.green[part] = hn::MulAdd(weight, constant(entry.green), block.green[part]);
+          block.blue[part] = hn::MulAdd(weight, constant(entry.blue), block.blue[part]);
+          transmittance = hn::IfThenElse(blended, behind, transmittance);
+          transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
+          largest = hn::Max(largest, weight);
+        }
         // An entry that only closes pixels is recorded, too: the backward pass repeats this.
-        bool changes = false;
-        std::uint32_t bit = 0;
-        const bool closes = blend_entry(entries[tile[k] & place_mask], alpha_of, max_alpha, stop,
-                                        block, [&](Floats weight) {
-                                          changes = true;
-                                          if (!hn::AllFalse(d, hn::Ge(weight, evident)))
-                                            bit = TileRecord::evident_bit;
-                                        });
-        *end = k | bit;
-        end += changes;
-        if (closes && !block.has_open_pixels()) break;
+        *end++ = covering.place[e] |
+                 (hn::AllFalse(d, hn::Ge(largest, evident)) ? 0u : TileRecord::evident_bit);
       }
-      block.store(pixels, i);
     }
+    block.store(pixels, i);
     record.ends[i] = std::uint32_t(end - record.blended);
   }
 }
@@ -217,7 +258,6 @@ void blend_backward_on(const ImageView& view, std::span<const GaussianEntry> ent
   const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   if (scratch.lines.size() < tile.size()) scratch.lines.resize(tile.size());
   MomentScratch::Line* lines = scratch.lines.data();
-  for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   std::memset(lines, 0, tile.size() * sizeof *lines);
   Buffers buffers{};
   for (int i = 0; i < blocks_a_tile; ++i) {

@@ -12,8 +12,6 @@ namespace row = splatting::gaussian_row;
 
 namespace {
 
-constexpr std::size_t splats_a_task = 1024;
-
 /// Uniform in the cube of the region.
 GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
                                     Random& random) {
@@ -55,7 +53,11 @@ int GaussianTrainer::degree_now() const {
 
 const TrainingView& GaussianTrainer::next_view() {
   if (epoch_.empty()) epoch_ = draw(random_, views_.size(), views_.size());
-  const TrainingView& view = views_[epoch_.back()];
+  const bool half = step_ < config_.half_size_until * config_.steps;
+  if (half && half_views_.empty())
+    for (const TrainingView& each : views_) half_views_.push_back(halved(each));
+  if (!half) half_views_ = {};
+  const TrainingView& view = half ? half_views_[epoch_.back()] : views_[epoch_.back()];
   epoch_.pop_back();
   return view;
 }
@@ -108,7 +110,8 @@ GaussianStepReport GaussianTrainer::step() {
   if (step_ % config_.densify_every == 0 && step_ <= config_.densify_until * config_.steps) {
     const Stopwatch watch(times().update);
     const DensifyReport densified =
-        densify({.max_splats = config_.max_splats}, random_, parameters_, memory_);
+        densify({.max_splats = config_.max_splats, .growth = config_.growth}, random_, parameters_,
+                memory_);
     report.dead = densified.dead;
     report.split = densified.split;
   }

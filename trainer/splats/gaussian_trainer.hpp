@@ -25,6 +25,9 @@ struct GaussianConfig {
   double degree_steps = 0.1;
   int densify_every = 200;
   double densify_until = 0.8;  // fraction of the steps
+  double growth = 0.15;        // of the number of splats at each densification
+  /// Images have half their width and height until this fraction of the steps.
+  double half_size_until = 0.0;
   float background[3] = {1, 1, 1};
   /// 0.8 L1 + 0.2 (1 - SSIM) as in 3DGS.
   float l1_weight = 0.8f, ssim_weight = 0.4f;
@@ -62,6 +65,7 @@ class GaussianTrainer {
 
   GaussianConfig config_;
   std::span<const TrainingView> views_;
+  std::vector<TrainingView> half_views_;
   double length_;  // half side of the region
   ThreadPool pool_;
   GaussianRaster raster_;
