@@ -78,6 +78,27 @@ TEST(SplatsDensify, OfDeadSplatsOnlyChangesNothing) {
   EXPECT_EQ(line.parameters.count(), 20u);
 }
 
+TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
+  Line line(40);
+  for (std::size_t i = 0; i < 40; ++i) {
+    line.parameters.trained(row::x)[i] = float(i * 7 % 40);
+    line.memory.statistics.row(statistic::motion)[i] = float(i * 7 % 40);
+    line.parameters.trained(row::opacity)[i] = float(i * 7 % 40);
+    line.parameters.activate(i);
+    line.memory.moments[2 * line.parameters.rows() * (i / 16) + 5].values[i % 16] =
+        float(i * 7 % 40);
+  }
+  sort_in_memory(line.parameters, line.memory);
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(line.parameters.trained(row::x)[i], float(i));
+    EXPECT_EQ(line.parameters.trained(row::opacity)[i], float(i));
+    EXPECT_FLOAT_EQ(line.parameters.drawn.row(row::opacity)[i], 1 / (1 + std::exp(-float(i))));
+    EXPECT_EQ(line.memory.statistics.row(statistic::motion)[i], float(i));
+    EXPECT_EQ(line.memory.moments[2 * line.parameters.rows() * (i / 16) + 5].values[i % 16],
+              float(i));
+  }
+}
+
 /// Views of a bright disc on black, from around.
 std::vector<TrainingView> views_of_a_disc() {
   std::vector<TrainingView> views;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "scene/edit/morton_order.hpp"
+
 namespace tureen::trainer {
 
 namespace row = splatting::gaussian_row;
@@ -127,6 +129,33 @@ DensifyReport densify(const DensifyOptions& options, Random& random, GaussianPar
   for (const std::size_t which : {statistic::motion, statistic::evident})
     std::fill_n(memory.statistics.row(which), parameters.count(), 0.0f);
   return report;
+}
+
+void sort_in_memory(GaussianParameters& parameters, GaussianMemory& memory) {
+  const std::vector<std::uint32_t> order = morton_order(parameters.count(), [&](std::size_t i) {
+    return glm::dvec3(parameters.trained(row::x)[i], parameters.trained(row::y)[i],
+                      parameters.trained(row::z)[i]);
+  });
+  GaussianParameters sorted(parameters.count(), parameters.degree);
+  GaussianMemory sorted_memory(sorted);
+  const auto move = [&](const float* from, float* to) {
+    for (std::size_t i = 0; i < order.size(); ++i) to[i] = from[order[i]];
+  };
+  const std::size_t rows = parameters.rows();
+  for (std::size_t r = 0; r < rows; ++r) {
+    move(parameters.trained(r), sorted.trained(r));
+    move(parameters.drawn.row(r), sorted.drawn.row(r));
+  }
+  for (std::size_t which = 0; which < statistic::count; ++which)
+    move(memory.statistics.row(which), sorted_memory.statistics.row(which));
+  const auto moment = [rows](GaussianMemory& of, std::size_t line, std::size_t i) -> float& {
+    return of.moments[2 * rows * (i / block) + line].values[i % block];
+  };
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t line = 0; line < 2 * rows; ++line)
+      moment(sorted_memory, line, i) = moment(memory, line, order[i]);
+  parameters = std::move(sorted);
+  memory = std::move(sorted_memory);
 }
 
 }  // namespace tureen::trainer

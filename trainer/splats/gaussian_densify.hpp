@@ -31,4 +31,8 @@ struct DensifyReport {
 DensifyReport densify(const DensifyOptions& options, Random& random, GaussianParameters& parameters,
                       GaussianMemory& memory);
 
+/// Moves splats that are neighbours in space together in memory, along the Morton curve: the splats
+/// of a tile are then in few pages.
+void sort_in_memory(GaussianParameters& parameters, GaussianMemory& memory);
+
 }  // namespace tureen::trainer

@@ -1,5 +1,6 @@
 #include "trainer/splats/gaussian_tile_kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -271,7 +272,9 @@ void blend_backward_on(const ImageView& view, std::span<const GaussianEntry> ent
       for (std::size_t e = 0; e < count; ++e) {
         const std::uint32_t blended = record.blended[first + e];
         of[e] = blended & ~TileRecord::evident_bit;
-        if (blended & TileRecord::evident_bit) lines[of[e]].values[evident_column] = 1;
+        // Without a branch, which would be hard to predict.
+        float& is_evident = lines[of[e]].values[evident_column];
+        is_evident = std::max(is_evident, blended & TileRecord::evident_bit ? 1.0f : 0.0f);
         replay(view, entries[tile[of[e]] & place_mask], min_log_alpha, block, buffers.pairs[e]);
       }
       add_sums(buffers, of, count, lines);

@@ -112,6 +112,7 @@ GaussianStepReport GaussianTrainer::step() {
     const DensifyReport densified =
         densify({.max_splats = config_.max_splats, .growth = config_.growth}, random_, parameters_,
                 memory_);
+    sort_in_memory(parameters_, memory_);
     report.dead = densified.dead;
     report.split = densified.split;
   }
