@@ -37,6 +37,11 @@ inline Dual root(Dual x) { return {std::sqrt(x.value), 0.5 / std::sqrt(x.value) 
 inline double power(double x) { return std::exp(x); }
 inline Dual power(Dual x) { return {std::exp(x.value), std::exp(x.value) * x.slope}; }
 
+/// The branches that a drawing took, in order: one letter each. n: nearer than the profile allows;
+/// c, per axis: the Jacobian's slope is limited; a: alpha below the smallest; m: alpha limited to
+/// the largest; s: the pixel is closed; '.': none of these.
+using Branches = std::vector<char>;
+
 /// The values of a splat that do not depend on the pixel.
 template <class Real>
 struct ReferenceSplat {
@@ -47,7 +52,8 @@ struct ReferenceSplat {
 
 /// `p` are the trained values of a splat, in the order of gaussian_row.
 template <class Real>
-ReferenceSplat<Real> reference_projection(const Real* p, int degree, const Camera& camera) {
+ReferenceSplat<Real> reference_projection(const Real* p, int degree, const Camera& camera,
+                                          Branches& branches) {
   namespace row = splatting::gaussian_row;
   ReferenceSplat<Real> result;
   const glm::dvec3 eye = camera.eye();
@@ -64,7 +70,8 @@ ReferenceSplat<Real> reference_projection(const Real* p, int degree, const Camer
   result.depth = value_of(z);
   result.x = Real(camera.fx) * x / z + Real(camera.cx);
   result.y = Real(camera.fy) * y / z + Real(camera.cy);
-  const auto clamped = [](Real slope, double low, double high) {
+  const auto clamped = [&](Real slope, double low, double high) {
+    branches.push_back(value_of(slope) < low || value_of(slope) > high ? 'c' : '.');
     return value_of(slope) < low ? Real(low) : value_of(slope) > high ? Real(high) : slope;
   };
   const double margin_x = ewa_margin * camera.width, margin_y = ewa_margin * camera.height;
@@ -109,12 +116,16 @@ ReferenceSplat<Real> reference_projection(const Real* p, int degree, const Camer
 /// splat.
 template <class Real>
 std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, int degree,
-                                  const Camera& camera, const std::array<float, 3>& background) {
+                                  const Camera& camera, const std::array<float, 3>& background,
+                                  Branches* taken = nullptr) {
   const SplatProfile profile = *profile_named("3dgs");
   std::vector<ReferenceSplat<Real>> splats;
+  Branches branches;
   for (std::size_t first = 0; first < p.size(); first += rows) {
-    const ReferenceSplat<Real> splat = reference_projection(&p[first], degree, camera);
-    if (splat.depth > double(profile.min_center_depth)) splats.push_back(splat);
+    const ReferenceSplat<Real> splat = reference_projection(&p[first], degree, camera, branches);
+    const bool near = !(splat.depth > double(profile.min_center_depth));
+    branches.push_back(near ? 'n' : '.');
+    if (!near) splats.push_back(splat);
   }
   std::stable_sort(splats.begin(), splats.end(),
                    [](const auto& a, const auto& b) { return a.depth < b.depth; });
@@ -130,16 +141,25 @@ std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, 
       const Real q = splat.inverse_xx * dx * dx + Real(2) * splat.inverse_xy * dx * dy +
                      splat.inverse_yy * dy * dy;
       Real alpha = splat.opacity * power(Real(-0.5) * q);
+      branches.push_back('a');
       if (value_of(alpha) < double(profile.min_alpha)) continue;
-      if (value_of(alpha) > double(profile.max_alpha)) alpha = Real(double(profile.max_alpha));
+      branches.back() = '.';
+      if (value_of(alpha) > double(profile.max_alpha)) {
+        alpha = Real(double(profile.max_alpha));
+        branches.back() = 'm';
+      }
       const Real after = left * (Real(1) - alpha);
-      if (value_of(after) < double(profile.stop_transmittance)) break;
+      if (value_of(after) < double(profile.stop_transmittance)) {
+        branches.back() = 's';
+        break;
+      }
       for (std::size_t c = 0; c < 3; ++c) color[c] = color[c] + alpha * left * splat.color[c];
       left = after;
     }
     for (std::size_t c = 0; c < 3; ++c)
       planes[c * pixels + pixel] = color[c] + left * Real(double(background[c]));
   }
+  if (taken) *taken = std::move(branches);
   return planes;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 
 #include "oracle/oracle.hpp"
 #include "tests/support/random.hpp"
@@ -152,6 +153,68 @@ TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
           << "row " << k % parameters.rows() << ", logit " << mean_logit;
     }
   }
+}
+
+/// At both sides of each branch, the derivative is that of one-sided differences.
+TEST(SplatsGradient, OfTheReferenceHoldsAtBranches) {
+  const GaussianParameters parameters = random_parameters(7, 14, 1, 3.5);
+  const std::vector<float> by_image = random_gradient(8);
+  const std::vector<double> start = values_of<double>(parameters);
+  test::Branches branches;
+  const auto loss = [&](std::size_t k, auto value) {
+    std::vector<decltype(value)> values(start.begin(), start.end());
+    values[k] = value;
+    const auto image =
+        test::reference_image(values, parameters.rows(), 1, camera(), background, &branches);
+    decltype(value) sum = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) sum = sum + image[i] * double(by_image[i]);
+    return sum;
+  };
+  std::string met;  // the letters that changed at some branch
+  const auto expect_both_sides = [&](std::size_t k, double low, double high) {
+    loss(k, low);
+    const test::Branches before = branches;
+    loss(k, high);
+    if (branches == before) return;
+    while (high - low > 1e-13 * std::max(1.0, std::abs(low))) {
+      const double middle = 0.5 * (low + high);
+      if (middle <= low || middle >= high) break;
+      loss(k, middle);
+      (branches == before ? low : high) = middle;
+    }
+    loss(k, high);
+    for (std::size_t i = 0; i < std::min(before.size(), branches.size()); ++i)
+      if (before[i] != branches[i]) {
+        met += {before[i], branches[i]};
+        break;
+      }
+    for (const double side : {low, high}) {
+      // The error of these differences is of the order of step^2, and rounding / step: 1e-8.
+      const double step = side == low ? -1e-6 : 1e-6;
+      loss(k, side);
+      const test::Branches here = branches;
+      const double at = loss(k, side), next = loss(k, side + step);
+      const double after = loss(k, side + 2 * step);
+      if (branches != here) continue;  // another branch is as near
+      const double difference = (4 * next - 3 * at - after) / (2 * step);
+      EXPECT_NEAR(loss(k, Dual(side, 1)).slope, difference,
+                  1e-6 * std::max(1.0, std::abs(difference)))
+          << "value " << k << " at " << side;
+    }
+  };
+  const auto scan = [&](std::size_t k, double low, double high, int intervals) {
+    for (int i = 0; i < intervals; ++i)
+      expect_both_sides(k, low + (high - low) * i / intervals,
+                        low + (high - low) * (i + 1) / intervals);
+  };
+  const std::size_t rows = parameters.rows();
+  for (std::size_t splat = 0; splat < 6; ++splat) {
+    scan(splat * rows + row::opacity, -7, 7, 40);
+    scan(splat * rows + row::z, 3, 4, 20);  // through the smallest depth
+    scan(splat * rows + row::x, 0, 5, 20);  // out of the image
+  }
+  for (const char branch : {'n', 'c', 'a', 'm', 's'})
+    EXPECT_NE(met.find(branch), std::string::npos) << branch;
 }
 
 TEST(SplatsGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
