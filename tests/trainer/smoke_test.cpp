@@ -15,6 +15,7 @@
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
 #include "trainer/diffsoup/initialise.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 #include "trainer/diffsoup/training.hpp"
 
 namespace tureen::trainer {

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "scene/edit/lattice_bytes.hpp"
+#include "trainer/common/held_out.hpp"
 #include "trainer/common/training_views.hpp"
-#include "trainer/diffsoup/held_out.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
 
@@ -55,6 +56,37 @@ Scene scene_of(const std::string& name, const Dataset& dataset, const Config& co
   return scene;
 }
 
+/// A Trainer for a session. `run`: configuration and views for the checkpoints.
+class SoupRun final : public Trainable {
+ public:
+  SoupRun(Trainer& trainer, Checkpoint run) : trainer_(trainer), run_(std::move(run)) {
+    run_.state = {};
+  }
+
+  int steps() const override { return trainer_.config().steps; }
+  int steps_done() const override { return trainer_.steps_done(); }
+  StepReport step() override { return trainer_.step(); }
+  PrimitiveCount primitives() const override {
+    return {PrimitiveKind::triangles, trainer_.faces()};
+  }
+  std::vector<float> render(const Camera& camera) override {
+    return trainer_.backend().render(camera);
+  }
+  std::span<const float, 3> background() const override {
+    return std::span<const float, 3>(trainer_.config().background);
+  }
+  void write_checkpoint(const std::filesystem::path& path, double seconds) const override {
+    Checkpoint run = run_;
+    run.seconds = seconds;
+    run.state = trainer_.state();
+    trainer::write_checkpoint(path, run);
+  }
+
+ private:
+  Trainer& trainer_;
+  Checkpoint run_;  // without a state
+};
+
 bool shows_something(Backend& backend, std::span<const TrainingView> views) {
   return std::any_of(views.begin(), views.end(), [&](const TrainingView& view) {
     const std::vector<std::uint64_t> pixels = backend.visible_pixels({&view.camera, 1});
@@ -84,11 +116,13 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
 
   request.session.test_views = dataset.test;
   request.session.seconds_before = run.seconds;
+  request.session.non_finite_before = run.state.non_finite;
   if (request.snapshot)
     request.session.snapshot = [&] {
       request.snapshot(scene_of(request.name, dataset, config, trainer.state()));
     };
-  TrainingSession session(trainer, std::move(request.session), std::move(run));
+  SoupRun soup_run(trainer, std::move(run));
+  TrainingSession session(soup_run, std::move(request.session));
   session.run();
   result.seconds = session.seconds();
   result.state = trainer.state();
@@ -96,7 +130,7 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   const Scene scene = scene_of(request.name, dataset, config, result.state);
   if (request.finished) session.keep_if_it_fails([&] { request.finished(scene); });
   if (request.snapshot) request.snapshot(scene);
-  result.test_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config, request.measuring);
+  result.test_psnr_db = mean_psnr_db(soup_run, dataset.test, request.measuring);
   if (request.evaluate) request.evaluate(scene);
   return result;
 }

@@ -7,9 +7,10 @@
 
 #include "scene/photographs.hpp"
 #include "scene/scene.hpp"
+#include "trainer/common/session.hpp"
+#include "trainer/diffsoup/backend.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
 #include "trainer/diffsoup/device.hpp"
-#include "trainer/diffsoup/session.hpp"
 
 namespace tureen::trainer {
 
