@@ -79,7 +79,7 @@ void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
 
 void TrainingSession::keep() {
   save_checkpoint();
-  if (options_.interrupted) options_.interrupted(run_.steps_done());
+  if (options_.interrupted) options_.interrupted(status());
 }
 
 void TrainingSession::train_to_the_end() {

@@ -41,7 +41,7 @@ struct SessionOptions {
   /// Called before each step and during a pause; an exception ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
-  std::function<void(int step)> interrupted = {};
+  std::function<void(const SessionStatus&)> interrupted = {};
 };
 
 class TrainingSession {

@@ -11,7 +11,6 @@ namespace tureen::trainer {
 namespace {
 
 constexpr const char* presets[] = {"object", "scene"};
-constexpr const char* initialisations[] = {"automatic", "points", "random", "mesh"};
 constexpr const char* precisions[] = {"float32", "float16"};
 
 // Larger whole numbers are probably typing errors.
@@ -42,7 +41,7 @@ const ConfigField fields[] = {
     {"batch", &Config::batch, views, {}, "Views per step"},
     {"seed", &Config::seed, any_seed, {}, "Random seed; equal seeds give equal soups"},
     {"triangles", &Config::triangles, faces, {}, "Exact number of triangles at the end"},
-    {"initialisation", &Config::initialisation, none, initialisations,
+    {"initialisation", &Config::initialisation, none, initialisation_words,
      "Source of the first triangles: points of the dataset, random points, or a mesh; automatic "
      "uses points if the dataset has any"},
     {"initial_triangles",

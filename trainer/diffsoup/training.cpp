@@ -1,14 +1,11 @@
 #include "trainer/diffsoup/training.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <utility>
 #include <vector>
 
 #include "scene/edit/lattice_bytes.hpp"
-#include "trainer/common/held_out.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
@@ -25,12 +22,6 @@ TrainingState first_state(const Dataset& dataset, const Config& config, const Sc
   return state;
 }
 
-std::vector<Camera> cameras_of(const std::vector<Photograph>& photographs) {
-  std::vector<Camera> cameras;
-  for (const Photograph& photograph : photographs) cameras.push_back(photograph.camera);
-  return cameras;
-}
-
 double opacity_binary_fraction(const Model& model) {
   std::uint64_t binary = 0, texels = 0;
   std::vector<float> values;
@@ -44,15 +35,9 @@ double opacity_binary_fraction(const Model& model) {
   return texels > 0 ? double(binary) / double(texels) : 1.0;
 }
 
-Scene scene_of(const std::string& name, const Dataset& dataset, const Config& config,
-               const TrainingState& state) {
+Scene scene_of(const TrainingState& state) {
   Scene scene = to_scene(state.model);
   round_to_bytes(std::get<LatticeTexture>(only_soup(scene).appearance));
-  scene.cameras = cameras_of(dataset.train);
-  scene.info.name = name;
-  scene.info.up = dataset.up;
-  scene.info.background = {config.background[0], config.background[1], config.background[2]};
-  scene.info.source = fmt::format("Tureen trainer, {} steps", state.step);
   return scene;
 }
 
@@ -108,30 +93,19 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   run.state = request.checkpoint ? std::move(request.checkpoint->state)
                                  : first_state(dataset, scaled, request.mesh);
   const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);
-  Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.threads),
+  Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.run.threads),
                   run.state);
   TrainingResult result;
   result.visible_at_start = shows_something(trainer.backend(), views);
   if (request.begun) request.begun(trainer.backend(), result.visible_at_start);
 
-  request.session.test_views = dataset.test;
-  request.session.seconds_before = run.seconds;
-  request.session.non_finite_before = run.state.non_finite;
-  if (request.snapshot)
-    request.session.snapshot = [&] {
-      request.snapshot(scene_of(request.name, dataset, config, trainer.state()));
-    };
+  request.run.session.seconds_before = run.seconds;
+  request.run.session.non_finite_before = run.state.non_finite;
   SoupRun soup_run(trainer, std::move(run));
-  TrainingSession session(soup_run, std::move(request.session));
-  session.run();
-  result.seconds = session.seconds();
+  result.run = run_to_the_end(soup_run, std::move(request.run), dataset,
+                              [&] { return scene_of(trainer.state()); });
   result.state = trainer.state();
   result.opacity_binary_fraction = opacity_binary_fraction(result.state.model);
-  const Scene scene = scene_of(request.name, dataset, config, result.state);
-  if (request.finished) session.keep_if_it_fails([&] { request.finished(scene); });
-  if (request.snapshot) request.snapshot(scene);
-  result.test_psnr_db = mean_psnr_db(soup_run, dataset.test, request.measuring);
-  if (request.evaluate) request.evaluate(scene);
   return result;
 }
 
