@@ -28,7 +28,7 @@
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
-#include "jobs/training/preview_video.hpp"
+#include "trainer/common/preview_video.hpp"
 #include "jobs/training/training_method.hpp"
 #include "trainer/common/kernels/projection.hpp"
 #include "trainer/common/run_control.hpp"
@@ -72,16 +72,6 @@ void check_images(const TrainOptions& options, const Dataset& dataset) {
                 {.least = ssim_window, .most = trainer::kernels::max_image_side});
 }
 
-std::string progress_text(const trainer::SessionStatus& now) {
-  std::string text = fmt::format("{}{}/{}", now.paused ? "paused, " : "", now.step, now.steps);
-  if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
-  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
-  if (now.seconds_per_step > 0)
-    text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
-                        duration_text(now.seconds_per_step * (now.steps - now.step)));
-  return text;
-}
-
 struct Result {
   TrainingSummary training;
   std::optional<Evaluation> evaluation;  // none without OpenGL
@@ -102,7 +92,7 @@ void write_results(const TrainOptions& options, const TrainingFiles& files, cons
   fs::remove(files.checkpoint, ignored);
   result.output.push_back(files.log.string());
   if (options.preview_every > 0 && options.training.method != TrainingMethodName::diffsoup)
-    if (const auto video = write_preview_video(files.previews))
+    if (const auto video = trainer::write_preview_video(files.previews))
       result.output.push_back(video->string());
 }
 
@@ -288,7 +278,7 @@ ExitCode train(const TrainOptions& options) {
                   .progress =
                       [&](const trainer::SessionStatus& now) {
                         if (!progress) progress.emplace("training", output);
-                        progress->update(double(now.step) / now.steps, progress_text(now));
+                        progress->update(double(now.step) / now.steps, describe(now));
                       },
                   .interrupted =
                       [&](const trainer::SessionStatus& now) {

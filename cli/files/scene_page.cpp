@@ -11,7 +11,7 @@
 #include "base/extension.hpp"
 #include "base/input.hpp"
 #include "base/output.hpp"
-#include "cli/files/html_escape.hpp"
+#include "base/html_escape.hpp"
 #include "cli/files/program_folder.hpp"
 #include "formats/gltf/glb_container.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"

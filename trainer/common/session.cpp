@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/output.hpp"
 #include "image/metrics.hpp"
@@ -40,6 +41,16 @@ TrainingLog open_log(const SessionOptions& options, int step) {
 }
 
 }  // namespace
+
+std::string describe(const SessionStatus& now) {
+  std::string text = fmt::format("{}{}/{}", now.paused ? "paused, " : "", now.step, now.steps);
+  if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
+  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
+  if (now.seconds_per_step > 0)
+    text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
+                        duration_text(now.seconds_per_step * (now.steps - now.step)));
+  return text;
+}
 
 TrainingSession::TrainingSession(Trainable& run, SessionOptions options)
     : run_(run),

@@ -26,6 +26,9 @@ struct SessionStatus {
   bool paused = false;                 // by SessionOptions::control
 };
 
+/// "paused, 120/500, loss 0.0812, 23.41 dB, 14.2 it/s, 27 s left".
+std::string describe(const SessionStatus& now);
+
 struct SessionOptions {
   std::filesystem::path checkpoint;             // replaced by each checkpoint
   std::filesystem::path log;                    // JSON lines

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace tureen {
+namespace tureen::trainer {
 
 /// OUT-previews.mp4 for the folder OUT.previews.
 std::filesystem::path preview_video_file(const std::filesystem::path& previews);
@@ -14,4 +14,4 @@ std::filesystem::path preview_video_file(const std::filesystem::path& previews);
 /// Throws InputError and OutputError.
 std::optional<std::filesystem::path> write_preview_video(const std::filesystem::path& previews);
 
-}  // namespace tureen
+}  // namespace tureen::trainer

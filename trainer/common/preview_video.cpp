@@ -1,4 +1,4 @@
-#include "jobs/training/preview_video.hpp"
+#include "trainer/common/preview_video.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,7 +8,7 @@
 #include "image/png.hpp"
 #include "image/video_file.hpp"
 
-namespace tureen {
+namespace tureen::trainer {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::optional<fs::path> write_preview_video(const fs::path& previews) {
   return path;
 }
 
-}  // namespace tureen
+}  // namespace tureen::trainer
