@@ -1,8 +1,6 @@
-// `tureen train`: trains a soup from photographs.
+// `tureen train`: trains a scene from photographs.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -11,6 +9,7 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
+#include "base/memory_budget.hpp"
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"
@@ -29,32 +28,24 @@
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
+#include "jobs/training/training_method.hpp"
 #include "trainer/common/kernels/projection.hpp"
+#include "trainer/common/preview_video.hpp"
 #include "trainer/common/run_control.hpp"
 #include "trainer/common/run_lock.hpp"
-#include "trainer/common/training_views.hpp"
-#include "trainer/diffsoup/config_fields.hpp"
-#include "trainer/diffsoup/config_file.hpp"
-#include "trainer/diffsoup/device.hpp"
-#include "trainer/diffsoup/training.hpp"
 
 namespace tureen::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
-using trainer::Checkpoint;
-using trainer::Config;
-using trainer::Device;
-using trainer::Preset;
 
 struct TrainOptions {
   DatasetArgument dataset;
-  ConfigOptions config;
+  TrainingOptions training;
   std::string output;
   std::string log;              // empty: beside the output
   std::string diffsoup_export;  // empty: none
-  Device device = Device::automatic;
   int threads = 0;
   std::optional<int> checkpoint_every;
   int preview_every = 0;
@@ -66,6 +57,8 @@ struct TrainOptions {
 
 TrainingFiles files_of(const TrainOptions& options) {
   if (options.output.empty()) throw UsageError("-o OUT.glb is required");
+  if (!options.diffsoup_export.empty() && options.training.method != TrainingMethodName::diffsoup)
+    throw UsageError("--export-diffsoup needs --method diffsoup");
   TrainingFiles files = training_files(options.output);
   if (!options.log.empty()) files.log = options.log;
   fs::path folder = options.diffsoup_export;
@@ -74,48 +67,20 @@ TrainingFiles files_of(const TrainOptions& options) {
   return files;
 }
 
-Preset preset_for(const Dataset& dataset) {
-  return dataset.has_alpha ? Preset::object : Preset::scene;
-}
-
-/// The constants of this run. A resumed run has the constants of its checkpoint; constants on the
-/// command line must equal them.
-Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint* checkpoint) {
-  const bool is_new = !checkpoint || options.config.name_a_base();
-  const Config base = is_new ? base_config(options.config, otherwise) : checkpoint->config;
-  const Config config = with_options(base, options.config);
-  if (checkpoint)
-    if (const auto reason = difference(config, checkpoint->config))
-      throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
-  if (config.initialisation == trainer::Initialisation::mesh && !checkpoint &&
-      options.config.mesh().empty())
-    throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
-  return config;
-}
-
 void check_images(const TrainOptions& options, const Dataset& dataset) {
   require_sides(options.dataset, dataset,
                 {.least = ssim_window, .most = trainer::kernels::max_image_side});
 }
 
-std::string progress_text(const trainer::SessionStatus& now) {
-  std::string text = fmt::format("{}{}/{}", now.paused ? "paused, " : "", now.step, now.steps);
-  if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
-  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
-  if (now.seconds_per_step > 0)
-    text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
-                        duration_text(now.seconds_per_step * (now.steps - now.step)));
-  return text;
-}
-
 struct Result {
-  trainer::TrainingResult training;
+  TrainingSummary training;
   std::optional<Evaluation> evaluation;  // none without OpenGL
   std::vector<std::string> output;
 };
 
-/// Writes the soup and the DiffSoup export, then removes the checkpoint.
-void write_results(const TrainingFiles& files, const Scene& scene, Result& result) {
+/// Writes the scene and the DiffSoup export, then removes the checkpoint.
+void write_results(const TrainOptions& options, const TrainingFiles& files, const Scene& scene,
+                   Result& result) {
   write_scene(scene, files.scene);
   result.output.push_back(files.scene.string());
   if (!files.diffsoup_export.empty()) {
@@ -126,6 +91,9 @@ void write_results(const TrainingFiles& files, const Scene& scene, Result& resul
   std::error_code ignored;
   fs::remove(files.checkpoint, ignored);
   result.output.push_back(files.log.string());
+  if (options.preview_every > 0 && options.training.method != TrainingMethodName::diffsoup)
+    if (const auto video = trainer::write_preview_video(files.previews))
+      result.output.push_back(video->string());
 }
 
 /// Metrics of the runtime's images, which users will see; empty if the runtime cannot draw them
@@ -143,22 +111,25 @@ std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Phot
   } catch (const DeviceLimitError& error) {
     reason = error.reason();
   }
-  say("The runtime cannot draw the soup here; the metrics are from the trainer's own renderer: " +
+  say("The runtime cannot draw the scene here; the metrics are from the trainer's own renderer: " +
       reason);
   return std::nullopt;
 }
 
 void say_result(const TrainOptions& options, const Dataset& dataset, const Result& result) {
-  const trainer::TrainingState& state = result.training.state;
-  say(fmt::format(
-      "{} triangles after {} steps in {}; {:.1f} % of the texels are transparent or "
-      "opaque",
-      counted(state.model.faces()), counted(std::uint64_t(state.step)),
-      duration_text(result.training.seconds), 100 * result.training.opacity_binary_fraction));
-  if (state.non_finite > 0)
-    say(fmt::format("{} non-finite numbers were skipped", counted(state.non_finite)));
+  const TrainingSummary& training = result.training;
+  std::string sentence =
+      fmt::format("{} {} after {} steps in {}", counted(training.primitives.count),
+                  name_of(training.primitives.kind), counted(std::uint64_t(training.steps)),
+                  duration_text(training.run.seconds));
+  if (training.opacity_binary_fraction)
+    sentence += fmt::format("; {:.1f} % of the texels are transparent or opaque",
+                            100 * *training.opacity_binary_fraction);
+  say(sentence);
+  if (training.non_finite > 0)
+    say(fmt::format("{} non-finite numbers were skipped", counted(training.non_finite)));
   Table table({counted(dataset.test.size()) + " test views", "PSNR dB", "SSIM", "FLIP"});
-  table.row({"drawn by the trainer", fmt::format("{:.2f}", result.training.test_psnr_db)});
+  table.row({"drawn by the trainer", fmt::format("{:.2f}", training.run.test_psnr_db)});
   if (result.evaluation) {
     const ViewMetrics& mean = result.evaluation->mean;
     table.row({options.output, fmt::format("{:.2f}", mean.psnr_db),
@@ -169,34 +140,27 @@ void say_result(const TrainOptions& options, const Dataset& dataset, const Resul
 }
 
 Json report(const Dataset& dataset, const Result& result) {
+  const TrainingSummary& training = result.training;
   Json test{{"views", dataset.test.size()}};
   if (result.evaluation) {
     test.update(cli::to_json(result.evaluation->mean, true));
     test["drawn_by"] = result.evaluation->renderer;
   } else {
-    test["psnr_db"] = result.training.test_psnr_db;
+    test["psnr_db"] = training.run.test_psnr_db;
     test["drawn_by"] = "trainer";
   }
-  return {{"done", true},
-          {"steps", result.training.state.step},
-          {"seconds", result.training.seconds},
-          {"triangles", result.training.state.model.faces()},
-          {"visible_at_start", result.training.visible_at_start},
-          {"test", test},
-          {"trainer_psnr_db", result.training.test_psnr_db},
-          {"opacity_binary_fraction", result.training.opacity_binary_fraction},
-          {"non_finite", result.training.state.non_finite},
-          {"output", result.output}};
-}
-
-void say_beginning(const Dataset& dataset, const Config& config, const trainer::Backend& backend) {
-  const Camera& first = dataset.train.front().camera;
-  say(
-      fmt::format("{} training views and {} test views, the first {} x {}; {} steps to {} "
-                  "triangles; {}",
-                  counted(dataset.train.size()), counted(dataset.test.size()), first.width,
-                  first.height, counted(std::uint64_t(config.steps)),
-                  counted(std::uint64_t(config.triangles)), backend.description()));
+  Json json{{"done", true},
+            {"steps", training.steps},
+            {"seconds", training.run.seconds},
+            {name_of(training.primitives.kind), training.primitives.count}};
+  if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
+  json["test"] = test;
+  json["trainer_psnr_db"] = training.run.test_psnr_db;
+  if (training.opacity_binary_fraction)
+    json["opacity_binary_fraction"] = *training.opacity_binary_fraction;
+  json["non_finite"] = training.non_finite;
+  json["output"] = result.output;
+  return json;
 }
 
 /// The window of --watch. It is an aid: its failures do not end the run.
@@ -227,7 +191,7 @@ class TrainingWindow {
 };
 
 /// The scene of --init.
-std::optional<Scene> read_mesh(const ConfigOptions& options) {
+std::optional<Scene> read_mesh(const TrainingOptions& options) {
   const fs::path path = options.mesh();
   if (path.empty()) return std::nullopt;
   const std::vector<std::string> words{"random", "points"};
@@ -241,7 +205,7 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
 /// Throws UsageError if the run would replace an existing file by mistake.
 void check_existing(const TrainOptions& options, const TrainingFiles& files) {
   std::error_code error;
-  if (const fs::path mesh = options.config.mesh(); fs::equivalent(mesh, files.scene, error))
+  if (const fs::path mesh = options.training.mesh(); fs::equivalent(mesh, files.scene, error))
     throw UsageError("-o would replace " + mesh.string() + ", the scene for --init",
                      "choose another name");
   if (!options.resume && fs::exists(files.scene, error))
@@ -267,6 +231,7 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
 
 ExitCode train(const TrainOptions& options) {
   // Wrong arguments are reported before the photographs are read.
+  const std::unique_ptr<TrainingMethod> method = make_training_method(options.training);
   TrainingFiles files;
   std::optional<trainer::RunLock> lock, log_lock;
   std::optional<trainer::RunControl> control;
@@ -278,97 +243,76 @@ ExitCode train(const TrainOptions& options) {
     if (!options.log.empty()) log_lock.emplace(fs::path(files.log) += ".lock");
     check_existing(options, files);
     control.emplace(trainer::control_file(files.log));
-    trainer::require_device(options.device);
     if (options.preview_every > 0) make_folder(files.previews);
   }
-  std::optional<Checkpoint> checkpoint;
-  if (options.resume) checkpoint = trainer::read_checkpoint(files.checkpoint);
-  const Checkpoint* before = checkpoint ? &*checkpoint : nullptr;
-  config_of(options, Preset::object, before);
+  if (options.resume) method->resume(files.checkpoint);
+  method->settle(nullptr);
   const std::optional<Scene> mesh = before_the_first_step(options, [&] {
-    return checkpoint || options.print_config ? std::nullopt : read_mesh(options.config);
+    return options.resume || options.print_config ? std::nullopt : read_mesh(options.training);
   });
 
   Dataset dataset =
       before_the_first_step(options, [&] { return read(options.dataset, DatasetPart::all); });
   check_images(options, dataset);
-  const Config config = config_of(options, preset_for(dataset), before);
+  method->settle(&dataset);
   if (options.print_config) {
-    print_text(trainer::config_to_json(config));
+    print_text(method->constants());
     return ExitCode::done;
   }
   say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
-  if (!checkpoint && !options.config.preset && options.config.file.empty())
-    say(dataset.has_alpha ? "The images have alpha: --preset object"
-                          : "The images have no alpha: --preset scene");
 
-  if (checkpoint)
-    if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint->views))
-      throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
   Progress::Output output = Progress::standard_error();
   output.line_seconds = 10;
   std::optional<Progress> progress;
   Result result;
   TrainingWindow window(options, files);
-  std::function<void(const Scene&)> snapshot;
-  if (options.watch) snapshot = [&](const Scene& scene) { window.show(scene); };
-  result.training = trainer::train(
-      dataset,
-      {.config = config,
-       .name = fs::path(options.output).stem().string(),
-       .mesh = mesh ? &*mesh : nullptr,
-       .checkpoint = std::move(checkpoint),
-       .device = options.device,
-       .threads = options.threads,
-       .session = {.checkpoint = files.checkpoint,
-                   .log = files.log,
-                   .previews = files.previews,
-                   .checkpoint_every = options.checkpoint_every,
-                   .preview_every = options.preview_every,
-                   .control = &*control,
-                   .progress =
-                       [&](const trainer::SessionStatus& now) {
-                         if (!progress) progress.emplace("training", output);
-                         progress->update(double(now.step) / now.steps, progress_text(now));
-                       },
-                   .interrupted =
-                       [&](int step) {
-                         progress.reset();
-                         say(
-                             fmt::format("wrote {} after step {} of {}; the same command with "
-                                         "--resume continues from it",
-                                         files.checkpoint.string(), counted(std::uint64_t(step)),
-                                         counted(std::uint64_t(config.steps))));
-                       }},
-       .begun =
-           [&](const trainer::Backend& backend, bool visible) {
-             say_beginning(dataset, config, backend);
-             if (!visible)
-               say("No training image shows a triangle yet: check the cameras of the dataset.");
-           },
-       .snapshot = snapshot,
-       .finished =
-           [&](const Scene& scene) {
-             progress.reset();
-             write_results(files, scene, result);
-           },
-       .measuring =
-           [&](double fraction) {
-             if (!progress) progress.emplace("measuring");
-             progress->update(fraction);
-           },
-       .evaluate =
-           [&](const Scene& scene) {
-             progress.reset();
-             result.evaluation = evaluation_of(scene, dataset.test);
-           }});
+  trainer::RunRequest run{
+      .name = fs::path(options.output).stem().string(),
+      .threads = options.threads,
+      .session = {.checkpoint = files.checkpoint,
+                  .log = files.log,
+                  .previews = files.previews,
+                  .checkpoint_every = options.checkpoint_every,
+                  .preview_every = options.preview_every,
+                  .control = &*control,
+                  .progress =
+                      [&](const trainer::SessionStatus& now) {
+                        if (!progress) progress.emplace("training", output);
+                        progress->update(double(now.step) / now.steps, describe(now));
+                      },
+                  .interrupted =
+                      [&](const trainer::SessionStatus& now) {
+                        progress.reset();
+                        say(
+                            fmt::format("wrote {} after step {} of {}; the same command with "
+                                        "--resume continues from it",
+                                        files.checkpoint.string(), counted(std::uint64_t(now.step)),
+                                        counted(std::uint64_t(now.steps))));
+                      }},
+      .finished =
+          [&](const Scene& scene) {
+            progress.reset();
+            write_results(options, files, scene, result);
+          },
+      .measuring =
+          [&](double fraction) {
+            if (!progress) progress.emplace("measuring");
+            progress->update(fraction);
+          },
+      .evaluate =
+          [&](const Scene& scene) {
+            progress.reset();
+            result.evaluation = evaluation_of(scene, dataset.test);
+          }};
+  if (options.watch) run.snapshot = [&](const Scene& scene) { window.show(scene); };
+  result.training = method->train(dataset, mesh ? &*mesh : nullptr, std::move(run), say);
   say_result(options, dataset, result);
   if (options.json) print_json_line(report(dataset, result));
   return ExitCode::done;
 }
 
 void add_file_options(Command& command, TrainOptions& options) {
-  command.add_option("-o,--output", options.output, "soup to write").value_name("OUT.glb");
+  command.add_option("-o,--output", options.output, "scene to write").value_name("OUT.glb");
   command
       .add_option(
           "--log", options.log,
@@ -381,16 +325,18 @@ void add_file_options(Command& command, TrainOptions& options) {
       .value_name("N");
   command.add_flag(
       "--resume", options.resume,
-      "continue from OUT.checkpoint; the soup is the same as without the interruption");
+      "continue from OUT.checkpoint; the scene is the same as without the interruption");
   command
       .add_option(
           "--preview-every", options.preview_every,
           "steps between previews; a preview is an image in the folder OUT.previews: a test "
-          "view beside its photograph; no previews by default")
+          "view beside its photograph; no previews by default; for gaussians also OUT-previews.mp4 "
+          "if "
+          "ffmpeg is installed")
       .check(between(1, 10'000'000))
       .value_name("N");
   command.add_flag("--watch", options.watch,
-                   "show the training in a window: the soup, curves, pause, stop and keep; the "
+                   "show the training in a window: the scene, curves, pause, stop and keep; the "
                    "window's scene is OUT.watch.glb");
   command
       .add_option("--export-diffsoup", options.diffsoup_export,
@@ -402,17 +348,19 @@ void add_file_options(Command& command, TrainOptions& options) {
 
 void add_train(Command& program) {
   auto options = std::make_shared<TrainOptions>();
-  Command command = program.add_command("train", "Train a soup from photographs");
+  Command command = program.add_command("train", "Train a scene from photographs");
   command.footer(
-      R"(Trains triangles with lattice textures and a color MLP to match the photographs. Writes the
-soup as OUT.glb and a log as OUT.jsonl, and measures the soup on the test views. Ctrl-C writes
-a checkpoint; --resume continues from it. Equal seeds give equal soups on a CPU, with any
-number of threads.
+      R"(Trains a scene to match the photographs: triangles with lattice textures and a color MLP
+(--method diffsoup), or Gaussians (--method gaussians). Writes the scene as OUT.glb and a log as
+OUT.jsonl, and measures the scene on the test views. Ctrl-C writes a checkpoint; --resume continues
+from it. Equal seeds give equal scenes on a CPU, with any number of threads. For gaussians,
+--max-memory also limits the number of splats.
 
 Examples:
   tureen train lego -o lego.glb
   tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
   tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
+  tureen train lego -o lego.glb --method gaussians --minutes 5   as much as 5 minutes allow
   tureen train lego -o lego.glb --preview-every 500          write previews
   tureen train lego -o lego.glb --watch                      show the training in a window
   tureen train lego -o better.glb --init lego.glb            continue from a trained soup
@@ -420,14 +368,18 @@ Examples:
 
 Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other constants,
 3 the photographs, the checkpoint or the configuration cannot be read,
-4 no GPU for --device cuda, 5 interrupted, or the soup cannot be written.)");
+4 no GPU for --device cuda, 5 interrupted, or the scene cannot be written.)");
   add_dataset_argument(command, options->dataset);
-  add_memory_option(command);
+  add_memory_option(command,
+                    [options](std::uint64_t bytes) { options->training.max_memory = bytes; });
   add_file_options(command, *options);
-  add_config_options(command, options->config);
-  add_choice<Device>(command, "--device", options->device,
-                     {{"auto", Device::automatic}, {"cpu", Device::cpu}, {"cuda", Device::cuda}},
-                     "device for training: auto (default: a GPU if available), cpu or cuda")
+  add_config_options(command, options->training);
+  add_choice<trainer::Device>(
+      command, "--device", options->training.device,
+      {{"auto", trainer::Device::automatic},
+       {"cpu", trainer::Device::cpu},
+       {"cuda", trainer::Device::cuda}},
+      "device for training: auto (default: a GPU if available), cpu or cuda")
       .value_name("NAME");
   command
       .add_option("--threads", options->threads,
@@ -436,8 +388,10 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
       .value_name("N");
   command.add_flag("--print-config", options->print_config,
                    "print all constants of this run as JSON, without training");
-  command.add_text_flag("--list-config", trainer::config_reference,
-                        "list all constants with their defaults, ranges and meanings, and exit");
+  command.add_text_flag(
+      "--list-config", [options] { return constants_reference(options->training); },
+      "list all constants of the method with their defaults, ranges and "
+      "meanings, and exit");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return train(*options); });

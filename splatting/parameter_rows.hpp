@@ -26,6 +26,14 @@ class ParameterRows {
   float* row(std::size_t i) { return lines_[i * lines_a_row_].values; }
   const float* row(std::size_t i) const { return lines_[i * lines_a_row_].values; }
 
+  /// All rows one after the other, stride() floats each.
+  std::span<float> values() {
+    return {lines_.empty() ? nullptr : lines_.front().values, lines_.size() * row_alignment};
+  }
+  std::span<const float> values() const {
+    return {lines_.empty() ? nullptr : lines_.front().values, lines_.size() * row_alignment};
+  }
+
  private:
   struct alignas(row_alignment * sizeof(float)) Line {
     float values[row_alignment];

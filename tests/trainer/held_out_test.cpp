@@ -1,8 +1,9 @@
-#include "trainer/diffsoup/held_out.hpp"
+#include "trainer/common/held_out.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -23,24 +24,25 @@ TEST(SomeOf, SpreadsEvenlyFromTheFirst) {
 }
 
 /// Draws one colour everywhere.
-class OneColor final : public Backend {
+class OneColor final : public Trainable {
  public:
   explicit OneColor(float value) : value_(value) {}
-  std::string description() const override { return "one colour"; }
-  void upload(const TrainingState&) override {}
-  void download(TrainingState&) const override {}
-  StepReport step(std::span<const std::uint32_t>, const Rates&) override { return {}; }
-  StageTimes take_times() override { return {}; }
-  std::vector<std::uint64_t> visible_pixels(std::span<const Camera>) override { return {}; }
+  int steps() const override { return 1; }
+  int steps_done() const override { return 0; }
+  StepReport step() override { return {}; }
+  PrimitiveCount primitives() const override { return {PrimitiveKind::triangles, 1}; }
   std::vector<float> render(const Camera& camera) override {
     const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
     std::vector<float> planes(3 * pixels, value_);
     std::fill_n(planes.begin(), pixels, 0.0f);  // no red
     return planes;
   }
+  std::span<const float, 3> background() const override { return background_; }
+  void write_checkpoint(const std::filesystem::path&, double) const override {}
 
  private:
   float value_;
+  std::array<float, 3> background_{0.0f, 0.4f, 0.4f};
 };
 
 Photograph photograph(glm::u8vec4 color) {
@@ -51,19 +53,16 @@ Photograph photograph(glm::u8vec4 color) {
 }
 
 TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
-  OneColor backend(0.2f + 0.4f / 255);  // rounds to 51
-  Config config;
-  config.background[0] = 0.0f;
-  config.background[1] = config.background[2] = 0.4f;
+  OneColor run(0.2f + 0.4f / 255);  // rounds to 51
   // The same image, and a transparent one that shows the background: an error of 51 / 255 in two of
   // three channels.
   const std::vector<Photograph> views{photograph({0, 51, 51, 255}), photograph({9, 9, 9, 0})};
   const double off = -10 * std::log10(0.2 * 0.2 * 2 / 3);
   // Float rounding of the values is 6e-8.
-  EXPECT_NEAR(mean_psnr_db(backend, views, config), (100 + off) / 2, 1e-5);
-  const Image8 image = drawn(backend, views[0].camera);
+  EXPECT_NEAR(mean_psnr_db(run, views), (100 + off) / 2, 1e-5);
+  const Image8 image = drawn(run, views[0].camera);
   EXPECT_EQ(image.at(15, 11), glm::u8vec4(0, 51, 51, 255));
-  const Image8 both = preview(backend, views[1], config);
+  const Image8 both = preview(run, views[1]);
   EXPECT_EQ(both.width, 3 * 16);
   EXPECT_EQ(both.at(0, 0), glm::u8vec4(0, 102, 102, 255));
   EXPECT_EQ(both.at(16, 0), glm::u8vec4(0, 51, 51, 255));

@@ -15,6 +15,7 @@
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
 #include "trainer/diffsoup/initialise.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 #include "trainer/diffsoup/training.hpp"
 
 namespace tureen::trainer {
@@ -172,23 +173,23 @@ TrainingRequest short_run() {
   TrainingRequest request;
   request.config = smoke_config();
   request.config.steps = 20;
-  request.name = "still life";
-  request.session.checkpoint = temporary(".checkpoint");
-  request.session.log = temporary(".jsonl");
+  request.run.name = "still life";
+  request.run.session.checkpoint = temporary(".checkpoint");
+  request.run.session.log = temporary(".jsonl");
   return request;
 }
 
 TEST(SmokeTraining, RunsWithoutTheCommandLine) {
   Dataset dataset = still_life();
   TrainingRequest request = short_run();
-  const fs::path log = request.session.log;
+  const fs::path log = request.run.session.log;
   std::vector<std::string> calls;
   int last_step = 0;
   Scene evaluated;
   request.begun = [&](const Backend&, bool) { calls.push_back("begun"); };
-  request.session.progress = [&](const SessionStatus& now) { last_step = now.step; };
-  request.finished = [&](const Scene&) { calls.push_back("finished"); };
-  request.evaluate = [&](const Scene& scene) {
+  request.run.session.progress = [&](const SessionStatus& now) { last_step = now.step; };
+  request.run.finished = [&](const Scene&) { calls.push_back("finished"); };
+  request.run.evaluate = [&](const Scene& scene) {
     calls.push_back("evaluate");
     evaluated = scene;
   };
@@ -196,7 +197,7 @@ TEST(SmokeTraining, RunsWithoutTheCommandLine) {
   EXPECT_EQ(calls, (std::vector<std::string>{"begun", "finished", "evaluate"}));
   EXPECT_EQ(last_step, 19);
   EXPECT_EQ(result.state.step, 20);
-  EXPECT_GT(result.test_psnr_db, 0);
+  EXPECT_GT(result.run.test_psnr_db, 0);
   EXPECT_EQ(evaluated.info.name, "still life");
   EXPECT_EQ(evaluated.cameras.size(), still_life().train.size());
   EXPECT_EQ(only_soup(evaluated).triangles.size(), result.state.model.faces());
@@ -207,9 +208,9 @@ TEST(SmokeTraining, RunsWithoutTheCommandLine) {
 TEST(SmokeTraining, KeepsACheckpointIfTheSceneCannotBeStored) {
   Dataset dataset = still_life();
   TrainingRequest request = short_run();
-  const fs::path checkpoint = request.session.checkpoint, log = request.session.log;
-  request.finished = [](const Scene&) { throw OutputError({}, "no space"); };
-  request.evaluate = [](const Scene&) { FAIL() << "there is no stored scene"; };
+  const fs::path checkpoint = request.run.session.checkpoint, log = request.run.session.log;
+  request.run.finished = [](const Scene&) { throw OutputError({}, "no space"); };
+  request.run.evaluate = [](const Scene&) { FAIL() << "there is no stored scene"; };
   EXPECT_THROW(train(dataset, std::move(request)), OutputError);
   EXPECT_EQ(read_checkpoint(checkpoint).state.step, 20);
   fs::remove(checkpoint);

@@ -537,7 +537,7 @@ void write_run(const fs::path& folder) {
                                    .seconds = step / 2.0,
                                    .loss = 5.0 / step,
                                    .train_psnr_db = 20 + step / 50.0,
-                                   .triangles = 7000,
+                                   .primitives = {trainer::PrimitiveKind::triangles, 7000},
                                    .it_per_second = 2};
     if (step % 100 == 0) record.test_psnr_db = 19 + step / 60.0;
     log.append(record);

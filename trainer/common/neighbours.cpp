@@ -29,16 +29,19 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<do
 
 }  // namespace
 
-std::vector<double> nearest_distances(std::span<const glm::dvec3> points) {
+std::vector<double> nearest_distances(std::span<const glm::dvec3> points, std::size_t neighbours) {
   std::vector<double> distances(points.size(), 0.0);
+  neighbours = std::min(neighbours, points.size() - 1);
   if (points.size() < 2) return distances;
   const Cloud cloud{points};
   const Tree tree(3, cloud);
+  std::vector<std::size_t> nearest(neighbours + 1);
+  std::vector<double> squares(neighbours + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    std::size_t nearest[2];
-    double squares[2];
-    tree.knnSearch(&points[i][0], 2, nearest, squares);
-    distances[i] = std::sqrt(squares[1]);  // the first is the point itself, or a coincident one
+    tree.knnSearch(&points[i][0], neighbours + 1, nearest.data(), squares.data());
+    // The first is the point itself, or a coincident one.
+    for (std::size_t k = 1; k <= neighbours; ++k)
+      distances[i] += std::sqrt(squares[k]) / double(neighbours);
   }
   return distances;
 }

@@ -9,9 +9,10 @@
 
 namespace tureen::trainer {
 
-/// The distance from each point to the nearest other point; 0 for coincident points and for a
-/// single point. O(n log n).
-std::vector<double> nearest_distances(std::span<const glm::dvec3> points);
+/// The mean distance from each point to the `neighbours` nearest other points, or to all others if
+/// there are fewer; 0 for coincident points and for a single point. O(n log n).
+std::vector<double> nearest_distances(std::span<const glm::dvec3> points,
+                                      std::size_t neighbours = 1);
 
 /// Indices of `count` points (at most all), beginning with `first`. Each next point is the farthest
 /// from all before it (Gonzalez 1985); ties go to the lower index. O(points x count).

@@ -33,7 +33,10 @@ TrainingRecord record_of(const JsonView& line) {
   record.ssim = number_or_nan(line["ssim"]);
   record.train_psnr_db = number_or_nan(line["train_psnr_db"]);
   if (const auto value = line.find("test_psnr_db")) record.test_psnr_db = number_or_nan(*value);
-  record.triangles = line["triangles"].natural();
+  if (const auto splats = line.find("splats"))
+    record.primitives = {PrimitiveKind::splats, splats->natural()};
+  else
+    record.primitives = {PrimitiveKind::triangles, line["triangles"].natural()};
   record.it_per_second = number_or_nan(line["it_per_second"]);
   record.non_finite = line["non_finite"].natural();
   record.ended_early = line.find("ended_early").has_value();
@@ -79,7 +82,7 @@ Json to_json(const TrainingRecord& record) {
                {"ssim", record.ssim},
                {"train_psnr_db", record.train_psnr_db}});
   if (record.test_psnr_db) json["test_psnr_db"] = *record.test_psnr_db;
-  json["triangles"] = record.triangles;
+  json[name_of(record.primitives.kind)] = record.primitives.count;
   json["it_per_second"] = record.it_per_second;
   json["non_finite"] = record.non_finite;
   if (record.ended_early) json["ended_early"] = true;

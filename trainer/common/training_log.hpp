@@ -4,7 +4,8 @@
 //   {"step":200,"steps":10000,"seconds":14.2,"loss":0.081,"l1":0.052,"ssim":0.79,"train_psnr_db":21.3,
 //    "test_psnr_db":20.8,"triangles":15000,"it_per_second":14.1,"non_finite":0}      in one line
 //
-// If RunControl ended the run before its last step, the last line also has "ended_early":true.
+// Runs of splats have "splats" instead of "triangles". If RunControl ended the run before its last
+// step, the last line also has "ended_early":true.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +17,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "trainer/common/primitive_count.hpp"
 
 namespace tureen::trainer {
 
@@ -29,7 +32,7 @@ struct TrainingRecord {
   double ssim = 0;                          // 1 for equal images
   double train_psnr_db = 0;                 // of the step's views
   std::optional<double> test_psnr_db = {};  // of held-out views, if measured
-  std::size_t triangles = 0;
+  PrimitiveCount primitives = {PrimitiveKind::triangles, 0};
   double it_per_second = 0;    // since the previous line
   std::size_t non_finite = 0;  // numbers quarantined so far because they were not finite
   bool ended_early = false;    // by RunControl; only in the last record

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "trainer/common/trainable.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/state.hpp"
@@ -16,14 +17,6 @@ namespace tureen::trainer {
 /// Learning rates of one step, after decay.
 struct Rates {
   float texture, mlp, vertex;
-};
-
-struct StepReport {
-  double loss = 0;  // mean over the batch, the differentiated loss
-  double l1 = 0;
-  double ssim = 0;
-  double mse = 0;                // of the stochastic images
-  std::uint64_t non_finite = 0;  // pixels and parameters quarantined in this step
 };
 
 /// Wall time of each stage in seconds, and the amount of work. Both are sums over the steps since
@@ -49,7 +42,7 @@ class Backend {
   /// Copies the current state.
   virtual void download(TrainingState& state) const = 0;
 
-  /// One step of the optimiser on the named views.
+  /// One step of the optimiser on the named views; its images have stochastic masking.
   virtual StepReport step(std::span<const std::uint32_t> views, const Rates& rates) = 0;
 
   virtual StageTimes take_times() = 0;

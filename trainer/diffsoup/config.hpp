@@ -9,18 +9,13 @@
 #include <cstdint>
 #include <string>
 
+#include "trainer/common/initialisation.hpp"
+
 namespace tureen::trainer {
 
 enum class Preset {
   object,  // images of one object from all directions, usually with alpha
   scene,   // photographs of a place, with or without points from structure from motion
-};
-
-enum class Initialisation {
-  automatic,  // points if the dataset has any, else random
-  points,     // equilateral triangles at points: 2/3 farthest-point, 1/3 uniform samples
-  random,     // equilateral triangles at random points of a box
-  mesh,       // the triangles of a scene in a supported format
 };
 
 /// Precision of texel gradients between the passes of one step.

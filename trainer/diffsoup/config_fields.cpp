@@ -1,7 +1,5 @@
 #include "trainer/diffsoup/config_fields.hpp"
 
-#include <cmath>
-#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -12,15 +10,7 @@ namespace tureen::trainer {
 
 namespace {
 
-template <class... Visitors>
-struct Overloaded : Visitors... {
-  using Visitors::operator()...;
-};
-template <class... Visitors>
-Overloaded(Visitors...) -> Overloaded<Visitors...>;
-
 constexpr const char* presets[] = {"object", "scene"};
-constexpr const char* initialisations[] = {"automatic", "points", "random", "mesh"};
 constexpr const char* precisions[] = {"float32", "float16"};
 
 // Larger whole numbers are probably typing errors.
@@ -51,7 +41,7 @@ const ConfigField fields[] = {
     {"batch", &Config::batch, views, {}, "Views per step"},
     {"seed", &Config::seed, any_seed, {}, "Random seed; equal seeds give equal soups"},
     {"triangles", &Config::triangles, faces, {}, "Exact number of triangles at the end"},
-    {"initialisation", &Config::initialisation, none, initialisations,
+    {"initialisation", &Config::initialisation, none, initialisation_words,
      "Source of the first triangles: points of the dataset, random points, or a mesh; automatic "
      "uses points if the dataset has any"},
     {"initial_triangles",
@@ -214,64 +204,14 @@ const ConfigField fields[] = {
      "Colour of pixels without a triangle: red, green, blue"},
 };
 
-/// The numbers of a field that its range limits.
-std::vector<double> numbers(const Config& config, const ConfigField& field) {
-  const auto visitor = Overloaded{
-      [&](int Config::*m) { return std::vector{double(config.*m)}; },
-      [&](std::uint64_t Config::*m) { return std::vector{double(config.*m)}; },
-      [&](float Config::*m) { return std::vector{double(config.*m)}; },
-      [&](Color Config::*m) {
-        return std::vector<double>(std::begin(config.*m), std::end(config.*m));
-      },
-      [](auto) { return std::vector<double>{}; },
-  };
-  return std::visit(visitor, field.member);
-}
-
-std::optional<std::string> range_defect(const Config& config, const ConfigField& field) {
-  for (const double value : numbers(config, field))
-    if (!field.range.contains(value))
-      return std::string(field.name) + ": " + field.range.refusal(value, value_text(config, field));
-  return std::nullopt;
-}
-
-std::string number_text(double value) {
-  return value == std::floor(value) && value < 1e15 ? std::to_string((long long)value)
-                                                    : float_text(float(value));
-}
-
 }  // namespace
-
-bool Range::contains(double value) const {
-  const bool above = ends == Ends::low_open ? value > low : value >= low;
-  const bool below = ends == Ends::high_open ? value < high : value <= high;
-  return above && below;  // both are false for NaN
-}
-
-std::string Range::text() const {
-  switch (ends) {
-    case Ends::low_open:
-      return "more than " + number_text(low) + ", at most " + number_text(high);
-    case Ends::high_open:
-      return "from " + number_text(low) + " to less than " + number_text(high);
-    case Ends::closed:
-      break;
-  }
-  return "from " + number_text(low) + " to " + number_text(high);
-}
-
-std::string Range::refusal(double value, const std::string& written) const {
-  return written + " is out of range; allowed: " + text() + " (" +
-         (value > high ? reason_above : reason) + ")";
-}
 
 std::span<const ConfigField> config_fields() { return fields; }
 
 std::span<const char* const> preset_words() { return presets; }
 
 std::optional<std::string> defect(const Config& config) {
-  for (const ConfigField& field : fields)
-    if (std::optional<std::string> found = range_defect(config, field)) return found;
+  if (auto found = range_defect(config, config_fields())) return found;
   const auto level = [](int value) { return std::to_string(value); };
   if (config.min_level > config.max_level)
     return "min_level: " + level(config.min_level) + " is above max_level, " +
@@ -293,24 +233,6 @@ std::optional<std::string> defect(const Config& config) {
   return std::nullopt;
 }
 
-std::string value_text(const Config& config, const ConfigField& field) {
-  const auto word = [&](auto value) {
-    return "\"" + std::string(field.words[std::size_t(value)]) + "\"";
-  };
-  const auto visitor = Overloaded{
-      [&](int Config::*m) { return std::to_string(config.*m); },
-      [&](std::uint64_t Config::*m) { return std::to_string(config.*m); },
-      [&](float Config::*m) { return float_text(config.*m); },
-      [&](bool Config::*m) { return std::string(config.*m ? "true" : "false"); },
-      [&](Color Config::*m) {
-        const Color& c = config.*m;
-        return "[" + float_text(c[0]) + ", " + float_text(c[1]) + ", " + float_text(c[2]) + "]";
-      },
-      [&](auto m) { return word(config.*m); },
-  };
-  return std::visit(visitor, field.member);
-}
-
 std::string config_reference() {
   const Config object = preset(Preset::object), scene = preset(Preset::scene);
   const Config published_object = published(Preset::object);
@@ -320,16 +242,11 @@ std::string config_reference() {
     const std::string value = value_text(object, field), of_scene = value_text(scene, field);
     const std::string a = value_text(published_object, field),
                       b = value_text(published_scene, field);
-    text += std::string(field.name) + ": " + value;
-    if (of_scene != value) text += "; --preset scene: " + of_scene;
+    std::string defaults = value;
+    if (of_scene != value) defaults += "; --preset scene: " + of_scene;
     if (a != value || b != of_scene)
-      text += "; --compat: " + (a == b ? a : "object " + a + ", scene " + b);
-    text += "\n    " + std::string(field.meaning) + "\n";
-    if (!numbers(object, field).empty()) text += "    " + field.range.text() + "\n";
-    std::string words;
-    for (const char* word : field.words)
-      words += (words.empty() ? "    " : ", ") + std::string(word);
-    if (!words.empty()) text += words + "\n";
+      defaults += "; --compat: " + (a == b ? a : "object " + a + ", scene " + b);
+    text += field_reference(object, field, defaults);
   }
   return text;
 }

@@ -1,7 +1,5 @@
 #include "trainer/diffsoup/training.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -9,9 +7,9 @@
 
 #include "scene/edit/lattice_bytes.hpp"
 #include "trainer/common/training_views.hpp"
-#include "trainer/diffsoup/held_out.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
 
@@ -22,12 +20,6 @@ TrainingState first_state(const Dataset& dataset, const Config& config, const Sc
   state.model = initial_model(dataset, config, mesh);
   state.moments.reset_faces(state.model);
   return state;
-}
-
-std::vector<Camera> cameras_of(const std::vector<Photograph>& photographs) {
-  std::vector<Camera> cameras;
-  for (const Photograph& photograph : photographs) cameras.push_back(photograph.camera);
-  return cameras;
 }
 
 double opacity_binary_fraction(const Model& model) {
@@ -43,17 +35,42 @@ double opacity_binary_fraction(const Model& model) {
   return texels > 0 ? double(binary) / double(texels) : 1.0;
 }
 
-Scene scene_of(const std::string& name, const Dataset& dataset, const Config& config,
-               const TrainingState& state) {
+Scene scene_of(const TrainingState& state) {
   Scene scene = to_scene(state.model);
   round_to_bytes(std::get<LatticeTexture>(only_soup(scene).appearance));
-  scene.cameras = cameras_of(dataset.train);
-  scene.info.name = name;
-  scene.info.up = dataset.up;
-  scene.info.background = {config.background[0], config.background[1], config.background[2]};
-  scene.info.source = fmt::format("Tureen trainer, {} steps", state.step);
   return scene;
 }
+
+/// A Trainer for a session. `run`: configuration and views for the checkpoints.
+class SoupRun final : public Trainable {
+ public:
+  SoupRun(Trainer& trainer, Checkpoint run) : trainer_(trainer), run_(std::move(run)) {
+    run_.state = {};
+  }
+
+  int steps() const override { return trainer_.config().steps; }
+  int steps_done() const override { return trainer_.steps_done(); }
+  StepReport step() override { return trainer_.step(); }
+  PrimitiveCount primitives() const override {
+    return {PrimitiveKind::triangles, trainer_.faces()};
+  }
+  std::vector<float> render(const Camera& camera) override {
+    return trainer_.backend().render(camera);
+  }
+  std::span<const float, 3> background() const override {
+    return std::span<const float, 3>(trainer_.config().background);
+  }
+  void write_checkpoint(const std::filesystem::path& path, double seconds) const override {
+    Checkpoint run = run_;
+    run.seconds = seconds;
+    run.state = trainer_.state();
+    trainer::write_checkpoint(path, run);
+  }
+
+ private:
+  Trainer& trainer_;
+  Checkpoint run_;  // without a state
+};
 
 bool shows_something(Backend& backend, std::span<const TrainingView> views) {
   return std::any_of(views.begin(), views.end(), [&](const TrainingView& view) {
@@ -76,28 +93,19 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   run.state = request.checkpoint ? std::move(request.checkpoint->state)
                                  : first_state(dataset, scaled, request.mesh);
   const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);
-  Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.threads),
+  Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.run.threads),
                   run.state);
   TrainingResult result;
   result.visible_at_start = shows_something(trainer.backend(), views);
   if (request.begun) request.begun(trainer.backend(), result.visible_at_start);
 
-  request.session.test_views = dataset.test;
-  request.session.seconds_before = run.seconds;
-  if (request.snapshot)
-    request.session.snapshot = [&] {
-      request.snapshot(scene_of(request.name, dataset, config, trainer.state()));
-    };
-  TrainingSession session(trainer, std::move(request.session), std::move(run));
-  session.run();
-  result.seconds = session.seconds();
+  request.run.session.seconds_before = run.seconds;
+  request.run.session.non_finite_before = run.state.non_finite;
+  SoupRun soup_run(trainer, std::move(run));
+  result.run = run_to_the_end(soup_run, std::move(request.run), dataset,
+                              [&] { return scene_of(trainer.state()); });
   result.state = trainer.state();
   result.opacity_binary_fraction = opacity_binary_fraction(result.state.model);
-  const Scene scene = scene_of(request.name, dataset, config, result.state);
-  if (request.finished) session.keep_if_it_fails([&] { request.finished(scene); });
-  if (request.snapshot) request.snapshot(scene);
-  result.test_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config, request.measuring);
-  if (request.evaluate) request.evaluate(scene);
   return result;
 }
 

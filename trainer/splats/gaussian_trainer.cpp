@@ -12,7 +12,10 @@ namespace row = splatting::gaussian_row;
 
 namespace {
 
-/// Uniform in the cube of the region.
+constexpr std::size_t squares_a_sum = 512;  // in single precision
+
+}  // namespace
+
 GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
                                     Random& random) {
   GaussianParameters result(config.first_splats, config.degree);
@@ -31,8 +34,6 @@ GaussianParameters random_gaussians(const GaussianConfig& config, const Region& 
   return result;
 }
 
-}  // namespace
-
 GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
                                  const Region& region, int threads)
     : config_(config),
@@ -44,6 +45,51 @@ GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const T
   assert(!views.empty() && config.degree <= max_trained_degree);
   parameters_ = random_gaussians(config_, region, random_);
   memory_ = GaussianMemory(parameters_);
+}
+
+GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
+                                 const Region& region, int threads, GaussianState state)
+    : config_(config),
+      views_(views),
+      length_(region.half_side),
+      pool_(threads),
+      raster_(pool_),
+      parameters_(std::move(state.parameters)),
+      memory_(std::move(state.memory)),
+      random_(state.random),
+      step_(state.step),
+      epoch_(std::move(state.epoch)) {
+  assert(!views.empty() && config.degree == parameters_.degree);
+}
+
+GaussianState GaussianTrainer::state() const {
+  return {.parameters = parameters_,
+          .memory = memory_,
+          .random = random_,
+          .step = step_,
+          .epoch = epoch_};
+}
+
+double GaussianTrainer::last_mse() const {
+  const std::vector<std::uint8_t>&target = last_view_->target, &ignored = last_view_->ignored;
+  const std::size_t plane = target.size() / 3;
+  double sum = 0, values = 0;
+  for (std::size_t i = 0; i < target.size(); i += squares_a_sum) {
+    const std::size_t count = std::min(squares_a_sum, target.size() - i);
+    float squares[squares_a_sum];
+    for (std::size_t k = 0; k < count; ++k) {
+      const float difference = planes_[i + k] - float(target[i + k]) / 255.0f;
+      squares[k] = difference * difference;
+    }
+    for (std::size_t k = 0; k < count && !ignored.empty(); ++k)
+      if (ignored[(i + k) % plane]) squares[k] = 0;
+    float lanes[8] = {};
+    for (std::size_t k = 0; k < count; ++k) lanes[k % 8] += squares[k];
+    for (const float lane : lanes) sum += double(lane);
+  }
+  for (const std::uint8_t each : ignored) values += each ? 0 : 3;
+  if (ignored.empty()) values = double(target.size());
+  return values > 0 ? sum / values : 0;
 }
 
 int GaussianTrainer::degree_now() const {
@@ -65,6 +111,7 @@ const TrainingView& GaussianTrainer::next_view() {
 GaussianStepReport GaussianTrainer::step() {
   assert(!done());
   const TrainingView& view = next_view();
+  last_view_ = &view;
   const int width = view.camera.width, height = view.camera.height;
   planes_.resize(3 * std::size_t(width) * std::size_t(height));
   gradient_.resize(planes_.size());

@@ -10,31 +10,17 @@
 #include "trainer/common/cpu/image_loss.hpp"
 #include "trainer/common/region.hpp"
 #include "trainer/common/training_views.hpp"
+#include "trainer/splats/gaussian_config.hpp"
 #include "trainer/splats/gaussian_densify.hpp"
 #include "trainer/splats/gaussian_raster.hpp"
+#include "trainer/splats/gaussian_state.hpp"
 
 namespace tureen::trainer {
 
-struct GaussianConfig {
-  int steps = 5000;
-  std::size_t max_splats = 60000;
-  std::size_t first_splats = 10000;  // random ones
-  float first_opacity = 0.3f;
-  int degree = 2;  // of the harmonics, up to max_trained_degree
-  /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
-  double degree_steps = 0.1;
-  int densify_every = 200;
-  double densify_until = 0.8;  // fraction of the steps
-  double growth = 0.15;        // of the number of splats at each densification
-  /// Images have half their width and height until this fraction of the steps.
-  double half_size_until = 0.0;
-  float background[3] = {1, 1, 1};
-  /// 0.8 L1 + 0.2 (1 - SSIM) as in 3DGS.
-  float l1_weight = 0.8f, ssim_weight = 0.4f;
-  /// Scales have at least and at most this length, relative to the region's half side.
-  float min_scale = 3e-4f, max_scale = 1;
-  std::uint64_t seed = 0;
-};
+/// `first_splats` Gaussians, uniform in the cube of the region, grey, and as large as gives each
+/// its share of the volume.
+GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
+                                    Random& random);
 
 struct GaussianStepReport {
   double loss = 0, l1 = 0, ssim = 0;
@@ -48,15 +34,27 @@ class GaussianTrainer {
   /// grey, and as large as gives each its share of the volume.
   GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
                   const Region& region, int threads);
+  /// The same from a state; its splats have config.degree. Only the region's half side is used.
+  GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
+                  const Region& region, int threads, GaussianState state);
 
   bool done() const { return step_ >= config_.steps; }
   int steps_done() const { return step_; }
   GaussianStepReport step();
+  /// Changes the schedule from the next step on. At least steps_done().
+  void set_steps(int steps) { config_.steps = steps; }
+  const GaussianConfig& config() const { return config_; }
+  /// A copy, for a checkpoint; without counts that the trainer does not keep.
+  GaussianState state() const;
+  /// Mean squared error of the last step's image over its pixels that are not ignored; values
+  /// beyond [0, 1] count as they are.
+  double last_mse() const;
 
   /// Three planes, row 0 on top, not clamped.
   std::vector<float> render(const Camera& camera);
 
   const GaussianParameters& parameters() const { return parameters_; }
+  int threads() const { return pool_.threads(); }
   SplatTimes& times() { return raster_.times(); }
 
  private:
@@ -73,6 +71,7 @@ class GaussianTrainer {
   GaussianMemory memory_;
   Random random_;
   int step_ = 0;
+  const TrainingView* last_view_ = nullptr;
   std::vector<std::uint32_t> epoch_;  // views that this epoch has yet to use, from the back
   std::vector<float> planes_, gradient_;
   ImageLossScratch<float> loss_scratch_;

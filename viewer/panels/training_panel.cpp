@@ -114,8 +114,8 @@ void training_progress(const FollowedTraining& training) {
   paragraph("step " + counted(std::uint64_t(last.step)) + of + ", " +
             progress_words(last, training.command()));
   if (last.steps) ImGui::ProgressBar(float(last.step) / float(*last.steps), {-1, 0});
-  aside(fmt::format("{} triangles, {} steps/s", counted(last.triangles),
-                    short_decimal(last.it_per_second, 3)));
+  aside(fmt::format("{} {}, {} steps/s", counted(last.primitives.count),
+                    name_of(last.primitives.kind), short_decimal(last.it_per_second, 3)));
 }
 
 void training_buttons(State& state) {

@@ -321,14 +321,14 @@ function showTrainings(entries) {
   const runs = entries.map(({ data }, i) => ({ name: names[i], data, last: data.at(-1), test: data.findLast((r) => known(r.test_psnr_db))?.test_psnr_db }));
   const best = runs.reduce((a, b) => (b.test ?? -1) > (a.test ?? -1) ? b : a);
   const curve = (title, x, y, get, at) => plot(title, { x, y, linear: true, series: runs.map(({ name, data }) => ({ name, line: true, points: data.filter((r) => known(get(r))).map((r) => ({ x: at(r), y: get(r), name })) })) });
-  const seconds = (r) => r.seconds, steps = (r) => r.step;
+  const seconds = (r) => r.seconds, steps = (r) => r.step, primitives = (r) => r.triangles ?? r.splats;
   return [
     cards([`${db(best.test)} dB`, `on held-out views${runs.length > 1 ? `: ${best.name}` : ''}`], [count(best.last.step), `steps in ${any(best.last.seconds)} s`],
-      [count(best.last.triangles), 'triangles'], [`${any(best.last.step / best.last.seconds)}`, 'steps per second']),
+      [count(primitives(best.last)), best.last.splats === undefined ? 'triangles' : 'splats'], [`${any(best.last.step / best.last.seconds)}`, 'steps per second']),
     plots(curve('Held-out views', 'training time (s)', 'PSNR (dB)', (r) => r.test_psnr_db, seconds), curve('Loss', 'step', 'loss', (r) => r.loss, steps),
-      curve('Training views', 'step', 'PSNR (dB)', (r) => r.train_psnr_db, steps), curve('Triangles', 'step', 'triangles', (r) => r.triangles, steps)),
+      curve('Training views', 'step', 'PSNR (dB)', (r) => r.train_psnr_db, steps), curve('Primitives', 'step', 'triangles or splats', primitives, steps)),
     table('Trainings', [['run', (r) => r.name], ['steps', (r) => r.last.step, count], ['time (s)', (r) => r.last.seconds, any], ['held-out (dB)', (r) => r.test, db], ['training views (dB)', (r) => r.last.train_psnr_db, db],
-      ['loss', (r) => r.last.loss, fixed(4)], ['SSIM', (r) => r.last.ssim, fixed(4)], ['triangles', (r) => r.last.triangles, count], ['steps per second', (r) => r.last.step / r.last.seconds, any], ['not finite', (r) => r.last.non_finite, count]], runs),
+      ['loss', (r) => r.last.loss, fixed(4)], ['SSIM', (r) => r.last.ssim, fixed(4)], ['triangles or splats', (r) => primitives(r.last), count], ['steps per second', (r) => r.last.step / r.last.seconds, any], ['not finite', (r) => r.last.non_finite, count]], runs),
   ];
 }
 

@@ -1,9 +1,9 @@
-#include "cli/files/html_escape.hpp"
+#include "base/html_escape.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tureen::cli {
+namespace tureen {
 namespace html_escape_test {
 
 using testing::StartsWith;
@@ -29,4 +29,4 @@ TEST(HtmlEscaped, WhatIsNoTextIsReplaced) {
 }
 
 }  // namespace html_escape_test
-}  // namespace tureen::cli
+}  // namespace tureen

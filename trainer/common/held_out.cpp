@@ -1,4 +1,4 @@
-#include "trainer/diffsoup/held_out.hpp"
+#include "trainer/common/held_out.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -11,15 +11,15 @@ namespace tureen::trainer {
 
 namespace {
 
-ImageF truth(const Photograph& view, const Config& config) {
-  const float* color = config.background;
+ImageF truth(const Trainable& run, const Photograph& view) {
+  const std::span<const float, 3> color = run.background();
   return composited(to_float(view.image), {color[0], color[1], color[2]});
 }
 
 }  // namespace
 
-Image8 drawn(Backend& backend, const Camera& camera) {
-  const std::vector<float> planes = backend.render(camera);
+Image8 drawn(Trainable& run, const Camera& camera) {
+  const std::vector<float> planes = run.render(camera);
   Image8 image(camera.width, camera.height);
   const std::size_t pixels = image.pixels.size();
   assert(planes.size() == 3 * pixels);
@@ -29,20 +29,20 @@ Image8 drawn(Backend& backend, const Camera& camera) {
   return image;
 }
 
-double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const Config& config,
+double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
                     const std::function<void(double)>& progress) {
   assert(!views.empty());
   double sum = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (progress) progress(double(i) / double(views.size()));
     sum += psnr_from_mse(
-        mean_squared_error(truth(views[i], config), to_float(drawn(backend, views[i].camera))));
+        mean_squared_error(truth(run, views[i]), to_float(drawn(run, views[i].camera))));
   }
   return sum / double(views.size());
 }
 
-Image8 preview(Backend& backend, const Photograph& view, const Config& config) {
-  Image8 image = side_by_side(truth(view, config), to_float(drawn(backend, view.camera)));
+Image8 preview(Trainable& run, const Photograph& view) {
+  Image8 image = side_by_side(truth(run, view), to_float(drawn(run, view.camera)));
   // The photograph is already composited on the background.
   for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
   return image;

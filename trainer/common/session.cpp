@@ -1,15 +1,16 @@
-#include "trainer/diffsoup/session.hpp"
+#include "trainer/common/session.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/output.hpp"
 #include "image/metrics.hpp"
 #include "image/png.hpp"
-#include "trainer/diffsoup/held_out.hpp"
+#include "trainer/common/held_out.hpp"
 
 namespace tureen::trainer {
 
@@ -41,17 +42,25 @@ TrainingLog open_log(const SessionOptions& options, int step) {
 
 }  // namespace
 
-TrainingSession::TrainingSession(Trainer& trainer, SessionOptions options, Checkpoint run)
-    : trainer_(trainer),
+std::string describe(const SessionStatus& now) {
+  std::string text = fmt::format("{}{}/{}", now.paused ? "paused, " : "", now.step, now.steps);
+  if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
+  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
+  if (now.seconds_per_step > 0)
+    text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
+                        duration_text(now.seconds_per_step * (now.steps - now.step)));
+  return text;
+}
+
+TrainingSession::TrainingSession(Trainable& run, SessionOptions options)
+    : run_(run),
       options_(std::move(options)),
-      run_(std::move(run)),
       measured_views_(some_of(options_.test_views, measured_views)),
-      log_(open_log(options_, trainer.steps_done())),
-      test_every_(steps_between_tests(trainer.config().steps)),
+      log_(open_log(options_, run.steps_done())),
+      test_every_(steps_between_tests(run.steps())),
       start_(clock_seconds()),
       last_checkpoint_(options_.seconds_before),
-      non_finite_(run_.state.non_finite) {
-  run_.state = {};
+      non_finite_(options_.non_finite_before) {
   recent_.begin = options_.seconds_before;
 }
 
@@ -81,7 +90,7 @@ void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
 
 void TrainingSession::keep() {
   save_checkpoint();
-  if (options_.interrupted) options_.interrupted(trainer_.steps_done());
+  if (options_.interrupted) options_.interrupted(status());
 }
 
 void TrainingSession::train_to_the_end() {
@@ -91,7 +100,7 @@ void TrainingSession::train_to_the_end() {
     wait_while_paused();
     const double before = seconds();
     in_step_ = true;
-    const StepReport report = trainer_.step();
+    const StepReport report = run_.step();
     in_step_ = false;
     seconds_per_step_ = smoothed(seconds_per_step_, seconds() - before);
     finishes_ = options_.control && options_.control->command() == RunCommand::finish;
@@ -122,7 +131,7 @@ void TrainingSession::after_step(const StepReport& report) {
   non_finite_ += report.non_finite;
   loss_ = smoothed(loss_, report.loss);
 
-  const int step = trainer_.steps_done();
+  const int step = run_.steps_done();
   const bool test = step % test_every_ == 0 || at_the_end();
   if (test) measure();
   if (test || step % record_every == 0) record();
@@ -135,47 +144,43 @@ void TrainingSession::after_step(const StepReport& report) {
 }
 
 void TrainingSession::measure() {
-  fresh_test_psnr_ = mean_psnr_db(trainer_.backend(), measured_views_, trainer_.config());
+  fresh_test_psnr_ = mean_psnr_db(run_, measured_views_);
   shown_test_psnr_ = fresh_test_psnr_;
 }
 
 void TrainingSession::record() {
   const double n = recent_.steps, now = seconds();
-  log_.append({.step = trainer_.steps_done(),
-               .steps = trainer_.config().steps,
+  log_.append({.step = run_.steps_done(),
+               .steps = run_.steps(),
                .seconds = now,
                .loss = recent_.loss / n,
                .l1 = recent_.l1 / n,
                .ssim = recent_.ssim / n,
                .train_psnr_db = psnr_from_mse(recent_.mse / n),
                .test_psnr_db = fresh_test_psnr_,
-               .triangles = trainer_.faces(),
+               .primitives = run_.primitives(),
                .it_per_second = n / (now - recent_.begin),
                .non_finite = non_finite_,
-               .ended_early = finishes_ && !trainer_.done()});
+               .ended_early = finishes_ && !done()});
   recent_ = {.begin = now};
   fresh_test_psnr_.reset();
 }
 
 void TrainingSession::write_preview() {
-  const int digits = int(std::to_string(trainer_.config().steps).size());
-  Output output(options_.previews / fmt::format("step_{:0{}}.png", trainer_.steps_done(), digits));
-  output.write(
-      encode_png(preview(trainer_.backend(), options_.test_views.front(), trainer_.config())));
+  const int digits = int(std::to_string(run_.steps()).size());
+  Output output(options_.previews / fmt::format("step_{:0{}}.png", run_.steps_done(), digits));
+  output.write(encode_png(preview(run_, options_.test_views.front())));
   output.commit();
 }
 
 void TrainingSession::save_checkpoint() {
-  run_.state = trainer_.state();
-  run_.seconds = seconds();
-  write_checkpoint(options_.checkpoint, run_);
-  run_.state = {};  // frees up to hundreds of megabytes
+  run_.write_checkpoint(options_.checkpoint, seconds());
   last_checkpoint_ = seconds();
 }
 
 SessionStatus TrainingSession::status(bool paused) const {
-  return {.step = trainer_.steps_done(),
-          .steps = trainer_.config().steps,
+  return {.step = run_.steps_done(),
+          .steps = run_.steps(),
           .loss = loss_,
           .test_psnr_db = shown_test_psnr_,
           .seconds_per_step = seconds_per_step_,

@@ -1,4 +1,4 @@
-// A training run from its first step to its last: the steps of a Trainer, the log, checkpoints,
+// A training run from its first step to its last: the steps of a Trainable, the log, checkpoints,
 // previews and held-out views.
 #pragma once
 
@@ -12,9 +12,8 @@
 #include "scene/photographs.hpp"
 #include "trainer/common/run_control.hpp"
 #include "trainer/common/snapshot_timer.hpp"
+#include "trainer/common/trainable.hpp"
 #include "trainer/common/training_log.hpp"
-#include "trainer/diffsoup/checkpoint.hpp"
-#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
 
@@ -27,6 +26,9 @@ struct SessionStatus {
   bool paused = false;                 // by SessionOptions::control
 };
 
+/// "paused, 120/500, loss 0.0812, 23.41 dB, 14.2 it/s, 27 s left".
+std::string describe(const SessionStatus& now);
+
 struct SessionOptions {
   std::filesystem::path checkpoint;             // replaced by each checkpoint
   std::filesystem::path log;                    // JSON lines
@@ -35,20 +37,20 @@ struct SessionOptions {
   int preview_every = 0;                        // steps; 0 for no previews
   std::span<const Photograph> test_views = {};  // at least one
   double seconds_before = 0;                    // training time of earlier sessions of this run
+  std::uint64_t non_finite_before = 0;          // numbers quarantined in earlier sessions
   RunControl* control = nullptr;                // pauses the run, and finishes it early
   /// Called before the first step, and then as SnapshotTimer says.
   std::function<void()> snapshot = {};
   /// Called before each step and during a pause; an exception ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
-  std::function<void(int step)> interrupted = {};
+  std::function<void(const SessionStatus&)> interrupted = {};
 };
 
 class TrainingSession {
  public:
-  /// `run`: configuration and views for the checkpoints; the session fills in state and seconds.
-  /// `trainer` and the spans in `options` must outlive the session.
-  TrainingSession(Trainer& trainer, SessionOptions options, Checkpoint run);
+  /// `run` and the spans in `options` must outlive the session.
+  TrainingSession(Trainable& run, SessionOptions options);
 
   /// Trains to the last step, or until `control` tells it to finish. Throws OutputError if a file
   /// cannot be written, and the exceptions of SessionOptions::progress. In both cases it first
@@ -72,7 +74,8 @@ class TrainingSession {
   void train_to_the_end();
   void wait_while_paused();
   void make_snapshot();
-  bool at_the_end() const { return trainer_.done() || finishes_; }
+  bool done() const { return run_.steps_done() >= run_.steps(); }
+  bool at_the_end() const { return done() || finishes_; }
   void after_step(const StepReport& report);
   void measure();
   void record();
@@ -81,9 +84,8 @@ class TrainingSession {
   void keep();
   SessionStatus status(bool paused = false) const;
 
-  Trainer& trainer_;
+  Trainable& run_;
   SessionOptions options_;
-  Checkpoint run_;
   std::vector<Photograph> measured_views_;
   TrainingLog log_;
   int test_every_;

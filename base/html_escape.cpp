@@ -1,8 +1,8 @@
-#include "cli/files/html_escape.hpp"
+#include "base/html_escape.hpp"
 
 #include "base/utf8.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 std::string html_escaped(const std::string& text) {
   std::string result;
@@ -29,4 +29,4 @@ std::string html_escaped(const std::string& text) {
   return result;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -9,21 +9,20 @@
 
 #include "image/image.hpp"
 #include "scene/photographs.hpp"
-#include "trainer/diffsoup/backend.hpp"
-#include "trainer/diffsoup/config.hpp"
+#include "trainer/common/trainable.hpp"
 
 namespace tureen::trainer {
 
 /// The camera's image with 8 bits per channel, opaque.
-Image8 drawn(Backend& backend, const Camera& camera);
+Image8 drawn(Trainable& run, const Camera& camera);
 
 /// The mean PSNR over the views, against the photograph over the background, as in evaluate().
 /// `progress`: optional function, called with the completed fraction; it may throw.
-double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const Config& config,
+double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
                     const std::function<void(double)>& progress = {});
 
 /// The view's photograph, the trainer's image, and their difference, side by side.
-Image8 preview(Backend& backend, const Photograph& view, const Config& config);
+Image8 preview(Trainable& run, const Photograph& view);
 
 /// At most `count` of the views, evenly spread, including the first.
 std::vector<Photograph> some_of(std::span<const Photograph> views, std::size_t count);

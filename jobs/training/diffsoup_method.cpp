@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include "base/decimal_text.hpp"
+#include "base/error.hpp"
+#include "jobs/training/methods.hpp"
+#include "trainer/diffsoup/config_file.hpp"
+#include "trainer/diffsoup/training.hpp"
+
+namespace tureen {
+
+namespace {
+
+using trainer::Checkpoint;
+using trainer::Config;
+using trainer::Preset;
+
+class DiffsoupMethod final : public TrainingMethod {
+ public:
+  explicit DiffsoupMethod(const TrainingOptions& options) : options_(options) {
+    trainer::require_device(options.device);
+  }
+
+  void resume(const std::filesystem::path& checkpoint) override {
+    checkpoint_ = trainer::read_checkpoint(checkpoint);
+  }
+
+  void settle(const Dataset* dataset) override {
+    const Preset otherwise = dataset && !dataset->has_alpha ? Preset::scene : Preset::object;
+    const bool is_new = !checkpoint_ || options_.name_a_base();
+    config_ =
+        with_options(is_new ? base_config(options_, otherwise) : checkpoint_->config, options_);
+    if (checkpoint_)
+      if (const auto reason = difference(config_, checkpoint_->config))
+        throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
+    if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
+        options_.mesh().empty())
+      throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
+  }
+
+  std::string constants() const override { return trainer::config_to_json(config_); }
+
+  TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
+                        const std::function<void(const std::string&)>& say) override {
+    if (!checkpoint_ && !options_.preset && options_.file.empty())
+      say(dataset.has_alpha ? "The images have alpha: --preset object"
+                            : "The images have no alpha: --preset scene");
+    if (checkpoint_)
+      if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
+        throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
+    trainer::TrainingResult result = trainer::train(
+        dataset,
+        {.config = config_,
+         .mesh = start,
+         .checkpoint = std::move(checkpoint_),
+         .device = options_.device,
+         .run = std::move(run),
+         .begun = [&](const trainer::Backend& backend, bool visible) {
+           say(fmt::format("{}; {} steps to {} triangles; {}", describe_views(dataset),
+                           counted(std::uint64_t(config_.steps)),
+                           counted(std::uint64_t(config_.triangles)), backend.description()));
+           if (!visible)
+             say("No training image shows a triangle yet: check the cameras of the "
+                 "dataset.");
+         }});
+    return {.run = result.run,
+            .primitives = {trainer::PrimitiveKind::triangles, result.state.model.faces()},
+            .steps = result.state.step,
+            .non_finite = result.state.non_finite,
+            .visible_at_start = result.visible_at_start,
+            .opacity_binary_fraction = result.opacity_binary_fraction};
+  }
+
+ private:
+  const TrainingOptions& options_;
+  std::optional<Checkpoint> checkpoint_;
+  Config config_;
+};
+
+}  // namespace
+
+std::string describe_views(const Dataset& dataset) {
+  const Camera& first = dataset.train.front().camera;
+  return fmt::format("{} training views and {} test views, the first {} x {}",
+                     counted(dataset.train.size()), counted(dataset.test.size()), first.width,
+                     first.height);
+}
+
+std::unique_ptr<TrainingMethod> make_diffsoup_method(const TrainingOptions& options) {
+  return std::make_unique<DiffsoupMethod>(options);
+}
+
+}  // namespace tureen

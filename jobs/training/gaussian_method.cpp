@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "base/decimal_text.hpp"
+#include "base/error.hpp"
+#include "base/memory_budget.hpp"
+#include "jobs/training/methods.hpp"
+#include "trainer/splats/gaussian_forecast.hpp"
+#include "trainer/splats/gaussian_training.hpp"
+
+namespace tureen {
+
+namespace {
+
+using trainer::GaussianConfig;
+
+class GaussianMethod final : public TrainingMethod {
+ public:
+  explicit GaussianMethod(const TrainingOptions& options) : options_(options) {}
+
+  void resume(const std::filesystem::path& checkpoint) override {
+    checkpoint_ = trainer::read_gaussian_checkpoint(checkpoint);
+  }
+
+  void settle(const Dataset* dataset) override {
+    GaussianConfig base;
+    // Photographs of a scene have no background: a pixel without a splat is an error. With a white
+    // background it would match white walls.
+    if (dataset && !dataset->has_alpha) std::fill_n(base.background, 3, 0.0f);
+    if (!options_.file.empty())
+      base = trainer::read_gaussian_config(std::filesystem::path(options_.file), base);
+    else if (checkpoint_)
+      base = checkpoint_->config;
+    config_ = with_options(base, options_);
+    if (dataset) limit_memory(*dataset);
+    if (checkpoint_)
+      if (const auto reason = difference(config_, checkpoint_->config))
+        throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
+    if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
+        options_.mesh().empty())
+      throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
+  }
+
+  std::string constants() const override { return trainer::config_to_json(config_); }
+
+  TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
+                        const std::function<void(const std::string&)>& say) override {
+    if (checkpoint_)
+      if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
+        throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
+    const std::string views = describe_views(dataset);
+    if (is_limited_)
+      say(fmt::format("--max-memory allows at most {} splats", counted(config_.max_splats)));
+    const trainer::GaussianResult result = trainer::train_gaussians(
+        dataset,
+        {.config = config_,
+         .start = start,
+         .checkpoint = std::move(checkpoint_),
+         .run = std::move(run),
+         .begun = [&](const trainer::GaussianForecast& forecast) {
+           say(fmt::format("{}; {} steps, from {} to at most {} splats; CPU, {} threads", views,
+                           counted(std::uint64_t(forecast.steps)), counted(forecast.splats),
+                           counted(config_.max_splats), forecast.threads));
+           say(fmt::format("forecast: {} of training, {} of memory",
+                           duration_text(forecast.seconds), memory_size_text(forecast.bytes)));
+         }});
+    return {.run = result.run,
+            .primitives = {trainer::PrimitiveKind::splats, result.splats},
+            .steps = result.steps,
+            .non_finite = result.non_finite};
+  }
+
+ private:
+  /// Lowers max_splats so that the run fits in --max-memory.
+  void limit_memory(const Dataset& dataset) {
+    if (!options_.max_memory || checkpoint_) return;
+    const auto fitting = trainer::max_splats_within(*options_.max_memory, config_, dataset);
+    if (!fitting)
+      throw UsageError("--max-memory " + memory_size_text(*options_.max_memory) +
+                           " is too little for these photographs and 1,000 splats",
+                       "--scale makes the photographs smaller");
+    is_limited_ = *fitting < config_.max_splats;
+    config_.max_splats = *fitting;
+  }
+
+  const TrainingOptions& options_;
+  std::optional<trainer::GaussianCheckpoint> checkpoint_;
+  GaussianConfig config_;
+  bool is_limited_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<TrainingMethod> make_gaussian_method(const TrainingOptions& options) {
+  return std::make_unique<GaussianMethod>(options);
+}
+
+}  // namespace tureen

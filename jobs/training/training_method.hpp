@@ -1,0 +1,54 @@
+// One training run by any method, for a program that offers several: its constants, its checkpoint
+// and the run itself. The program reads the dataset and stores the scene.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "jobs/training/training_options.hpp"
+#include "scene/photographs.hpp"
+#include "scene/scene.hpp"
+#include "trainer/common/primitive_count.hpp"
+#include "trainer/common/whole_run.hpp"
+
+namespace tureen {
+
+struct TrainingSummary {
+  trainer::RunResult run;
+  trainer::PrimitiveCount primitives;
+  int steps = 0;
+  std::uint64_t non_finite = 0;                        // numbers that were skipped
+  std::optional<bool> visible_at_start = {};           // only of diffsoup
+  std::optional<double> opacity_binary_fraction = {};  // only of diffsoup
+};
+
+class TrainingMethod {
+ public:
+  virtual ~TrainingMethod() = default;
+
+  /// Reads the checkpoint to continue from. Throws InputError.
+  virtual void resume(const std::filesystem::path& checkpoint) = 0;
+
+  /// Sets the constants: those of the checkpoint, or of the options and the kind of dataset.
+  /// `dataset`: null before it is read; the result is then only an early check. Throws UsageError
+  /// if the options are invalid, or differ from the checkpoint; InputError for an invalid file.
+  virtual void settle(const Dataset* dataset) = 0;
+
+  /// The constants as a --config file.
+  virtual std::string constants() const = 0;
+
+  /// After settle() with this dataset. `start`: the scene of TrainingOptions::mesh(), or null.
+  /// `say`: receives sentences about the run before its first step. Throws UsageError if the
+  /// checkpoint has other views, and the errors of the method's run.
+  virtual TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
+                                const std::function<void(const std::string&)>& say) = 0;
+};
+
+/// Throws UsageError if the options have a constant of another method. `options` must outlive the
+/// result.
+std::unique_ptr<TrainingMethod> make_training_method(const TrainingOptions& options);
+
+}  // namespace tureen

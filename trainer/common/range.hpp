@@ -1,0 +1,27 @@
+// The allowed numbers of a training constant, and the reason for the limits.
+#pragma once
+
+#include <string>
+
+namespace tureen::trainer {
+
+struct Range {
+  enum class Ends { closed, low_open, high_open };
+  double low = 0;
+  double high = 0;
+  Ends ends = Ends::closed;
+  const char* reason = "";
+  const char* reason_above = reason;  // the reason for numbers above `high`, if it differs
+
+  bool contains(double value) const;
+  /// "from 1 to 1024"; for an open end "more than 0, at most 1" or "from 0 to less than 1".
+  std::string text() const;
+  /// The error for a value outside the range: "0 is out of range; allowed: from 1 to 1024 (..)".
+  /// `written`: the value as text in the file or on the command line.
+  std::string refusal(double value, const std::string& written) const;
+};
+
+/// The shortest decimal that reads back as the same number.
+std::string double_text(double value);
+
+}  // namespace tureen::trainer

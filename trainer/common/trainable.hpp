@@ -1,0 +1,41 @@
+// A model in training, as a session sees it. Each method of training implements it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "trainer/common/primitive_count.hpp"
+
+namespace tureen::trainer {
+
+struct StepReport {
+  double loss = 0;  // mean over the batch, the differentiated loss
+  double l1 = 0;
+  double ssim = 0;
+  double mse = 0;                // of the step's images
+  std::uint64_t non_finite = 0;  // pixels and parameters quarantined in this step
+};
+
+class Trainable {
+ public:
+  virtual ~Trainable() = default;
+
+  /// Steps of the whole run. It may change between two steps.
+  virtual int steps() const = 0;
+  virtual int steps_done() const = 0;
+  virtual StepReport step() = 0;
+  virtual PrimitiveCount primitives() const = 0;
+
+  /// The image that a viewer would show: three planes of floats, row 0 on top.
+  virtual std::vector<float> render(const Camera& camera) = 0;
+  /// Red, green, blue in [0, 1]; behind the photographs, too.
+  virtual std::span<const float, 3> background() const = 0;
+
+  /// Writes the complete state or no file. `seconds`: training time so far. Throws OutputError.
+  virtual void write_checkpoint(const std::filesystem::path& path, double seconds) const = 0;
+};
+
+}  // namespace tureen::trainer

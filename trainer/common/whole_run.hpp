@@ -1,0 +1,44 @@
+// A run of any method from its first step to its last, and what follows: the scene, its error in
+// held-out views.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scene/photographs.hpp"
+#include "scene/scene.hpp"
+#include "trainer/common/session.hpp"
+#include "trainer/common/trainable.hpp"
+
+namespace tureen::trainer {
+
+struct RunRequest {
+  std::string name;        // of the scene
+  int threads = 0;         // 0: one per core
+  SessionOptions session;  // the run sets `test_views` and `snapshot`, and values of a checkpoint
+
+  // Each of the following callbacks may be empty. A callback may throw to end the run.
+
+  /// Shows the scene before the first step, then every few seconds, and the finished scene.
+  std::function<void(const Scene&)> snapshot = {};
+  /// Stores the finished scene. If it throws, the run writes a checkpoint and then passes the error
+  /// on.
+  std::function<void(const Scene&)> finished = {};
+  /// Progress, 0..1, while the trainer's own renderer draws the test views.
+  std::function<void(double fraction)> measuring = {};
+  /// Measures the finished scene, for example with the runtime (jobs/eval).
+  std::function<void(const Scene&)> evaluate = {};
+};
+
+struct RunResult {
+  double seconds = 0;       // all sessions of this run
+  double test_psnr_db = 0;  // drawn by the trainer
+};
+
+/// Trains to the end, hands the scene to the callbacks, and measures dataset.test. `scene`: makes
+/// the layers of the current state; cameras and info are added. Throws OutputError if a file of the
+/// session cannot be written, and any error from a callback.
+RunResult run_to_the_end(Trainable& run, RunRequest request, const Dataset& dataset,
+                         const std::function<Scene()>& scene);
+
+}  // namespace tureen::trainer

@@ -1,0 +1,33 @@
+// The time and the memory of a run of Gaussians, estimated before its start.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "scene/photographs.hpp"
+#include "trainer/common/region.hpp"
+#include "trainer/common/training_views.hpp"
+#include "trainer/splats/gaussian_state.hpp"
+
+namespace tureen::trainer {
+
+/// Bytes that a run needs at its largest: photographs, parameters with their moments (twice, while
+/// their number grows), lists of tiles, and planes of images. An estimate: lists depend on the
+/// sizes of splats.
+std::uint64_t gaussian_memory(const GaussianConfig& config, const Dataset& dataset);
+
+/// The largest max_splats, at most config.max_splats, with which gaussian_memory() is at most
+/// `bytes`; nullopt if not even 1,000 splats fit.
+std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
+                                               const Dataset& dataset);
+
+/// Seconds of a step of a run from this state, by some steps of a copy. Takes about half a second.
+double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
+                             const Region& region, int threads, const GaussianState& state);
+
+/// The number of steps, of which `done` are done, that ends at `budget` seconds if `spent` are
+/// spent and each further step takes `step_seconds`; at least done + 1, at most 10 million.
+int fitted_steps(int done, double spent, double budget, double step_seconds);
+
+}  // namespace tureen::trainer

@@ -1,0 +1,47 @@
+// A whole training run of Gaussians, from photographs to a scene, for any program.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "scene/photographs.hpp"
+#include "scene/scene.hpp"
+#include "trainer/common/whole_run.hpp"
+#include "trainer/splats/gaussian_state.hpp"
+
+namespace tureen::trainer {
+
+/// Before the first step.
+struct GaussianForecast {
+  std::size_t splats = 0;   // at the start
+  int steps = 0;            // of the whole run; with minutes, a first guess
+  double seconds = 0;       // of the remaining steps
+  std::uint64_t bytes = 0;  // gaussian_memory()
+  int threads = 0;
+};
+
+struct GaussianRequest {
+  GaussianConfig config;
+  const Scene* start = nullptr;                  // for Initialisation::mesh
+  std::optional<GaussianCheckpoint> checkpoint;  // to continue from
+  RunRequest run;
+  /// May be empty, and may throw to end the run.
+  std::function<void(const GaussianForecast&)> begun = {};
+};
+
+struct GaussianResult {
+  RunResult run;
+  int steps = 0;
+  std::size_t splats = 0;        // of the scene
+  std::uint64_t non_finite = 0;  // pixels and splats quarantined
+};
+
+/// Trains on dataset.train and tests on dataset.test; frees the images of dataset.train. The scene
+/// has one layer, at the centre of the region of interest, without splats that are not finite or
+/// too transparent to be drawn. With config.minutes, the steps are fitted to the time three times,
+/// last at half the run; after that, a run that resumes has the same bits. Throws the errors of
+/// region_of_interest, initial_gaussians and run_to_the_end. Asserts that a checkpoint has the
+/// views of the dataset; its configuration must be request.config, except `steps` with minutes.
+GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request);
+
+}  // namespace tureen::trainer
