@@ -110,8 +110,9 @@ DensifyReport densify(const DensifyOptions& options, Random& random, GaussianPar
     if (dead[i]) places.push_back(i);
   }
   DensifyReport report{.dead = places.size()};
-  const std::size_t target = std::max(
-      count, std::min(options.max_splats, std::size_t(double(count) * (1 + options.growth))));
+  const std::size_t growth =
+      std::max(std::size_t(options.growth * double(count)), std::min(count, options.min_growth));
+  const std::size_t target = std::max(count, std::min(options.max_splats, count + growth));
   const std::vector<std::uint32_t> parents =
       drawn(random, {memory.statistics.row(statistic::motion), count}, dead,
             places.size() + (target - count));

@@ -11,11 +11,12 @@ namespace tureen::trainer {
 
 struct DensifyOptions {
   std::size_t max_splats;
-  double growth = 0.15;        // of the number of splats
-  float min_opacity = 0.01f;   // below: dead
-  float distance = 0.75f;      // of children from their parent's centre, in standard deviations
-  float shrink_along = 1.8f;   // divides the children's scale along the longest axis
-  float shrink_across = 1.1f;  // and along the others
+  double growth = 0.15;          // of the number of splats
+  std::size_t min_growth = 100;  // splats, if there are as many: a fraction of few splats is none
+  float min_opacity = 0.01f;     // below: dead
+  float distance = 0.75f;        // of children from their parent's centre, in standard deviations
+  float shrink_along = 1.8f;     // divides the children's scale along the longest axis
+  float shrink_across = 1.1f;    // and along the others
 };
 
 struct DensifyReport {

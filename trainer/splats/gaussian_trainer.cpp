@@ -38,7 +38,7 @@ GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const T
                                  const Region& region, int threads)
     : config_(config),
       views_(views),
-      length_(region.half_side),
+      region_(region),
       pool_(threads),
       raster_(pool_),
       random_(config.seed) {
@@ -51,7 +51,7 @@ GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const T
                                  const Region& region, int threads, GaussianState state)
     : config_(config),
       views_(views),
-      length_(region.half_side),
+      region_(region),
       pool_(threads),
       raster_(pool_),
       parameters_(std::move(state.parameters)),
@@ -136,13 +136,13 @@ GaussianStepReport GaussianTrainer::step() {
     const Stopwatch watch(times().update);
     const double done = double(step_) / config_.steps;
     GaussianStep step{.rates = {},
-                      .min_log_scale = float(std::log(config_.min_scale * length_)),
-                      .max_log_scale = float(std::log(config_.max_scale * length_))};
+                      .min_log_scale = float(std::log(config_.min_scale * region_.half_side)),
+                      .max_log_scale = float(std::log(config_.max_scale * region_.half_side))};
     for (std::size_t k = 0; k < gaussian_parameter_kinds.size(); ++k) {
       const ParameterKind& kind = gaussian_parameter_kinds[k];
       step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
     }
-    step.rates[0] *= float(length_);
+    step.rates[0] *= float(region_.half_side);
     const std::size_t count = parameters_.count();
     std::vector<std::size_t> quarantined((count + splats_a_task - 1) / splats_a_task);
     pool_.run(quarantined.size(), [&](std::size_t task) {
@@ -159,6 +159,11 @@ GaussianStepReport GaussianTrainer::step() {
     const DensifyReport densified =
         densify({.max_splats = config_.max_splats, .growth = config_.growth}, random_, parameters_,
                 memory_);
+    if (densified.dead == parameters_.count()) {
+      // No splat is left to split: the run begins again, at other places.
+      parameters_ = random_gaussians(config_, region_, random_);
+      memory_ = GaussianMemory(parameters_);
+    }
     sort_in_memory(parameters_, memory_);
     report.dead = densified.dead;
     report.split = densified.split;

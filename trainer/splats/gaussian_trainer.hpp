@@ -64,7 +64,7 @@ class GaussianTrainer {
   GaussianConfig config_;
   std::span<const TrainingView> views_;
   std::vector<TrainingView> half_views_;
-  double length_;  // half side of the region
+  Region region_;  // its half side is the unit of rates and scales
   ThreadPool pool_;
   GaussianRaster raster_;
   GaussianParameters parameters_;

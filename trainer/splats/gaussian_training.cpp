@@ -154,13 +154,14 @@ GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request) {
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
   for (TrainingView& view : views) view.camera = moved(view.camera, region.centre);
+  const Region local{.centre = glm::dvec3(0), .half_side = region.half_side};
   const double step_seconds =
-      measured_step_seconds(run.config, views, region, request.run.threads, run.state);
+      measured_step_seconds(run.config, views, local, request.run.threads, run.state);
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
   else if (run.config.minutes > 0)
     run.config.steps = fitted_steps(0, 0, 60 * run.config.minutes, overhead * step_seconds);
-  GaussianTrainer trainer(run.config, views, region, request.run.threads, run.state);
+  GaussianTrainer trainer(run.config, views, local, request.run.threads, run.state);
   forecast.steps = run.config.steps;
   forecast.seconds = overhead * step_seconds * (run.config.steps - run.state.step);
   forecast.threads = trainer.threads();
