@@ -28,9 +28,9 @@
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
-#include "trainer/common/preview_video.hpp"
 #include "jobs/training/training_method.hpp"
 #include "trainer/common/kernels/projection.hpp"
+#include "trainer/common/preview_video.hpp"
 #include "trainer/common/run_control.hpp"
 #include "trainer/common/run_lock.hpp"
 
@@ -283,7 +283,8 @@ ExitCode train(const TrainOptions& options) {
                   .interrupted =
                       [&](const trainer::SessionStatus& now) {
                         progress.reset();
-                        say(fmt::format("wrote {} after step {} of {}; the same command with "
+                        say(
+                            fmt::format("wrote {} after step {} of {}; the same command with "
                                         "--resume continues from it",
                                         files.checkpoint.string(), counted(std::uint64_t(now.step)),
                                         counted(std::uint64_t(now.steps))));
@@ -329,7 +330,8 @@ void add_file_options(Command& command, TrainOptions& options) {
       .add_option(
           "--preview-every", options.preview_every,
           "steps between previews; a preview is an image in the folder OUT.previews: a test "
-          "view beside its photograph; no previews by default; for gaussians also OUT-previews.mp4 if "
+          "view beside its photograph; no previews by default; for gaussians also OUT-previews.mp4 "
+          "if "
           "ffmpeg is installed")
       .check(between(1, 10'000'000))
       .value_name("N");
@@ -368,14 +370,16 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
 3 the photographs, the checkpoint or the configuration cannot be read,
 4 no GPU for --device cuda, 5 interrupted, or the scene cannot be written.)");
   add_dataset_argument(command, options->dataset);
-  add_memory_option(command, [options](std::uint64_t bytes) {
-    options->training.max_memory = bytes;
-  });
+  add_memory_option(command,
+                    [options](std::uint64_t bytes) { options->training.max_memory = bytes; });
   add_file_options(command, *options);
   add_config_options(command, options->training);
-  add_choice<trainer::Device>(command, "--device", options->training.device,
-                     {{"auto", trainer::Device::automatic}, {"cpu", trainer::Device::cpu}, {"cuda", trainer::Device::cuda}},
-                     "device for training: auto (default: a GPU if available), cpu or cuda")
+  add_choice<trainer::Device>(
+      command, "--device", options->training.device,
+      {{"auto", trainer::Device::automatic},
+       {"cpu", trainer::Device::cpu},
+       {"cuda", trainer::Device::cuda}},
+      "device for training: auto (default: a GPU if available), cpu or cuda")
       .value_name("NAME");
   command
       .add_option("--threads", options->threads,
@@ -384,9 +388,10 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
       .value_name("N");
   command.add_flag("--print-config", options->print_config,
                    "print all constants of this run as JSON, without training");
-  command.add_text_flag("--list-config", [options] { return constants_reference(options->training); },
-                        "list all constants of the method with their defaults, ranges and "
-                        "meanings, and exit");
+  command.add_text_flag(
+      "--list-config", [options] { return constants_reference(options->training); },
+      "list all constants of the method with their defaults, ranges and "
+      "meanings, and exit");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return train(*options); });

@@ -26,11 +26,11 @@ std::string refuse_seed(const std::string& text) {
 }  // namespace
 
 void add_config_options(Command& command, TrainingOptions& options) {
-  add_choice<TrainingMethodName>(command, "--method", options.method,
-                                 {{"diffsoup", TrainingMethodName::diffsoup},
-                                  {"gaussians", TrainingMethodName::gaussians}},
-                                 "diffsoup (default): opaque triangles with textures; gaussians: "
-                                 "3D Gaussian Splatting, on the processor")
+  add_choice<TrainingMethodName>(
+      command, "--method", options.method,
+      {{"diffsoup", TrainingMethodName::diffsoup}, {"gaussians", TrainingMethodName::gaussians}},
+      "diffsoup (default): opaque triangles with textures; gaussians: "
+      "3D Gaussian Splatting, on the processor")
       .value_name("NAME");
   add_choice<std::optional<Preset>>(
       command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},

@@ -8,8 +8,8 @@
 
 namespace tureen::cli {
 
-/// Sets the memory limit for reading (base/memory_budget.hpp) when the option is parsed. `also`: receives
-/// the bytes; may be empty.
+/// Sets the memory limit for reading (base/memory_budget.hpp) when the option is parsed. `also`:
+/// receives the bytes; may be empty.
 void add_memory_option(Command& command, std::function<void(std::uint64_t)> also = {});
 
 }  // namespace tureen::cli

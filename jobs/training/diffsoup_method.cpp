@@ -45,24 +45,23 @@ class DiffsoupMethod final : public TrainingMethod {
       say(dataset.has_alpha ? "The images have alpha: --preset object"
                             : "The images have no alpha: --preset scene");
     if (checkpoint_)
-      if (const auto reason =
-              difference(trainer::fingerprint(dataset.train), checkpoint_->views))
+      if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
         throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
     trainer::TrainingResult result = trainer::train(
-        dataset, {.config = config_,
-                  .mesh = start,
-                  .checkpoint = std::move(checkpoint_),
-                  .device = options_.device,
-                  .run = std::move(run),
-                  .begun = [&](const trainer::Backend& backend, bool visible) {
-                    say(fmt::format("{}; {} steps to {} triangles; {}", describe_views(dataset),
-                                    counted(std::uint64_t(config_.steps)),
-                                    counted(std::uint64_t(config_.triangles)),
-                                    backend.description()));
-                    if (!visible)
-                      say("No training image shows a triangle yet: check the cameras of the "
-                          "dataset.");
-                  }});
+        dataset,
+        {.config = config_,
+         .mesh = start,
+         .checkpoint = std::move(checkpoint_),
+         .device = options_.device,
+         .run = std::move(run),
+         .begun = [&](const trainer::Backend& backend, bool visible) {
+           say(fmt::format("{}; {} steps to {} triangles; {}", describe_views(dataset),
+                           counted(std::uint64_t(config_.steps)),
+                           counted(std::uint64_t(config_.triangles)), backend.description()));
+           if (!visible)
+             say("No training image shows a triangle yet: check the cameras of the "
+                 "dataset.");
+         }});
     return {.run = result.run,
             .primitives = {trainer::PrimitiveKind::triangles, result.state.model.faces()},
             .steps = result.state.step,

@@ -45,26 +45,24 @@ class GaussianMethod final : public TrainingMethod {
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const std::string&)>& say) override {
     if (checkpoint_)
-      if (const auto reason =
-              difference(trainer::fingerprint(dataset.train), checkpoint_->views))
+      if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
         throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
     const std::string views = describe_views(dataset);
     if (is_limited_)
       say(fmt::format("--max-memory allows at most {} splats", counted(config_.max_splats)));
     const trainer::GaussianResult result = trainer::train_gaussians(
-        dataset, {.config = config_,
-                  .start = start,
-                  .checkpoint = std::move(checkpoint_),
-                  .run = std::move(run),
-                  .begun = [&](const trainer::GaussianForecast& forecast) {
-                    say(fmt::format("{}; {} steps, from {} to at most {} splats; CPU, {} threads",
-                                    views, counted(std::uint64_t(forecast.steps)),
-                                    counted(forecast.splats), counted(config_.max_splats),
-                                    forecast.threads));
-                    say(fmt::format("forecast: {} of training, {} of memory",
-                                    duration_text(forecast.seconds),
-                                    memory_size_text(forecast.bytes)));
-                  }});
+        dataset,
+        {.config = config_,
+         .start = start,
+         .checkpoint = std::move(checkpoint_),
+         .run = std::move(run),
+         .begun = [&](const trainer::GaussianForecast& forecast) {
+           say(fmt::format("{}; {} steps, from {} to at most {} splats; CPU, {} threads", views,
+                           counted(std::uint64_t(forecast.steps)), counted(forecast.splats),
+                           counted(config_.max_splats), forecast.threads));
+           say(fmt::format("forecast: {} of training, {} of memory",
+                           duration_text(forecast.seconds), memory_size_text(forecast.bytes)));
+         }});
     return {.run = result.run,
             .primitives = {trainer::PrimitiveKind::splats, result.splats},
             .steps = result.steps,

@@ -20,9 +20,9 @@ struct TrainingSummary {
   trainer::RunResult run;
   trainer::PrimitiveCount primitives;
   int steps = 0;
-  std::uint64_t non_finite = 0;                           // numbers that were skipped
-  std::optional<bool> visible_at_start = {};              // only of diffsoup
-  std::optional<double> opacity_binary_fraction = {};     // only of diffsoup
+  std::uint64_t non_finite = 0;                        // numbers that were skipped
+  std::optional<bool> visible_at_start = {};           // only of diffsoup
+  std::optional<double> opacity_binary_fraction = {};  // only of diffsoup
 };
 
 class TrainingMethod {

@@ -16,10 +16,10 @@ enum class TrainingMethodName { diffsoup, gaussians };
 
 struct TrainingOptions {
   TrainingMethodName method = TrainingMethodName::diffsoup;
-  std::string file;                             // of constants; empty: none
-  std::optional<std::int64_t> steps;            // with_options() checks ranges, here and below
+  std::string file;                   // of constants; empty: none
+  std::optional<std::int64_t> steps;  // with_options() checks ranges, here and below
   std::optional<std::uint64_t> seed;
-  std::string begin;                            // "random", "points", a scene, or empty
+  std::string begin;  // "random", "points", a scene, or empty
 
   // Only of diffsoup.
   std::optional<trainer::Preset> preset;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tests/trainer/disc_views.hpp"
 #include "trainer/splats/gaussian_trainer.hpp"
 
 namespace tureen::trainer {
@@ -78,24 +79,8 @@ TEST(SplatsDensify, OfDeadSplatsOnlyChangesNothing) {
   EXPECT_EQ(line.parameters.count(), 20u);
 }
 
-/// Views of a bright disc on black, from around.
-std::vector<TrainingView> views_of_a_disc() {
-  std::vector<TrainingView> views;
-  for (int k = 0; k < 6; ++k) {
-    TrainingView& view = views.emplace_back();
-    const double turn = k * 1.05;
-    view.camera =
-        look_at({4 * std::cos(turn), 4 * std::sin(turn), 1}, {0, 0, 0}, {0, 0, 1}, 0.6, 40, 33);
-    for (int i = 0; i < 3 * 40 * 33; ++i) {
-      const int x = i % 40 - 20, y = i / 40 % 33 - 16;
-      view.target.push_back(x * x + y * y < 80 ? std::uint8_t(120 + 40 * (i / (40 * 33))) : 0);
-    }
-  }
-  return views;
-}
-
 TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
-  const std::vector<TrainingView> views = views_of_a_disc();
+  const std::vector<TrainingView> views = test::views_of_a_disc();
   std::vector<float> images[3];
   const int threads[] = {1, 2, 5};
   for (int run = 0; run < 3; ++run) {

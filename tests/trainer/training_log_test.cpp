@@ -39,17 +39,17 @@ class Log : public testing::Test {
 };
 
 TrainingRecord record(int step) {
-  TrainingRecord result{.step = step,
-                        .seconds = step / 7.0,
-                        .loss = 1.0 / step,
-                        .l1 = 0.5 / step,
-                        .ssim = 1 - 1.0 / step,
-                        .train_psnr_db = 20 + step / 1000.0,
-                        .primitives = {step % 200 == 0 ? PrimitiveKind::splats
-                                                       : PrimitiveKind::triangles,
-                                       std::size_t(15000 + step)},
-                        .it_per_second = 7.1,
-                        .non_finite = std::size_t(step / 100)};
+  TrainingRecord result{
+      .step = step,
+      .seconds = step / 7.0,
+      .loss = 1.0 / step,
+      .l1 = 0.5 / step,
+      .ssim = 1 - 1.0 / step,
+      .train_psnr_db = 20 + step / 1000.0,
+      .primitives = {step % 200 == 0 ? PrimitiveKind::splats : PrimitiveKind::triangles,
+                     std::size_t(15000 + step)},
+      .it_per_second = 7.1,
+      .non_finite = std::size_t(step / 100)};
   if (step % 200 == 0) result.test_psnr_db = 19 + step / 1000.0;
   if (step % 300 == 0) result.steps = 10 * step;
   result.ended_early = step == 500;

@@ -67,7 +67,8 @@ CheckpointHead read_head(CheckpointReader& reader, const CheckpointKind& kind) {
   const Input& input = reader.input();
   CheckpointMagic magic{};
   reader(magic, "the file's kind");
-  if (magic != kind.magic) input.fail_at(0, "this is not a checkpoint of this method of tureen train");
+  if (magic != kind.magic)
+    input.fail_at(0, "this is not a checkpoint of this method of tureen train");
   std::uint32_t version = 0;
   reader(version, "the version");
   if (version != kind.version)

@@ -10,8 +10,8 @@ namespace tureen::trainer {
 std::filesystem::path preview_video_file(const std::filesystem::path& previews);
 
 /// Writes the images step_N.png of the folder, in the order of their names, as a video of at most
-/// ten seconds. Returns its path; nullopt without ffmpeg, or with fewer than two images of one size.
-/// Throws InputError and OutputError.
+/// ten seconds. Returns its path; nullopt without ffmpeg, or with fewer than two images of one
+/// size. Throws InputError and OutputError.
 std::optional<std::filesystem::path> write_preview_video(const std::filesystem::path& previews);
 
 }  // namespace tureen::trainer

@@ -169,8 +169,7 @@ void TrainingSession::record() {
 void TrainingSession::write_preview() {
   const int digits = int(std::to_string(run_.steps()).size());
   Output output(options_.previews / fmt::format("step_{:0{}}.png", run_.steps_done(), digits));
-  output.write(
-      encode_png(preview(run_, options_.test_views.front())));
+  output.write(encode_png(preview(run_, options_.test_views.front())));
   output.commit();
 }
 

@@ -12,8 +12,8 @@
 #include "scene/photographs.hpp"
 #include "trainer/common/run_control.hpp"
 #include "trainer/common/snapshot_timer.hpp"
-#include "trainer/common/training_log.hpp"
 #include "trainer/common/trainable.hpp"
+#include "trainer/common/training_log.hpp"
 
 namespace tureen::trainer {
 

@@ -4,7 +4,8 @@
 //   {"step":200,"steps":10000,"seconds":14.2,"loss":0.081,"l1":0.052,"ssim":0.79,"train_psnr_db":21.3,
 //    "test_psnr_db":20.8,"triangles":15000,"it_per_second":14.1,"non_finite":0}      in one line
 //
-// Runs of splats have "splats" instead of "triangles". If RunControl ended the run before its last step, the last line also has "ended_early":true.
+// Runs of splats have "splats" instead of "triangles". If RunControl ended the run before its last
+// step, the last line also has "ended_early":true.
 #pragma once
 
 #include <cstddef>

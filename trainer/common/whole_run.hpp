@@ -36,8 +36,8 @@ struct RunResult {
 };
 
 /// Trains to the end, hands the scene to the callbacks, and measures dataset.test. `scene`: makes
-/// the layers of the current state; cameras and info are added. Throws OutputError if a file of the session cannot be written, and any error from
-/// a callback.
+/// the layers of the current state; cameras and info are added. Throws OutputError if a file of the
+/// session cannot be written, and any error from a callback.
 RunResult run_to_the_end(Trainable& run, RunRequest request, const Dataset& dataset,
                          const std::function<Scene()>& scene);
 

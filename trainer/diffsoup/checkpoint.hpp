@@ -1,5 +1,5 @@
-// A training run of soups on disk: the exact state to resume from, with its configuration and views.
-// trainer/common/checkpoint_file.hpp has the format.
+// A training run of soups on disk: the exact state to resume from, with its configuration and
+// views. trainer/common/checkpoint_file.hpp has the format.
 #pragma once
 
 #include <cstdint>

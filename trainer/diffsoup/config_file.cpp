@@ -33,8 +33,6 @@ Config read_config(const std::filesystem::path& path, const ConfigDefaults& defa
   return read_config(input, defaults);
 }
 
-std::string config_to_json(const Config& config) {
-  return fields_to_json(config, config_fields());
-}
+std::string config_to_json(const Config& config) { return fields_to_json(config, config_fields()); }
 
 }  // namespace tureen::trainer

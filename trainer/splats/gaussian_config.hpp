@@ -1,5 +1,5 @@
-// All constants of the training of Gaussians, and the table that reads, writes, checks and documents
-// them. Files are as those of soups (trainer/diffsoup/config_file.hpp).
+// All constants of the training of Gaussians, and the table that reads, writes, checks and
+// documents them. Files are as those of soups (trainer/diffsoup/config_file.hpp).
 #pragma once
 
 #include <cstdint>

@@ -67,8 +67,8 @@ GaussianParameters at_points(const Dataset& dataset, const GaussianConfig& confi
     points.push_back({point.position - region.centre, glm::vec3(point.color) / 255.0f});
   }
   GaussianConfig filled = config;
-  filled.first_splats = std::max<std::uint64_t>(
-      std::min(config.first_splats, config.max_splats), points.size());
+  filled.first_splats =
+      std::max<std::uint64_t>(std::min(config.first_splats, config.max_splats), points.size());
   // Random ones, then the points in the places of the first.
   GaussianParameters result =
       random_gaussians(filled, {.centre = glm::dvec3(0), .half_side = region.half_side}, random);
@@ -99,7 +99,8 @@ std::vector<ColoredPoint> samples(const Scene& scene, const Region& region, std:
   std::vector<ColoredPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
     const double at = random.uniform(0, sum);
-    const auto t = std::size_t(std::upper_bound(areas.begin(), areas.end() - 1, at) - areas.begin());
+    const auto t =
+        std::size_t(std::upper_bound(areas.begin(), areas.end() - 1, at) - areas.begin());
     const double u = std::sqrt(random.uniform()), v = random.uniform();
     const glm::dvec3 position =
         (1 - u) * corner(t, 0) + u * (1 - v) * corner(t, 1) + u * v * corner(t, 2);
@@ -122,9 +123,8 @@ GaussianParameters from_scene(const Scene& scene, const GaussianConfig& config,
   move_splats(splats, at_origin(-region.centre) * layer.world_from_layer);
   const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
   if (!gaussians || gaussians->flat)
-    throw InputError({},
-                     std::string("the initial scene has ") + kernel_name(splats.kernel) +
-                         "; the training of Gaussians begins with Gaussians or triangles");
+    throw InputError({}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
+                             "; the training of Gaussians begins with Gaussians or triangles");
   if (gaussians->centers.empty()) throw InputError({}, "the initial scene has no splat");
   return GaussianParameters(*gaussians, splats.color, config.degree);
 }

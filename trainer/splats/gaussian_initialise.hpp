@@ -1,5 +1,5 @@
-// The first Gaussians of a training: at points of the dataset, at random points, on the triangles of
-// a scene, or those of a scene.
+// The first Gaussians of a training: at points of the dataset, at random points, on the triangles
+// of a scene, or those of a scene.
 #pragma once
 
 #include "scene/photographs.hpp"

@@ -14,7 +14,7 @@ namespace tureen::trainer {
 namespace {
 
 constexpr CheckpointKind gaussian_kind{{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'},
-                              gaussian_checkpoint_version};
+                                       gaussian_checkpoint_version};
 
 /// Values of a state in the form of the file.
 struct StoredState {

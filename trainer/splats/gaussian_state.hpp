@@ -20,10 +20,10 @@ struct GaussianState {
   GaussianParameters parameters = {};
   GaussianMemory memory = {};
   Random random{0};
-  int step = 0;                       // steps done
+  int step = 0;                           // steps done
   std::vector<std::uint32_t> epoch = {};  // views that this epoch has yet to use, from the back
-  std::uint64_t non_finite = 0;       // pixels and splats quarantined so far
-  int fits = 0;                       // of the number of steps to GaussianConfig::minutes
+  std::uint64_t non_finite = 0;           // pixels and splats quarantined so far
+  int fits = 0;                           // of the number of steps to GaussianConfig::minutes
 };
 
 inline constexpr std::uint32_t gaussian_checkpoint_version = 1;

@@ -17,8 +17,8 @@
 
 namespace tureen::trainer {
 
-/// `first_splats` Gaussians, uniform in the cube of the region, grey, and as large as gives each its
-/// share of the volume.
+/// `first_splats` Gaussians, uniform in the cube of the region, grey, and as large as gives each
+/// its share of the volume.
 GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
                                     Random& random);
 

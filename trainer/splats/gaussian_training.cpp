@@ -36,7 +36,7 @@ Splats drawable(const Splats& all) {
   Splats kept{.kernel = Gaussians{}, .color = {.degree = all.color.degree}, .profile = all.profile};
   auto& into = std::get<Gaussians>(kept.kernel);
   for (std::size_t i = 0; i < gaussians.centers.size(); ++i) {
-    const glm::vec3 *color = all.color.coefficients.data() + i * coefficients;
+    const glm::vec3* color = all.color.coefficients.data() + i * coefficients;
     const glm::quat q = gaussians.rotations[i];
     float sum = gaussians.opacity[i] + q.x + q.y + q.z + q.w;  // finite if all values are
     for (int axis = 0; axis < 3; ++axis) {
@@ -112,8 +112,8 @@ class GaussianRun final : public Trainable {
   void fit() {
     if (!(run_.config.minutes > 0) || fits_ >= int(fit_at.size()) || recent_steps_ == 0) return;
     if (steps_done() < fit_at[std::size_t(fits_)] * steps()) return;
-    trainer_.set_steps(fitted_steps(steps_done(), spent_, 60 * run_.config.minutes,
-                                    recent_ / recent_steps_));
+    trainer_.set_steps(
+        fitted_steps(steps_done(), spent_, 60 * run_.config.minutes, recent_ / recent_steps_));
     ++fits_;
     recent_ = 0;
     recent_steps_ = 0;
@@ -146,14 +146,13 @@ GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request) {
                          .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
-  run.state = request.checkpoint
-                  ? std::move(request.checkpoint->state)
-                  : first_state(dataset, run.config, region, request.start);
+  run.state = request.checkpoint ? std::move(request.checkpoint->state)
+                                 : first_state(dataset, run.config, region, request.start);
   GaussianForecast forecast{.splats = run.state.parameters.count(),
                             .bytes = gaussian_memory(run.config, dataset)};
 
-  std::vector<TrainingView> views = take_training_views(
-      dataset.train, std::span<const float, 3>(run.config.background));
+  std::vector<TrainingView> views =
+      take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
   for (TrainingView& view : views) view.camera = moved(view.camera, region.centre);
   const double step_seconds =
       measured_step_seconds(run.config, views, region, request.run.threads, run.state);

@@ -40,8 +40,8 @@ struct GaussianResult {
 /// has one layer, at the centre of the region of interest, without splats that are not finite or
 /// too transparent to be drawn. With config.minutes, the steps are fitted to the time three times,
 /// last at half the run; after that, a run that resumes has the same bits. Throws the errors of
-/// region_of_interest, initial_gaussians and run_to_the_end. Asserts that a checkpoint has the views
-/// of the dataset; its configuration must be request.config, except `steps` with minutes.
+/// region_of_interest, initial_gaussians and run_to_the_end. Asserts that a checkpoint has the
+/// views of the dataset; its configuration must be request.config, except `steps` with minutes.
 GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request);
 
 }  // namespace tureen::trainer
