@@ -69,7 +69,8 @@ TEST(FirstGaussians, AreAtPointsHoweverFew) {
     Dataset dataset = disc_dataset();
     Random random(3);
     for (std::size_t i = 0; i < count; ++i)
-      dataset.points.push_back({glm::dvec3(1000, -2000, 500) + 0.3 * random.in_ball(), {255, 0, 51}});
+      dataset.points.push_back(
+          {glm::dvec3(1000, -2000, 500) + 0.3 * random.in_ball(), {255, 0, 51}});
     const GaussianParameters splats = first(dataset, {.first_splats = 20});
     ASSERT_EQ(splats.count(), std::max<std::size_t>(count, 20)) << count;
     EXPECT_TRUE(all_finite(splats)) << count;
@@ -229,10 +230,9 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
   const Files files;
   Dataset dataset = disc_dataset();
   constexpr double seconds = 2;
-  GaussianRequest asked = request(files, {.max_splats = 300,
-                                          .first_splats = 200,
-                                          .background = {0, 0, 0},
-                                          .minutes = seconds / 60});
+  GaussianRequest asked = request(
+      files,
+      {.max_splats = 300, .first_splats = 200, .background = {0, 0, 0}, .minutes = seconds / 60});
   struct Stop {};
   asked.run.session.progress = [&](const SessionStatus& now) {
     if (now.step > 0.6 * now.steps) throw Stop();
@@ -258,8 +258,8 @@ TEST(GaussianTraining, SurvivesPhotographsThatShowNothing) {
   for (auto* views : {&dataset.train, &dataset.test})
     for (Photograph& view : *views) view.image = Image8(size, size, glm::u8vec4(255));
   // White on white: all splats fade.
-  GaussianRequest asked = request(files, {.steps = 120, .max_splats = 60, .first_splats = 50,
-                                          .densify_every = 10});
+  GaussianRequest asked =
+      request(files, {.steps = 120, .max_splats = 60, .first_splats = 50, .densify_every = 10});
   Scene scene;
   asked.run.finished = [&](const Scene& finished) { scene = finished; };
   const GaussianResult result = train_gaussians(dataset, std::move(asked));
