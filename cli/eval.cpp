@@ -20,6 +20,7 @@
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "jobs/eval/evaluation.hpp"
+#include "jobs/results/eval_json.hpp"
 #include "jobs/results/plan_json.hpp"
 
 namespace tureen::cli {
@@ -54,9 +55,9 @@ Json report(const EvalOptions& options, const Evaluation& result,
             const std::vector<std::string>& output) {
   const bool with_flip = options.evaluation.metrics.with_flip;
   Json views = Json::array();
-  for (const ViewMetrics& view : result.views) views.push_back(to_json(view, with_flip));
+  for (const ViewMetrics& view : result.views) views.push_back(results::to_json(view, with_flip));
   return {{"views", views},
-          {"mean", to_json(result.mean, with_flip)},
+          {"mean", results::to_json(result.mean, with_flip)},
           {"scene", options.scene.path},
           {"dataset", options.dataset.path},
           {"split", split_name(options.split)},

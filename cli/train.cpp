@@ -13,7 +13,6 @@
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"
-#include "cli/files/eval_images.hpp"
 #include "cli/files/train_files.hpp"
 #include "cli/files/window_program.hpp"
 #include "cli/interrupt.hpp"
@@ -27,8 +26,12 @@
 #include "cli/table.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
+<<<<<<< HEAD
 #include "jobs/eval/evaluation.hpp"
+=======
+>>>>>>> run30
 #include "jobs/training/training_method.hpp"
+#include "jobs/training/training_outcome.hpp"
 #include "trainer/common/kernels/projection.hpp"
 #include "trainer/common/preview_video.hpp"
 #include "trainer/common/run_control.hpp"
@@ -72,15 +75,9 @@ void check_images(const TrainOptions& options, const Dataset& dataset) {
                 {.least = ssim_window, .most = trainer::kernels::max_image_side});
 }
 
-struct Result {
-  TrainingSummary training;
-  std::optional<Evaluation> evaluation;  // none without OpenGL
-  std::vector<std::string> output;
-};
-
 /// Writes the scene and the DiffSoup export, then removes the checkpoint.
 void write_results(const TrainOptions& options, const TrainingFiles& files, const Scene& scene,
-                   Result& result) {
+                   TrainingOutcome& result) {
   write_scene(scene, files.scene);
   result.output.push_back(files.scene.string());
   if (!files.diffsoup_export.empty()) {
@@ -96,27 +93,8 @@ void write_results(const TrainOptions& options, const TrainingFiles& files, cons
       result.output.push_back(video->string());
 }
 
-/// Metrics of the runtime's images, which users will see; empty if the runtime cannot draw them
-/// here.
-std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Photograph> views) {
-  Progress progress("evaluating");
-  EvaluationOptions options;
-  options.background = scene.info.background;
-  options.progress = [&](double fraction) { progress.update(fraction); };
-  std::string reason;
-  try {
-    return evaluate(scene, views, options);
-  } catch (const ContextError& error) {
-    reason = error.reason();
-  } catch (const DeviceLimitError& error) {
-    reason = error.reason();
-  }
-  say("The runtime cannot draw the scene here; the metrics are from the trainer's own renderer: " +
-      reason);
-  return std::nullopt;
-}
-
-void say_result(const TrainOptions& options, const Dataset& dataset, const Result& result) {
+void say_result(const TrainOptions& options, const Dataset& dataset,
+                const TrainingOutcome& result) {
   const TrainingSummary& training = result.training;
   std::string sentence =
       fmt::format("{} {} after {} steps in {}", counted(training.primitives.count),
@@ -137,30 +115,6 @@ void say_result(const TrainOptions& options, const Dataset& dataset, const Resul
   }
   for (const std::string& line : table.lines()) say(line);
   for (const std::string& path : result.output) say("wrote " + path);
-}
-
-Json report(const Dataset& dataset, const Result& result) {
-  const TrainingSummary& training = result.training;
-  Json test{{"views", dataset.test.size()}};
-  if (result.evaluation) {
-    test.update(cli::to_json(result.evaluation->mean, true));
-    test["drawn_by"] = result.evaluation->renderer;
-  } else {
-    test["psnr_db"] = training.run.test_psnr_db;
-    test["drawn_by"] = "trainer";
-  }
-  Json json{{"done", true},
-            {"steps", training.steps},
-            {"seconds", training.run.seconds},
-            {name_of(training.primitives.kind), training.primitives.count}};
-  if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
-  json["test"] = test;
-  json["trainer_psnr_db"] = training.run.test_psnr_db;
-  if (training.opacity_binary_fraction)
-    json["opacity_binary_fraction"] = *training.opacity_binary_fraction;
-  json["non_finite"] = training.non_finite;
-  json["output"] = result.output;
-  return json;
 }
 
 /// The window of --watch. It is an aid: its failures do not end the run.
@@ -264,7 +218,7 @@ ExitCode train(const TrainOptions& options) {
   Progress::Output output = Progress::standard_error();
   output.line_seconds = 10;
   std::optional<Progress> progress;
-  Result result;
+  TrainingOutcome result;
   TrainingWindow window(options, files);
   trainer::RunRequest run{
       .name = fs::path(options.output).stem().string(),
@@ -302,12 +256,18 @@ ExitCode train(const TrainOptions& options) {
       .evaluate =
           [&](const Scene& scene) {
             progress.reset();
-            result.evaluation = evaluation_of(scene, dataset.test);
+            Progress evaluating("evaluating");
+            evaluate(result, scene, dataset.test,
+                     [&](double fraction) { evaluating.update(fraction); });
           }};
   if (options.watch) run.snapshot = [&](const Scene& scene) { window.show(scene); };
   result.training = method->train(dataset, mesh ? &*mesh : nullptr, std::move(run), say);
+  if (!result.evaluation)
+    say("The runtime cannot draw the scene here; the metrics are from the trainer's own "
+        "renderer: " +
+        result.why_not_drawn);
   say_result(options, dataset, result);
-  if (options.json) print_json_line(report(dataset, result));
+  if (options.json) print_json_line(to_json(result, dataset.test.size()));
   return ExitCode::done;
 }
 

@@ -77,13 +77,4 @@ std::vector<std::string> EvalImages::finish() {
   return files;
 }
 
-Json to_json(const ViewMetrics& metrics, bool with_flip) {
-  Json json = Json::object();
-  if (!metrics.name.empty()) json["name"] = metrics.name;
-  json["psnr_db"] = metrics.psnr_db;
-  json["ssim"] = metrics.ssim;
-  if (with_flip) json["flip"] = metrics.flip;
-  return json;
-}
-
 }  // namespace tureen::cli

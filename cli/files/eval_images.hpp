@@ -37,8 +37,4 @@ class EvalImages {
   std::vector<Image8> thumbnails_;  // of each view
 };
 
-/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; "name" only if it is not empty, "flip" only
-/// if `with_flip`.
-Json to_json(const ViewMetrics& metrics, bool with_flip);
-
 }  // namespace tureen::cli

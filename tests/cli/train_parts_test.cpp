@@ -8,8 +8,8 @@
 
 #include "base/error.hpp"
 #include "cli/files/train_files.hpp"
-#include "cli/options/config_options.hpp"
 #include "cli/progress.hpp"
+#include "jobs/training/training_options.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 
@@ -56,7 +56,7 @@ TEST(TrainingFiles, AreTriedAndLeaveNothing) {
 
 TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {
   const Config base = trainer::published(Preset::object);
-  ConfigOptions options;
+  TrainingOptions options;
   options.triangles = 3000;
   const Config config = with_options(base, options);
   EXPECT_EQ(config.triangles, 3000);
@@ -68,22 +68,23 @@ TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {
 }
 
 TEST(ConfigOptions, AreRefusedByTheNumberThatWasTyped) {
-  const auto refusal = [](std::optional<std::int64_t> ConfigOptions::*option, std::int64_t value) {
-    ConfigOptions options;
+  const auto refusal = [](std::optional<std::int64_t> TrainingOptions::*option,
+                          std::int64_t value) {
+    TrainingOptions options;
     options.*option = value;
-    return test::error_of<UsageError>([&] { with_options({}, options); });
+    return test::error_of<UsageError>([&] { with_options(Config{}, options); });
   };
   using test::Names;
-  EXPECT_THAT(refusal(&ConfigOptions::triangles, 99'999'999'999),
+  EXPECT_THAT(refusal(&TrainingOptions::triangles, 99'999'999'999),
               Names("triangles", "99999999999", 4000000));
-  EXPECT_THAT(refusal(&ConfigOptions::steps, -99'999'999'999),
+  EXPECT_THAT(refusal(&TrainingOptions::steps, -99'999'999'999),
               Names("steps", "-99999999999", 10000000));
-  EXPECT_THAT(refusal(&ConfigOptions::batch, 1LL << 40), Names("batch", "1099511627776"));
-  EXPECT_THAT(refusal(&ConfigOptions::level, 1LL << 40), Names("max_level", "1099511627776"));
+  EXPECT_THAT(refusal(&TrainingOptions::batch, 1LL << 40), Names("batch", "1099511627776"));
+  EXPECT_THAT(refusal(&TrainingOptions::level, 1LL << 40), Names("max_level", "1099511627776"));
 }
 
 TEST(ConfigOptions, LowerWhatWouldBeAboveTheLevel) {
-  ConfigOptions options;
+  TrainingOptions options;
   options.level = 1;
   Config base = trainer::preset(Preset::object);
   base.coarse_level = 2;
@@ -104,13 +105,13 @@ TEST(ConfigOptions, ChangeNothingThatIsNotGiven) {
 }
 
 TEST(ConfigOptions, TellTheWordsOfInitFromAFile) {
-  ConfigOptions options;
+  TrainingOptions options;
   EXPECT_EQ(options.mesh(), "");
   options.begin = "random";
   EXPECT_EQ(options.mesh(), "");
   options.begin = "./random";
   EXPECT_EQ(options.mesh(), "./random");
-  EXPECT_EQ(with_options({}, options).initialisation, trainer::Initialisation::mesh);
+  EXPECT_EQ(with_options(Config{}, options).initialisation, trainer::Initialisation::mesh);
 }
 
 }  // namespace train_parts_test

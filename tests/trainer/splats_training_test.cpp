@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tests/trainer/disc_views.hpp"
 #include "trainer/splats/gaussian_trainer.hpp"
 
 namespace tureen::trainer {
@@ -78,6 +79,7 @@ TEST(SplatsDensify, OfDeadSplatsOnlyChangesNothing) {
   EXPECT_EQ(line.parameters.count(), 20u);
 }
 
+<<<<<<< HEAD
 TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
   Line line(40);
   for (std::size_t i = 0; i < 40; ++i) {
@@ -115,8 +117,10 @@ std::vector<TrainingView> views_of_a_disc() {
   return views;
 }
 
+=======
+>>>>>>> run30
 TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
-  const std::vector<TrainingView> views = views_of_a_disc();
+  const std::vector<TrainingView> views = test::views_of_a_disc();
   std::vector<float> images[3];
   const int threads[] = {1, 2, 5};
   for (int run = 0; run < 3; ++run) {

@@ -18,6 +18,9 @@ namespace {
 constexpr double pairs_a_splat = 12;
 constexpr double planes_a_pixel = 12;
 
+/// The program, its libraries, and the buffers of its threads.
+constexpr double program_bytes = 64.0 * (1 << 20);
+
 constexpr std::uint64_t min_splats = 1000;
 
 std::uint64_t pixels_of(const std::vector<Photograph>& photographs) {
@@ -37,26 +40,26 @@ double bytes_a_splat(const GaussianConfig& config) {
          pairs_a_splat * double(sizeof(GaussianMoments) + 4 * sizeof(std::uint32_t));
 }
 
-double bytes_of_images(const Dataset& dataset) {
+double bytes_without_splats(const Dataset& dataset) {
   std::uint64_t largest = 0;
   for (const Photograph& view : dataset.train)
     largest =
         std::max(largest, std::uint64_t(view.camera.width) * std::uint64_t(view.camera.height));
   // Photographs have four bytes a pixel while they are read.
-  return 4.0 * double(pixels_of(dataset.train) + pixels_of(dataset.test)) +
+  return program_bytes + 4.0 * double(pixels_of(dataset.train) + pixels_of(dataset.test)) +
          planes_a_pixel * sizeof(float) * double(largest);
 }
 
 }  // namespace
 
 std::uint64_t gaussian_memory(const GaussianConfig& config, const Dataset& dataset) {
-  return std::uint64_t(bytes_of_images(dataset) +
+  return std::uint64_t(bytes_without_splats(dataset) +
                        bytes_a_splat(config) * double(config.max_splats));
 }
 
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
                                                const Dataset& dataset) {
-  const double left = double(bytes) - bytes_of_images(dataset);
+  const double left = double(bytes) - bytes_without_splats(dataset);
   const double fitting = std::floor(left / bytes_a_splat(config));
   if (!(fitting >= double(std::min(min_splats, config.max_splats)))) return std::nullopt;
   return std::min(config.max_splats, std::uint64_t(fitting));

@@ -12,9 +12,9 @@
 
 namespace tureen::trainer {
 
-/// Bytes that a run needs at its largest: photographs, parameters with their moments (twice, while
-/// their number grows), lists of tiles, and planes of images. An estimate: lists depend on the
-/// sizes of splats.
+/// Bytes that a run needs at its largest: the program, photographs, parameters with their moments
+/// (twice, while their number grows), lists of tiles, and planes of images. An estimate: lists
+/// depend on the sizes of splats.
 std::uint64_t gaussian_memory(const GaussianConfig& config, const Dataset& dataset);
 
 /// The largest max_splats, at most config.max_splats, with which gaussian_memory() is at most

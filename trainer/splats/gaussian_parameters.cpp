@@ -13,13 +13,13 @@ namespace tureen::trainer {
 namespace row = splatting::gaussian_row;
 
 const std::array<ParameterKind, 6> gaussian_parameter_kinds = {{
-    {"centre", row::x, 3, Activation::identity, 5e-4f, 5e-6f, Inheritance::moved_apart},
-    {"log scale", row::scale_x, 3, Activation::exponential, 1e-2f, 2e-3f, Inheritance::shortened},
-    {"rotation", row::rotation_x, 4, Activation::unit_length, 5e-3f, 1e-3f, Inheritance::copied},
-    {"opacity logit", row::opacity, 1, Activation::sigmoid, 5e-2f, 1e-2f, Inheritance::copied},
-    {"harmonics of degree 0", row::harmonics, 3, Activation::identity, 5e-3f, 1e-3f,
+    {"centre", row::x, 3, Activation::identity, 3e-3f, 3e-5f, Inheritance::moved_apart},
+    {"log scale", row::scale_x, 3, Activation::exponential, 4e-2f, 8e-3f, Inheritance::shortened},
+    {"rotation", row::rotation_x, 4, Activation::unit_length, 1e-2f, 2e-3f, Inheritance::copied},
+    {"opacity logit", row::opacity, 1, Activation::sigmoid, 1e-1f, 2e-2f, Inheritance::copied},
+    {"harmonics of degree 0", row::harmonics, 3, Activation::identity, 2e-2f, 4e-3f,
      Inheritance::copied},
-    {"other harmonics", row::harmonics + 3, 45, Activation::identity, 5e-4f, 1e-4f,
+    {"other harmonics", row::harmonics + 3, 45, Activation::identity, 4e-3f, 8e-4f,
      Inheritance::copied},
 }};
 

@@ -1,0 +1,13 @@
+// Errors against photographs, as JSON.
+#pragma once
+
+#include "jobs/eval/evaluation.hpp"
+#include "jobs/results/json_text.hpp"
+
+namespace tureen::results {
+
+/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; "name" only if it is not empty, "flip" only
+/// if `with_flip`.
+Json to_json(const ViewMetrics& metrics, bool with_flip);
+
+}  // namespace tureen::results

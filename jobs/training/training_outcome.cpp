@@ -1,0 +1,46 @@
+#include "jobs/training/training_outcome.hpp"
+
+#include "base/error.hpp"
+#include "jobs/results/eval_json.hpp"
+
+namespace tureen {
+
+void evaluate(TrainingOutcome& outcome, const Scene& scene, std::span<const Photograph> views,
+              const std::function<void(double)>& progress) {
+  EvaluationOptions options;
+  options.background = scene.info.background;
+  options.progress = progress;
+  try {
+    outcome.evaluation = evaluate(scene, views, options);
+  } catch (const ContextError& error) {
+    outcome.why_not_drawn = error.reason();
+  } catch (const DeviceLimitError& error) {
+    outcome.why_not_drawn = error.reason();
+  }
+}
+
+results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
+  const TrainingSummary& training = outcome.training;
+  results::Json test{{"views", views}};
+  if (outcome.evaluation) {
+    test.update(results::to_json(outcome.evaluation->mean, true));
+    test["drawn_by"] = outcome.evaluation->renderer;
+  } else {
+    test["psnr_db"] = training.run.test_psnr_db;
+    test["drawn_by"] = "trainer";
+  }
+  results::Json json{{"done", true},
+            {"steps", training.steps},
+            {"seconds", training.run.seconds},
+            {name_of(training.primitives.kind), training.primitives.count}};
+  if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
+  json["test"] = test;
+  json["trainer_psnr_db"] = training.run.test_psnr_db;
+  if (training.opacity_binary_fraction)
+    json["opacity_binary_fraction"] = *training.opacity_binary_fraction;
+  json["non_finite"] = training.non_finite;
+  json["output"] = outcome.output;
+  return json;
+}
+
+}  // namespace tureen

@@ -1,0 +1,271 @@
+// Whole runs of Gaussians: their first splats, their forecast, and their files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "base/error.hpp"
+#include "tests/support/errors.hpp"
+#include "trainer/common/training_log.hpp"
+#include "trainer/splats/gaussian_forecast.hpp"
+#include "trainer/splats/gaussian_initialise.hpp"
+#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_training.hpp"
+
+namespace tureen::trainer {
+namespace gaussian_run_test {
+
+namespace fs = std::filesystem;
+namespace row = splatting::gaussian_row;
+
+constexpr int size = 24;
+
+/// A bright disc on black, from around a centre far from the origin: 5 training views, a test view.
+Dataset disc_dataset(glm::dvec3 centre = {1000, -2000, 500}) {
+  Dataset dataset;
+  for (int k = 0; k < 6; ++k) {
+    const double turn = k * 1.05;
+    Photograph view;
+    view.camera = look_at(centre + glm::dvec3(4 * std::cos(turn), 4 * std::sin(turn), 1), centre,
+                          {0, 0, 1}, 0.6, size, size);
+    view.camera.name = "r_" + std::to_string(k);
+    view.image = Image8(size, size, glm::u8vec4(0, 0, 0, 255));
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        if (std::hypot(x - 11.5, y - 11.5) < 6) view.image.at(x, y) = {240, 160, 80, 255};
+    (k < 5 ? dataset.train : dataset.test).push_back(view);
+  }
+  dataset.up = {0, 0, 1};
+  return dataset;
+}
+
+GaussianParameters first(const Dataset& dataset, const GaussianConfig& config,
+                         const Scene* start = nullptr) {
+  Random random(5);
+  return initial_gaussians(dataset, config, region_of_interest(dataset), start, random);
+}
+
+bool all_finite(const GaussianParameters& parameters) {
+  for (std::size_t r = 0; r < parameters.rows(); ++r)
+    for (std::size_t i = 0; i < parameters.count(); ++i)
+      if (!std::isfinite(parameters.trained(r)[i]) || !std::isfinite(parameters.drawn.row(r)[i]))
+        return false;
+  return true;
+}
+
+TEST(FirstGaussians, AreRandomWithoutPoints) {
+  const Dataset dataset = disc_dataset();
+  const GaussianParameters some = first(dataset, {.first_splats = 70});
+  EXPECT_EQ(some.count(), 70u);
+  EXPECT_TRUE(all_finite(some));
+  EXPECT_EQ(first(dataset, {.max_splats = 30, .first_splats = 70}).count(), 30u);
+  EXPECT_THROW(first(dataset, {.initialisation = Initialisation::points}), InputError);
+}
+
+TEST(FirstGaussians, AreAtPointsHoweverFew) {
+  for (const std::size_t count : {1u, 2u, 50u}) {
+    Dataset dataset = disc_dataset();
+    Random random(3);
+    for (std::size_t i = 0; i < count; ++i)
+      dataset.points.push_back(
+          {glm::dvec3(1000, -2000, 500) + 0.3 * random.in_ball(), {255, 0, 51}});
+    const GaussianParameters splats = first(dataset, {.first_splats = 20});
+    ASSERT_EQ(splats.count(), std::max<std::size_t>(count, 20)) << count;
+    EXPECT_TRUE(all_finite(splats)) << count;
+    const Region region = region_of_interest(dataset);
+    for (int axis = 0; axis < 3; ++axis)
+      // Relative to the region's centre, in single precision.
+      EXPECT_NEAR(splats.drawn.row(row::x + std::size_t(axis))[0],
+                  dataset.points[0].position[axis] - region.centre[axis], 1e-5);
+    // The colour max(0, 1/2 + Y0 c), with Y0 in single precision.
+    const double y0 = 0.28209479;
+    EXPECT_NEAR(0.5 + y0 * splats.drawn.row(row::harmonics)[0], 1.0, 1e-6);
+    EXPECT_NEAR(0.5 + y0 * splats.drawn.row(row::harmonics + 1)[0], 0.0, 1e-6);
+    EXPECT_NEAR(0.5 + y0 * splats.drawn.row(row::harmonics + 2)[0], 0.2, 1e-6);
+  }
+}
+
+TEST(FirstGaussians, HaveTheMeanDistanceToThreeNeighbours) {
+  Dataset dataset = disc_dataset({0, 0, 0});
+  for (const double x : {0.0, 0.1, 0.3, 0.6}) dataset.points.push_back({{x, 0, 0}, {9, 9, 9}});
+  const GaussianParameters splats = first(dataset, {.first_splats = 4});
+  EXPECT_NEAR(splats.drawn.row(row::scale_y)[0], (0.1 + 0.3 + 0.6) / 3, 1e-6);
+  EXPECT_NEAR(splats.drawn.row(row::scale_y)[3], (0.3 + 0.5 + 0.6) / 3, 1e-6);
+}
+
+TEST(FirstGaussians, OfCoincidentPointsHaveASize) {
+  Dataset dataset = disc_dataset();
+  for (int i = 0; i < 9; ++i) dataset.points.push_back({{1000, -2000, 500}, {9, 9, 9}});
+  const GaussianConfig config{.first_splats = 9};
+  const GaussianParameters splats = first(dataset, config);
+  const double half_side = region_of_interest(dataset).half_side;
+  ASSERT_EQ(splats.count(), 9u);
+  EXPECT_TRUE(all_finite(splats));
+  EXPECT_NEAR(splats.drawn.row(row::scale_x)[0], double(config.min_scale) * half_side,
+              1e-5 * half_side);
+}
+
+TEST(FirstGaussians, LieOnTheTrianglesOfAScene) {
+  const Dataset dataset = disc_dataset({0, 0, 0});
+  TriangleSoup soup;
+  // Areas 1 and 3, in the plane z = 0.5.
+  soup.positions = {{0, 0, 0.5}, {2, 0, 0.5}, {0, 1, 0.5}, {0, 0, 0.5}, {-2, 0, 0.5}, {0, 3, 0.5}};
+  soup.triangles = {{0, 1, 2}, {3, 4, 5}};
+  soup.appearance = FaceColors{{glm::u8vec4(255, 0, 0, 255), glm::u8vec4(0, 255, 0, 255)}};
+  Scene scene = scene_of(soup);
+  const GaussianConfig config{.first_splats = 4000, .initialisation = Initialisation::mesh};
+  const GaussianParameters splats = first(dataset, config, &scene);
+  ASSERT_EQ(splats.count(), 4000u);
+  const Region region = region_of_interest(dataset);
+  std::size_t large = 0;
+  for (std::size_t i = 0; i < splats.count(); ++i) {
+    EXPECT_NEAR(splats.drawn.row(row::z)[i] + region.centre.z, 0.5, 1e-6);
+    const bool left = splats.drawn.row(row::x)[i] + region.centre.x < 0;
+    const bool green = splats.drawn.row(row::harmonics + 1)[i] > 0;
+    EXPECT_EQ(left, green);
+    large += left;
+  }
+  // 3,000 expected; the standard deviation is sqrt(4000 * 3/4 * 1/4) = 27. Five of them.
+  EXPECT_NEAR(double(large), 3000, 137);
+}
+
+TEST(FirstGaussians, OfASceneAreTakenAsTheyAre) {
+  const Dataset dataset = disc_dataset();
+  Random random(1);
+  const GaussianParameters made = random_gaussians({.first_splats = 12, .degree = 1}, {}, random);
+  Scene scene = scene_of(made.splats(), {1000, -2000, 500});
+  const GaussianConfig config{.degree = 2, .initialisation = Initialisation::mesh};
+  const GaussianParameters splats = first(dataset, config, &scene);
+  ASSERT_EQ(splats.count(), 12u);
+  EXPECT_EQ(splats.degree, 2);
+  const glm::dvec3 shift = glm::dvec3(1000, -2000, 500) - region_of_interest(dataset).centre;
+  for (std::size_t i = 0; i < 12; ++i) {
+    // Rounding of single precision.
+    EXPECT_NEAR(splats.drawn.row(row::x)[i], made.drawn.row(row::x)[i] + shift.x, 1e-5);
+    EXPECT_NEAR(splats.drawn.row(row::opacity)[i], made.drawn.row(row::opacity)[i], 1e-6);
+    EXPECT_NEAR(splats.drawn.row(row::scale_z)[i], made.drawn.row(row::scale_z)[i], 1e-6);
+  }
+  std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel).flat = true;
+  EXPECT_THROW(first(dataset, config, &scene), InputError);
+}
+
+TEST(GaussianForecast, LimitsTheSplatsToTheMemory) {
+  const Dataset dataset = disc_dataset();
+  GaussianConfig config{.max_splats = 100'000};
+  const std::uint64_t all = gaussian_memory(config, dataset);
+  EXPECT_EQ(max_splats_within(all + 1000, config, dataset), 100'000u);
+  EXPECT_EQ(max_splats_within(2 * all, config, dataset), 100'000u);
+  const auto half = max_splats_within(all / 2, config, dataset);
+  ASSERT_TRUE(half);
+  EXPECT_LT(*half, 51'000u);
+  config.max_splats = *half;
+  EXPECT_LE(gaussian_memory(config, dataset), all / 2);
+  EXPECT_FALSE(max_splats_within(100'000, config, dataset));
+}
+
+TEST(GaussianForecast, FitsTheStepsToTheTime) {
+  EXPECT_EQ(fitted_steps(0, 0, 60, 0.1), 600);
+  EXPECT_EQ(fitted_steps(100, 30, 60, 0.1), 400);
+  EXPECT_EQ(fitted_steps(100, 70, 60, 0.1), 101);  // late: the next step is the last one
+  EXPECT_EQ(fitted_steps(0, 0, 1e9, 1e-9), 10'000'000);
+}
+
+struct Files {
+  fs::path folder;
+  Files() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::path(testing::TempDir()) / (std::string("tureen_run_") + info->name());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  ~Files() { fs::remove_all(folder); }
+};
+
+GaussianRequest request(const Files& files, const GaussianConfig& config) {
+  GaussianRequest request;
+  request.config = config;
+  request.run.name = "disc";
+  request.run.threads = 2;
+  request.run.session.checkpoint = files.folder / "disc.checkpoint";
+  request.run.session.log = files.folder / "disc.jsonl";
+  return request;
+}
+
+TEST(GaussianTraining, LearnsTheDiscFarFromTheOrigin) {
+  const Files files;
+  Dataset dataset = disc_dataset();
+  GaussianRequest asked = request(files, {.steps = 400,
+                                          .max_splats = 300,
+                                          .first_splats = 200,
+                                          .densify_every = 40,
+                                          .background = {0, 0, 0}});
+  GaussianForecast forecast;
+  asked.begun = [&](const GaussianForecast& given) { forecast = given; };
+  Scene scene;
+  asked.run.finished = [&](const Scene& finished) { scene = finished; };
+  const GaussianResult result = train_gaussians(dataset, std::move(asked));
+  EXPECT_EQ(forecast.splats, 200u);
+  EXPECT_EQ(forecast.steps, 400);
+  EXPECT_GT(forecast.seconds, 0);
+  EXPECT_EQ(result.steps, 400);
+  EXPECT_EQ(result.non_finite, 0u);
+  // 21.0 dB when written. Other processors round differently.
+  EXPECT_GT(result.run.test_psnr_db, 19);
+  EXPECT_EQ(scene.cameras.size(), 5u);
+  EXPECT_EQ(scene.info.source, "Tureen trainer, 400 steps");
+  const Layer& layer = only_layer(scene);
+  EXPECT_LT(glm::distance(origin_of(layer), glm::dvec3(1000, -2000, 500)), 1);
+  EXPECT_EQ(count(std::get<Splats>(layer.primitives)), result.splats);
+  EXPECT_EQ(defect(std::get<Splats>(layer.primitives)).value_or(""), "");
+  const auto log = read_training_log(files.folder / "disc.jsonl");
+  EXPECT_EQ(log.back().step, 400);
+  EXPECT_EQ(log.back().primitives.kind, PrimitiveKind::splats);
+  EXPECT_GT(log.back().train_psnr_db, 15);
+  EXPECT_TRUE(log.back().test_psnr_db);
+}
+
+TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
+  const Files files;
+  Dataset dataset = disc_dataset();
+  constexpr double seconds = 2;
+  GaussianRequest asked = request(
+      files,
+      {.max_splats = 300, .first_splats = 200, .background = {0, 0, 0}, .minutes = seconds / 60});
+  struct Stop {};
+  asked.run.session.progress = [&](const SessionStatus& now) {
+    if (now.step > 0.6 * now.steps) throw Stop();
+  };
+  EXPECT_THROW(train_gaussians(dataset, std::move(asked)), Stop);
+  GaussianCheckpoint stored = read_gaussian_checkpoint(files.folder / "disc.checkpoint");
+  EXPECT_EQ(stored.state.fits, 3);
+  EXPECT_GT(stored.state.step, 1);
+  const int steps = stored.config.steps;
+
+  Dataset again = disc_dataset();
+  GaussianRequest resumed = request(files, stored.config);
+  resumed.checkpoint = std::move(stored);
+  const GaussianResult result = train_gaussians(again, std::move(resumed));
+  EXPECT_EQ(result.steps, steps);
+  // The machine may be busy for a part of the time.
+  EXPECT_GT(result.run.seconds, 0.2 * seconds);
+}
+
+TEST(GaussianTraining, SurvivesPhotographsThatShowNothing) {
+  const Files files;
+  Dataset dataset = disc_dataset();
+  for (auto* views : {&dataset.train, &dataset.test})
+    for (Photograph& view : *views) view.image = Image8(size, size, glm::u8vec4(255));
+  // White on white: all splats fade.
+  GaussianRequest asked =
+      request(files, {.steps = 120, .max_splats = 60, .first_splats = 50, .densify_every = 10});
+  Scene scene;
+  asked.run.finished = [&](const Scene& finished) { scene = finished; };
+  const GaussianResult result = train_gaussians(dataset, std::move(asked));
+  EXPECT_GT(result.run.test_psnr_db, 20);
+  EXPECT_EQ(defect(std::get<Splats>(only_layer(scene).primitives)).value_or(""), "");
+}
+
+}  // namespace gaussian_run_test
+}  // namespace tureen::trainer
