@@ -26,10 +26,6 @@
 #include "cli/table.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
-<<<<<<< HEAD
-#include "jobs/eval/evaluation.hpp"
-=======
->>>>>>> run30
 #include "jobs/training/training_method.hpp"
 #include "jobs/training/training_outcome.hpp"
 #include "trainer/common/kernels/projection.hpp"

@@ -79,7 +79,6 @@ TEST(SplatsDensify, OfDeadSplatsOnlyChangesNothing) {
   EXPECT_EQ(line.parameters.count(), 20u);
 }
 
-<<<<<<< HEAD
 TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
   Line line(40);
   for (std::size_t i = 0; i < 40; ++i) {
@@ -101,24 +100,6 @@ TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
   }
 }
 
-/// Views of a bright disc on black, from around.
-std::vector<TrainingView> views_of_a_disc() {
-  std::vector<TrainingView> views;
-  for (int k = 0; k < 6; ++k) {
-    TrainingView& view = views.emplace_back();
-    const double turn = k * 1.05;
-    view.camera =
-        look_at({4 * std::cos(turn), 4 * std::sin(turn), 1}, {0, 0, 0}, {0, 0, 1}, 0.6, 40, 33);
-    for (int i = 0; i < 3 * 40 * 33; ++i) {
-      const int x = i % 40 - 20, y = i / 40 % 33 - 16;
-      view.target.push_back(x * x + y * y < 80 ? std::uint8_t(120 + 40 * (i / (40 * 33))) : 0);
-    }
-  }
-  return views;
-}
-
-=======
->>>>>>> run30
 TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
   const std::vector<TrainingView> views = test::views_of_a_disc();
   std::vector<float> images[3];
