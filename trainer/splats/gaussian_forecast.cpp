@@ -72,6 +72,7 @@ double measured_step_seconds(const GaussianConfig& config, std::span<const Train
   GaussianConfig probe = config;
   probe.steps = state.step + max_steps + 1;
   probe.densify_every = probe.steps + 1;
+  probe.half_size_until = 0;
   GaussianTrainer trainer(probe, views, region, threads, state);
   trainer.step();  // allocates
   double seconds = 0;
@@ -83,9 +84,17 @@ double measured_step_seconds(const GaussianConfig& config, std::span<const Train
   return seconds / steps;
 }
 
-int fitted_steps(int done, double spent, double budget, double step_seconds) {
-  const double more = (budget - spent) / std::max(step_seconds, 1e-6);
-  return int(std::clamp(double(done) + std::round(more), double(done) + 1, 1e7));
+double remaining_work(const GaussianConfig& config, int done) {
+  const double full_from = std::max(config.half_size_until * config.steps, double(done));
+  return half_size_work * (full_from - done) + (config.steps - full_from);
+}
+
+int fitted_steps(const GaussianConfig& config, int done, double seconds, double step_seconds) {
+  const double work = seconds / std::max(step_seconds, 1e-6), half = config.half_size_until;
+  // remaining_work() of this many steps is `work`.
+  double steps = (work + half_size_work * done) / (half_size_work * half + 1 - half);
+  if (half * steps < done) steps = done + work;
+  return int(std::clamp(std::round(steps), double(done) + 1, 1e7));
 }
 
 }  // namespace tureen::trainer

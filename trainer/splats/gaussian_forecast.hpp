@@ -22,12 +22,20 @@ std::uint64_t gaussian_memory(const GaussianConfig& config, const Dataset& datas
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
                                                const Dataset& dataset);
 
-/// Seconds of a step of a run from this state, by some steps of a copy. Takes about half a second.
+/// The work of a step on images of half the size, relative to one of full size: a quarter of the
+/// pixels, but all splats.
+inline constexpr double half_size_work = 0.28;
+
+/// The work of all steps from `done` on, in steps of full size.
+double remaining_work(const GaussianConfig& config, int done);
+
+/// Seconds of a step of full size from this state, by some steps of a copy. Takes about half a
+/// second.
 double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
                              const Region& region, int threads, const GaussianState& state);
 
-/// The number of steps, of which `done` are done, that ends at `budget` seconds if `spent` are
-/// spent and each further step takes `step_seconds`; at least done + 1, at most 10 million.
-int fitted_steps(int done, double spent, double budget, double step_seconds);
+/// The number of steps, of which `done` are done, whose remaining work takes `seconds` if a step of
+/// full size takes `step_seconds`; at least done + 1, at most 10 million.
+int fitted_steps(const GaussianConfig& config, int done, double seconds, double step_seconds);
 
 }  // namespace tureen::trainer

@@ -32,8 +32,9 @@ struct ParameterKind {
 /// The highest degree of harmonics that is trained.
 inline constexpr int max_trained_degree = 3;
 
-/// The table, for harmonics of the highest degree. Rates are for runs of a few thousand steps, chosen
-/// on held-out training views: 2 to 8 times those of 3DGS (arXiv 2308.04079), which takes 30,000.
+/// The table, for harmonics of the highest degree. Rates are for runs of a few thousand steps,
+/// chosen on held-out training views: 2 to 8 times those of 3DGS (arXiv 2308.04079), which takes
+/// 30,000.
 extern const std::array<ParameterKind, 6> gaussian_parameter_kinds;
 
 /// Values of splats. Rows are gaussian_row's, with harmonics up to `degree`.

@@ -18,7 +18,7 @@ namespace {
 
 /// Fractions of the run at which the steps are fitted to the time. Early, the number of splats and
 /// their sizes still change; late, a change of the steps would disturb the decay of the rates.
-constexpr std::array<double, 3> fit_at{0.1, 0.3, 0.5};
+constexpr std::array<double, 4> fit_at{0.1, 0.3, 0.45, 0.6};
 
 /// Time between steps, for the log, held-out views and previews, relative to that of steps.
 constexpr double overhead = 1.03;
@@ -80,13 +80,14 @@ class GaussianRun final : public Trainable {
     fit();
     double seconds = 0;
     GaussianStepReport report;
+    const double work = remaining_work(trainer_.config(), steps_done());
     {
       const Stopwatch watch(seconds);
       report = trainer_.step();
     }
     spent_ += overhead * seconds;
     recent_ += overhead * seconds;
-    ++recent_steps_;
+    recent_work_ += work - remaining_work(trainer_.config(), steps_done());
     non_finite_ += report.quarantined;
     return {.loss = report.loss,
             .l1 = report.l1,
@@ -110,13 +111,12 @@ class GaussianRun final : public Trainable {
  private:
   /// Fits the number of steps to the time that is left, at the fractions of fit_at.
   void fit() {
-    if (!(run_.config.minutes > 0) || fits_ >= int(fit_at.size()) || recent_steps_ == 0) return;
+    if (!(run_.config.minutes > 0) || fits_ >= int(fit_at.size()) || recent_work_ == 0) return;
     if (steps_done() < fit_at[std::size_t(fits_)] * steps()) return;
-    trainer_.set_steps(
-        fitted_steps(steps_done(), spent_, 60 * run_.config.minutes, recent_ / recent_steps_));
+    trainer_.set_steps(fitted_steps(trainer_.config(), steps_done(),
+                                    60 * run_.config.minutes - spent_, recent_ / recent_work_));
     ++fits_;
-    recent_ = 0;
-    recent_steps_ = 0;
+    recent_ = recent_work_ = 0;
   }
 
   GaussianTrainer& trainer_;
@@ -124,7 +124,7 @@ class GaussianRun final : public Trainable {
   GaussianCheckpoint run_;  // without a state
   double spent_ = 0;        // seconds, over all sessions
   double recent_ = 0;       // seconds of the steps since the last fit
-  int recent_steps_ = 0;
+  double recent_work_ = 0;  // their work, in steps of full size
   std::uint64_t non_finite_ = 0;
   int fits_ = 0;
 };
@@ -160,10 +160,11 @@ GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request) {
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
   else if (run.config.minutes > 0)
-    run.config.steps = fitted_steps(0, 0, 60 * run.config.minutes, overhead * step_seconds);
+    run.config.steps =
+        fitted_steps(run.config, 0, 60 * run.config.minutes, overhead * step_seconds);
   GaussianTrainer trainer(run.config, views, local, request.run.threads, run.state);
   forecast.steps = run.config.steps;
-  forecast.seconds = overhead * step_seconds * (run.config.steps - run.state.step);
+  forecast.seconds = overhead * step_seconds * remaining_work(run.config, run.state.step);
   forecast.threads = trainer.threads();
   if (request.begun) request.begun(forecast);
 
