@@ -30,9 +30,9 @@ results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
     test["drawn_by"] = "trainer";
   }
   results::Json json{{"done", true},
-            {"steps", training.steps},
-            {"seconds", training.run.seconds},
-            {name_of(training.primitives.kind), training.primitives.count}};
+                     {"steps", training.steps},
+                     {"seconds", training.run.seconds},
+                     {name_of(training.primitives.kind), training.primitives.count}};
   if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
   json["test"] = test;
   json["trainer_psnr_db"] = training.run.test_psnr_db;
