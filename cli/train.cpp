@@ -1,7 +1,6 @@
 // `tureen train`: trains a scene from photographs.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -9,7 +8,6 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
-#include "base/memory_budget.hpp"
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"

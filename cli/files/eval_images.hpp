@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/report.hpp"
 #include "image/image.hpp"
 #include "jobs/eval/evaluation.hpp"
 #include "scene/photographs.hpp"

@@ -22,6 +22,7 @@
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
+#include "trainer/splats/gaussian_state.hpp"
 #include "viewer/files/session.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -393,6 +394,21 @@ Content training_checkpoint_bytes(const Scratch& scratch) {
   return bytes;
 }
 
+Content gaussian_checkpoint_bytes(const Scratch& scratch) {
+  trainer::GaussianCheckpoint checkpoint;
+  checkpoint.config.degree = 0;
+  checkpoint.views = {{"train/r_0", 3, 2, 17u, 18u}};
+  checkpoint.state.parameters = trainer::GaussianParameters(2, 0);
+  checkpoint.state.memory = trainer::GaussianMemory(checkpoint.state.parameters);
+  checkpoint.state.step = 70;
+  checkpoint.state.epoch = {0};
+  const auto path = scratch.folder() / "gaussians.checkpoint";
+  trainer::write_checkpoint(path, checkpoint);
+  Content bytes = Input::open(path).read_rest();
+  bytes.erase(bytes.end() - 4, bytes.end());  // the checksum; the target computes it
+  return bytes;
+}
+
 constexpr char training_config_text[] =
     R"({"preset": "scene", "steps": 5000, "background": [1, 1, 1], "baseline": false})";
 
@@ -476,6 +492,7 @@ std::vector<Fixture> fixtures() {
   all.add("training_log", "run.jsonl", training_log_text);
   const Scratch scratch("training");
   all.add("training_checkpoint", "run.checkpoint", training_checkpoint_bytes(scratch));
+  all.add("training_checkpoint", "gaussians.checkpoint", gaussian_checkpoint_bytes(scratch));
   return std::move(all.list);
 }
 

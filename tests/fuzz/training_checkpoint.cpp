@@ -1,5 +1,5 @@
-// A training checkpoint in our format. The bytes come without their checksum, because no fuzzer
-// would find it.
+// A training checkpoint in our format, of a soup or of Gaussians. The bytes come without their
+// checksum, because no fuzzer would find it.
 #include <zlib.h>
 
 #include <cstring>
@@ -7,6 +7,7 @@
 
 #include "tests/fuzz/targets.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
+#include "trainer/splats/gaussian_state.hpp"
 
 namespace tureen::fuzz {
 
@@ -17,7 +18,10 @@ void training_checkpoint(Bytes bytes) {
   whole.resize(bytes.size() + sizeof sum);
   std::memcpy(whole.data() + bytes.size(), &sum, sizeof sum);
   Input input = Input::memory("fuzz.checkpoint", whole);
-  trainer::read_checkpoint(input);
+  if (bytes.size() > 7 && bytes[7] == std::byte('S'))  // TUREENGS
+    trainer::read_gaussian_checkpoint(input);
+  else
+    trainer::read_checkpoint(input);
 }
 
 }  // namespace tureen::fuzz
