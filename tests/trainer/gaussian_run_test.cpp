@@ -166,10 +166,17 @@ TEST(GaussianForecast, LimitsTheSplatsToTheMemory) {
 }
 
 TEST(GaussianForecast, FitsTheStepsToTheTime) {
-  EXPECT_EQ(fitted_steps(0, 0, 60, 0.1), 600);
-  EXPECT_EQ(fitted_steps(100, 30, 60, 0.1), 400);
-  EXPECT_EQ(fitted_steps(100, 70, 60, 0.1), 101);  // late: the next step is the last one
-  EXPECT_EQ(fitted_steps(0, 0, 1e9, 1e-9), 10'000'000);
+  GaussianConfig config;
+  config.half_size_until = 0;
+  EXPECT_EQ(fitted_steps(config, 0, 60, 0.1), 600);
+  EXPECT_EQ(fitted_steps(config, 100, 30, 0.1), 400);
+  EXPECT_EQ(fitted_steps(config, 100, -10, 0.1), 101);  // late: the next step is the last one
+  EXPECT_EQ(fitted_steps(config, 0, 1e9, 1e-9), 10'000'000);
+  config.half_size_until = 0.4;
+  for (const int done : {0, 100, 300, 700}) {
+    config.steps = fitted_steps(config, done, 50, 0.1);
+    EXPECT_NEAR(remaining_work(config, done), 500, 0.6) << done;  // to the nearest step
+  }
 }
 
 struct Files {

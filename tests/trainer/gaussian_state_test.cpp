@@ -24,7 +24,7 @@ constexpr Region region{.centre = {0, 0, 0}, .half_side = 1};
 
 GaussianConfig short_run() {
   return {.steps = 60,
-          .max_splats = 250,
+          .max_splats = 350,
           .first_splats = 150,
           .densify_every = 20,
           .background = {0, 0, 0}};

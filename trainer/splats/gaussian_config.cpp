@@ -39,7 +39,12 @@ const GaussianConfigField fields[] = {
      fraction,
      {},
      "Fraction of the steps before the next degree is trained, too"},
-    {"densify_every", &GaussianConfig::densify_every, whole, {}, "Steps between densifications"},
+    {"densify_every",
+     &GaussianConfig::densify_every,
+     whole,
+     {},
+     "Largest number of steps between densifications; short runs densify after 1/25 of their steps, "
+     "but at least 20"},
     {"densify_until",
      &GaussianConfig::densify_until,
      fraction,

@@ -22,7 +22,7 @@ struct GaussianConfig {
   int degree = 2;  // of the harmonics, up to max_trained_degree
   /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
   double degree_steps = 0.1;
-  int densify_every = 200;
+  int densify_every = 200;     // steps; shorter runs do it 25 times
   double densify_until = 0.8;  // fraction of the steps
   double growth = 0.3;         // of the number of splats at each densification
   /// Images have half their width and height until this fraction of the steps.

@@ -154,7 +154,9 @@ GaussianStepReport GaussianTrainer::step() {
   }
   ++times().steps;
   ++step_;
-  if (step_ % config_.densify_every == 0 && step_ <= config_.densify_until * config_.steps) {
+  // Short runs densify more often, or they would end with few splats.
+  const int every = std::min(config_.densify_every, std::max(config_.steps / 25, 20));
+  if (step_ % every == 0 && step_ <= config_.densify_until * config_.steps) {
     const Stopwatch watch(times().update);
     const DensifyReport densified =
         densify({.max_splats = config_.max_splats, .growth = config_.growth}, random_, parameters_,

@@ -18,7 +18,7 @@ namespace {
 
 /// Fractions of the run at which the steps are fitted to the time. Early, the number of splats and
 /// their sizes still change; late, a change of the steps would disturb the decay of the rates.
-constexpr std::array<double, 4> fit_at{0.1, 0.3, 0.45, 0.6};
+constexpr std::array<double, 3> fit_at{0.1, 0.3, 0.5};
 
 /// Time between steps, for the log, held-out views and previews, relative to that of steps.
 constexpr double overhead = 1.03;
