@@ -5,7 +5,7 @@
 //   train_windows DATASET SCALE STEPS [NAME=VALUE ..]
 //
 // Names: splats, marks, first, size, rate, overlap, opacity_weight, size_weight, sampling (0: motion,
-// 1: opacity and 1 / sigma in turn), opaque, from, until, sigma, seed, densify_until, degree, and
+// 1: opacity and 1 / sigma in turn), opaque, from, until, sigma, seed, every, densify_until, degree, and
 // images (a folder for images of the first held-out views).
 #include <algorithm>
 #include <cmath>
@@ -94,6 +94,7 @@ int run(int argc, char** argv) {
   config.opacity_weight = float(number("opacity_weight", config.opacity_weight));
   config.size_weight = float(number("size_weight", config.size_weight));
   config.alternate_sampling = number("sampling", 0) > 0;
+  config.densify_every = int(number("every", config.densify_every));
   config.degree = int(number("degree", config.degree));
   config.densify_until = number("densify_until", config.densify_until);
   config.opaque = number("opaque", 0) > 0;

@@ -103,6 +103,12 @@ class TileRaster {
     if (projected_.count() != parameters.count())
       projected_ = splatting::ParameterRows(Method::projected_rows, parameters.count());
     Method::project(view_, parameters.drawn, degree_, projected_);
+    // In memory order: in the order of blending, each of the rows would be a cache miss.
+    entries_.resize(parameters.count());
+    outlines_.resize(parameters.count());
+    const float* depths = projected_.row(Method::depth_row);
+    for (std::size_t i = 0; i < parameters.count(); ++i)
+      if (std::isfinite(depths[i])) Method::read(projected_, i, entries_[i], outlines_[i]);
   }
 
   void make_lists(std::size_t count) {
@@ -113,12 +119,11 @@ class TileRaster {
       if (std::isfinite(depths[i])) keys_.push_back({sort_key(depths[i]), i});
     radix_sort(keys_, key_scratch_);
     lists_.begin(view_.width, view_.height);
-    entries_.resize(keys_.size());
     pairs_.assign(count, {0, 0});
-    for (std::uint32_t place = 0; place < keys_.size(); ++place) {
-      const std::uint32_t splat = keys_[place].index;
+    for (const KeyedIndex& key : keys_) {
+      const std::uint32_t splat = key.index;
       const std::uint32_t begin = lists_.pairs();
-      Method::list(view_, projected_, splat, place, entries_[place], lists_);
+      Method::list(view_, entries_[splat], outlines_[splat], splat, lists_);
       pairs_[splat] = {begin, lists_.pairs()};
     }
   }
@@ -197,8 +202,10 @@ class TileRaster {
   int degree_ = 0;
   splatting::ParameterRows projected_;
   std::vector<KeyedIndex> keys_, key_scratch_;
-  std::vector<typename Method::Entry> entries_;  // in the order of blending
-  std::vector<PairSpan> pairs_;                  // of each splat
+  // Of each splat. The tiles' lists hold splats in the order of blending.
+  std::vector<typename Method::Entry> entries_;
+  std::vector<typename Method::Outline> outlines_;
+  std::vector<PairSpan> pairs_;
   splatting::TileLists lists_;
   std::vector<Row> rows_;
   std::vector<typename Method::Moments> moments_;  // of the pairs

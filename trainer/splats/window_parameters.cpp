@@ -10,7 +10,7 @@ namespace tureen::trainer {
 namespace window_row = splatting::window_row;
 
 const std::array<ParameterKind, 5> window_parameter_kinds = {{
-    {"corners", window_row::corners, 9, Activation::identity, 1e-3f, 1e-5f, Inheritance::halved},
+    {"corners", window_row::corners, 9, Activation::identity, 8e-3f, 8e-5f, Inheritance::halved},
     {"log sigma", window_row::sigma, 1, Activation::floored_exponential, 1e-2f, 2e-3f,
      Inheritance::copied},
     {"opacity logit", window_row::opacity, 1, Activation::sigmoid, 3e-2f, 1e-2f, Inheritance::copied},

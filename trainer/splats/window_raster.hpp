@@ -10,6 +10,7 @@ namespace tureen::trainer {
 struct WindowMethod {
   using Parameters = WindowParameters;
   using Entry = splatting::WindowEntry;
+  using Outline = splatting::WindowOutline;
   using Moments = WindowMoments;
   using Scratch = WindowScratch;
   using BackwardInput = WindowBackwardInput;
@@ -21,13 +22,14 @@ struct WindowMethod {
                       int degree, splatting::ParameterRows& projected) {
     splatting::project_windows(view, drawn, degree, projected);
   }
-  /// Reads the entry of a drawn splat, and adds it to its tiles as `place`.
-  static void list(const splatting::ImageView&, const splatting::ParameterRows& projected,
-                   std::size_t splat, std::uint32_t place, Entry& entry,
-                   splatting::TileLists& lists) {
-    splatting::WindowOutline outline;
+  /// Of a drawn splat.
+  static void read(const splatting::ParameterRows& projected, std::size_t splat, Entry& entry,
+                   Outline& outline) {
     splatting::read_entry(projected, splat, entry, outline);
-    splatting::list_window(outline, place, lists);
+  }
+  static void list(const splatting::ImageView&, const Entry&, const Outline& outline,
+                   std::uint32_t splat, splatting::TileLists& lists) {
+    splatting::list_window(outline, splat, lists);
   }
   static constexpr auto blend_recorded = &blend_windows_recorded;
   static constexpr auto blend_backward = &blend_windows_backward;
