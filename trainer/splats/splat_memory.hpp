@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "splatting/parameter_rows.hpp"
+#include "trainer/splats/splat_order.hpp"
 
 namespace tureen::trainer {
 
@@ -59,6 +62,16 @@ struct SplatMemory {
     for (std::size_t which = 0; which < splat_statistic::count; ++which)
       std::copy_n(statistics.row(which), statistics.count(), more.statistics.row(which));
     *this = std::move(more);
+  }
+
+  void reorder(std::span<const std::uint32_t> order) {
+    SplatMemory sorted(rows, order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t line = 0; line < 2 * rows; ++line)
+        sorted.lines_of(i)[line].values[i % block] =
+            lines_of(order[i])[line].values[order[i] % block];
+    sorted.statistics = reordered(statistics, splat_statistic::count, order);
+    *this = std::move(sorted);
   }
 };
 

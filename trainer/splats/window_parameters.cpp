@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "splatting/harmonics_rows.hpp"
+#include "trainer/splats/splat_order.hpp"
 
 namespace tureen::trainer {
 
@@ -68,6 +69,11 @@ float WindowParameters::log_of_sigma(float sigma) {
 float WindowParameters::logit_of(float opacity) const {
   const float fraction = std::clamp((opacity - min_opacity) / (1 - min_opacity), 0.001f, 0.999f);
   return std::log(fraction / (1 - fraction));
+}
+
+void WindowParameters::reorder(std::span<const std::uint32_t> order) {
+  drawn = reordered(drawn, rows(), order);
+  raw = reordered(raw, raw_rows, order);
 }
 
 Splats WindowParameters::splats() const {

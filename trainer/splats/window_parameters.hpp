@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "scene/splats.hpp"
 #include "splatting/parameter_rows.hpp"
@@ -51,6 +53,8 @@ struct WindowParameters {
   /// The trained values of sigma and opacity that are drawn like these, limited as above.
   static float log_of_sigma(float sigma);
   float logit_of(float opacity) const;
+
+  void reorder(std::span<const std::uint32_t> order);
 
   Splats splats() const;
 };

@@ -18,6 +18,9 @@ constexpr std::size_t windows_a_task = 1024;
 /// Steps between two changes of the limits of opaque training: a pass over all windows.
 constexpr int anneal_every = 10;
 
+/// Fraction of the way from the floor of opacity to 1.
+constexpr float dead_above_floor = 0.05f;
+
 /// The value of a constant harmonic.
 constexpr double constant_harmonic = 0.28209479177387814;
 
@@ -79,7 +82,7 @@ WindowTrainer::WindowTrainer(const WindowConfig& config, std::span<const Trainin
                              std::span<const DatasetPoint> points)
     : config_(config),
       views_(views),
-      length_(region.half_side),
+      region_(region),
       pool_(threads),
       raster_(pool_),
       random_(config.seed) {
@@ -112,7 +115,7 @@ std::size_t WindowTrainer::update(const WindowBackwardInput& input) {
     const ParameterKind& kind = window_parameter_kinds[k];
     step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
   }
-  step.rates[0] *= float(length_ * config_.rate_factor);
+  step.rates[0] *= float(region_.half_side * config_.rate_factor);
   std::vector<std::size_t> quarantined((count + windows_a_task - 1) / windows_a_task);
   pool_.run(quarantined.size(), [&](std::size_t task) {
     const std::size_t begin = task * windows_a_task;
@@ -153,11 +156,22 @@ WindowDensifyReport WindowTrainer::densify() {
   WindowDensifyOptions options{.max_splats = config_.max_splats,
                                .overlap = config_.overlap,
                                .sampling = config_.sampling};
+  // Above a floor, windows close to it are better transparent.
+  const float floor = parameters_.min_opacity;
+  if (floor > 0) options.min_opacity = floor + (1 - floor) * dead_above_floor;
   if (config_.alternate_sampling)
     options.sampling = densifications_ % 2 == 0 ? WindowSampling::opacity
                                                 : WindowSampling::inverse_sigma;
   ++densifications_;
-  return densify_windows(options, random_, parameters_, memory_);
+  const WindowDensifyReport report = densify_windows(options, random_, parameters_, memory_);
+  std::vector<glm::vec3> centers(parameters_.count());
+  for (std::size_t i = 0; i < centers.size(); ++i)
+    for (std::size_t k = 0; k < 9; ++k)
+      centers[i][int(k % 3)] += parameters_.trained(window_row::corners + k)[i] / 3;
+  const std::vector<std::uint32_t> order = morton_order(centers, region_);
+  parameters_.reorder(order);
+  memory_.reorder(order);
+  return report;
 }
 
 WindowStepReport WindowTrainer::step() {

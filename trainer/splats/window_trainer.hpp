@@ -27,20 +27,20 @@ namespace tureen::trainer {
 struct WindowConfig {
   int steps = 5000;
   std::size_t max_splats = 60000;
-  std::size_t first_splats = 10000;  // at most as many as points, if there are points
+  std::size_t first_splats = 30000;  // at most as many as points, if there are points
   /// Circumradius of the first triangles, relative to the distance between neighbours.
-  float first_size = 0.7f;
+  float first_size = 0.4f;
   float first_opacity = 0.28f, first_sigma = 1.16f;  // as Triangle Splatting
   int degree = 2;  // of the harmonics, up to max_trained_degree
   /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
   double degree_steps = 0.1;
-  int densify_every = 200;
+  int densify_every = 100;
   double densify_until = 0.8;  // fraction of the steps
   WindowSampling sampling = WindowSampling::motion;
   /// Alternate between WindowSampling::opacity and inverse_sigma; `sampling` is not used.
   bool alternate_sampling = false;
-  float overlap = 0.1f;      // WindowDensifyOptions
-  double rate_factor = 1;    // of the corners
+  float overlap = 0.1f;    // WindowDensifyOptions
+  double rate_factor = 1;  // of the corners
   float background[3] = {1, 1, 1};
   /// 0.8 L1 + 0.2 (1 - SSIM) as in 3DGS.
   float l1_weight = 0.8f, ssim_weight = 0.4f;
@@ -90,7 +90,7 @@ class WindowTrainer {
 
   WindowConfig config_;
   std::span<const TrainingView> views_;
-  double length_;  // half side of the region
+  Region region_;  // its half side is the unit of rates
   ThreadPool pool_;
   WindowRaster raster_;
   WindowParameters parameters_;
