@@ -23,9 +23,9 @@ HWY_INLINE Floats mean(Floats a, Floats b, Floats c) {
   return hn::Mul(hn::Add(hn::Add(a, b), c), constant(1.0f / 3.0f));
 }
 
-/// The corners of windows in a view, scaled by a power of 2 so that fourth powers of lengths neither
-/// underflow nor overflow (docs/numerics.md, E8). Homogeneous points keep their image in another
-/// unit, and the scaling adds no rounding.
+/// The corners of windows in a view, scaled by a power of 2 so that fourth powers of lengths
+/// neither underflow nor overflow (docs/numerics.md, E8). Homogeneous points keep their image in
+/// another unit, and the scaling adds no rounding.
 struct WindowCorners {
   Vector3 corner[3];      // in layer coordinates, scaled
   Vector3 offset[3];      // from the eye, in layer coordinates, scaled
@@ -115,8 +115,7 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
   const Floats opposite_farthest =
       hn::IfThenElse(hn::Gt(distance[0], hn::Max(distance[1], distance[2])), at_center[0],
                      hn::IfThenElse(hn::Gt(distance[1], distance[2]), at_center[1], at_center[2]));
-  determinant =
-      hn::Mul(hn::Add(hn::Add(point[0].z, point[1].z), point[2].z), opposite_farthest);
+  determinant = hn::Mul(hn::Add(hn::Add(point[0].z, point[1].z), point[2].z), opposite_farthest);
   exists = hn::And(exists, hn::Gt(weight, zero));
   exists = hn::And(exists, hn::Gt(hn::Abs(determinant), zero));
 
@@ -129,8 +128,7 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
   }
   inverse_depth[0] = hn::Mul(normal_sum_x, inverse);
   inverse_depth[1] = hn::Mul(normal_sum_y, inverse);
-  inverse_depth[2] =
-      hn::Mul(hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]), inverse);
+  inverse_depth[2] = hn::Mul(hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]), inverse);
   return result;
 }
 

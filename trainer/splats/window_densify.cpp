@@ -25,9 +25,12 @@ bool is_finite(const WindowParameters& parameters, std::size_t i) {
 float weight_of(WindowSampling sampling, const WindowParameters& parameters,
                 const SplatMemory& memory, std::size_t i) {
   switch (sampling) {
-    case WindowSampling::motion: return memory.statistics.row(splat_statistic::motion)[i];
-    case WindowSampling::opacity: return parameters.drawn.row(window_row::opacity)[i];
-    case WindowSampling::inverse_sigma: break;
+    case WindowSampling::motion:
+      return memory.statistics.row(splat_statistic::motion)[i];
+    case WindowSampling::opacity:
+      return parameters.drawn.row(window_row::opacity)[i];
+    case WindowSampling::inverse_sigma:
+      break;
   }
   return 1 / parameters.drawn.row(window_row::sigma)[i];
 }

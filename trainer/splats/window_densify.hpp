@@ -19,9 +19,9 @@ enum class WindowSampling {
 
 struct WindowDensifyOptions {
   std::size_t max_splats;
-  double growth = 0.15;         // of the number of splats
-  float min_opacity = 0.014f;   // below: dead. As in the code of Triangle Splatting
-  float overlap = 0.1f;         // of the halves, a fraction of the divided edge at each side
+  double growth = 0.15;        // of the number of splats
+  float min_opacity = 0.014f;  // below: dead. As in the code of Triangle Splatting
+  float overlap = 0.1f;        // of the halves, a fraction of the divided edge at each side
   WindowSampling sampling = WindowSampling::motion;
 };
 
@@ -30,10 +30,10 @@ struct WindowDensifyReport {
   std::size_t split = 0;  // divided into two
 };
 
-/// A window is dead if it was not evident in any step since the last call, or its opacity is low, or
-/// it is not finite. Parents are drawn without replacement from the others. Each is divided at the
-/// middle of its longest edge; one half takes its place, the other one that of a dead window or a
-/// new one. The moments of halves begin at 0, and so do all statistics except the steps of other
+/// A window is dead if it was not evident in any step since the last call, or its opacity is low,
+/// or it is not finite. Parents are drawn without replacement from the others. Each is divided at
+/// the middle of its longest edge; one half takes its place, the other one that of a dead window or
+/// a new one. The moments of halves begin at 0, and so do all statistics except the steps of other
 /// windows. If all are dead, or none has a weight, nothing changes.
 WindowDensifyReport densify_windows(const WindowDensifyOptions& options, Random& random,
                                     WindowParameters& parameters, SplatMemory& memory);

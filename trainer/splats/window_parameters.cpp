@@ -14,7 +14,8 @@ const std::array<ParameterKind, 5> window_parameter_kinds = {{
     {"corners", window_row::corners, 9, Activation::identity, 8e-3f, 8e-5f, Inheritance::halved},
     {"log sigma", window_row::sigma, 1, Activation::floored_exponential, 1e-2f, 2e-3f,
      Inheritance::copied},
-    {"opacity logit", window_row::opacity, 1, Activation::sigmoid, 3e-2f, 1e-2f, Inheritance::copied},
+    {"opacity logit", window_row::opacity, 1, Activation::sigmoid, 3e-2f, 1e-2f,
+     Inheritance::copied},
     {"harmonics of degree 0", window_row::harmonics, 3, Activation::identity, 5e-3f, 1e-3f,
      Inheritance::copied},
     {"other harmonics", window_row::harmonics + 3, 45, Activation::identity, 5e-4f, 1e-4f,
@@ -84,7 +85,8 @@ Splats WindowParameters::splats() const {
     const auto triple = [&](std::size_t r) {
       return glm::vec3(drawn.row(r)[i], drawn.row(r + 1)[i], drawn.row(r + 2)[i]);
     };
-    for (std::size_t k = 0; k < 3; ++k) windows.corners.push_back(triple(window_row::corners + 3 * k));
+    for (std::size_t k = 0; k < 3; ++k)
+      windows.corners.push_back(triple(window_row::corners + 3 * k));
     windows.sigma.push_back(drawn.row(window_row::sigma)[i]);
     windows.opacity.push_back(drawn.row(window_row::opacity)[i]);
     for (std::size_t k = 0; k < coefficients; ++k)

@@ -96,14 +96,13 @@ HWY_INLINE void corner_gradient(const WindowCorners& at, const WindowPlane& plan
   for (std::size_t k = 0; k < 3; ++k) {
     const Floats by_length = hn::Div(one, plane.length[k]);
     by_normal[k] = product(by_edge[k], hn::Mul(weight_by_det, by_length));
-    const Floats along = hn::Mul(
-        by_length, hn::MulSub(total_by_weight, at.point[k].z, hn::Mul(s[k], by_length)));
+    const Floats along =
+        hn::Mul(by_length, hn::MulSub(total_by_weight, at.point[k].z, hn::Mul(s[k], by_length)));
     by_normal[k].x = hn::MulAdd(along, plane.normal_x[k], by_normal[k].x);
     by_normal[k].y = hn::MulAdd(along, plane.normal_y[k], by_normal[k].y);
     point[k] = {hn::NegMulAdd(at.x, at.point[k].z, at.point[k].x),
                 hn::NegMulAdd(at.y, at.point[k].z, at.point[k].y), at.point[k].z};
-    by_point[k] =
-        product({plane.normal_x[k], plane.normal_y[k], plane.at_center[k]}, total_by_det);
+    by_point[k] = product({plane.normal_x[k], plane.normal_y[k], plane.at_center[k]}, total_by_det);
     by_point[k].z = hn::MulAdd(total_by_weight, plane.length[k], by_point[k].z);
   }
   for (std::size_t k = 0; k < 3; ++k) {
@@ -113,8 +112,8 @@ HWY_INLINE void corner_gradient(const WindowCorners& at, const WindowPlane& plan
   }
   // From the point relative to the centre's image to the point.
   for (std::size_t k = 0; k < 3; ++k)
-    by_point[k].z = hn::NegMulAdd(at.x, by_point[k].x,
-                                  hn::NegMulAdd(at.y, by_point[k].y, by_point[k].z));
+    by_point[k].z =
+        hn::NegMulAdd(at.x, by_point[k].x, hn::NegMulAdd(at.y, by_point[k].y, by_point[k].z));
 }
 
 /// The derivatives of 1 / area by the corners; both in the same unit.
@@ -124,10 +123,8 @@ HWY_INLINE void inverse_area_gradient(const Vector3 (&corner)[3], Vector3 (&by_c
   const Vector3 normal = cross(edges[0], edges[1]);  // twice the area
   const Floats squared = dot(normal, normal);
   // d(2 / |n|) = -2 n . dn / |n|^3, and n . dn = (edge x n) . d(corner opposite).
-  const Floats factor =
-      hn::Div(constant(-2.0f), hn::Mul(squared, hn::Sqrt(squared)));
-  for (std::size_t k = 0; k < 3; ++k)
-    by_corner[k] = product(cross(normal, edges[k]), factor);
+  const Floats factor = hn::Div(constant(-2.0f), hn::Mul(squared, hn::Sqrt(squared)));
+  for (std::size_t k = 0; k < 3; ++k) by_corner[k] = product(cross(normal, edges[k]), factor);
 }
 
 HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& loss,
@@ -215,8 +212,7 @@ HWY_INLINE Mask can_step(const Gradient& gradient) {
   const Vector3& color = gradient.color.color;
   Mask result = hn::And(shared::is_moderate(color.x),
                         hn::And(shared::is_moderate(color.y), shared::is_moderate(color.z)));
-  for (const Floats& value : gradient.values)
-    result = hn::And(result, shared::is_moderate(value));
+  for (const Floats& value : gradient.values) result = hn::And(result, shared::is_moderate(value));
   return result;
 }
 

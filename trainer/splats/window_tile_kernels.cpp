@@ -32,8 +32,8 @@ HWY_INLINE Mask covers(const WindowEntry& entry, const WindowAt& at, Floats inve
   const Mask covered = hn::Ge(at.rho, constant(entry.min_rho));
   if (!entry.reaches_near) return covered;
   const Floats inverse_depth = at.linear(entry.inverse_depth);
-  return hn::And(covered, hn::And(hn::Gt(inverse_depth, hn::Zero(d)),
-                                  hn::Lt(inverse_depth, inverse_near)));
+  return hn::And(covered,
+                 hn::And(hn::Gt(inverse_depth, hn::Zero(d)), hn::Lt(inverse_depth, inverse_near)));
 }
 
 /// WindowAlpha without opaque surfaces.
@@ -115,9 +115,8 @@ HWY_INLINE void write_matrix(const TileGradient& gradient, int block, Buffers& b
   for (std::size_t pixel = 0; pixel < block_pixels; ++pixel) {
     const std::size_t at = std::size_t(block) * block_pixels + pixel;
     const float x = left + float(pixel % block_side), y = top + float(pixel / block_side);
-    const float row[row_floats] = {
-        1, 1, 1, gradient.red[at], x, x, x, gradient.green[at], y, y, y, gradient.blue[at],
-        0, 0, 0, 0};
+    const float row[row_floats] = {1, 1, 1, gradient.red[at],  x, x, x, gradient.green[at],
+                                   y, y, y, gradient.blue[at], 0, 0, 0, 0};
     std::memcpy(buffers.matrix[pixel], row, sizeof row);
   }
 }

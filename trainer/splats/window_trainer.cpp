@@ -107,7 +107,9 @@ const TrainingView& WindowTrainer::next_view() {
 std::size_t WindowTrainer::update(const WindowBackwardInput& input) {
   const double done = double(step_) / config_.steps;
   const std::size_t count = parameters_.count();
-  const auto per_window = [&](float weight) { return weight / float(std::max(count, std::size_t(1))); };
+  const auto per_window = [&](float weight) {
+    return weight / float(std::max(count, std::size_t(1)));
+  };
   WindowStep step{.rates = {}};
   step.loss.opacity = per_window(config_.opacity_weight);
   if (done < config_.size_until) step.loss.inverse_area = per_window(config_.size_weight);
@@ -141,9 +143,9 @@ void WindowTrainer::anneal() {
     float& log_sigma = parameters_.trained(window_row::sigma)[i];
     log_sigma = std::min(log_sigma, max_log);
   }
-  const std::vector<float> opacity(parameters_.drawn.row(window_row::opacity),
-                                   parameters_.drawn.row(window_row::opacity) +
-                                       parameters_.count());
+  const std::vector<float> opacity(
+      parameters_.drawn.row(window_row::opacity),
+      parameters_.drawn.row(window_row::opacity) + parameters_.count());
   const bool rises = floor > parameters_.min_opacity;
   parameters_.min_opacity = std::max(floor, parameters_.min_opacity);
   for (std::size_t i = 0; i < parameters_.count(); ++i) {
@@ -153,15 +155,14 @@ void WindowTrainer::anneal() {
 }
 
 WindowDensifyReport WindowTrainer::densify() {
-  WindowDensifyOptions options{.max_splats = config_.max_splats,
-                               .overlap = config_.overlap,
-                               .sampling = config_.sampling};
+  WindowDensifyOptions options{
+      .max_splats = config_.max_splats, .overlap = config_.overlap, .sampling = config_.sampling};
   // Above a floor, windows close to it are better transparent.
   const float floor = parameters_.min_opacity;
   if (floor > 0) options.min_opacity = floor + (1 - floor) * dead_above_floor;
   if (config_.alternate_sampling)
-    options.sampling = densifications_ % 2 == 0 ? WindowSampling::opacity
-                                                : WindowSampling::inverse_sigma;
+    options.sampling =
+        densifications_ % 2 == 0 ? WindowSampling::opacity : WindowSampling::inverse_sigma;
   ++densifications_;
   const WindowDensifyReport report = densify_windows(options, random_, parameters_, memory_);
   std::vector<glm::vec3> centers(parameters_.count());

@@ -1,11 +1,11 @@
-// A training run of triangle windows on posed photographs (Triangle Splatting, arXiv 2505.19175): one
-// photograph a step. The next step depends only on the configuration, the views and the state; it
-// has the same bits with any number of threads.
+// A training run of triangle windows on posed photographs (Triangle Splatting, arXiv 2505.19175):
+// one photograph a step. The next step depends only on the configuration, the views and the state;
+// it has the same bits with any number of threads.
 //
 // With WindowConfig::opaque, the windows become opaque triangles in the last part of the run: sigma
-// is limited to an ever lower value, and opacity has an ever higher floor, as in Triangle Splatting+
-// (arXiv 2509.25122, section 3.3). The authors' variant for game engines has two losses instead
-// (mean sigma and one over the mean opacity), which fix neither the end nor its time.
+// is limited to an ever lower value, and opacity has an ever higher floor, as in Triangle
+// Splatting+ (arXiv 2509.25122, section 3.3). The authors' variant for game engines has two losses
+// instead (mean sigma and one over the mean opacity), which fix neither the end nor its time.
 //
 // Not done: the losses of normals and of distortion (weights 1e-4 and 0 for scenes without walls).
 #pragma once
@@ -31,7 +31,7 @@ struct WindowConfig {
   /// Circumradius of the first triangles, relative to the distance between neighbours.
   float first_size = 0.4f;
   float first_opacity = 0.28f, first_sigma = 1.16f;  // as Triangle Splatting
-  int degree = 2;  // of the harmonics, up to max_trained_degree
+  int degree = 2;                                    // of the harmonics, up to max_trained_degree
   /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
   double degree_steps = 0.1;
   int densify_every = 100;
