@@ -18,9 +18,6 @@ constexpr std::size_t windows_a_task = 1024;
 /// Steps between two changes of the limits of opaque training: a pass over all windows.
 constexpr int anneal_every = 10;
 
-/// Fraction of the way from the floor of opacity to 1.
-constexpr float dead_above_floor = 0.05f;
-
 /// The value of a constant harmonic.
 constexpr double constant_harmonic = 0.28209479177387814;
 
@@ -157,9 +154,6 @@ void WindowTrainer::anneal() {
 WindowDensifyReport WindowTrainer::densify() {
   WindowDensifyOptions options{
       .max_splats = config_.max_splats, .overlap = config_.overlap, .sampling = config_.sampling};
-  // Above a floor, windows close to it are better transparent.
-  const float floor = parameters_.min_opacity;
-  if (floor > 0) options.min_opacity = floor + (1 - floor) * dead_above_floor;
   if (config_.alternate_sampling)
     options.sampling =
         densifications_ % 2 == 0 ? WindowSampling::opacity : WindowSampling::inverse_sigma;
