@@ -18,8 +18,8 @@ namespace tureen::trainer {
 /// are for 30,000 steps, these for about 5,000.
 extern const std::array<ParameterKind, 5> window_parameter_kinds;
 
-/// Lowest sigma (Activation::floored_exponential), and the range of its logarithm in training:
-/// below the range sigma is its floor to 0.1 %, and beyond it a window is less than a pixel's peak.
+/// The lowest sigma, and the range of log(sigma - sigma_floor) in training: from 0.1 % above the
+/// lowest sigma to a sigma of 20, where the mean of rho^sigma is 0.4 % of the peak.
 inline constexpr float sigma_floor = 0.01f;
 inline constexpr float min_log_sigma = -11.5f, max_log_sigma = 3.0f;
 /// Beyond, the sigmoid is 1 in single precision, and its derivative 0.
