@@ -1,11 +1,10 @@
 // Triangle windows in the tile renderer.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "splatting/layer.hpp"
-#include "splatting/window_kernels.hpp"
+#include "splatting/window_entries.hpp"
 
 namespace tureen::splatting {
 
@@ -25,8 +24,8 @@ class WindowLayer final : public Layer {
  private:
   int degree_;
   ParameterRows rows_, projected_;
-  std::vector<WindowEntry> entries_;            // in the order of blending
-  std::vector<std::array<float, 6>> outlines_;  // of the entries: projected_window_row::outline
+  std::vector<WindowEntry> entries_;  // in the order of blending
+  std::vector<WindowOutline> outlines_;
 };
 
 }  // namespace tureen::splatting

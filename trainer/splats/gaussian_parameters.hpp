@@ -4,33 +4,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string_view>
 
 #include "scene/splats.hpp"
 #include "splatting/gaussian_kernels.hpp"
 #include "splatting/parameter_rows.hpp"
+#include "trainer/splats/parameter_kinds.hpp"
 
 namespace tureen::trainer {
-
-/// The drawn value, as a function of the trained one.
-enum class Activation { identity, exponential, unit_length, sigmoid };
-
-/// The values of the children of a split. A relocated splat is the second child of another one.
-enum class Inheritance { copied, moved_apart, shortened };
-
-/// A row of the table: the parameters gaussian_row `first` to `first` + `size` - 1.
-struct ParameterKind {
-  std::string_view name;
-  std::size_t first, size;
-  Activation activation;
-  float rate, last_rate;  // of Adam, at the first and the last step; centres: times a length
-  Inheritance inheritance;
-};
-
-/// The highest degree of harmonics that is trained.
-inline constexpr int max_trained_degree = 3;
 
 /// The table, for harmonics of the highest degree. Rates are for runs of a few thousand steps,
 /// chosen on held-out training views: 2 to 8 times those of 3DGS (arXiv 2308.04079), which takes

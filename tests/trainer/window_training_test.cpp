@@ -1,0 +1,265 @@
+// Densification of triangle windows, and whole runs of their trainer, soft and opaque.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "oracle/oracle.hpp"
+#include "trainer/splats/window_trainer.hpp"
+
+namespace tureen::trainer {
+namespace window_training_test {
+
+namespace row = splatting::window_row;
+
+/// Right triangles along the x axis with legs of 3 (along y) and 1, opaque, evident, each with
+/// motion 1. The longest edge goes from corner 1 to corner 2.
+struct Line {
+  WindowParameters parameters;
+  SplatMemory memory;
+
+  explicit Line(std::size_t count) : parameters(count, 0) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = 10 * float(i), corners[9] = {x, 0, 0, x + 1, 0, 0, x, 3, 0};
+      for (std::size_t k = 0; k < 9; ++k) parameters.trained(row::corners + k)[i] = corners[k];
+      parameters.trained(row::sigma)[i] = 0.5f;
+      parameters.trained(row::opacity)[i] = 1;
+      parameters.activate(i);
+    }
+    memory = SplatMemory(parameters.rows(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      memory.statistics.row(splat_statistic::motion)[i] = 1;
+      memory.statistics.row(splat_statistic::evident)[i] = 1;
+      memory.lines_of(i)[0].values[i % SplatMemory::block] = 7;
+    }
+  }
+
+  glm::vec3 corner(std::size_t splat, std::size_t k) const {
+    const auto value = [&](std::size_t axis) {
+      return parameters.trained(row::corners + 3 * k + axis)[splat];
+    };
+    return {value(0), value(1), value(2)};
+  }
+  float area(std::size_t splat) const {
+    const glm::vec3 a = corner(splat, 0);
+    return 0.5f * glm::length(glm::cross(corner(splat, 1) - a, corner(splat, 2) - a));
+  }
+};
+
+TEST(WindowDensify, DividesTheLongestEdge) {
+  Line line(3);
+  for (const std::size_t i : {0u, 2u}) line.memory.statistics.row(splat_statistic::motion)[i] = 0;
+  Random random(1);
+  const WindowDensifyReport report = densify_windows(
+      {.max_splats = 10, .growth = 0.4, .overlap = 0.1f}, random, line.parameters, line.memory);
+  EXPECT_EQ(report.split, 1u);
+  ASSERT_EQ(line.parameters.count(), 4u);
+  // From (11, 0) to (10, 3): the first half ends at 0.6 of it, the second one begins at 0.4.
+  const glm::vec3 first_end = line.corner(1, 2), second_begin = line.corner(3, 1);
+  EXPECT_FLOAT_EQ(first_end.x, 10.4f);
+  EXPECT_FLOAT_EQ(first_end.y, 1.8f);
+  EXPECT_FLOAT_EQ(second_begin.x, 10.6f);
+  EXPECT_FLOAT_EQ(second_begin.y, 1.2f);
+  for (const std::size_t i : {1u, 3u}) {
+    EXPECT_NEAR(line.area(i), 0.6 * 1.5, 1e-5);  // coordinates of 10 are rounded to 1e-6
+    EXPECT_EQ(line.parameters.trained(row::opacity)[i], 1);
+    EXPECT_EQ(line.memory.lines_of(i)[0].values[i % SplatMemory::block], 0);
+  }
+  EXPECT_EQ(line.memory.lines_of(0)[0].values[0], 7);
+}
+
+TEST(WindowDensify, WithoutOverlapKeepsTheArea) {
+  Line line(1);
+  Random random(1);
+  densify_windows({.max_splats = 2, .growth = 1, .overlap = 0}, random, line.parameters,
+                  line.memory);
+  ASSERT_EQ(line.parameters.count(), 2u);
+  EXPECT_FLOAT_EQ(line.area(0) + line.area(1), 1.5f);
+}
+
+TEST(WindowDensify, RelocatesDeadWindowsAndKeepsTheLimit) {
+  Line line(20);
+  line.memory.statistics.row(splat_statistic::evident)[4] = 0;
+  line.parameters.trained(row::opacity)[5] = -5;
+  line.parameters.activate(5);
+  line.parameters.trained(row::corners)[6] = std::nanf("");
+  for (const WindowSampling sampling :
+       {WindowSampling::motion, WindowSampling::opacity, WindowSampling::inverse_sigma}) {
+    Line copy = line;
+    Random random(1);
+    const WindowDensifyReport report =
+        densify_windows({.max_splats = 21, .growth = 0.5, .sampling = sampling}, random,
+                        copy.parameters, copy.memory);
+    EXPECT_EQ(report.dead, 3u);
+    EXPECT_EQ(report.split, 4u);
+    EXPECT_EQ(copy.parameters.count(), 21u);
+    for (const std::size_t i : {4u, 5u, 6u}) {
+      EXPECT_GT(copy.parameters.drawn.row(row::opacity)[i], 0.5f);
+      EXPECT_NE(copy.corner(i, 0), glm::vec3(10 * float(i), 0, 0));  // half of another one
+    }
+  }
+}
+
+TEST(WindowDensify, OfDeadWindowsOnlyChangesNothing) {
+  Line line(20);
+  for (std::size_t i = 0; i < 20; ++i) line.memory.statistics.row(splat_statistic::evident)[i] = 0;
+  Random random(1);
+  EXPECT_EQ(densify_windows({.max_splats = 100}, random, line.parameters, line.memory).split, 0u);
+  EXPECT_EQ(line.parameters.count(), 20u);
+}
+
+/// The parameters, statistics and moments of a window move together.
+TEST(WindowOrder, KeepsEachWindowWithItsMemory) {
+  Line line(40);
+  for (std::size_t i = 0; i < 40; ++i) {
+    line.memory.statistics.row(splat_statistic::motion)[i] = float(i);
+    line.memory.lines_of(i)[3].values[i % SplatMemory::block] = float(i);
+    line.parameters.trained(row::sigma)[i] = float(i);
+  }
+  std::vector<glm::vec3> centers;
+  for (std::size_t i = 0; i < 40; ++i) centers.push_back({std::fmod(7.3f * float(i), 2.0f), 0, 0});
+  centers[11].y = std::nanf("");
+  const std::vector<std::uint32_t> order =
+      morton_order(centers, {.centre = {1, 0, 0}, .half_side = 1});
+  line.parameters.reorder(order);
+  line.memory.reorder(order);
+  EXPECT_EQ(order.back(), 11u);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const auto was = float(order[i]);
+    if (i > 0 && i < 39) {
+      EXPECT_LE(centers[order[i - 1]].x, centers[order[i]].x + 2.0f / 1024);  // a cell
+    }
+    EXPECT_EQ(line.corner(i, 0).x, 10 * was);
+    EXPECT_EQ(line.parameters.trained(row::sigma)[i], was);
+    EXPECT_EQ(line.memory.statistics.row(splat_statistic::motion)[i], was);
+    EXPECT_EQ(line.memory.lines_of(i)[3].values[i % SplatMemory::block], was);
+  }
+}
+
+/// Views of a square, red on the left and blue on the right, in the plane z = 0, from around.
+std::vector<TrainingView> views_of_a_square() {
+  std::vector<TrainingView> views;
+  for (int k = 0; k < 8; ++k) {
+    TrainingView& view = views.emplace_back();
+    view.camera = look_at({2 * std::cos(k * 0.8), 2 * std::sin(k * 0.8), 3.5}, {0, 0, 0}, {0, 1, 0},
+                          0.6, 40, 33);
+    const glm::dmat4 world_from_view = glm::inverse(view.camera.view_from_world);
+    const glm::dvec3 eye = view.camera.eye();
+    view.target.resize(3 * 40 * 33);
+    for (std::size_t pixel = 0; pixel < 40 * 33; ++pixel) {
+      const glm::dvec3 in_view((double(pixel % 40) + 0.5 - view.camera.cx) / view.camera.fx,
+                               -(double(pixel / 40) + 0.5 - view.camera.cy) / view.camera.fy, -1);
+      const glm::dvec3 ray = glm::dmat3(world_from_view) * in_view;
+      const glm::dvec3 at = eye - eye.z / ray.z * ray;
+      if (std::max(std::abs(at.x), std::abs(at.y)) > 0.8) continue;
+      view.target[at.x < 0 ? pixel : 2 * 40 * 33 + pixel] = 230;
+      view.target[40 * 33 + pixel] = 60;
+    }
+  }
+  return views;
+}
+
+WindowConfig small_run(int steps) {
+  return {.steps = steps,
+          .max_splats = 300,
+          .first_splats = 200,
+          .first_size = 0.7f,
+          .densify_every = 40,
+          .background = {0, 0, 0}};
+}
+
+double psnr(const std::vector<double>& image, const TrainingView& view) {
+  double squared = 0;
+  for (std::size_t i = 0; i < image.size(); ++i)
+    squared += std::pow(std::clamp(image[i], 0.0, 1.0) - view.target[i] / 255.0, 2);
+  return -10 * std::log10(squared / double(image.size()));
+}
+
+TEST(WindowTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  std::vector<float> images[3];
+  const int threads[] = {1, 2, 5};
+  for (int run = 0; run < 3; ++run) {
+    WindowTrainer trainer(small_run(400), views, {.centre = {0, 0, 0}, .half_side = 1},
+                          threads[run]);
+    double first = 0, last = 0;
+    std::size_t quarantined = 0;
+    while (!trainer.done()) {
+      const WindowStepReport report = trainer.step();
+      if (trainer.steps_done() <= 8) first += report.loss;
+      if (trainer.steps_done() > 392) last += report.loss;
+      quarantined += report.quarantined;
+    }
+    RecordProperty("ratio", std::to_string(last / first));
+    EXPECT_LT(last, 0.5 * first);  // the ratio is 0.25 with this seed; without training it is 1
+    EXPECT_EQ(quarantined, 0u);
+    EXPECT_EQ(trainer.parameters().count(), 300u);
+    images[run] = trainer.render(views[0].camera);
+  }
+  for (const int run : {1, 2})
+    EXPECT_EQ(std::memcmp(images[0].data(), images[run].data(), images[0].size() * sizeof(float)),
+              0);
+}
+
+/// The windows of a short run become opaque triangles, whose image by the oracle is near that of
+/// the windows.
+TEST(WindowTraining, EndsWithOpaqueTriangles) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  WindowConfig config = small_run(800);
+  config.opaque = true;
+  WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+  while (!trainer.done()) trainer.step();
+  const WindowParameters& parameters = trainer.parameters();
+  for (std::size_t i = 0; i < parameters.count(); ++i) {
+    EXPECT_GE(parameters.drawn.row(row::opacity)[i], 0.999f);
+    EXPECT_LE(parameters.drawn.row(row::sigma)[i], 1.02f * config.last_sigma);
+  }
+  Scene scene;
+  scene.layers.push_back({.primitives = trainer.to_soup()});
+  double soft = 0, opaque = 0;
+  for (const TrainingView& view : views) {
+    const std::vector<float> planes = trainer.render(view.camera);
+    soft += psnr({planes.begin(), planes.end()}, view) / double(views.size());
+    const OracleImage image = render_oracle(scene, {view.camera}, {.background = glm::vec3(0)});
+    std::vector<double> drawn;
+    for (int c = 0; c < 3; ++c)
+      for (const auto& pixel : image.color.pixels) drawn.push_back(double(pixel[c]));
+    opaque += psnr(drawn, view) / double(views.size());
+  }
+  RecordProperty("soft_db", std::to_string(soft));
+  RecordProperty("opaque_db", std::to_string(opaque));
+  // 29.9 and 29.3 dB with this seed. The order differs: by centre, and by the depth of each pixel.
+  EXPECT_GT(soft, 22);
+  EXPECT_GT(opaque, soft - 4);
+}
+
+TEST(WindowTraining, BeginsAtPoints) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  const std::vector<DatasetPoint> points = {{.position = {0.1, 0.2, 0.3}, .color = {255, 0, 51}},
+                                            {.position = {0.1, 0.2, 0.3}, .color = {255, 0, 51}},
+                                            {.position = {-0.4, 0.2, 0}, .color = {255, 0, 51}}};
+  for (const std::size_t count : {1u, 3u}) {
+    const WindowTrainer trainer(small_run(10), views, {.centre = {0, 0, 0}, .half_side = 1}, 1,
+                                {points.data(), count});
+    ASSERT_EQ(trainer.parameters().count(), count);
+    const Splats splats = trainer.parameters().splats();
+    EXPECT_FALSE(defect(splats)) << *defect(splats);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::dvec3 middle = center(splats, i);
+      double nearest = 1e9;
+      for (const DatasetPoint& point : points)
+        nearest = std::min(nearest, glm::distance(middle, point.position));
+      EXPECT_LT(nearest, 1e-6);
+    }
+    // 1/2 + 0.2821 c: the colour.
+    EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics)[0]), 1,
+                1e-6);
+    EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics + 2)[0]), 0.2,
+                1e-6);
+  }
+}
+
+}  // namespace window_training_test
+}  // namespace tureen::trainer

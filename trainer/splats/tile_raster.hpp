@@ -1,0 +1,224 @@
+// One view of splats in training: forward to an image, backward to the moments of each splat, for
+// any kernel. Threads share rows of tiles; the result has the same bits with any number of threads,
+// since each pair of a splat and a tile has a place of its own, and a splat adds its pairs in their
+// order.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/radix_sort.hpp"
+#include "scene/camera.hpp"
+#include "splatting/image_view.hpp"
+#include "splatting/parameter_rows.hpp"
+#include "splatting/tile_lists.hpp"
+#include "trainer/common/cpu/thread_pool.hpp"
+#include "trainer/common/stopwatch.hpp"
+#include "trainer/splats/splat_memory.hpp"
+#include "trainer/splats/tile_passes.hpp"
+
+namespace tureen::trainer {
+
+/// Seconds of each stage, sums over steps, and the amount of work.
+struct RasterTimes {
+  double projection = 0, lists = 0, forward = 0, loss = 0, backward = 0, update = 0;
+  std::uint64_t steps = 0, pairs = 0;
+
+  double total() const { return projection + lists + forward + loss + backward + update; }
+};
+
+/// Calls act(index in TilePixels, index in the image, pixels) for the runs of pixels of a tile that
+/// are in the image: at most a block's row each.
+template <class Act>
+void for_each_run_of_tile(int x, int y, int width, int height, const Act& act) {
+  using splatting::block_pixels, splatting::block_side;
+  constexpr int blocks_a_side = splatting::tile_side / block_side;
+  for (int block = 0; block < splatting::blocks_a_tile; ++block)
+    for (int row = 0; row < block_side; ++row) {
+      const int left = x + block_side * (block % blocks_a_side);
+      const int top = y + block_side * (block / blocks_a_side) + row;
+      const int pixels = std::min(block_side, width - left);
+      if (top >= height || pixels <= 0) continue;
+      act(std::size_t(block * block_pixels + row * block_side),
+          std::size_t(top) * std::size_t(width) + std::size_t(left), std::size_t(pixels));
+    }
+}
+
+/// `Method` names the types and functions of a kernel: see WindowMethod.
+template <class Method>
+class TileRaster {
+ public:
+  using Parameters = typename Method::Parameters;
+  using BackwardInput = typename Method::BackwardInput;
+
+  explicit TileRaster(ThreadPool& pool) : pool_(pool) {}
+
+  /// Draws the splats by the method's profile, with harmonics up to `degree`, over an opaque
+  /// background. `planes`: red, green and blue, row 0 on top, not clamped.
+  void forward(const Parameters& parameters, const Camera& camera, int degree,
+               std::span<const float, 3> background, std::span<float> planes) {
+    assert(planes.size() == 3 * std::size_t(camera.width) * std::size_t(camera.height));
+    view_ = splatting::image_view(camera, camera.eye(), near_plane, *profile_named(Method::profile),
+                                  camera);
+    degree_ = std::min(degree, parameters.degree);
+    project(parameters);
+    make_lists(parameters.count());
+    const Stopwatch watch(times_.forward);
+    rows_.resize(std::size_t(lists_.rows()));
+    pool_.run(rows_.size(), [&](std::size_t row) { draw_row(int(row), background, planes); });
+  }
+
+  /// After forward() of the same camera and parameters. `planes` are its result, `gradient` the
+  /// derivatives of a loss by them. Valid until the next call.
+  BackwardInput backward(std::span<const float> planes, std::span<const float> gradient) {
+    const Stopwatch watch(times_.backward);
+    moments_.resize(lists_.pairs());
+    pool_.run(rows_.size(),
+              [&](std::size_t row) { draw_row_backward(int(row), planes, gradient); });
+    times_.pairs += lists_.pairs();
+    return {view_, degree_, pairs_, moments_};
+  }
+
+  RasterTimes& times() { return times_; }
+  /// Pairs of a splat and a tile in the last view.
+  std::size_t pairs() const { return lists_.pairs(); }
+
+ private:
+  /// Splats nearer than this are not drawn: min_center_depth of the profiles is larger.
+  static constexpr double near_plane = 1e-3;
+
+  /// The results of the forward pass of a row of tiles, for the backward pass.
+  struct Row {
+    std::vector<std::uint32_t> blended;
+    std::vector<TileRecord> records;
+    typename Method::Scratch scratch;
+  };
+
+  void project(const Parameters& parameters) {
+    const Stopwatch watch(times_.projection);
+    if (projected_.count() != parameters.count())
+      projected_ = splatting::ParameterRows(Method::projected_rows, parameters.count());
+    Method::project(view_, parameters.drawn, degree_, projected_);
+    // In memory order: in the order of blending, each of the rows would be a cache miss.
+    entries_.resize(parameters.count());
+    outlines_.resize(parameters.count());
+    const float* depths = projected_.row(Method::depth_row);
+    for (std::size_t i = 0; i < parameters.count(); ++i)
+      if (std::isfinite(depths[i])) Method::read(projected_, i, entries_[i], outlines_[i]);
+  }
+
+  void make_lists(std::size_t count) {
+    const Stopwatch watch(times_.lists);
+    keys_.clear();
+    const float* depths = projected_.row(Method::depth_row);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (std::isfinite(depths[i])) keys_.push_back({sort_key(depths[i]), i});
+    radix_sort(keys_, key_scratch_);
+    lists_.begin(view_.width, view_.height);
+    pairs_.assign(count, {0, 0});
+    for (const KeyedIndex& key : keys_) {
+      const std::uint32_t splat = key.index;
+      const std::uint32_t begin = lists_.pairs();
+      Method::list(view_, entries_[splat], outlines_[splat], splat, lists_);
+      pairs_[splat] = {begin, lists_.pairs()};
+    }
+    // Renumbers the pairs in the order of the splats in memory, in which their moments are read.
+    shifts_.resize(count);
+    std::uint32_t pairs = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [begin, end] = pairs_[i];
+      shifts_[i] = pairs - begin;
+      pairs_[i] = {pairs, pairs + (end - begin)};
+      pairs += end - begin;
+    }
+  }
+
+  void draw_row(int row, std::span<const float, 3> background, std::span<float> planes) {
+    using splatting::tile_side, splatting::tile_pixels, splatting::blocks_a_tile;
+    lists_.finish_with_numbers(row, shifts_);
+    Row& kept = rows_[std::size_t(row)];
+    kept.records.resize(std::size_t(lists_.columns()));
+    std::size_t listed = 0;
+    for (int column = 0; column < lists_.columns(); ++column)
+      listed += lists_.tile(column, row).size();
+    kept.blended.resize(listed * blocks_a_tile + 1);  // one place is written but not used
+    std::uint32_t* blended = kept.blended.data();
+    const std::size_t pixels_a_plane = planes.size() / 3;
+    for (int column = 0; column < lists_.columns(); ++column) {
+      splatting::TilePixels pixels{};
+      pixels.x = column * tile_side;
+      pixels.y = row * tile_side;
+      // Pixels outside the image are closed.
+      std::fill_n(pixels.transmittance, tile_pixels, -1.0f);
+      for_each_run_of_tile(pixels.x, pixels.y, view_.width, view_.height,
+                           [&](std::size_t at, std::size_t, std::size_t count) {
+                             std::fill_n(pixels.transmittance + at, count, 1.0f);
+                           });
+      TileRecord& record = kept.records[std::size_t(column)];
+      record.blended = blended;
+      Method::blend_recorded(view_, entries_, lists_.tile(column, row), pixels, record);
+      blended += record.ends[blocks_a_tile - 1];
+      for_each_run_of_tile(pixels.x, pixels.y, view_.width, view_.height,
+                           [&](std::size_t at, std::size_t pixel, std::size_t count) {
+                             for (std::size_t i = 0; i < count; ++i) {
+                               const float left = std::abs(pixels.transmittance[at + i]);
+                               float* out = planes.data() + pixel + i;
+                               out[0] = pixels.red[at + i] + left * background[0];
+                               out[pixels_a_plane] = pixels.green[at + i] + left * background[1];
+                               out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background[2];
+                             }
+                           });
+    }
+  }
+
+  void draw_row_backward(int row, std::span<const float> planes, std::span<const float> gradient) {
+    using splatting::tile_side, splatting::tile_pixels;
+    Row& kept = rows_[std::size_t(row)];
+    const std::size_t pixels_a_plane = planes.size() / 3;
+    for (int column = 0; column < lists_.columns(); ++column) {
+      if (lists_.tile(column, row).empty()) continue;
+      TileGradient tile{};
+      tile.x = column * tile_side;
+      tile.y = row * tile_side;
+      std::fill_n(tile.transmittance, tile_pixels, -1.0f);
+      for_each_run_of_tile(tile.x, tile.y, view_.width, view_.height,
+                           [&](std::size_t at, std::size_t pixel, std::size_t count) {
+                             for (std::size_t i = 0; i < count; ++i) {
+                               const float* value = planes.data() + pixel + i;
+                               const float* by = gradient.data() + pixel + i;
+                               const std::size_t green = pixels_a_plane, blue = 2 * green;
+                               tile.red[at + i] = by[0];
+                               tile.green[at + i] = by[green];
+                               tile.blue[at + i] = by[blue];
+                               tile.behind[at + i] = by[0] * value[0] + by[green] * value[green] +
+                                                     by[blue] * value[blue];
+                               tile.transmittance[at + i] = 1;
+                             }
+                           });
+      Method::blend_backward(view_, entries_, lists_.tile(column, row),
+                             lists_.pair_numbers(column, row), kept.records[std::size_t(column)],
+                             tile, kept.scratch, moments_);
+    }
+  }
+
+  ThreadPool& pool_;
+  splatting::ImageView view_{};
+  int degree_ = 0;
+  splatting::ParameterRows projected_;
+  std::vector<KeyedIndex> keys_, key_scratch_;
+  // Of each splat. The tiles' lists hold splats in the order of blending.
+  std::vector<typename Method::Entry> entries_;
+  std::vector<typename Method::Outline> outlines_;
+  std::vector<PairSpan> pairs_;
+  std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
+  splatting::TileLists lists_;
+  std::vector<Row> rows_;
+  std::vector<typename Method::Moments> moments_;  // of the pairs
+  RasterTimes times_;
+};
+
+}  // namespace tureen::trainer

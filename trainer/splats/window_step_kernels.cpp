@@ -1,0 +1,309 @@
+#include "trainer/splats/window_step_kernels.hpp"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trainer/splats/window_step_kernels.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "splatting/window_plane-inl.hpp"
+#include "trainer/splats/color_gradient-inl.hpp"
+#include "trainer/splats/splat_adam-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace tureen::trainer::HWY_NAMESPACE {
+namespace windows {
+
+using namespace splatting::HWY_NAMESPACE;
+using shared::AdamOfSplats;
+using shared::ColorGradient;
+using splatting::ImageView;
+using splatting::ParameterRows;
+namespace row = splatting::window_row;
+
+HWY_INLINE Vector3 sum(const Vector3& a, const Vector3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vector3 difference(const Vector3& a, const Vector3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+/// WindowMoments of a vector of splats.
+struct Moments {
+  Vector3 edges[3];  // the sums with x, y and 1
+  Floats h, h_log_rho, evident;
+  Vector3 color;
+  Mask drawn;  // whether the splats have pairs
+};
+
+/// Adds the pairs of each splat in their order.
+HWY_INLINE Moments moments_of(const WindowBackwardInput& input, std::size_t i) {
+  constexpr std::size_t values = sizeof(WindowMoments) / sizeof(float);
+  alignas(64) float sums[values][lanes] = {};
+  alignas(64) float drawn[lanes] = {};
+  const auto* moments = reinterpret_cast<const float*>(input.moments.data());
+  for (std::size_t lane = 0; lane < lanes && i + lane < input.pairs.size(); ++lane) {
+    const PairSpan pairs = input.pairs[i + lane];
+    if (pairs.begin == pairs.end) continue;
+    drawn[lane] = 1;
+    float total[values] = {};
+    for (std::uint32_t pair = pairs.begin; pair < pairs.end; ++pair)
+      for (std::size_t k = 0; k < values; ++k) total[k] += moments[values * pair + k];
+    for (std::size_t k = 0; k < values; ++k) sums[k][lane] = total[k];
+  }
+  const auto load = [&](std::size_t k) { return hn::Load(d, sums[k]); };
+  Moments result;
+  for (std::size_t k = 0; k < 3; ++k)
+    result.edges[k] = {load(3 * k + 1), load(3 * k + 2), load(3 * k)};
+  result.h = load(9);
+  result.h_log_rho = load(10);
+  result.color = {load(11), load(12), load(13)};
+  result.evident = load(14);
+  result.drawn = hn::Gt(hn::Load(d, drawn), hn::Zero(d));
+  return result;
+}
+
+/// The derivatives of a vector of splats.
+struct Gradient {
+  Floats values[row::harmonics];
+  ColorGradient color;
+  Floats motion;
+};
+
+/// The derivatives by the homogeneous image points Q_k of the corners, in the unit of
+/// WindowCorners, from those by the three lines e_k.
+///
+/// e_k = W N_k / (det l_k) with N_k = Q_i x Q_j, l_k = |N_k.xy|, W = sum_k w_k l_k and det =
+/// Q_0 . N_0 (splatting/window_plane-inl.hpp). With s_k = e_k . dL/d(e_k) and S = sum_k s_k,
+///   dL/dN_k = (W / (det l_k)) dL/d(e_k) + (S w_k / W - s_k / l_k) (N_k.xy, 0) / l_k,
+///   dL/dw_k = S l_k / W and dL/dQ_k = -S N_k / det beside those through N.
+/// The image of the centre is the origin here, and a constant: the lines do not depend on it.
+HWY_INLINE void corner_gradient(const WindowCorners& at, const WindowPlane& plane,
+                                const Vector3 (&by_edge)[3], Vector3 (&by_point)[3]) {
+  const Floats one = constant(1.0f);
+  const Floats by_weight = hn::Div(one, plane.weight), by_det = hn::Div(one, plane.determinant);
+  Floats s[3], total = hn::Zero(d);
+  for (std::size_t k = 0; k < 3; ++k) {
+    s[k] = dot({plane.edges[3 * k], plane.edges[3 * k + 1], plane.edges[3 * k + 2]}, by_edge[k]);
+    total = hn::Add(total, s[k]);
+  }
+  const Floats total_by_weight = hn::Mul(total, by_weight);
+  const Floats total_by_det = hn::Neg(hn::Mul(total, by_det));
+  const Floats weight_by_det = hn::Mul(plane.weight, by_det);
+  Vector3 by_normal[3], point[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Floats by_length = hn::Div(one, plane.length[k]);
+    by_normal[k] = product(by_edge[k], hn::Mul(weight_by_det, by_length));
+    const Floats along =
+        hn::Mul(by_length, hn::MulSub(total_by_weight, at.point[k].z, hn::Mul(s[k], by_length)));
+    by_normal[k].x = hn::MulAdd(along, plane.normal_x[k], by_normal[k].x);
+    by_normal[k].y = hn::MulAdd(along, plane.normal_y[k], by_normal[k].y);
+    point[k] = {hn::NegMulAdd(at.x, at.point[k].z, at.point[k].x),
+                hn::NegMulAdd(at.y, at.point[k].z, at.point[k].y), at.point[k].z};
+    by_point[k] = product({plane.normal_x[k], plane.normal_y[k], plane.at_center[k]}, total_by_det);
+    by_point[k].z = hn::MulAdd(total_by_weight, plane.length[k], by_point[k].z);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
+    by_point[from] = sum(by_point[from], cross(point[to], by_normal[k]));
+    by_point[to] = sum(by_point[to], cross(by_normal[k], point[from]));
+  }
+  // From the point relative to the centre's image to the point.
+  for (std::size_t k = 0; k < 3; ++k)
+    by_point[k].z =
+        hn::NegMulAdd(at.x, by_point[k].x, hn::NegMulAdd(at.y, by_point[k].y, by_point[k].z));
+}
+
+/// The derivatives of 1 / area by the corners; both in the same unit.
+HWY_INLINE void inverse_area_gradient(const Vector3 (&corner)[3], Vector3 (&by_corner)[3]) {
+  const Vector3 edges[3] = {difference(corner[2], corner[1]), difference(corner[0], corner[2]),
+                            difference(corner[1], corner[0])};
+  const Vector3 normal = cross(edges[0], edges[1]);  // twice the area
+  const Floats squared = dot(normal, normal);
+  // d(2 / |n|) = -2 n . dn / |n|^3, and n . dn = (edge x n) . d(corner opposite).
+  const Floats factor = hn::Div(constant(-2.0f), hn::Mul(squared, hn::Sqrt(squared)));
+  for (std::size_t k = 0; k < 3; ++k) by_corner[k] = product(cross(normal, edges[k]), factor);
+}
+
+HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& loss,
+                            const WindowParameters& parameters, std::size_t i,
+                            const Moments& moments, Gradient& gradient) {
+  const ImageView& view = input.view;
+  const ParameterRows& drawn = parameters.drawn;
+  const auto load = [&](std::size_t r) { return hn::Load(d, drawn.row(r) + i); };
+  const Floats one = constant(1.0f);
+  Vector3 corner[3];
+  for (std::size_t k = 0; k < 3; ++k)
+    corner[k] = {load(row::corners + 3 * k), load(row::corners + 3 * k + 1),
+                 load(row::corners + 3 * k + 2)};
+  const WindowCorners at = corners_of(view, corner);
+  const WindowPlane plane = plane_of(view, at);
+  const Floats sigma = load(row::sigma), opacity = load(row::opacity);
+  Vector3 by_edge[3], by_point[3];
+  for (std::size_t k = 0; k < 3; ++k) by_edge[k] = product(moments.edges[k], sigma);
+  corner_gradient(at, plane, by_edge, by_point);
+  gradient.color = shared::color_gradient_of(input.degree, drawn.row(row::harmonics),
+                                             drawn.stride(), i, at.center, moments.color);
+  const Vector3 by_center = product(gradient.color.by_offset, constant(1.0f / 3.0f));
+  Vector3 by_area[3];
+  if (loss.inverse_area > 0) inverse_area_gradient(at.corner, by_area);
+  gradient.motion = hn::Zero(d);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3& p = by_point[k];
+    gradient.motion = hn::MulAdd(
+        hn::Abs(at.point[k].z), hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y))), gradient.motion);
+    const Vector3 in_view{hn::Mul(p.x, constant(view.fx)), hn::Mul(p.y, constant(view.fy)), p.z};
+    const float* m = view.view_from_layer;
+    const auto column = [&](int c) {
+      return dot({constant(m[c]), constant(m[c + 3]), constant(m[c + 6])}, in_view);
+    };
+    Vector3 by_corner = product(sum({column(0), column(1), column(2)}, by_center), at.by_size);
+    if (loss.inverse_area > 0) {
+      const Floats squared = hn::Mul(at.by_size, at.by_size);
+      const Floats factor = hn::Mul(constant(loss.inverse_area), hn::Mul(squared, at.by_size));
+      by_corner = sum(by_corner, product(by_area[k], factor));
+    }
+    gradient.values[row::corners + 3 * k] = by_corner.x;
+    gradient.values[row::corners + 3 * k + 1] = by_corner.y;
+    gradient.values[row::corners + 3 * k + 2] = by_corner.z;
+  }
+  // ln(alpha) = .. + sigma ln(rho), and d sigma = (sigma - floor) d(log).
+  const Floats by_sigma =
+      hn::MulAdd(moments.h_log_rho, constant(0.693147181f), constant(loss.sigma));
+  gradient.values[row::sigma] = hn::Mul(by_sigma, hn::Sub(sigma, constant(sigma_floor)));
+  // With o = m + (1 - m) sigmoid(logit): d o = (o - m) (1 - o) / (1 - m) d(logit).
+  const float low = parameters.min_opacity;
+  const Floats by_logit = hn::Mul(hn::Mul(hn::Sub(opacity, constant(low)), hn::Sub(one, opacity)),
+                                  constant(1 / (1 - low)));
+  gradient.values[row::opacity] =
+      hn::Mul(hn::Add(hn::Div(moments.h, opacity), constant(loss.opacity)), by_logit);
+}
+
+/// Calls act(row, derivative) for each row up to the drawn degree.
+template <class Act>
+HWY_INLINE void for_each_row(const Gradient& gradient, int degree, const Act& act) {
+  for (std::size_t r = 0; r < row::harmonics; ++r) act(r, gradient.values[r]);
+  const int count = (degree + 1) * (degree + 1);
+  const ColorGradient& color = gradient.color;
+  for (int k = 0; k < count; ++k) {
+    const std::size_t first = row::harmonics + 3 * std::size_t(k);
+    act(first, hn::Mul(color.basis[k], color.color.x));
+    act(first + 1, hn::Mul(color.basis[k], color.color.y));
+    act(first + 2, hn::Mul(color.basis[k], color.color.z));
+  }
+}
+
+void window_gradients_on(const WindowBackwardInput& input, const WindowLoss& loss,
+                         const WindowParameters& parameters, std::size_t begin, std::size_t end,
+                         ParameterRows& gradients) {
+  for (std::size_t i = begin; i < end; i += lanes) {
+    const Moments moments = moments_of(input, i);
+    Gradient gradient;
+    gradient_of(input, loss, parameters, i, moments, gradient);
+    for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
+      hn::Store(hn::IfThenElseZero(moments.drawn, value), d, gradients.row(r) + i);
+    });
+  }
+}
+
+HWY_INLINE Mask can_step(const Gradient& gradient) {
+  const Vector3& color = gradient.color.color;
+  Mask result = hn::And(shared::is_moderate(color.x),
+                        hn::And(shared::is_moderate(color.y), shared::is_moderate(color.z)));
+  for (const Floats& value : gradient.values) result = hn::And(result, shared::is_moderate(value));
+  return result;
+}
+
+/// Limits the trained values, and computes the drawn ones.
+HWY_INLINE void activate(std::size_t i, WindowParameters& parameters) {
+  const auto limited = [&](std::size_t r, float low, float high) {
+    float* at = parameters.trained(r) + i;
+    const Floats value = hn::Clamp(hn::Load(d, at), constant(low), constant(high));
+    hn::Store(value, d, at);
+    return value;
+  };
+  const Floats one = constant(1.0f);
+  const Floats sigma = hn::Add(shared::exp_of(limited(row::sigma, min_log_sigma, max_log_sigma)),
+                               constant(sigma_floor));
+  hn::Store(sigma, d, parameters.drawn.row(row::sigma) + i);
+  const Floats logit = limited(row::opacity, -max_logit, max_logit);
+  const Floats fraction = hn::Div(one, hn::Add(one, shared::exp_of(hn::Neg(logit))));
+  const float low = parameters.min_opacity;
+  hn::Store(hn::MulAdd(fraction, constant(1 - low), constant(low)), d,
+            parameters.drawn.row(row::opacity) + i);
+}
+
+/// The index in window_parameter_kinds.
+std::size_t kind_of(std::size_t r) {
+  std::size_t kind = 0;
+  while (r >= window_parameter_kinds[kind].first + window_parameter_kinds[kind].size) ++kind;
+  return kind;
+}
+
+std::size_t step_windows_on(const WindowBackwardInput& input, const WindowStep& step,
+                            std::size_t begin, std::size_t end, WindowParameters& parameters,
+                            SplatMemory& memory) {
+  namespace statistic = splat_statistic;
+  constexpr std::size_t block = SplatMemory::block;
+  const std::size_t rows = parameters.rows();
+  float rates[row::harmonics + 3 * 16];
+  for (std::size_t r = 0; r < rows; ++r) rates[r] = step.rates[kind_of(r)];
+  std::size_t quarantined = 0;
+  for (std::size_t i = begin; i < end; i += lanes) {
+    // More rows than the processor recognises as streams. Two blocks ahead.
+    if (i + 3 * block <= parameters.drawn.stride() && i % block == 0)
+      for (std::size_t r = 0; r < rows; ++r) hwy::Prefetch(parameters.trained(r) + i + 2 * block);
+    const Moments moments = moments_of(input, i);
+    if (hn::AllFalse(d, moments.drawn)) continue;
+    Gradient gradient;
+    gradient_of(input, step.loss, parameters, i, moments, gradient);
+    const Mask steps = hn::And(moments.drawn, can_step(gradient));
+    quarantined += hn::CountTrue(d, hn::AndNot(steps, moments.drawn));
+    const auto add = [&](std::size_t which, Floats value) {
+      float* at = memory.statistics.row(which) + i;
+      const Floats total = hn::Add(hn::Load(d, at), hn::IfThenElseZero(steps, value));
+      hn::Store(total, d, at);
+      return total;
+    };
+    const Floats one = constant(1.0f);
+    const Floats steps_done = hn::Max(add(statistic::steps, one), one);
+    add(statistic::motion, gradient.motion);
+    add(statistic::evident, moments.evident);
+    const AdamOfSplats adam(step.adam, steps_done, steps);
+    SplatMemory::Line* lines = memory.lines_of(i);
+    for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
+      adam(rates[r], value, parameters.trained(r) + i, lines[2 * r].values + i % block);
+    });
+    activate(i, parameters);
+  }
+  return quarantined;
+}
+
+}  // namespace windows
+using windows::step_windows_on;
+using windows::window_gradients_on;
+}  // namespace tureen::trainer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tureen::trainer {
+
+HWY_EXPORT(window_gradients_on);
+HWY_EXPORT(step_windows_on);
+
+void window_gradients(const WindowBackwardInput& input, const WindowLoss& loss,
+                      const WindowParameters& parameters, std::size_t begin, std::size_t end,
+                      splatting::ParameterRows& gradients) {
+  HWY_DYNAMIC_DISPATCH(window_gradients_on)(input, loss, parameters, begin, end, gradients);
+}
+
+std::size_t step_windows(const WindowBackwardInput& input, const WindowStep& step,
+                         std::size_t begin, std::size_t end, WindowParameters& parameters,
+                         SplatMemory& memory) {
+  return HWY_DYNAMIC_DISPATCH(step_windows_on)(input, step, begin, end, parameters, memory);
+}
+
+}  // namespace tureen::trainer
+#endif

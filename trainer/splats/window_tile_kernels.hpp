@@ -1,0 +1,57 @@
+// The hot loops over the tiles of an image of triangle windows in training, for the vectors of the
+// processor, chosen at run time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "splatting/window_kernels.hpp"
+#include "trainer/splats/tile_passes.hpp"
+
+namespace tureen::trainer {
+
+/// Sums over pixels of h = dL/d ln(alpha) and of the derivatives by the colour. Over the pixels of
+/// one tile, or of all. Pixels whose alpha is limited to the profile's largest have h = 0.
+///
+/// rho = min_k e_k . (x, y, 1) at the offset (x, y) from WindowEntry's (x, y), and ln(alpha) =
+/// ln(opacity) + sigma ln(rho). Where edge k is the nearest, dL/d(e_k) = sigma h / rho (x, y, 1).
+struct WindowMoments {
+  struct Edge {
+    float one, x, y;  // of h / rho at the pixels whose nearest edge this is
+  };
+  Edge edges[3];
+  float h;          // of h
+  float h_log_rho;  // of h log2(rho)
+  float red, green, blue;
+  float evident;  // > 0: evident_weight is reached
+  float unused;   // 64 bytes
+};
+
+/// Smallest rho in h / rho, so that no pixel on an edge outweighs all others (for sigma < 1 the
+/// derivative has no bound). A random pixel is nearer with a probability of 2e-6.
+inline constexpr float min_rho_in_gradient = 1e-6f;
+
+/// Memory of blend_windows_backward(), kept between calls.
+struct WindowScratch {
+  struct alignas(64) Line {
+    float values[16];
+  };
+  std::vector<Line> lines;
+};
+
+/// splatting::blend_windows() for a tile without opaque surfaces, with its record.
+void blend_windows_recorded(const splatting::ImageView& view,
+                            std::span<const splatting::WindowEntry> entries,
+                            std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
+                            TileRecord& record);
+
+/// Writes the moments of each entry of `tile` to moments[numbers[its index]]. Changes `gradient`.
+void blend_windows_backward(const splatting::ImageView& view,
+                            std::span<const splatting::WindowEntry> entries,
+                            std::span<const std::uint32_t> tile,
+                            std::span<const std::uint32_t> numbers, const TileRecord& record,
+                            TileGradient& gradient, WindowScratch& scratch,
+                            std::span<WindowMoments> moments);
+
+}  // namespace tureen::trainer
