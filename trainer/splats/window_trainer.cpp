@@ -154,6 +154,8 @@ void WindowTrainer::anneal() {
 WindowDensifyReport WindowTrainer::densify() {
   WindowDensifyOptions options{
       .max_splats = config_.max_splats, .overlap = config_.overlap, .sampling = config_.sampling};
+  if (config_.opaque && double(step_) / config_.steps >= config_.prune_from)
+    options.min_opacity = config_.min_opacity_before_opaque;
   if (config_.alternate_sampling)
     options.sampling =
         densifications_ % 2 == 0 ? WindowSampling::opacity : WindowSampling::inverse_sigma;

@@ -49,6 +49,10 @@ struct WindowConfig {
   double size_until = 0.83;        // fraction of the steps; 25,000 of 30,000
   bool opaque = false;
   double opaque_from = 0.5, opaque_until = 0.9;  // fractions of the steps
+  /// From this fraction of the steps on, windows below this opacity are dead. The floor of opacity
+  /// soon exceeds it.
+  double prune_from = 0.4;
+  float min_opacity_before_opaque = 0.2f;
   float last_sigma = 0.03f, last_min_opacity = 0.9999f;
   std::uint64_t seed = 0;
 };
