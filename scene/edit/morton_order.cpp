@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
-#include <span>
 
 #include "scene/finite.hpp"
 
@@ -17,7 +16,7 @@ constexpr int morton_bits = 21;  // an axis; three axes fit in 63 bits
 
 struct MortonKey {
   std::uint64_t code;
-  std::uint32_t point;
+  std::uint32_t splat;
 };
 
 /// The 21 low bits of `value`, each moved to three times its position.
@@ -30,35 +29,21 @@ std::uint64_t spread(std::uint64_t value) {
   return value;
 }
 
-/// Moves the `each` values of every splat to its new place.
-template <class T>
-void reorder(std::vector<T>& values, std::size_t each, std::span<const std::uint32_t> order) {
-  assert(values.size() == each * order.size());
-  std::vector<T> sorted;
-  sorted.reserve(values.size());
-  for (const std::size_t splat : order)
-    sorted.insert(sorted.end(), values.begin() + std::ptrdiff_t(each * splat),
-                  values.begin() + std::ptrdiff_t(each * (splat + 1)));
-  values = std::move(sorted);
-}
-
-}  // namespace
-
-std::vector<std::uint32_t> morton_order(std::size_t count,
-                                        const std::function<glm::dvec3(std::size_t)>& point) {
-  assert(count <= std::numeric_limits<std::uint32_t>::max());
+std::vector<MortonKey> morton_keys(const Splats& splats) {
+  const std::size_t splat_count = count(splats);
+  assert(splat_count <= std::numeric_limits<std::uint32_t>::max());
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (std::size_t i = 0; i < count; ++i)
-    if (const glm::dvec3 p = point(i); is_finite(p)) {
+  for (std::size_t i = 0; i < splat_count; ++i)
+    if (const glm::dvec3 p = center(splats, i); is_finite(p)) {
       low = glm::min(low, p);
       high = glm::max(high, p);
     }
   const glm::dvec3 size = high - low;
   const double edge = std::max({size.x, size.y, size.z});
   const double cells = double(1 << morton_bits);
-  std::vector<MortonKey> keys(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3 p = point(i);
+  std::vector<MortonKey> keys(splat_count);
+  for (std::size_t i = 0; i < splat_count; ++i) {
+    const glm::dvec3 p = center(splats, i);
     std::uint64_t code = std::numeric_limits<std::uint64_t>::max();
     if (is_finite(p)) {
       code = 0;
@@ -69,34 +54,45 @@ std::vector<std::uint32_t> morton_order(std::size_t count,
     }
     keys[i] = {code, std::uint32_t(i)};
   }
-  std::sort(keys.begin(), keys.end(), [](const MortonKey& a, const MortonKey& b) {
-    return a.code != b.code ? a.code < b.code : a.point < b.point;
-  });
-  std::vector<std::uint32_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].point;
-  return order;
+  return keys;
 }
 
+/// Moves the `each` values of every splat to its new place.
+template <class T>
+void reorder(std::vector<T>& values, std::size_t each, const std::vector<MortonKey>& keys) {
+  assert(values.size() == each * keys.size());
+  std::vector<T> sorted;
+  sorted.reserve(values.size());
+  for (const MortonKey& key : keys)
+    sorted.insert(sorted.end(), values.begin() + std::ptrdiff_t(each * key.splat),
+                  values.begin() + std::ptrdiff_t(each * (key.splat + std::size_t(1))));
+  values = std::move(sorted);
+}
+
+}  // namespace
+
 void sort_in_morton_order(Splats& splats) {
-  const std::vector<std::uint32_t> order =
-      morton_order(count(splats), [&](std::size_t i) { return center(splats, i); });
+  std::vector<MortonKey> keys = morton_keys(splats);
+  std::sort(keys.begin(), keys.end(), [](const MortonKey& a, const MortonKey& b) {
+    return a.code != b.code ? a.code < b.code : a.splat < b.splat;
+  });
   if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-    reorder(windows->corners, 3, order);
-    reorder(windows->sigma, 1, order);
-    reorder(windows->opacity, 1, order);
+    reorder(windows->corners, 3, keys);
+    reorder(windows->sigma, 1, keys);
+    reorder(windows->opacity, 1, keys);
   } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
-    reorder(gaussians->centers, 1, order);
-    reorder(gaussians->scales, 1, order);
-    reorder(gaussians->rotations, 1, order);
-    reorder(gaussians->opacity, 1, order);
+    reorder(gaussians->centers, 1, keys);
+    reorder(gaussians->scales, 1, keys);
+    reorder(gaussians->rotations, 1, keys);
+    reorder(gaussians->opacity, 1, keys);
   } else {
     auto& densities = std::get<NeuralDensities>(splats.kernel);
-    reorder(densities.centers, 1, order);
-    reorder(densities.semi_axes, 1, order);
-    reorder(densities.rotations, 1, order);
-    reorder(densities.networks, NeuralDensities::parameters, order);
+    reorder(densities.centers, 1, keys);
+    reorder(densities.semi_axes, 1, keys);
+    reorder(densities.rotations, 1, keys);
+    reorder(densities.networks, NeuralDensities::parameters, keys);
   }
-  reorder(splats.color.coefficients, coefficients_per_splat(splats.color), order);
+  reorder(splats.color.coefficients, coefficients_per_splat(splats.color), keys);
 }
 
 std::size_t morton_order_bytes(const Splats& splats) {
@@ -104,7 +100,7 @@ std::size_t morton_order_bytes(const Splats& splats) {
   if (std::holds_alternative<NeuralDensities>(splats.kernel))
     largest = NeuralDensities::parameters * sizeof(float);
   largest = std::max(largest, coefficients_per_splat(splats.color) * sizeof(glm::vec3));
-  return count(splats) * (sizeof(MortonKey) + sizeof(std::uint32_t) + largest);
+  return count(splats) * (sizeof(MortonKey) + largest);
 }
 
 }  // namespace tureen

@@ -3,20 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <glm/vec3.hpp>
-#include <vector>
 
 #include "scene/splats.hpp"
 
 namespace tureen {
-
-/// The order of points along the curve: 21 bits an axis over a cube around the finite points.
-/// Others come last; points with equal codes keep their order. `point(i)` for 0 <= i < count <
-/// 2^32.
-std::vector<std::uint32_t> morton_order(std::size_t count,
-                                        const std::function<glm::dvec3(std::size_t)>& point);
 
 /// Sorts the splats, with their colours, by the Morton code of their centres: 21 bits an axis over
 /// the smallest cube around all finite centres; x has the lowest bit. Stable: splats of one code

@@ -124,7 +124,7 @@ int run(int argc, char** argv) {
     if (trainer.steps_done() * marks / config.steps ==
         (trainer.steps_done() - 1) * marks / config.steps)
       continue;
-    const RasterTimes times = std::exchange(trainer.times(), {});
+    const SplatTimes times = std::exchange(trainer.times(), {});
     const double steps = double(times.steps);
     const auto ms = [&](double of) { return std::round(1e5 * of / steps) / 100; };
     const nlohmann::ordered_json line = {

@@ -399,7 +399,8 @@ Content gaussian_checkpoint_bytes(const Scratch& scratch) {
   checkpoint.config.degree = 0;
   checkpoint.views = {{"train/r_0", 3, 2, 17u, 18u}};
   checkpoint.state.parameters = trainer::GaussianParameters(2, 0);
-  checkpoint.state.memory = trainer::GaussianMemory(checkpoint.state.parameters);
+  checkpoint.state.memory =
+      trainer::SplatMemory(checkpoint.state.parameters.rows(), checkpoint.state.parameters.count());
   checkpoint.state.step = 70;
   checkpoint.state.epoch = {0};
   const auto path = scratch.folder() / "gaussians.checkpoint";

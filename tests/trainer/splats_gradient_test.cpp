@@ -309,7 +309,7 @@ TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
   ASSERT_LT(input.pairs[7].begin, input.pairs[7].end);
   moments[input.pairs[7].begin].xy = std::numeric_limits<float>::quiet_NaN();
   const GaussianParameters before = parameters;
-  GaussianMemory memory(parameters);
+  SplatMemory memory(parameters.rows(), parameters.count());
   const GaussianStep step{.rates = {1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f},
                           .min_log_scale = -20,
                           .max_log_scale = 20};

@@ -11,12 +11,12 @@ namespace tureen::trainer {
 namespace splats_training_test {
 
 namespace row = splatting::gaussian_row;
-namespace statistic = gaussian_statistic;
+namespace statistic = splat_statistic;
 
 /// Splats along the x axis, longest along their y axis, opaque, evident, each with motion 1.
 struct Line {
   GaussianParameters parameters;
-  GaussianMemory memory;
+  SplatMemory memory;
 
   explicit Line(std::size_t count) : parameters(count, 0) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -26,7 +26,7 @@ struct Line {
       parameters.trained(row::opacity)[i] = 1;
       parameters.activate(i);
     }
-    memory = GaussianMemory(parameters);
+    memory = SplatMemory(parameters.rows(), parameters.count());
     for (std::size_t i = 0; i < count; ++i) {
       memory.statistics.row(statistic::motion)[i] = 1;
       memory.statistics.row(statistic::evident)[i] = 1;
@@ -89,7 +89,7 @@ TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
     line.memory.moments[2 * line.parameters.rows() * (i / 16) + 5].values[i % 16] =
         float(i * 7 % 40);
   }
-  sort_in_memory(line.parameters, line.memory);
+  sort_in_memory({.centre = {0, 0, 0}, .half_side = 64}, line.parameters, line.memory);
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_EQ(line.parameters.trained(row::x)[i], float(i));
     EXPECT_EQ(line.parameters.trained(row::opacity)[i], float(i));

@@ -43,7 +43,8 @@ const GaussianConfigField fields[] = {
      &GaussianConfig::densify_every,
      whole,
      {},
-     "Largest number of steps between densifications; short runs densify after 1/25 of their steps, "
+     "Largest number of steps between densifications; short runs densify after 1/25 of their "
+     "steps, "
      "but at least 20"},
     {"densify_until",
      &GaussianConfig::densify_until,

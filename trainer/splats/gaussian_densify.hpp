@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "trainer/common/random.hpp"
+#include "trainer/common/region.hpp"
 #include "trainer/splats/gaussian_step_kernels.hpp"
 
 namespace tureen::trainer {
@@ -25,15 +26,15 @@ struct DensifyReport {
 };
 
 /// A splat is dead if it was not evident in any step since the last call, or its opacity is low.
-/// Parents are drawn without replacement from the others, by gaussian_statistic::motion: the first
+/// Parents are drawn without replacement from the others, by splat_statistic::motion: the first
 /// child takes the parent's place, the second one that of a dead splat or a new one. The moments of
 /// children begin at 0, and so do all statistics except the steps of other splats. Splats that are
 /// not finite are dead. If all splats are dead, or none moves, nothing changes.
 DensifyReport densify(const DensifyOptions& options, Random& random, GaussianParameters& parameters,
-                      GaussianMemory& memory);
+                      SplatMemory& memory);
 
 /// Moves splats that are neighbours in space together in memory, along the Morton curve: the splats
-/// of a tile are then in few pages.
-void sort_in_memory(GaussianParameters& parameters, GaussianMemory& memory);
+/// of a tile are then in few pages. `region`: the cube with most of them.
+void sort_in_memory(const Region& region, GaussianParameters& parameters, SplatMemory& memory);
 
 }  // namespace tureen::trainer

@@ -33,9 +33,9 @@ std::uint64_t pixels_of(const std::vector<Photograph>& photographs) {
 double bytes_a_splat(const GaussianConfig& config) {
   const double rows = double(GaussianParameters(0, config.degree).rows());
   const double trained =
-      sizeof(float) * (3 * rows + double(GaussianParameters::raw_rows + gaussian_statistic::count));
+      sizeof(float) * (3 * rows + double(GaussianParameters::raw_rows + splat_statistic::count));
   const double drawn = sizeof(splatting::GaussianEntry) + 2 * sizeof(KeyedIndex) +
-                       sizeof(PairRange) + sizeof(std::uint32_t);
+                       sizeof(PairSpan) + sizeof(std::uint32_t);
   return 2 * trained + drawn +
          pairs_a_splat * double(sizeof(GaussianMoments) + 4 * sizeof(std::uint32_t));
 }

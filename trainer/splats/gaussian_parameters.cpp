@@ -7,6 +7,7 @@
 
 #include "splatting/gaussian_rows.hpp"
 #include "splatting/harmonics_rows.hpp"
+#include "trainer/splats/splat_order.hpp"
 
 namespace tureen::trainer {
 
@@ -72,6 +73,11 @@ void GaussianParameters::activate(std::size_t i) {
   for (std::size_t k = 0; k < 4; ++k)
     drawn.row(row::rotation_x + k)[i] = trained(row::rotation_x + k)[i] / std::sqrt(squared);
   drawn.row(row::opacity)[i] = 1 / (1 + std::exp(-trained(row::opacity)[i]));
+}
+
+void GaussianParameters::reorder(std::span<const std::uint32_t> order) {
+  drawn = reordered(drawn, rows(), order);
+  raw = reordered(raw, raw_rows, order);
 }
 
 Splats GaussianParameters::splats() const {

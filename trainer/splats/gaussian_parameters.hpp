@@ -40,6 +40,9 @@ struct GaussianParameters {
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
 
+  /// The splats in this order.
+  void reorder(std::span<const std::uint32_t> order);
+
   Splats splats() const;
 };
 

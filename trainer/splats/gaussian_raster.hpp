@@ -1,74 +1,49 @@
-// One view of Gaussians in training: forward to an image, backward to the parameters. Threads share
-// rows of tiles and blocks of splats; the result has the same bits with any number of threads,
-// since each pair of a splat and a tile has a place of its own, and a splat adds its pairs in their
-// order.
+// One view of Gaussians in training (trainer/splats/tile_raster.hpp).
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "base/radix_sort.hpp"
-#include "scene/camera.hpp"
 #include "splatting/gaussian_entries.hpp"
-#include "splatting/tile_lists.hpp"
-#include "trainer/common/cpu/thread_pool.hpp"
 #include "trainer/splats/gaussian_step_kernels.hpp"
+#include "trainer/splats/tile_raster.hpp"
 
 namespace tureen::trainer {
 
-/// Seconds of each stage, sums over steps, and the amount of work.
-struct SplatTimes {
-  double projection = 0, lists = 0, forward = 0, loss = 0, backward = 0, update = 0;
-  std::uint64_t steps = 0, pairs = 0;
-
-  double total() const { return projection + lists + forward + loss + backward + update; }
-};
-
-/// Threads share splats in groups of this many, a multiple of splatting::row_alignment.
-inline constexpr std::size_t splats_a_task = 1024;
-
-class GaussianRaster {
+/// The splats of a view.
+class ProjectedGaussians {
  public:
-  explicit GaussianRaster(ThreadPool& pool) : pool_(pool) {}
-
-  /// Draws the Gaussians by the profile "3dgs", with harmonics up to `degree`, over an opaque
-  /// background. `planes`: red, green and blue, row 0 on top, not clamped.
-  void forward(const GaussianParameters& parameters, const Camera& camera, int degree,
-               std::span<const float, 3> background, std::span<float> planes);
-
-  /// After forward() of the same camera and parameters. `planes` are its result, `gradient` the
-  /// derivatives of a loss by them. Valid until the next call.
-  GaussianBackwardInput backward(std::span<const float> planes, std::span<const float> gradient);
-
-  SplatTimes& times() { return times_; }
-  /// Pairs of a splat and a tile in the last view.
-  std::size_t pairs() const { return lists_.pairs(); }
+  void project(ThreadPool& pool, const splatting::ImageView& view,
+               const splatting::ParameterRows& drawn, int degree) {
+    const std::size_t count = drawn.count();
+    entries_.resize(count);
+    pool.run((count + splats_a_task - 1) / splats_a_task, [&](std::size_t task) {
+      const std::size_t begin = task * splats_a_task;
+      splatting::project_gaussians(
+          view, drawn, degree, begin,
+          std::span(entries_).subspan(begin, std::min(splats_a_task, count - begin)));
+    });
+  }
+  const std::vector<splatting::GaussianEntry>& entries() const { return entries_; }
+  /// NaN: not drawn.
+  float depth(std::size_t i) const { return entries_[i].depth; }
+  void list(const splatting::ImageView& view, std::uint32_t splat,
+            splatting::TileLists& lists) const {
+    splatting::list_gaussian(entries_[splat], std::log2(view.min_alpha), splat, lists);
+  }
 
  private:
-  /// The results of the forward pass of a row of tiles, for the backward pass.
-  struct Row {
-    std::vector<std::uint32_t> blended;
-    std::vector<TileRecord> records;
-    MomentScratch scratch;
-  };
-  void project(const GaussianParameters& parameters);
-  void make_lists();
-  void prefetch(int column, int row) const;
-  void draw_row(int row, std::span<const float, 3> background, std::span<float> planes);
-  void draw_row_backward(int row, std::span<const float> planes, std::span<const float> gradient);
-
-  ThreadPool& pool_;
-  splatting::ImageView view_{};
-  int degree_ = 0;
   std::vector<splatting::GaussianEntry> entries_;
-  std::vector<KeyedIndex> keys_, scratch_;
-  std::vector<PairRange> ranges_;      // of each splat
-  std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
-  splatting::TileLists lists_;
-  std::vector<Row> rows_;
-  std::vector<GaussianMoments> moments_;  // of the pairs
-  SplatTimes times_;
 };
+
+struct GaussianMethod {
+  using Parameters = GaussianParameters;
+  using Projected = ProjectedGaussians;
+  using Moments = GaussianMoments;
+  using Scratch = MomentScratch;
+  using BackwardInput = GaussianBackwardInput;
+  static constexpr std::string_view profile = "3dgs";
+  static constexpr auto blend_recorded = &blend_gaussians_recorded;
+  static constexpr auto blend_backward = &blend_gaussians_backward;
+};
+
+using GaussianRaster = TileRaster<GaussianMethod>;
 
 }  // namespace tureen::trainer

@@ -21,7 +21,7 @@ struct StoredState {
   std::int32_t degree = 0;
   std::uint64_t count = 0;
   std::vector<float> drawn, raw, statistics;  // rows with their padding
-  std::vector<GaussianMemory::Line> moments;
+  std::vector<SplatMemory::Line> moments;
   std::uint64_t random = 0;
   std::int32_t step = 0;
   std::vector<std::uint32_t> epoch;
@@ -74,7 +74,7 @@ bool fits_its_count(const StoredState& state) {
   const std::uint64_t stride = lines * splatting::row_alignment;
   return state.drawn.size() == none.rows() * stride &&
          state.raw.size() == GaussianParameters::raw_rows * stride &&
-         state.statistics.size() == gaussian_statistic::count * stride &&
+         state.statistics.size() == splat_statistic::count * stride &&
          state.moments.size() == 2 * none.rows() * lines;
 }
 
@@ -107,7 +107,7 @@ GaussianState restored(StoredState&& stored) {
   state.parameters = GaussianParameters(stored.count, stored.degree);
   copy_to(state.parameters.drawn, stored.drawn);
   copy_to(state.parameters.raw, stored.raw);
-  state.memory = GaussianMemory(state.parameters);
+  state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   copy_to(state.memory.statistics, stored.statistics);
   state.memory.moments = std::move(stored.moments);
   return state;

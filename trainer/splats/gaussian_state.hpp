@@ -18,7 +18,7 @@ namespace tureen::trainer {
 
 struct GaussianState {
   GaussianParameters parameters = {};
-  GaussianMemory memory = {};
+  SplatMemory memory = {};
   Random random{0};
   int step = 0;                           // steps done
   std::vector<std::uint32_t> epoch = {};  // views that this epoch has yet to use, from the back

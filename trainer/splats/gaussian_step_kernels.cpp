@@ -8,13 +8,16 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "splatting/harmonics-inl.hpp"
 #include "splatting/rotation-inl.hpp"
+#include "trainer/splats/color_gradient-inl.hpp"
+#include "trainer/splats/splat_adam-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
 
 using namespace splatting::HWY_NAMESPACE;
+using shared::exp_of;
+using shared::is_moderate;
 using splatting::ImageView;
 using splatting::ParameterRows;
 using splatting::row_alignment;
@@ -44,7 +47,7 @@ HWY_INLINE Moments moments_of(const GaussianBackwardInput& input, std::size_t i)
   alignas(64) float sums[values][lanes] = {};
   alignas(64) float drawn[lanes] = {};
   for (std::size_t lane = 0; lane < lanes && i + lane < input.pairs.size(); ++lane) {
-    const PairRange range = input.pairs[i + lane];
+    const PairSpan range = input.pairs[i + lane];
     if (range.begin == range.end) continue;
     drawn[lane] = 1;
     GaussianMoments total = input.moments[range.begin];
@@ -79,12 +82,10 @@ HWY_INLINE Moments moments_of(const GaussianBackwardInput& input, std::size_t i)
           hn::Gt(hn::Load(d, drawn), hn::Zero(d))};
 }
 
-/// The derivatives of a vector of splats. Those by a harmonic's coefficient are its basis function
-/// times `color`.
+/// The derivatives of a vector of splats.
 struct Gradient {
   Floats values[row::harmonics];
-  Vector3 color;
-  Floats basis[25];
+  shared::ColorGradient color;
   Floats motion;  // the length of the derivative by the image of the centre
 };
 
@@ -117,41 +118,6 @@ HWY_INLINE void rotation_gradient(const Vector3 (&axes)[3], Floats x, Floats y, 
   out[1] = times(scale, hn::NegMulAdd(radial, y, by_y));
   out[2] = times(scale, hn::NegMulAdd(radial, z, by_z));
   out[3] = times(scale, hn::NegMulAdd(radial, w, by_w));
-}
-
-/// The derivative by the offset from the eye through the colour's direction, and those by the
-/// coefficients.
-HWY_INLINE Vector3 color_gradient(const GaussianBackwardInput& input, const ParameterRows& drawn,
-                                  std::size_t i, const Moments& moments, const Vector3& offset,
-                                  Gradient& gradient) {
-  const Vector3 direction = unit(offset);
-  harmonics_basis(input.degree, direction, gradient.basis);
-  // 0 where the colour is limited, as in harmonics_color().
-  Vector3 color{constant(0.5f), constant(0.5f), constant(0.5f)};
-  const int count = (input.degree + 1) * (input.degree + 1);
-  const auto coefficient = [&](int k, std::size_t channel) {
-    return hn::Load(d, drawn.row(row::harmonics + 3 * std::size_t(k) + channel) + i);
-  };
-  for (int k = 0; k < count; ++k) {
-    color.x = hn::MulAdd(gradient.basis[k], coefficient(k, 0), color.x);
-    color.y = hn::MulAdd(gradient.basis[k], coefficient(k, 1), color.y);
-    color.z = hn::MulAdd(gradient.basis[k], coefficient(k, 2), color.z);
-  }
-  const auto where_free = [&](Floats value, Floats by_value) {
-    return hn::IfThenElseZero(hn::Gt(value, hn::Zero(d)), by_value);
-  };
-  gradient.color = {where_free(color.x, moments.red), where_free(color.y, moments.green),
-                    where_free(color.z, moments.blue)};
-  if (input.degree == 0) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  Floats weights[16];
-  for (int k = 0; k < count; ++k)
-    weights[k] = dot({coefficient(k, 0), coefficient(k, 1), coefficient(k, 2)}, gradient.color);
-  const Vector3 slope = harmonics_slope(input.degree, direction, weights);
-  const Floats radial = dot(slope, direction);
-  const Floats by_length = hn::Div(constant(1.0f), hn::Sqrt(dot(offset, offset)));
-  return {hn::Mul(hn::NegMulAdd(radial, direction.x, slope.x), by_length),
-          hn::Mul(hn::NegMulAdd(radial, direction.y, slope.y), by_length),
-          hn::Mul(hn::NegMulAdd(radial, direction.z, slope.z), by_length)};
 }
 
 /// Through the projection of splatting/gaussian_kernels.cpp. With the covariance S of the image and
@@ -248,8 +214,11 @@ HWY_INLINE void gradient_of(const GaussianBackwardInput& input,
       hn::Neg(hn::MulAdd(by_slope_x, slope_x, hn::MulAdd(by_slope_y, slope_y, by_size)));
   const Vector3 by_center{hn::Mul(by_slope_x, by_depth), hn::Mul(by_slope_y, by_depth),
                           hn::Mul(by_z, by_depth)};
-  const Vector3 by_offset = sum(transposed_product(view.view_from_layer, by_center),
-                                color_gradient(input, drawn, i, moments, offset, gradient));
+  gradient.color =
+      shared::color_gradient_of(input.degree, drawn.row(row::harmonics), drawn.stride(), i, offset,
+                                {moments.red, moments.green, moments.blue});
+  const Vector3 by_offset =
+      sum(transposed_product(view.view_from_layer, by_center), gradient.color.by_offset);
   gradient.values[row::x] = by_offset.x;
   gradient.values[row::y] = by_offset.y;
   gradient.values[row::z] = by_offset.z;
@@ -263,9 +232,9 @@ HWY_INLINE void for_each_row(const Gradient& gradient, int degree, const Act& ac
   const int count = (degree + 1) * (degree + 1);
   for (int k = 0; k < count; ++k) {
     const std::size_t first = row::harmonics + 3 * std::size_t(k);
-    act(first, hn::Mul(gradient.basis[k], gradient.color.x));
-    act(first + 1, hn::Mul(gradient.basis[k], gradient.color.y));
-    act(first + 2, hn::Mul(gradient.basis[k], gradient.color.z));
+    act(first, hn::Mul(gradient.color.basis[k], gradient.color.color.x));
+    act(first + 1, hn::Mul(gradient.color.basis[k], gradient.color.color.y));
+    act(first + 2, hn::Mul(gradient.color.basis[k], gradient.color.color.z));
   }
 }
 
@@ -281,53 +250,11 @@ void gradients_on(const GaussianBackwardInput& input, const GaussianParameters& 
   }
 }
 
-/// Whether values are below 1e18, whose square is finite; false for NaN. A test of the bits.
-HWY_INLINE Mask is_moderate(Floats value) {
-  const hn::RebindToSigned<FloatTag> di;
-  const auto magnitude = hn::And(hn::BitCast(di, value), hn::Set(di, 0x7fffffff));
-  return hn::RebindMask(d, hn::Lt(magnitude, hn::BitCast(di, constant(1e18f))));
-}
-
 HWY_INLINE Mask can_step(const Gradient& gradient) {
-  Mask result = hn::And(is_moderate(gradient.color.x),
-                        hn::And(is_moderate(gradient.color.y), is_moderate(gradient.color.z)));
+  const Vector3& color = gradient.color.color;
+  Mask result = hn::And(is_moderate(color.x), hn::And(is_moderate(color.y), is_moderate(color.z)));
   for (const Floats& value : gradient.values) result = hn::And(result, is_moderate(value));
   return result;
-}
-
-/// Adam, as in trainer/common/kernels/adam.hpp. `correction` are 1 / (1 - beta1^t) and
-/// 1 / sqrt(1 - beta2^t).
-struct VectorAdam {
-  const GaussianStep& step;
-  Floats correction1, correction2;
-  Mask steps;
-
-  HWY_INLINE void operator()(float rate, Floats gradient, float* value, float* moments) const {
-    const Floats old_first = hn::Load(d, moments),
-                 old_second = hn::Load(d, moments + row_alignment);
-    const Floats first =
-        hn::MulAdd(constant(step.beta1), old_first, hn::Mul(constant(1 - step.beta1), gradient));
-    const Floats second =
-        hn::MulAdd(constant(step.beta2), old_second,
-                   hn::Mul(hn::Mul(constant(1 - step.beta2), gradient), gradient));
-    const Floats old = hn::Load(d, value);
-    const Floats size = hn::MulAdd(hn::Sqrt(second), correction2, constant(step.epsilon));
-    const Floats moved =
-        hn::Sub(old, hn::Div(hn::Mul(hn::Mul(constant(rate), correction1), first), size));
-    hn::Store(hn::IfThenElse(steps, moved, old), d, value);
-    hn::Store(hn::IfThenElse(steps, first, old_first), d, moments);
-    hn::Store(hn::IfThenElse(steps, second, old_second), d, moments + row_alignment);
-  }
-};
-
-/// beta^t for t >= 0.
-HWY_INLINE Floats power_of(float beta, Floats t) {
-  return exp2_of(hn::Max(hn::Mul(constant(std::log2(beta)), t), constant(-126.0f)));
-}
-
-HWY_INLINE Floats exp_of(Floats x) {
-  const Floats low = constant(-126.0f), high = constant(126.0f);
-  return exp2_of(hn::Clamp(hn::Mul(x, constant(1.44269504f)), low, high));
 }
 
 /// Limits the trained values, and computes the drawn ones.
@@ -365,8 +292,8 @@ std::size_t kind_of(std::size_t r) {
 }
 
 std::size_t step_on(const GaussianBackwardInput& input, const GaussianStep& step, std::size_t begin,
-                    std::size_t end, GaussianParameters& parameters, GaussianMemory& memory) {
-  namespace statistic = gaussian_statistic;
+                    std::size_t end, GaussianParameters& parameters, SplatMemory& memory) {
+  namespace statistic = splat_statistic;
   const std::size_t rows = parameters.rows();
   float rates[row::harmonics + 3 * 16];
   for (std::size_t r = 0; r < rows; ++r) rates[r] = step.rates[kind_of(r)];
@@ -392,9 +319,8 @@ std::size_t step_on(const GaussianBackwardInput& input, const GaussianStep& step
     const Floats t = hn::Max(add(statistic::steps, one), one);
     add(statistic::motion, gradient.motion);
     add(statistic::evident, moments.evident);
-    const VectorAdam adam{step, hn::Div(one, hn::Sub(one, power_of(step.beta1, t))),
-                          hn::Div(one, hn::Sqrt(hn::Sub(one, power_of(step.beta2, t)))), steps};
-    GaussianMemory::Line* block = memory.moments.data() + 2 * rows * (i / row_alignment);
+    const shared::AdamOfSplats adam(step.adam, t, steps);
+    SplatMemory::Line* block = memory.lines_of(i);
     for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
       adam(rates[r], value, parameters.trained(r) + i, block[2 * r].values + i % row_alignment);
     });
@@ -412,10 +338,6 @@ namespace tureen::trainer {
 HWY_EXPORT(gradients_on);
 HWY_EXPORT(step_on);
 
-GaussianMemory::GaussianMemory(const GaussianParameters& parameters)
-    : moments(2 * parameters.rows() * (parameters.drawn.stride() / splatting::row_alignment)),
-      statistics(gaussian_statistic::count, parameters.count()) {}
-
 void gaussian_gradients(const GaussianBackwardInput& input, const GaussianParameters& parameters,
                         std::size_t begin, std::size_t end, splatting::ParameterRows& gradients) {
   HWY_DYNAMIC_DISPATCH(gradients_on)(input, parameters, begin, end, gradients);
@@ -423,7 +345,7 @@ void gaussian_gradients(const GaussianBackwardInput& input, const GaussianParame
 
 std::size_t step_gaussians(const GaussianBackwardInput& input, const GaussianStep& step,
                            std::size_t begin, std::size_t end, GaussianParameters& parameters,
-                           GaussianMemory& memory) {
+                           SplatMemory& memory) {
   return HWY_DYNAMIC_DISPATCH(step_on)(input, step, begin, end, parameters, memory);
 }
 

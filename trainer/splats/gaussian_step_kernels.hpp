@@ -5,24 +5,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "splatting/image_view.hpp"
 #include "trainer/splats/gaussian_parameters.hpp"
 #include "trainer/splats/gaussian_tile_kernels.hpp"
+#include "trainer/splats/splat_adam.hpp"
+#include "trainer/splats/splat_memory.hpp"
 
 namespace tureen::trainer {
-
-/// Consecutive pairs of a splat and a tile.
-struct PairRange {
-  std::uint32_t begin, end;
-};
 
 /// The results of a view's tiles.
 struct GaussianBackwardInput {
   splatting::ImageView view;                 // without keep_integral
   int degree;                                // of the harmonics that were drawn
-  std::span<const PairRange> pairs;          // of each splat; empty if it is not drawn
+  std::span<const PairSpan> pairs;           // of each splat; empty if it is not drawn
   std::span<const GaussianMoments> moments;  // of the pairs
 };
 
@@ -31,34 +27,9 @@ struct GaussianBackwardInput {
 void gaussian_gradients(const GaussianBackwardInput& input, const GaussianParameters& parameters,
                         std::size_t begin, std::size_t end, splatting::ParameterRows& gradients);
 
-/// The state of Adam and of the densifier, for each splat; zeros at first.
-struct GaussianMemory {
-  /// A value of row_alignment consecutive splats.
-  struct alignas(64) Line {
-    float values[splatting::row_alignment];
-  };
-  /// For each block of splats and each row: the first moments, then the second ones.
-  std::vector<Line> moments;
-  splatting::ParameterRows statistics;  // rows of gaussian_statistic
-
-  GaussianMemory() = default;
-  explicit GaussianMemory(const GaussianParameters& parameters);
-};
-
-/// Rows of GaussianMemory::statistics.
-namespace gaussian_statistic {
-enum : std::size_t {
-  steps,    // of Adam
-  motion,   // sum over steps of |dL / d image of the centre|, per pixel
-  evident,  // > 0: some pixel had at least evident_weight
-  count
-};
-}
-
 struct GaussianStep {
   float rates[6];  // as gaussian_parameter_kinds
-  float beta1 = 0.9f, beta2 = 0.999f;
-  float epsilon = 1e-15f;
+  SplatAdam adam = {};
   float min_log_scale, max_log_scale;
 };
 
@@ -66,6 +37,6 @@ struct GaussianStep {
 /// a gradient that is not finite, or beyond 1e18, do not move; returns their number.
 std::size_t step_gaussians(const GaussianBackwardInput& input, const GaussianStep& step,
                            std::size_t begin, std::size_t end, GaussianParameters& parameters,
-                           GaussianMemory& memory);
+                           SplatMemory& memory);
 
 }  // namespace tureen::trainer

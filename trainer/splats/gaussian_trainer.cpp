@@ -44,7 +44,7 @@ GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const T
       random_(config.seed) {
   assert(!views.empty() && config.degree <= max_trained_degree);
   parameters_ = random_gaussians(config_, region, random_);
-  memory_ = GaussianMemory(parameters_);
+  memory_ = SplatMemory(parameters_.rows(), parameters_.count());
 }
 
 GaussianTrainer::GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
@@ -164,9 +164,9 @@ GaussianStepReport GaussianTrainer::step() {
     if (densified.dead == parameters_.count()) {
       // No splat is left to split: the run begins again, at other places.
       parameters_ = random_gaussians(config_, region_, random_);
-      memory_ = GaussianMemory(parameters_);
+      memory_ = SplatMemory(parameters_.rows(), parameters_.count());
     }
-    sort_in_memory(parameters_, memory_);
+    sort_in_memory(region_, parameters_, memory_);
     report.dead = densified.dead;
     report.split = densified.split;
   }

@@ -68,7 +68,7 @@ class GaussianTrainer {
   ThreadPool pool_;
   GaussianRaster raster_;
   GaussianParameters parameters_;
-  GaussianMemory memory_;
+  SplatMemory memory_;
   Random random_;
   int step_ = 0;
   const TrainingView* last_view_ = nullptr;

@@ -133,7 +133,7 @@ GaussianState first_state(const Dataset& dataset, const GaussianConfig& config,
                           const Region& region, const Scene* start) {
   GaussianState state{.random = Random(config.seed)};
   state.parameters = initial_gaussians(dataset, config, region, start, state.random);
-  state.memory = GaussianMemory(state.parameters);
+  state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   return state;
 }
 

@@ -4,6 +4,8 @@
 // order.
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -24,7 +26,7 @@
 namespace tureen::trainer {
 
 /// Seconds of each stage, sums over steps, and the amount of work.
-struct RasterTimes {
+struct SplatTimes {
   double projection = 0, lists = 0, forward = 0, loss = 0, backward = 0, update = 0;
   std::uint64_t steps = 0, pairs = 0;
 
@@ -34,7 +36,7 @@ struct RasterTimes {
 /// Calls act(index in TilePixels, index in the image, pixels) for the runs of pixels of a tile that
 /// are in the image: at most a block's row each.
 template <class Act>
-void for_each_run_of_tile(int x, int y, int width, int height, const Act& act) {
+void for_each_run(int x, int y, int width, int height, const Act& act) {
   using splatting::block_pixels, splatting::block_side;
   constexpr int blocks_a_side = splatting::tile_side / block_side;
   for (int block = 0; block < splatting::blocks_a_tile; ++block)
@@ -48,7 +50,11 @@ void for_each_run_of_tile(int x, int y, int width, int height, const Act& act) {
     }
 }
 
-/// `Method` names the types and functions of a kernel: see WindowMethod.
+/// Threads share splats in groups of this many, a multiple of splatting::row_alignment.
+inline constexpr std::size_t splats_a_task = 1024;
+
+/// `Method` names the types and functions of a kernel: see GaussianMethod. Its Projected holds the
+/// projected splats in their order in memory.
 template <class Method>
 class TileRaster {
  public:
@@ -83,7 +89,7 @@ class TileRaster {
     return {view_, degree_, pairs_, moments_};
   }
 
-  RasterTimes& times() { return times_; }
+  SplatTimes& times() { return times_; }
   /// Pairs of a splat and a tile in the last view.
   std::size_t pairs() const { return lists_.pairs(); }
 
@@ -100,30 +106,24 @@ class TileRaster {
 
   void project(const Parameters& parameters) {
     const Stopwatch watch(times_.projection);
-    if (projected_.count() != parameters.count())
-      projected_ = splatting::ParameterRows(Method::projected_rows, parameters.count());
-    Method::project(view_, parameters.drawn, degree_, projected_);
-    // In memory order: in the order of blending, each of the rows would be a cache miss.
-    entries_.resize(parameters.count());
-    outlines_.resize(parameters.count());
-    const float* depths = projected_.row(Method::depth_row);
-    for (std::size_t i = 0; i < parameters.count(); ++i)
-      if (std::isfinite(depths[i])) Method::read(projected_, i, entries_[i], outlines_[i]);
+    projected_.project(pool_, view_, parameters.drawn, degree_);
   }
 
   void make_lists(std::size_t count) {
     const Stopwatch watch(times_.lists);
     keys_.clear();
-    const float* depths = projected_.row(Method::depth_row);
     for (std::uint32_t i = 0; i < count; ++i)
-      if (std::isfinite(depths[i])) keys_.push_back({sort_key(depths[i]), i});
+      if (const float depth = projected_.depth(i); std::isfinite(depth))
+        keys_.push_back({sort_key(depth), i});
     radix_sort(keys_, key_scratch_);
     lists_.begin(view_.width, view_.height);
     pairs_.assign(count, {0, 0});
-    for (const KeyedIndex& key : keys_) {
-      const std::uint32_t splat = key.index;
+    for (std::size_t place = 0; place < keys_.size(); ++place) {
+      // Neighbours in the order are not so in memory.
+      if (place + 8 < keys_.size()) hwy::Prefetch(&projected_.entries()[keys_[place + 8].index]);
+      const std::uint32_t splat = keys_[place].index;
       const std::uint32_t begin = lists_.pairs();
-      Method::list(view_, entries_[splat], outlines_[splat], splat, lists_);
+      projected_.list(view_, splat, lists_);
       pairs_[splat] = {begin, lists_.pairs()};
     }
     // Renumbers the pairs in the order of the splats in memory, in which their moments are read.
@@ -137,6 +137,13 @@ class TileRaster {
     }
   }
 
+  /// Reads the entries of a tile into the cache, while the tile before it is drawn: each is a miss.
+  void prefetch(int column, int row) const {
+    if (column >= lists_.columns()) return;
+    for (const std::uint32_t splat : lists_.tile(column, row))
+      hwy::Prefetch(&projected_.entries()[splat]);
+  }
+
   void draw_row(int row, std::span<const float, 3> background, std::span<float> planes) {
     using splatting::tile_side, splatting::tile_pixels, splatting::blocks_a_tile;
     lists_.finish_with_numbers(row, shifts_);
@@ -148,30 +155,32 @@ class TileRaster {
     kept.blended.resize(listed * blocks_a_tile + 1);  // one place is written but not used
     std::uint32_t* blended = kept.blended.data();
     const std::size_t pixels_a_plane = planes.size() / 3;
+    prefetch(0, row);
     for (int column = 0; column < lists_.columns(); ++column) {
+      prefetch(column + 1, row);
       splatting::TilePixels pixels{};
       pixels.x = column * tile_side;
       pixels.y = row * tile_side;
       // Pixels outside the image are closed.
       std::fill_n(pixels.transmittance, tile_pixels, -1.0f);
-      for_each_run_of_tile(pixels.x, pixels.y, view_.width, view_.height,
-                           [&](std::size_t at, std::size_t, std::size_t count) {
-                             std::fill_n(pixels.transmittance + at, count, 1.0f);
-                           });
+      for_each_run(pixels.x, pixels.y, view_.width, view_.height,
+                   [&](std::size_t at, std::size_t, std::size_t count) {
+                     std::fill_n(pixels.transmittance + at, count, 1.0f);
+                   });
       TileRecord& record = kept.records[std::size_t(column)];
       record.blended = blended;
-      Method::blend_recorded(view_, entries_, lists_.tile(column, row), pixels, record);
+      Method::blend_recorded(view_, projected_.entries(), lists_.tile(column, row), pixels, record);
       blended += record.ends[blocks_a_tile - 1];
-      for_each_run_of_tile(pixels.x, pixels.y, view_.width, view_.height,
-                           [&](std::size_t at, std::size_t pixel, std::size_t count) {
-                             for (std::size_t i = 0; i < count; ++i) {
-                               const float left = std::abs(pixels.transmittance[at + i]);
-                               float* out = planes.data() + pixel + i;
-                               out[0] = pixels.red[at + i] + left * background[0];
-                               out[pixels_a_plane] = pixels.green[at + i] + left * background[1];
-                               out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background[2];
-                             }
-                           });
+      for_each_run(pixels.x, pixels.y, view_.width, view_.height,
+                   [&](std::size_t at, std::size_t pixel, std::size_t count) {
+                     for (std::size_t i = 0; i < count; ++i) {
+                       const float left = std::abs(pixels.transmittance[at + i]);
+                       float* out = planes.data() + pixel + i;
+                       out[0] = pixels.red[at + i] + left * background[0];
+                       out[pixels_a_plane] = pixels.green[at + i] + left * background[1];
+                       out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background[2];
+                     }
+                   });
     }
   }
 
@@ -179,27 +188,29 @@ class TileRaster {
     using splatting::tile_side, splatting::tile_pixels;
     Row& kept = rows_[std::size_t(row)];
     const std::size_t pixels_a_plane = planes.size() / 3;
+    prefetch(0, row);
     for (int column = 0; column < lists_.columns(); ++column) {
+      prefetch(column + 1, row);
       if (lists_.tile(column, row).empty()) continue;
       TileGradient tile{};
       tile.x = column * tile_side;
       tile.y = row * tile_side;
       std::fill_n(tile.transmittance, tile_pixels, -1.0f);
-      for_each_run_of_tile(tile.x, tile.y, view_.width, view_.height,
-                           [&](std::size_t at, std::size_t pixel, std::size_t count) {
-                             for (std::size_t i = 0; i < count; ++i) {
-                               const float* value = planes.data() + pixel + i;
-                               const float* by = gradient.data() + pixel + i;
-                               const std::size_t green = pixels_a_plane, blue = 2 * green;
-                               tile.red[at + i] = by[0];
-                               tile.green[at + i] = by[green];
-                               tile.blue[at + i] = by[blue];
-                               tile.behind[at + i] = by[0] * value[0] + by[green] * value[green] +
-                                                     by[blue] * value[blue];
-                               tile.transmittance[at + i] = 1;
-                             }
-                           });
-      Method::blend_backward(view_, entries_, lists_.tile(column, row),
+      for_each_run(tile.x, tile.y, view_.width, view_.height,
+                   [&](std::size_t at, std::size_t pixel, std::size_t count) {
+                     for (std::size_t i = 0; i < count; ++i) {
+                       const float* value = planes.data() + pixel + i;
+                       const float* by = gradient.data() + pixel + i;
+                       const std::size_t green = pixels_a_plane, blue = 2 * green;
+                       tile.red[at + i] = by[0];
+                       tile.green[at + i] = by[green];
+                       tile.blue[at + i] = by[blue];
+                       tile.behind[at + i] =
+                           by[0] * value[0] + by[green] * value[green] + by[blue] * value[blue];
+                       tile.transmittance[at + i] = 1;
+                     }
+                   });
+      Method::blend_backward(view_, projected_.entries(), lists_.tile(column, row),
                              lists_.pair_numbers(column, row), kept.records[std::size_t(column)],
                              tile, kept.scratch, moments_);
     }
@@ -208,17 +219,14 @@ class TileRaster {
   ThreadPool& pool_;
   splatting::ImageView view_{};
   int degree_ = 0;
-  splatting::ParameterRows projected_;
+  typename Method::Projected projected_;
   std::vector<KeyedIndex> keys_, key_scratch_;
-  // Of each splat. The tiles' lists hold splats in the order of blending.
-  std::vector<typename Method::Entry> entries_;
-  std::vector<typename Method::Outline> outlines_;
-  std::vector<PairSpan> pairs_;
+  std::vector<PairSpan> pairs_;        // of each splat
   std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
   splatting::TileLists lists_;
   std::vector<Row> rows_;
   std::vector<typename Method::Moments> moments_;  // of the pairs
-  RasterTimes times_;
+  SplatTimes times_;
 };
 
 }  // namespace tureen::trainer

@@ -7,30 +7,40 @@
 
 namespace tureen::trainer {
 
+/// The splats of a view.
+class ProjectedWindows {
+ public:
+  void project(ThreadPool&, const splatting::ImageView& view, const splatting::ParameterRows& drawn,
+               int degree) {
+    if (rows_.count() != drawn.count())
+      rows_ = splatting::ParameterRows(splatting::projected_window_row::count, drawn.count());
+    splatting::project_windows(view, drawn, degree, rows_);
+    // In memory order: in the order of blending, each of the rows would be a cache miss.
+    entries_.resize(drawn.count());
+    outlines_.resize(drawn.count());
+    for (std::size_t i = 0; i < drawn.count(); ++i)
+      if (std::isfinite(depth(i))) splatting::read_entry(rows_, i, entries_[i], outlines_[i]);
+  }
+  const std::vector<splatting::WindowEntry>& entries() const { return entries_; }
+  /// NaN: not drawn.
+  float depth(std::size_t i) const { return rows_.row(splatting::projected_window_row::depth)[i]; }
+  void list(const splatting::ImageView&, std::uint32_t splat, splatting::TileLists& lists) const {
+    splatting::list_window(outlines_[splat], splat, lists);
+  }
+
+ private:
+  splatting::ParameterRows rows_;
+  std::vector<splatting::WindowEntry> entries_;
+  std::vector<splatting::WindowOutline> outlines_;
+};
+
 struct WindowMethod {
   using Parameters = WindowParameters;
-  using Entry = splatting::WindowEntry;
-  using Outline = splatting::WindowOutline;
   using Moments = WindowMoments;
   using Scratch = WindowScratch;
   using BackwardInput = WindowBackwardInput;
   static constexpr std::string_view profile = "triangle-splatting";
-  static constexpr std::size_t projected_rows = splatting::projected_window_row::count;
-  static constexpr std::size_t depth_row = splatting::projected_window_row::depth;
-
-  static void project(const splatting::ImageView& view, const splatting::ParameterRows& drawn,
-                      int degree, splatting::ParameterRows& projected) {
-    splatting::project_windows(view, drawn, degree, projected);
-  }
-  /// Of a drawn splat.
-  static void read(const splatting::ParameterRows& projected, std::size_t splat, Entry& entry,
-                   Outline& outline) {
-    splatting::read_entry(projected, splat, entry, outline);
-  }
-  static void list(const splatting::ImageView&, const Entry&, const Outline& outline,
-                   std::uint32_t splat, splatting::TileLists& lists) {
-    splatting::list_window(outline, splat, lists);
-  }
+  using Projected = ProjectedWindows;
   static constexpr auto blend_recorded = &blend_windows_recorded;
   static constexpr auto blend_backward = &blend_windows_backward;
 };

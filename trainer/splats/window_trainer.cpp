@@ -208,7 +208,7 @@ WindowStepReport WindowTrainer::step() {
 }
 
 std::vector<float> WindowTrainer::render(const Camera& camera) {
-  const RasterTimes times = raster_.times();
+  const SplatTimes times = raster_.times();
   std::vector<float> planes(3 * std::size_t(camera.width) * std::size_t(camera.height));
   raster_.forward(parameters_, camera, config_.degree,
                   std::span<const float, 3>(config_.background), planes);

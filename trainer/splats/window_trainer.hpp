@@ -82,7 +82,7 @@ class WindowTrainer {
   TriangleSoup to_soup() const;
 
   const WindowParameters& parameters() const { return parameters_; }
-  RasterTimes& times() { return raster_.times(); }
+  SplatTimes& times() { return raster_.times(); }
 
  private:
   int degree_now() const;
