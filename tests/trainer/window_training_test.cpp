@@ -230,9 +230,10 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   }
   RecordProperty("soft_db", std::to_string(soft));
   RecordProperty("opaque_db", std::to_string(opaque));
-  // 29.9 and 29.3 dB with this seed. The order differs: by centre, and by the depth of each pixel.
-  EXPECT_GT(soft, 22);
-  EXPECT_GT(opaque, soft - 4);
+  // 57.8 and 48.5 dB with this seed: a difference in a few pixels, where the order differs (by
+  // centre, and by the depth of each pixel). A black image has 10 dB.
+  EXPECT_GT(soft, 30);
+  EXPECT_GT(opaque, 30);
 }
 
 TEST(WindowTraining, BeginsAtPoints) {
