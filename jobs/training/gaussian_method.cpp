@@ -25,7 +25,10 @@ class GaussianMethod final : public TrainingMethod {
     GaussianConfig base;
     // Photographs of a scene have no background: a pixel without a splat is an error. With a white
     // background it would match white walls.
-    if (dataset && !dataset->has_alpha) std::fill_n(base.background, 3, 0.0f);
+    if (dataset && !dataset->has_alpha) {
+      std::fill_n(base.background, 3, 0.0f);
+      base.far_splats = 0.5;
+    }
     if (!options_.file.empty())
       base = trainer::read_gaussian_config(std::filesystem::path(options_.file), base);
     else if (checkpoint_)

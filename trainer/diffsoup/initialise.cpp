@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "trainer/common/neighbours.hpp"
+#include "trainer/common/random_points.hpp"
 #include "trainer/diffsoup/mlp_parameters.hpp"
 #include "trainer/diffsoup/split_choice.hpp"
 
@@ -95,22 +96,6 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& points, std::size
   for (const std::uint32_t i : draw(random, count - chosen.size(), others.size()))
     chosen.push_back(others[i]);
   return chosen;
-}
-
-/// Around the cube: uniform in direction, and in the logarithm of the distance.
-glm::dvec3 far_point(const Region& region, double far_extent, Random& random) {
-  glm::dvec3 direction(0.0);
-  while (glm::length(direction) < 0.1) direction = random.in_ball();  // short ones are inexact
-  direction = glm::normalize(direction);
-  const glm::dvec3 size = glm::abs(direction);
-  const double border = 1 / std::max({size.x, size.y, size.z});  // where it leaves the cube
-  const double distance = border * std::pow(std::max(far_extent / border, 1.0), random.uniform());
-  return region.centre + region.half_side * distance * direction;
-}
-
-glm::dvec3 near_point(const Region& region, Random& random) {
-  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-  return region.centre + region.half_side * glm::dvec3(x, y, z);
 }
 
 Model grey_model(const Config& config, glm::dvec3 origin, std::vector<glm::vec3> positions) {

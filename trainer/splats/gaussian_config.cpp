@@ -18,6 +18,7 @@ constexpr Range opacity{0.005, 0.99, {}, "other opacities are not blended, or no
 constexpr Range degrees{0, max_trained_degree, {}, "only these degrees are trained"};
 constexpr Range weight{0, 1000, {}, "a negative weight would increase the error"};
 constexpr Range length{0, 1e3, Range::Ends::low_open, "the value is a length"};
+constexpr Range extent{1, 1e6, {}, "the splats lie outside of the region"};
 constexpr Range any_seed{
     0, 18446744073709551616.0, {}, "the seed is an unsigned number of 64 bits"};
 constexpr Range minutes{0, 1e5, {}, "the value is a time", "the run would take months"};
@@ -33,6 +34,17 @@ const GaussianConfigField fields[] = {
      "Number of random splats, or of samples on a mesh, at the start; points of the dataset are "
      "filled up to it"},
     {"first_opacity", &GaussianConfig::first_opacity, opacity, {}, "Their opacity"},
+    {"far_splats",
+     &GaussianConfig::far_splats,
+     fraction,
+     {},
+     "Fraction of the random splats outside of the region of interest; by default 0 if the images "
+     "have alpha, else 0.5"},
+    {"far_extent",
+     &GaussianConfig::far_extent,
+     extent,
+     {},
+     "Largest distance of these splats from the centre of the region, in its half sides"},
     {"degree", &GaussianConfig::degree, degrees, {}, "Degree of the harmonics of the colours"},
     {"degree_steps",
      &GaussianConfig::degree_steps,

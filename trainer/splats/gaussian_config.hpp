@@ -19,6 +19,9 @@ struct GaussianConfig {
   std::uint64_t max_splats = 60000;
   std::uint64_t first_splats = 10000;  // random ones
   float first_opacity = 0.3f;
+  /// Fraction of the random splats outside of the region of interest, and their largest distance
+  /// from its centre, in half sides; photographs with alpha show nothing there.
+  double far_splats = 0, far_extent = 8;
   int degree = 2;  // of the harmonics, up to max_trained_degree
   /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
   double degree_steps = 0.1;

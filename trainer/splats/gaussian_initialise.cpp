@@ -126,6 +126,11 @@ GaussianParameters from_scene(const Scene& scene, const GaussianConfig& config,
     throw InputError({}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
                              "; the training of Gaussians begins with Gaussians or triangles");
   if (gaussians->centers.empty()) throw InputError({}, "the initial scene has no splat");
+  if (gaussians->centers.size() > config.max_splats)
+    throw InputError({},
+                     "the initial scene has " + std::to_string(gaussians->centers.size()) +
+                         " splats, more than max_splats, " + std::to_string(config.max_splats),
+                     "allow more splats, or convert the scene to one with fewer");
   return GaussianParameters(*gaussians, splats.color, config.degree);
 }
 

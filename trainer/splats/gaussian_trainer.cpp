@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 
+#include "trainer/common/random_points.hpp"
 #include "trainer/common/stopwatch.hpp"
 
 namespace tureen::trainer {
@@ -21,11 +23,15 @@ GaussianParameters random_gaussians(const GaussianConfig& config, const Region& 
   GaussianParameters result(config.first_splats, config.degree);
   const double scale =
       0.5 * region.half_side * std::cbrt(1 / double(std::max<std::size_t>(config.first_splats, 1)));
+  const auto near = result.count() - std::size_t(config.far_splats * double(result.count()));
   for (std::size_t i = 0; i < result.count(); ++i) {
+    const glm::dvec3 point =
+        i < near ? near_point(region, random) : far_point(region, config.far_extent, random);
+    const double distance = glm::distance(point, region.centre) / region.half_side;
     for (int axis = 0; axis < 3; ++axis) {
-      result.trained(row::x + std::size_t(axis))[i] =
-          float(region.centre[axis] + region.half_side * random.uniform(-1, 1));
-      result.trained(row::scale_x + std::size_t(axis))[i] = float(std::log(scale));
+      result.trained(row::x + std::size_t(axis))[i] = float(point[axis]);
+      result.trained(row::scale_x + std::size_t(axis))[i] =
+          float(std::log(scale * (i < near ? 1 : distance)));
     }
     result.trained(row::rotation_w)[i] = 1;
     result.trained(row::opacity)[i] = std::log(config.first_opacity / (1 - config.first_opacity));

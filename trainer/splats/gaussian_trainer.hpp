@@ -18,7 +18,8 @@
 namespace tureen::trainer {
 
 /// `first_splats` Gaussians, uniform in the cube of the region, grey, and as large as gives each
-/// its share of the volume.
+/// its share of the volume. The last ones are around it, as GaussianConfig::far_splats says, and
+/// larger in proportion to their distance.
 GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
                                     Random& random);
 
