@@ -285,8 +285,7 @@ void add_file_options(Command& command, TrainOptions& options) {
           "--preview-every", options.preview_every,
           "steps between previews; a preview is an image in the folder OUT.previews: a test "
           "view beside its photograph; no previews by default; for gaussians also OUT-previews.mp4 "
-          "if "
-          "ffmpeg is installed")
+          "if ffmpeg is installed")
       .check(between(1, 10'000'000))
       .value_name("N");
   command.add_flag("--watch", options.watch,
@@ -344,8 +343,7 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
                    "print all constants of this run as JSON, without training");
   command.add_text_flag(
       "--list-config", [options] { return constants_reference(options->training); },
-      "list all constants of the method with their defaults, ranges and "
-      "meanings, and exit");
+      "list all constants of the method with their defaults, ranges and meanings, and exit");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");
   command.does([options] { return train(*options); });

@@ -31,16 +31,16 @@ enum : std::size_t {
 };
 }
 
-/// A projected Gaussian. At an offset (dx, dy) from the centre, in pixels,
+/// A projected Gaussian, with its centre at (x, y) in pixels. At an offset (dx, dy) from it,
 /// log2(alpha) = log_opacity - (p dx + q dy)^2 - (r dy)^2.
 struct alignas(64) GaussianEntry {
   float x, y, p, q, r, log_opacity;
   float red, green, blue;         // >= 0
-  float inverse_depth, depth;     // of the centre; NaN: not drawn
+  float inverse_depth, depth;     // of the centre; a NaN depth: not drawn
   float half_width, half_height;  // in pixels, of the ellipse where alpha is the smallest
 };
 
-/// Projects the splats from `begin`, a multiple of row_alignment, to entries[0] and on.
+/// Projects as many splats as there are entries, from `begin` on, a multiple of row_alignment.
 void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
                        std::size_t begin, std::span<GaussianEntry> entries);
 

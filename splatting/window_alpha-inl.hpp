@@ -34,7 +34,7 @@ HWY_INLINE Floats log_rho_of(Floats rho) {
   return log2_of(hn::Min(hn::Max(rho, constant(1e-30f)), constant(1.0f)));
 }
 
-/// alpha before its largest value is applied. -126: exp2_of() has no smaller values.
+/// alpha before it is limited to the largest. -126 is the smallest argument of exp2_of().
 HWY_INLINE Floats window_alpha_of(const WindowEntry& entry, Floats log_rho) {
   const Floats log_alpha = hn::MulAdd(constant(entry.sigma), log_rho, constant(entry.log_opacity));
   return exp2_of(hn::Max(log_alpha, constant(-126.0f)));

@@ -47,7 +47,7 @@ enum : std::size_t {
 /// A projected window, as the compositing loop reads it.
 struct alignas(16) WindowEntry {
   float x, y, edges[9], inverse_depth[3], sigma, log_opacity, min_rho, red, green, blue;
-  bool reaches_near;  // some part may be before the near plane
+  bool reaches_near;  // some part may be nearer than the near plane
 };
 
 /// `projected` has projected_window_row::count rows of as many splats.

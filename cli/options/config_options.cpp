@@ -29,8 +29,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
   add_choice<TrainingMethodName>(
       command, "--method", options.method,
       {{"diffsoup", TrainingMethodName::diffsoup}, {"gaussians", TrainingMethodName::gaussians}},
-      "diffsoup (default): opaque triangles with textures; gaussians: "
-      "3D Gaussian Splatting, on the processor")
+      "diffsoup (default): opaque triangles with textures; gaussians: 3D Gaussian Splatting, on "
+      "the processor")
       .value_name("NAME");
   add_choice<std::optional<Preset>>(
       command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},
@@ -55,10 +55,10 @@ void add_config_options(Command& command, TrainingOptions& options) {
   add_number(command, "--level", options.level,
              "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels");
   command
-      .add_option("--init", options.begin,
-                  "first primitives: random, points (structure-from-motion points of the dataset), "
-                  "or a scene to "
-                  "continue from; by default points if the dataset has them, else random")
+      .add_option(
+          "--init", options.begin,
+          "first primitives: random, points (structure-from-motion points of the dataset), "
+          "or a scene to continue from; by default points if the dataset has them, else random")
       .value_name("WHERE");
 }
 

@@ -9,7 +9,7 @@ namespace tureen {
 
 namespace {
 
-/// Throws UsageError if a word of the other method is given.
+/// Throws UsageError if an option of the other method is given, or both --steps and --minutes.
 void require_own_options(const TrainingOptions& options) {
   using Given = std::pair<bool, const char*>;
   const Given soup[] = {{options.preset.has_value(), "--preset"},

@@ -47,8 +47,8 @@ class TrainingMethod {
                                 const std::function<void(const std::string&)>& say) = 0;
 };
 
-/// Throws UsageError if the options have a constant of another method. `options` must outlive the
-/// result.
+/// Throws UsageError for options of another method, or that exclude each other, and ContextError if
+/// the device is missing. `options` must outlive the result.
 std::unique_ptr<TrainingMethod> make_training_method(const TrainingOptions& options);
 
 }  // namespace tureen

@@ -1,5 +1,5 @@
-// The choices of a person who starts a training run: a method, a preset or a file of constants, and
-// the most common single constants. A file can set all constants.
+// The options of a training run: a method, a preset or a file of constants, and the most common
+// single constants. A file can set all constants.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct TrainingOptions {
 
   // Only of gaussians.
   std::optional<std::int64_t> max_splats;
-  std::optional<double> minutes;
+  std::optional<double> minutes;            // of training; the run fits its steps
   std::optional<std::uint64_t> max_memory;  // bytes; the run has fewer splats if it needs more
 
   /// Whether a preset, a file or `published` is given. Single constants then change these instead

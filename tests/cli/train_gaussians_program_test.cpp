@@ -41,7 +41,7 @@ const Splats& splats_of(const Scene& scene) {
   return std::get<Splats>(only_layer(scene).primitives);
 }
 
-TEST_F(TrainGaussians, MakesASceneAndAllThatBelongsToIt) {
+TEST_F(TrainGaussians, WritesTheSceneAndItsFiles) {
   make_dataset();
   const ChildResult result = gaussians(
       "ball.glb", {"--steps", "250", "--max-splats", "400", "--json", "--preview-every", "100"});
@@ -50,7 +50,7 @@ TEST_F(TrainGaussians, MakesASceneAndAllThatBelongsToIt) {
                                     "ball.previews/step_200.png", "ball.previews/step_250.png"};
   if (have_ffmpeg()) expected.insert(expected.begin(), "ball-previews.mp4");
   EXPECT_EQ(files(), expected);
-  // The forecast is there before the start.
+  // The forecast, before the first step.
   EXPECT_THAT(result.err, Names("forecast", "MiB", 400, "splats"));
 
   const auto json = nlohmann::ordered_json::parse(result.out);
@@ -77,7 +77,7 @@ TEST_F(TrainGaussians, MakesASceneAndAllThatBelongsToIt) {
   EXPECT_EQ(run({"report", "ball.jsonl", "-o", "report.html"}).exit_code, 0);
 }
 
-TEST_F(TrainGaussians, GoesOnAfterCtrlCAsIfItHadNotHappened) {
+TEST_F(TrainGaussians, ResumesAfterCtrlCWithTheSameBits) {
   make_dataset();
   fs::create_directories(folder / "whole");
   const std::vector<std::string> more{"--steps", "3000", "--max-splats", "300"};
@@ -124,7 +124,7 @@ TEST_F(TrainGaussians, BeginsWithGaussiansOrTriangles) {
   EXPECT_EQ(nlohmann::json::parse(mesh.out)["splats"], 50);
 }
 
-TEST_F(TrainGaussians, TakesItsConstantsFromFileAndOptions) {
+TEST_F(TrainGaussians, ReadsConstantsFromFileAndOptions) {
   make_dataset(false);
   write("few.json", R"({"steps": 30, "max_splats": 60, "seed": 5, "degree": 1})");
   const auto print = [&](const std::vector<std::string>& more) {
@@ -164,7 +164,7 @@ TEST_F(TrainGaussians, FitsItsStepsToTheMinutes) {
   EXPECT_GT(json["seconds"], 0.4);
 }
 
-TEST_F(TrainGaussians, ExitCodesSayWhoIsToBlame) {
+TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
   make_dataset();
   const auto expect = [&](const std::vector<std::string>& more, int code, const auto&... values) {
     const ChildResult result = gaussians("b.glb", more);

@@ -74,7 +74,7 @@ TEST(GaussianConfigFile, ComesBackToTheBit) {
   EXPECT_EQ(read(R"({"steps": 7})", config).minutes, 2.7);
 }
 
-TEST(GaussianConfigFile, SaysWhatIsWrong) {
+TEST(GaussianConfigFile, ReportsErrors) {
   const auto expect = [](const std::string& text, const auto&... values) {
     EXPECT_THAT(error_of([&] { read(text); }), ErrorAt("run.json", values...)) << text;
   };

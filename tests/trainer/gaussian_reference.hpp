@@ -39,7 +39,7 @@ inline Dual power(Dual x) { return {std::exp(x.value), std::exp(x.value) * x.slo
 
 /// The branches that a drawing took, in order: one letter each. n: nearer than the profile allows;
 /// c, per axis: the Jacobian's slope is limited; a: alpha below the smallest; m: alpha limited to
-/// the largest; s: the pixel is closed; '.': none of these.
+/// the largest; s: the pixel is closed; '.': every other case.
 using Branches = std::vector<char>;
 
 /// The values of a splat that do not depend on the pixel.

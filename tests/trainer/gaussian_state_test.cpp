@@ -112,7 +112,7 @@ TEST(GaussianCheckpoint, SurvivesTruncationAndDamage) {
   EXPECT_EQ(tureen::test::survive_damage(bytes, use).read, 0u);
 }
 
-TEST(GaussianCheckpoint, RejectsWhatDoesNotFit) {
+TEST(GaussianCheckpoint, RejectsInconsistentStates) {
   const auto refused = [](const std::function<void(GaussianCheckpoint&)>& change,
                           const char* reason) {
     GaussianCheckpoint checkpoint = small();

@@ -1,5 +1,5 @@
 // Training of Gaussians in extreme cases: few splats, one photograph, images without detail, splats
-// that nobody sees.
+// that no image shows.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -219,7 +219,7 @@ TEST(WindowGradient, HoldsForPeaksAndForNearlyOpaqueWindows) {
   expect_agreement(random_parameters(26, 9, 1, 1, -4), 1, 26);
 }
 
-TEST(WindowGradient, HoldsAboveALeastOpacity) {
+TEST(WindowGradient, HoldsAboveAFloorOfOpacity) {
   WindowParameters parameters = random_parameters(27, 9, 1);
   parameters.min_opacity = 0.4f;
   for (std::size_t i = 0; i < 9; ++i) parameters.activate(i);
@@ -250,7 +250,7 @@ TEST(WindowGradient, OfLimitedColorsAndHiddenSplatsIsZero) {
   WindowParameters parameters = random_parameters(23, 3, 0);
   parameters.trained(row::harmonics)[0] = -5;  // no red
   for (std::size_t k = 0; k < 3; ++k)
-    parameters.trained(row::corners + 3 * k + 2)[1] = 3.9f;  // before the least depth
+    parameters.trained(row::corners + 3 * k + 2)[1] = 3.9f;  // nearer than the smallest depth
   parameters.trained(row::opacity)[2] = -9;                  // below the smallest alpha
   for (std::size_t i = 0; i < 3; ++i) parameters.activate(i);
   const std::vector<float> gradient = kernel_gradient(parameters, 0, random_gradient(1));
@@ -432,8 +432,8 @@ TEST_F(WindowBranch, AtTheNearPlane) {
   EXPECT_NE(slopes[1], 0);
 }
 
-/// A window whose centre is just beyond the least depth is drawn; just before, it is not.
-TEST_F(WindowBranch, AtTheLeastDepth) {
+/// A window whose centre is just beyond the smallest depth is drawn; just before, it is not.
+TEST_F(WindowBranch, AtTheSmallestDepth) {
   const glm::dmat4 world_from_view = glm::inverse(camera().view_from_world);
   double slopes[2];
   for (const int side : {-1, 1}) {

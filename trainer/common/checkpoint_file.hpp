@@ -77,7 +77,7 @@ class CheckpointReader {
   }
   void operator()(std::string& text, const char* what);
 
-  /// Requires the checksum and the end of the file.
+  /// Requires the checksum and the end of the file. Throws InputError.
   void finish();
   const Input& input() const { return input_; }
 
@@ -103,11 +103,11 @@ struct CheckpointHead {
 };
 
 void write_head(CheckpointWriter& writer, const CheckpointKind& kind, const CheckpointHead& head);
-/// Rejects other kinds and versions.
+/// Throws InputError for other kinds and versions.
 CheckpointHead read_head(CheckpointReader& reader, const CheckpointKind& kind);
 
-/// The configuration of a head. Requires exactly the text that `write` makes from it: the text from
-/// an older or newer version has other fields.
+/// The configuration of a head. Requires exactly the text that `write` makes from it, because the
+/// text from an older or newer version has other fields. Throws InputError.
 template <class C>
 C config_from(const CheckpointHead& head, const Input& file, C (*read)(Input&),
               std::string (*write)(const C&)) {

@@ -31,7 +31,7 @@ using ConfigMember = std::variant<int C::*, std::uint64_t C::*, float C::*, doub
 
 template <class C, class... Enumerations>
 struct BasicConfigField {
-  const char* name;  // in files, and in C
+  const char* name;  // in files, and of the member
   ConfigMember<C, Enumerations...> member;
   Range range = {};                         // for numbers, and for each channel of a colour
   std::span<const char* const> words = {};  // for enumerations, in the order of the enumerators

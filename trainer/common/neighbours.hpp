@@ -1,4 +1,4 @@
-// Points and the distances between them, to choose positions of the first triangles.
+// Points and the distances between them, for the first primitives of a training.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double max_seconds = 10;
-/// Fewer frames a second do not look like a motion, and some players do not support them.
+/// Some players do not support lower rates.
 constexpr double min_frames_per_second = 5;
 
 Image8 read_frame(const fs::path& file) {

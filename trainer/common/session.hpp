@@ -39,7 +39,7 @@ struct SessionOptions {
   double seconds_before = 0;                    // training time of earlier sessions of this run
   std::uint64_t non_finite_before = 0;          // numbers quarantined in earlier sessions
   RunControl* control = nullptr;                // pauses the run, and finishes it early
-  /// Called before the first step, and then as SnapshotTimer says.
+  /// Called before the first step, and then by SnapshotTimer.
   std::function<void()> snapshot = {};
   /// Called before each step and during a pause; an exception ends the run.
   std::function<void(const SessionStatus&)> progress = {};
@@ -52,7 +52,7 @@ class TrainingSession {
   /// `run` and the spans in `options` must outlive the session.
   TrainingSession(Trainable& run, SessionOptions options);
 
-  /// Trains to the last step, or until `control` tells it to finish. Throws OutputError if a file
+  /// Trains to the last step, or until `control` finishes it. Throws OutputError if a file
   /// cannot be written, and the exceptions of SessionOptions::progress. In both cases it first
   /// writes a checkpoint if possible.
   void run();

@@ -27,8 +27,8 @@ TrainingView training_view(const Photograph& photograph, std::span<const float, 
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
                                               std::span<const float, 3> background);
 
-/// The view with half the pixels along each side, means of 2 x 2. An odd last column or row is left
-/// out. A pixel is ignored if one of the four is. For images of at least 2 x 2 pixels.
+/// The view with half the pixels along each side, means of 2 x 2; without an odd last column or
+/// row. A pixel is ignored if one of the four is. For images of at least 2 x 2 pixels.
 TrainingView halved(const TrainingView& view);
 
 }  // namespace tureen::trainer

@@ -1,5 +1,4 @@
-// A run of any method from its first step to its last, and what follows: the scene, its error in
-// held-out views.
+// A run of any method, from its first step to the scene and its error in held-out views.
 #pragma once
 
 #include <functional>

@@ -12,9 +12,10 @@
 
 namespace tureen::trainer {
 
-/// Up to `count` indices with a weight above 0, without replacement, each with a probability in
-/// proportion to its weight: the smallest of exponential variables with these rates (Efraimidis and
-/// Spirakis 2006). Sorted: the result does not depend on the library's nth_element().
+/// Up to `count` indices with a weight above 0, drawn one after the other without replacement, with
+/// probabilities in proportion to the weights: the smallest of exponential variables with these
+/// rates (Efraimidis and Spirakis 2006). Sorted, since the order that nth_element() leaves depends
+/// on the library.
 inline std::vector<std::uint32_t> draw_by_weight(Random& random, std::span<const float> weights,
                                                  std::size_t count) {
   std::vector<std::pair<double, std::uint32_t>> keys;

@@ -10,7 +10,7 @@ namespace gaussian_table {
 namespace {
 
 constexpr Range whole{1, 1e7, {}, "a run needs at least one step", "the run would take weeks"};
-// 10 million Gaussians of degree 3 take 7 GB during training.
+// 10 million Gaussians of degree 3 take about 23 GB by gaussian_memory().
 constexpr Range splats{
     1, 1e7, {}, "a scene needs at least one splat", "the training would need gigabytes"};
 constexpr Range fraction{0, 1, {}, "the value is a fraction"};
@@ -31,9 +31,9 @@ const GaussianConfigField fields[] = {
      &GaussianConfig::first_splats,
      splats,
      {},
-     "Number of random splats, or of samples on a mesh, at the start; points of the dataset are "
-     "filled up to it"},
-    {"first_opacity", &GaussianConfig::first_opacity, opacity, {}, "Their opacity"},
+     "Number of random splats, or of samples on a mesh, at the start; if the dataset has fewer "
+     "points, random splats are added"},
+    {"first_opacity", &GaussianConfig::first_opacity, opacity, {}, "Opacity of the first splats"},
     {"far_splats",
      &GaussianConfig::far_splats,
      fraction,
@@ -50,14 +50,13 @@ const GaussianConfigField fields[] = {
      &GaussianConfig::degree_steps,
      fraction,
      {},
-     "Fraction of the steps before the next degree is trained, too"},
+     "Fraction of the steps after which the next degree is trained, too"},
     {"densify_every",
      &GaussianConfig::densify_every,
      whole,
      {},
-     "Largest number of steps between densifications; short runs densify after 1/25 of their "
-     "steps, "
-     "but at least 20"},
+     "Largest number of steps between densifications; in shorter runs 1/25 of all steps, but at "
+     "least 20"},
     {"densify_until",
      &GaussianConfig::densify_until,
      fraction,
@@ -86,7 +85,11 @@ const GaussianConfigField fields[] = {
      length,
      {},
      "Smallest standard deviation of a splat, relative to the half side of the region of interest"},
-    {"max_scale", &GaussianConfig::max_scale, length, {}, "Largest standard deviation, likewise"},
+    {"max_scale",
+     &GaussianConfig::max_scale,
+     length,
+     {},
+     "Largest standard deviation of a splat, in the same unit"},
     {"seed", &GaussianConfig::seed, any_seed, {}, "Random seed; equal seeds give equal splats"},
     {"initialisation", &GaussianConfig::initialisation, none, initialisation_words,
      "Source of the first splats: points of the dataset, random points, or a scene; automatic uses "

@@ -1,5 +1,5 @@
 // All constants of the training of Gaussians, and the table that reads, writes, checks and
-// documents them. Files are as those of soups (trainer/diffsoup/config_file.hpp).
+// documents them. Files have the form of those of soups (trainer/diffsoup/config_file.hpp).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ namespace tureen::trainer {
 struct GaussianConfig {
   int steps = 5000;
   std::uint64_t max_splats = 60000;
-  std::uint64_t first_splats = 10000;  // random ones
+  /// Random ones, or samples on triangles. Points are all used, and random ones fill up to this.
+  std::uint64_t first_splats = 10000;
   float first_opacity = 0.3f;
   /// Fraction of the random splats outside of the region of interest, and their largest distance
   /// from its centre, in half sides; photographs with alpha show nothing there.
@@ -25,19 +26,20 @@ struct GaussianConfig {
   int degree = 2;  // of the harmonics, up to max_trained_degree
   /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
   double degree_steps = 0.1;
-  int densify_every = 200;     // steps; shorter runs do it 25 times
+  /// Steps; in shorter runs 1/25 of all steps, but at least 20.
+  int densify_every = 200;
   double densify_until = 0.8;  // fraction of the steps
-  double growth = 0.3;         // of the number of splats at each densification
+  double growth = 0.3;         // largest, a fraction of the number, at each densification
   /// Images have half their width and height until this fraction of the steps.
   double half_size_until = 0.3;
   float background[3] = {1, 1, 1};
-  /// 0.8 L1 + 0.2 (1 - SSIM) as in 3DGS.
+  /// Weights of L1 and of (1 - SSIM) / 2: 0.8 L1 + 0.2 (1 - SSIM) as in 3DGS.
   float l1_weight = 0.8f, ssim_weight = 0.4f;
   /// Scales have at least and at most this length, relative to the region's half side.
   float min_scale = 3e-4f, max_scale = 1;
   std::uint64_t seed = 0;
   Initialisation initialisation = Initialisation::automatic;
-  /// Training time to which the run fits `steps`; 0: `steps` as given.
+  /// Training time to which the run fits `steps`, in minutes; 0: `steps` as given.
   double minutes = 0;
 };
 

@@ -1,5 +1,5 @@
-// Densification of Gaussians: splats that no image needs take the places of children of splats
-// whose images move much, and the number of splats grows.
+// Densification of Gaussians: splats whose images move much are split. Their children take the
+// places of splats that no image needs, or are added.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace tureen::trainer {
 
 struct DensifyOptions {
   std::size_t max_splats;
-  double growth = 0.15;          // of the number of splats
-  std::size_t min_growth = 100;  // splats, if there are as many: a fraction of few splats is none
+  double growth = 0.15;          // largest, a fraction of the number of splats
+  std::size_t min_growth = 100;  // but at least this, up to twice the number
   float min_opacity = 0.01f;     // below: dead
   float distance = 0.75f;        // of children from their parent's centre, in standard deviations
   float shrink_along = 1.8f;     // divides the children's scale along the longest axis
@@ -21,7 +21,7 @@ struct DensifyOptions {
 };
 
 struct DensifyReport {
-  std::size_t dead = 0;   // relocated splats, or removed ones
+  std::size_t dead = 0;   // of them, as many are relocated as there are parents
   std::size_t split = 0;  // splats that were split into two
 };
 
@@ -33,8 +33,8 @@ struct DensifyReport {
 DensifyReport densify(const DensifyOptions& options, Random& random, GaussianParameters& parameters,
                       SplatMemory& memory);
 
-/// Moves splats that are neighbours in space together in memory, along the Morton curve: the splats
-/// of a tile are then in few pages. `region`: the cube with most of them.
+/// Sorts the splats in memory by morton_order() of their centres. `region`: the cube with most of
+/// them.
 void sort_in_memory(const Region& region, GaussianParameters& parameters, SplatMemory& memory);
 
 }  // namespace tureen::trainer

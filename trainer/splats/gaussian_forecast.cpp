@@ -12,9 +12,9 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Pairs of a splat and a tile, and planes of floats for each pixel of the largest image. A trained
-/// scene of 60,000 splats at 400 x 400 has 3 pairs a splat (specification 10); at the start, and at
-/// larger images, there are more.
+/// Estimates: pairs of a splat and a tile, and planes of floats for each pixel of the largest
+/// image. tests/bench/train_gaussians.cpp prints the number of pairs, which is larger at the start
+/// and in large images.
 constexpr double pairs_a_splat = 12;
 constexpr double planes_a_pixel = 12;
 

@@ -22,15 +22,16 @@ std::uint64_t gaussian_memory(const GaussianConfig& config, const Dataset& datas
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
                                                const Dataset& dataset);
 
-/// The work of a step on images of half the size, relative to one of full size: a quarter of the
-/// pixels, but all splats.
+/// The work of a step on images with half the width and height, relative to one of full size: a
+/// quarter of the pixels, but all splats. An estimate; `train_gaussians .. half=1` and `half=0`
+/// (tests/bench/) print the times.
 inline constexpr double half_size_work = 0.28;
 
-/// The work of all steps from `done` on, in steps of full size.
+/// The work of all steps after the first `done`, in steps of full size.
 double remaining_work(const GaussianConfig& config, int done);
 
-/// Seconds of a step of full size from this state, by some steps of a copy. Takes about half a
-/// second.
+/// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
+/// half a second, or two steps if they take longer. `threads`: 0 for all cores.
 double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
                              const Region& region, int threads, const GaussianState& state);
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace row = splatting::gaussian_row;
 
-/// The first spherical harmonic, 1 / (2 sqrt(pi)).
+/// The value of the constant spherical harmonic, 1 / (2 sqrt(pi)).
 constexpr double harmonic_0 = 0.28209479177387814;
 
 struct ColoredPoint {
@@ -40,8 +40,8 @@ void put(GaussianParameters& parameters, std::size_t i, const ColoredPoint& poin
   parameters.activate(i);
 }
 
-/// Round Gaussians at the points, the first ones of `parameters`. `spacing`: distance of a point
-/// without neighbours.
+/// Puts round Gaussians at the points into the first places of `parameters`. `spacing`: the scale
+/// of a single point.
 void put_all(GaussianParameters& parameters, const std::vector<ColoredPoint>& points,
              const GaussianConfig& config, double half_side, double spacing) {
   std::vector<glm::dvec3> positions;
@@ -69,7 +69,7 @@ GaussianParameters at_points(const Dataset& dataset, const GaussianConfig& confi
   GaussianConfig filled = config;
   filled.first_splats =
       std::max<std::uint64_t>(std::min(config.first_splats, config.max_splats), points.size());
-  // Random ones, then the points in the places of the first.
+  // The points replace the first of the random ones.
   GaussianParameters result =
       random_gaussians(filled, {.centre = glm::dvec3(0), .half_side = region.half_side}, random);
   put_all(result, points, config, region.half_side,
@@ -87,7 +87,7 @@ std::vector<ColoredPoint> samples(const Scene& scene, const Region& region, std:
     const glm::vec3 position = soup.positions[soup.triangles[triangle][k]];
     return glm::dvec3(place * glm::dvec4(glm::dvec3(position), 1.0));
   };
-  std::vector<double> areas;  // sums
+  std::vector<double> areas;  // sums of twice the areas up to each triangle
   double sum = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);

@@ -23,7 +23,7 @@ struct GaussianState {
   int step = 0;                           // steps done
   std::vector<std::uint32_t> epoch = {};  // views that this epoch has yet to use, from the back
   std::uint64_t non_finite = 0;           // pixels and splats quarantined so far
-  int fits = 0;                           // of the number of steps to GaussianConfig::minutes
+  int fits = 0;                           // how often the steps were fitted to the minutes
 };
 
 inline constexpr std::uint32_t gaussian_checkpoint_version = 1;

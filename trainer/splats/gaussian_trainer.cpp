@@ -169,7 +169,9 @@ GaussianStepReport GaussianTrainer::step() {
                 memory_);
     if (densified.dead == parameters_.count()) {
       // No splat is left to split: the run begins again, at other places.
-      parameters_ = random_gaussians(config_, region_, random_);
+      GaussianConfig limited = config_;
+      limited.first_splats = std::min(config_.first_splats, config_.max_splats);
+      parameters_ = random_gaussians(limited, region_, random_);
       memory_ = SplatMemory(parameters_.rows(), parameters_.count());
     }
     sort_in_memory(region_, parameters_, memory_);

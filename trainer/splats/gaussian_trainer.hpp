@@ -17,9 +17,10 @@
 
 namespace tureen::trainer {
 
-/// `first_splats` Gaussians, uniform in the cube of the region, grey, and as large as gives each
-/// its share of the volume. The last ones are around it, as GaussianConfig::far_splats says, and
-/// larger in proportion to their distance.
+/// `first_splats` round, grey Gaussians, uniform in the cube of the region. With the side s of a
+/// cube that is each one's share of the volume, their standard deviation is s / 4.
+/// The last ones are around the region, as GaussianConfig::far_splats says, and larger in
+/// proportion to their distance.
 GaussianParameters random_gaussians(const GaussianConfig& config, const Region& region,
                                     Random& random);
 
@@ -31,27 +32,27 @@ struct GaussianStepReport {
 
 class GaussianTrainer {
  public:
-  /// `views` must outlive the trainer. `threads`: 0 for all cores. Splats are random in the region,
-  /// grey, and as large as gives each its share of the volume.
+  /// Begins with random_gaussians(). `views` must outlive the trainer. `threads`: 0 for all cores.
   GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
                   const Region& region, int threads);
-  /// The same from a state; its splats have config.degree. Only the region's half side is used.
+  /// Continues from a state, whose splats have config.degree.
   GaussianTrainer(const GaussianConfig& config, std::span<const TrainingView> views,
                   const Region& region, int threads, GaussianState state);
 
   bool done() const { return step_ >= config_.steps; }
   int steps_done() const { return step_; }
   GaussianStepReport step();
-  /// Changes the schedule from the next step on. At least steps_done().
+  /// Sets the number of steps of the run, at least steps_done(), for the schedule from the next
+  /// step on.
   void set_steps(int steps) { config_.steps = steps; }
   const GaussianConfig& config() const { return config_; }
-  /// A copy, for a checkpoint; without counts that the trainer does not keep.
+  /// A copy, for a checkpoint; GaussianState::non_finite and fits are 0.
   GaussianState state() const;
-  /// Mean squared error of the last step's image over its pixels that are not ignored; values
-  /// beyond [0, 1] count as they are.
+  /// Mean squared error of the last step's image over its pixels that are not ignored, without
+  /// clamping. Needs a step().
   double last_mse() const;
 
-  /// Three planes, row 0 on top, not clamped.
+  /// Red, green and blue planes, row 0 on top, not clamped; with harmonics of all degrees.
   std::vector<float> render(const Camera& camera);
 
   const GaussianParameters& parameters() const { return parameters_; }

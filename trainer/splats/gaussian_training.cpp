@@ -16,11 +16,12 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Fractions of the run at which the steps are fitted to the time. Early, the number of splats and
-/// their sizes still change; late, a change of the steps would disturb the decay of the rates.
+/// Fractions of the run at which the number of steps is fitted to the time. Several, because the
+/// number of splats and their sizes change; none late, because a change of the number disturbs the
+/// decay of the rates.
 constexpr std::array<double, 3> fit_at{0.1, 0.3, 0.5};
 
-/// Time between steps, for the log, held-out views and previews, relative to that of steps.
+/// Time of a run, with log, held-out views and previews, over that of its steps. An estimate.
 constexpr double overhead = 1.03;
 
 /// The camera in coordinates relative to `origin`, where floats are exact enough.

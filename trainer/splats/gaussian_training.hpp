@@ -11,7 +11,7 @@
 
 namespace tureen::trainer {
 
-/// Before the first step.
+/// An estimate before the first step.
 struct GaussianForecast {
   std::size_t splats = 0;   // at the start
   int steps = 0;            // of the whole run; with minutes, a first guess
@@ -25,7 +25,7 @@ struct GaussianRequest {
   const Scene* start = nullptr;                  // for Initialisation::mesh
   std::optional<GaussianCheckpoint> checkpoint;  // to continue from
   RunRequest run;
-  /// May be empty, and may throw to end the run.
+  /// Called before the first step. May be empty, and may throw to end the run.
   std::function<void(const GaussianForecast&)> begun = {};
 };
 
@@ -38,10 +38,11 @@ struct GaussianResult {
 
 /// Trains on dataset.train and tests on dataset.test; frees the images of dataset.train. The scene
 /// has one layer, at the centre of the region of interest, without splats that are not finite or
-/// too transparent to be drawn. With config.minutes, the steps are fitted to the time three times,
-/// last at half the run; after that, a run that resumes has the same bits. Throws the errors of
-/// region_of_interest, initial_gaussians and run_to_the_end. Asserts that a checkpoint has the
-/// views of the dataset; its configuration must be request.config, except `steps` with minutes.
+/// too transparent to be drawn. With config.minutes, the number of steps is fitted to the time at
+/// the start and three times later, last at half the run; after that, a run that resumes has the
+/// same bits. Throws the errors of region_of_interest, initial_gaussians and run_to_the_end.
+/// Asserts that a checkpoint has the views of the dataset; its configuration must be
+/// request.config, except `steps` with minutes.
 GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request);
 
 }  // namespace tureen::trainer

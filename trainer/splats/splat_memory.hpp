@@ -13,7 +13,7 @@
 
 namespace tureen::trainer {
 
-/// Consecutive pairs of a splat and a tile.
+/// The numbers [begin, end) of a splat's pairs with tiles.
 struct PairSpan {
   std::uint32_t begin, end;
 };
@@ -35,7 +35,7 @@ struct SplatMemory {
   struct alignas(64) Line {
     float values[block];
   };
-  std::size_t rows = 0;
+  std::size_t rows = 0;  // of the parameters
   /// For each block of splats and each row: the first moments, then the second ones.
   std::vector<Line> moments;
   splatting::ParameterRows statistics;  // rows of splat_statistic
@@ -49,6 +49,7 @@ struct SplatMemory {
   /// The lines of the block of splat `i`: two a row.
   Line* lines_of(std::size_t i) { return moments.data() + 2 * rows * (i / block); }
 
+  /// Sets all values of splat `i` to 0.
   void reset(std::size_t i) {
     for (std::size_t line = 0; line < 2 * rows; ++line) lines_of(i)[line].values[i % block] = 0;
     for (std::size_t which = 0; which < splat_statistic::count; ++which)
@@ -64,6 +65,7 @@ struct SplatMemory {
     *this = std::move(more);
   }
 
+  /// Splat i becomes the one at order[i].
   void reorder(std::span<const std::uint32_t> order) {
     SplatMemory sorted(rows, order.size());
     for (std::size_t i = 0; i < order.size(); ++i)

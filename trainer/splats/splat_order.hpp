@@ -39,7 +39,7 @@ inline std::vector<std::uint32_t> morton_order(std::span<const glm::vec3> points
   return order;
 }
 
-/// Rows [0, row_count) with the splats in this order.
+/// Rows [0, row_count) of the splats order[0], order[1], ..
 inline splatting::ParameterRows reordered(const splatting::ParameterRows& rows,
                                           std::size_t row_count,
                                           std::span<const std::uint32_t> order) {

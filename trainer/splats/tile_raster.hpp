@@ -53,8 +53,8 @@ void for_each_run(int x, int y, int width, int height, const Act& act) {
 /// Threads share splats in groups of this many, a multiple of splatting::row_alignment.
 inline constexpr std::size_t splats_a_task = 1024;
 
-/// `Method` names the types and functions of a kernel: see GaussianMethod. Its Projected holds the
-/// projected splats in their order in memory.
+/// `Method` names the types and functions of a kernel, as GaussianMethod and WindowMethod do. Its
+/// Projected holds the projected splats in their order in memory.
 template <class Method>
 class TileRaster {
  public:
@@ -64,7 +64,7 @@ class TileRaster {
   explicit TileRaster(ThreadPool& pool) : pool_(pool) {}
 
   /// Draws the splats by the method's profile, with harmonics up to `degree`, over an opaque
-  /// background. `planes`: red, green and blue, row 0 on top, not clamped.
+  /// background, 0..1. `planes`: red, green and blue, row 0 on top, not clamped.
   void forward(const Parameters& parameters, const Camera& camera, int degree,
                std::span<const float, 3> background, std::span<float> planes) {
     assert(planes.size() == 3 * std::size_t(camera.width) * std::size_t(camera.height));
@@ -94,7 +94,7 @@ class TileRaster {
   std::size_t pairs() const { return lists_.pairs(); }
 
  private:
-  /// Splats nearer than this are not drawn: min_center_depth of the profiles is larger.
+  /// In layer units. Below min_center_depth of the profiles, so it removes no whole splat.
   static constexpr double near_plane = 1e-3;
 
   /// The results of the forward pass of a row of tiles, for the backward pass.
@@ -119,7 +119,7 @@ class TileRaster {
     lists_.begin(view_.width, view_.height);
     pairs_.assign(count, {0, 0});
     for (std::size_t place = 0; place < keys_.size(); ++place) {
-      // Neighbours in the order are not so in memory.
+      // Neighbours in the order are far apart in memory.
       if (place + 8 < keys_.size()) hwy::Prefetch(&projected_.entries()[keys_[place + 8].index]);
       const std::uint32_t splat = keys_[place].index;
       const std::uint32_t begin = lists_.pairs();
@@ -137,7 +137,8 @@ class TileRaster {
     }
   }
 
-  /// Reads the entries of a tile into the cache, while the tile before it is drawn: each is a miss.
+  /// Reads the entries of a tile into the cache while the tile before it is drawn. Otherwise each
+  /// would be a cache miss.
   void prefetch(int column, int row) const {
     if (column >= lists_.columns()) return;
     for (const std::uint32_t splat : lists_.tile(column, row))

@@ -10,23 +10,23 @@
 
 namespace tureen::trainer {
 
-/// The probability to be split.
+/// The weight of a window in the choice of those to split.
 enum class WindowSampling {
-  motion,         // in proportion to splat_statistic::motion
-  opacity,        // Triangle Splatting alternates between this
-  inverse_sigma,  // and this
+  motion,         // splat_statistic::motion
+  opacity,        // Triangle Splatting alternates between opacity
+  inverse_sigma,  // and 1 / sigma
 };
 
 struct WindowDensifyOptions {
   std::size_t max_splats;
-  double growth = 0.15;        // of the number of splats
-  float min_opacity = 0.014f;  // below: dead. As in the code of Triangle Splatting
+  double growth = 0.15;        // largest, a fraction of the number of windows
+  float min_opacity = 0.014f;  // below: dead; as in the code of Triangle Splatting
   float overlap = 0.1f;        // of the halves, a fraction of the divided edge at each side
   WindowSampling sampling = WindowSampling::motion;
 };
 
 struct WindowDensifyReport {
-  std::size_t dead = 0;   // relocated, or not
+  std::size_t dead = 0;   // of them, as many are relocated as there are parents
   std::size_t split = 0;  // divided into two
 };
 

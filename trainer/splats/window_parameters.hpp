@@ -14,8 +14,8 @@
 
 namespace tureen::trainer {
 
-/// The table, for harmonics of the highest degree. Activations as in the paper's code; its rates
-/// are for 30,000 steps, these for about 5,000.
+/// The table, for harmonics of the highest degree. Activations are those of the paper's code. Rates
+/// are for about 5,000 steps; those of the code are for 30,000.
 extern const std::array<ParameterKind, 5> window_parameter_kinds;
 
 /// The lowest sigma, and the range of log(sigma - sigma_floor) in training: from 0.1 % above the
@@ -50,12 +50,14 @@ struct WindowParameters {
   const float* trained(std::size_t row) const;
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
-  /// The trained values of sigma and opacity that are drawn like these, limited as above.
+  /// The trained values for a drawn sigma and a drawn opacity, limited as in the constructor.
   static float log_of_sigma(float sigma);
   float logit_of(float opacity) const;
 
+  /// Splat i becomes the one at order[i]. `order`: each index once.
   void reorder(std::span<const std::uint32_t> order);
 
+  /// As a scene stores them, with the profile "triangle-splatting".
   Splats splats() const;
 };
 

@@ -24,7 +24,8 @@ struct WindowBackwardInput {
 
 /// A loss of the drawn splats themselves, beside that of the image: the sum over them of
 ///   opacity * o + sigma * s + inverse_area / area.
-/// Triangle Splatting, section 3.4, has the means of o and of 1 / area over all splats.
+/// o is the opacity, s the sigma, the area in layer units squared. Triangle Splatting, section 3.4,
+/// has the means of o and of 1 / area over all splats.
 struct WindowLoss {
   float opacity = 0, sigma = 0, inverse_area = 0;
 };

@@ -57,7 +57,7 @@ void blend_windows_recorded_on(const ImageView& view, std::span<const WindowEntr
   const Floats evident = constant(evident_weight);
   const AlphaAlone alpha_of{constant(1.0f / view.near)};
   std::uint32_t* end = record.blended;
-  // Splats that are neighbours in the order are not so in the image: each is a cache miss.
+  // Entries are far apart in memory: each would be a cache miss.
   for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   for (int i = 0; i < blocks_a_tile; ++i) {
     Block block(pixels, i);

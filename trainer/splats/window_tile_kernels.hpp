@@ -11,8 +11,8 @@
 
 namespace tureen::trainer {
 
-/// Sums over pixels of h = dL/d ln(alpha) and of the derivatives by the colour. Over the pixels of
-/// one tile, or of all. Pixels whose alpha is limited to the profile's largest have h = 0.
+/// Sums of h = dL/d ln(alpha) and of the derivatives by the colour, over the pixels of one tile or
+/// of all. Pixels whose alpha is limited to the profile's largest have h = 0.
 ///
 /// rho = min_k e_k . (x, y, 1) at the offset (x, y) from WindowEntry's (x, y), and ln(alpha) =
 /// ln(opacity) + sigma ln(rho). Where edge k is the nearest, dL/d(e_k) = sigma h / rho (x, y, 1).
@@ -29,7 +29,7 @@ struct WindowMoments {
 };
 
 /// Smallest rho in h / rho, so that no pixel on an edge outweighs all others (for sigma < 1 the
-/// derivative has no bound). A random pixel is nearer with a probability of 2e-6.
+/// derivative has no bound). A random pixel of a triangle is nearer with a probability of 2e-6.
 inline constexpr float min_rho_in_gradient = 1e-6f;
 
 /// Memory of blend_windows_backward(), kept between calls.

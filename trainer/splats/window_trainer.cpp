@@ -15,10 +15,10 @@ namespace window_row = splatting::window_row;
 namespace {
 
 constexpr std::size_t windows_a_task = 1024;
-/// Steps between two changes of the limits of opaque training: a pass over all windows.
+/// Steps between changes of the limits of opaque training; each change is a pass over all windows.
 constexpr int anneal_every = 10;
 
-/// The value of a constant harmonic.
+/// The value of the constant spherical harmonic, 1 / (2 sqrt(pi)).
 constexpr double constant_harmonic = 0.28209479177387814;
 
 void place_window(WindowParameters& parameters, std::size_t i, const glm::dvec3& center,
@@ -36,7 +36,7 @@ void place_window(WindowParameters& parameters, std::size_t i, const glm::dvec3&
   parameters.activate(i);
 }
 
-/// Uniform in the cube of the region.
+/// Grey windows, uniform in the cube of the region.
 WindowParameters random_windows(const WindowConfig& config, const Region& region, Random& random) {
   WindowParameters result(config.first_splats, config.degree);
   const double spacing =

@@ -7,7 +7,8 @@
 // Splatting+ (arXiv 2509.25122, section 3.3). The authors' variant for game engines has two losses
 // instead (mean sigma and one over the mean opacity), which fix neither the end nor its time.
 //
-// Not done: the losses of normals and of distortion (weights 1e-4 and 0 for scenes without walls).
+// Not implemented: the losses of normals and of distortion (weights 1e-4 and 0 for scenes without
+// walls).
 #pragma once
 
 #include <cstdint>
@@ -28,19 +29,20 @@ struct WindowConfig {
   int steps = 5000;
   std::size_t max_splats = 60000;
   std::size_t first_splats = 30000;  // at most as many as points, if there are points
-  /// Circumradius of the first triangles, relative to the distance between neighbours.
+  /// Circumradius of the first triangles: at random places relative to the mean spacing, at points
+  /// relative to twice the distance to the nearest other point.
   float first_size = 0.4f;
   float first_opacity = 0.28f, first_sigma = 1.16f;  // as Triangle Splatting
   int degree = 2;                                    // of the harmonics, up to max_trained_degree
   /// Steps of each degree of harmonics before the next one is trained, a fraction of all steps.
   double degree_steps = 0.1;
-  int densify_every = 100;
+  int densify_every = 100;     // steps
   double densify_until = 0.8;  // fraction of the steps
   WindowSampling sampling = WindowSampling::motion;
   /// Alternate between WindowSampling::opacity and inverse_sigma; `sampling` is not used.
   bool alternate_sampling = false;
   float overlap = 0.1f;    // WindowDensifyOptions
-  double rate_factor = 1;  // of the corners
+  double rate_factor = 1;  // multiplies the rates of the corners
   float background[3] = {1, 1, 1};
   /// 0.8 L1 + 0.2 (1 - SSIM) as in 3DGS.
   float l1_weight = 0.8f, ssim_weight = 0.4f;
@@ -53,6 +55,7 @@ struct WindowConfig {
   /// soon exceeds it.
   double prune_from = 0.4;
   float min_opacity_before_opaque = 0.2f;
+  /// At opaque_until: the largest sigma, and the floor of opacity.
   float last_sigma = 0.03f, last_min_opacity = 0.9999f;
   std::uint64_t seed = 0;
 };
@@ -74,11 +77,11 @@ class WindowTrainer {
   int steps_done() const { return step_; }
   WindowStepReport step();
 
-  /// Three planes, row 0 on top, not clamped.
+  /// Red, green and blue planes, row 0 on top, not clamped; with harmonics of all degrees.
   std::vector<float> render(const Camera& camera);
 
-  /// Opaque triangles with the same harmonics; those that no photograph showed since the last
-  /// densification are left out.
+  /// Opaque triangles with the same harmonics, of the windows that were evident in a step since the
+  /// last densification.
   TriangleSoup to_soup() const;
 
   const WindowParameters& parameters() const { return parameters_; }
