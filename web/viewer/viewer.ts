@@ -708,11 +708,17 @@ class CanvasViewer implements Viewer {
   private drawFrame(now: number): void {
     cancelAnimationFrame(this.frameAsked);
     this.frameAsked = 0;
-    if (this.lost || this.ending.signal.aborted) return;
+    if (this.isGone || this.ending.signal.aborted) return;
     this.fit();
     const seconds = this.lastFrame === null ? 0 : Math.max(now - this.lastFrame, 0) / 1000;
     const before = performance.now();
-    const goesOn = this.engine.call<boolean>('draw', { width: this.canvas.width, height: this.canvas.height, seconds });
+    let goesOn: boolean;
+    try {
+      goesOn = this.engine.call<boolean>('draw', { width: this.canvas.width, height: this.canvas.height, seconds });
+    } catch (error) {
+      if (this.isGone) return;  // during the frame; restore() asks for the next one
+      throw error;
+    }
     void this.sorting!.send();
     this.times.add(now, performance.now() - before);
     if (this.lastFrame !== null) this.resolutionKeeper.add(now - this.lastFrame);
