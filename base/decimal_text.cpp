@@ -34,6 +34,10 @@ std::string counted(std::uint64_t number) {
   return text;
 }
 
+std::string counted(std::uint64_t number, std::string_view noun) {
+  return counted(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
+}
+
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(seconds + 0.5);
   const auto text = [](long long number, const char* unit) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace tureen {
 
@@ -14,6 +15,9 @@ std::string fixed_decimal(double value, int places);
 
 /// "33,417".
 std::string counted(std::uint64_t number);
+
+/// "1 step", "33,417 steps". `noun`: the singular of a noun with a regular plural.
+std::string counted(std::uint64_t number, std::string_view noun);
 
 /// "7 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);

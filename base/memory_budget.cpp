@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/decimal.hpp"
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 
 namespace tureen {
@@ -59,9 +60,10 @@ std::uint64_t parse_memory_size(const std::string& text) {
 }
 
 std::string memory_size_text(std::uint64_t bytes) {
-  static constexpr std::array<const char*, 5> names{"bytes", "KiB", "MiB", "GiB", "TiB"};
+  static constexpr std::array<const char*, 5> names{"", "KiB", "MiB", "GiB", "TiB"};
   std::size_t unit = 0;
   while (unit + 1 < units.size() && bytes >> units[unit + 1].bits > 0) ++unit;
+  if (unit == 0) return counted(bytes, "byte");
   char text[32];
   std::snprintf(text, sizeof text, "%.4g %s", std::ldexp(double(bytes), -units[unit].bits),
                 names[unit]);

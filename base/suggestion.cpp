@@ -11,6 +11,13 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
+/// ASCII letters in lower case; other bytes, as of UTF-8, stay.
+std::string lower_case(std::string text) {
+  for (char& letter : text)
+    if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
+  return text;
+}
+
 }  // namespace
 
 int edit_distance(const std::string& a, const std::string& b) {
@@ -29,17 +36,22 @@ int edit_distance(const std::string& a, const std::string& b) {
 }
 
 std::string nearest(const std::string& word, std::span<const std::string> known) {
+  const std::string low = lower_case(word);
   std::string best;
   // One error is allowed even in words below three letters.
   int best_distance = std::max(1, int(word.size()) / 3) + 1;
-  for (const std::string& candidate : known)
-    if (const int distance = edit_distance(word, candidate); distance < best_distance) {
+  for (const std::string& candidate : known) {
+    const int distance = edit_distance(low, lower_case(candidate));
+    // Of names that differ in case alone, the one with more letters in the same case.
+    if (distance < best_distance || (distance == best_distance && !best.empty() &&
+                                     edit_distance(word, candidate) < edit_distance(word, best))) {
       best = candidate;
       best_distance = distance;
     }
+  }
   if (!best.empty() || word.empty()) return best;
   for (const std::string& candidate : known)
-    if (candidate.compare(0, word.size(), word) == 0) return candidate;
+    if (lower_case(candidate).compare(0, low.size(), low) == 0) return candidate;
   return "";
 }
 

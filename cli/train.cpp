@@ -55,7 +55,9 @@ struct TrainOptions {
 TrainingFiles files_of(const TrainOptions& options) {
   if (options.output.empty()) throw UsageError("-o OUT.glb is required");
   if (!options.diffsoup_export.empty() && options.training.method != TrainingMethodName::diffsoup)
-    throw UsageError("--export-diffsoup needs --method diffsoup");
+    throw UsageError("--export-diffsoup needs --method diffsoup",
+                     "Tureen's own page shows scenes of every method: tureen convert OUT.glb "
+                     "page.html");
   TrainingFiles files = training_files(options.output);
   if (!options.log.empty()) files.log = options.log;
   fs::path folder = options.diffsoup_export;
@@ -67,6 +69,16 @@ TrainingFiles files_of(const TrainOptions& options) {
 void check_images(const TrainOptions& options, const Dataset& dataset) {
   require_sides(options.dataset, dataset,
                 {.least = ssim_window, .most = trainer::kernels::max_image_side});
+}
+
+/// Writes the previews as a video. It is an aid: its failures do not end the run.
+void write_video(const TrainingFiles& files, TrainingOutcome& result) {
+  try {
+    if (const auto video = trainer::write_preview_video(files.previews))
+      result.output.push_back(video->string());
+  } catch (const Error& error) {
+    say(std::string("The previews did not become a video: ") + error.what());
+  }
 }
 
 /// Writes the scene and the DiffSoup export, then removes the checkpoint.
@@ -82,32 +94,33 @@ void write_results(const TrainOptions& options, const TrainingFiles& files, cons
   std::error_code ignored;
   fs::remove(files.checkpoint, ignored);
   result.output.push_back(files.log.string());
-  if (options.preview_every > 0 && options.training.method != TrainingMethodName::diffsoup)
-    if (const auto video = trainer::write_preview_video(files.previews))
-      result.output.push_back(video->string());
+  if (options.preview_every > 0) write_video(files, result);
 }
 
 void say_result(const TrainOptions& options, const Dataset& dataset,
                 const TrainingOutcome& result) {
   const TrainingSummary& training = result.training;
   std::string sentence =
-      fmt::format("{} {} after {} steps in {}", counted(training.primitives.count),
-                  name_of(training.primitives.kind), counted(std::uint64_t(training.steps)),
+      fmt::format("{} after {} in {}",
+                  counted(training.primitives.count, noun_of(training.primitives.kind)),
+                  counted(std::uint64_t(training.steps), "step"),
                   duration_text(training.run.seconds));
   if (training.opacity_binary_fraction)
     sentence += fmt::format("; {:.1f} % of the texels are transparent or opaque",
                             100 * *training.opacity_binary_fraction);
   say(sentence);
   if (training.non_finite > 0)
-    say(fmt::format("{} non-finite numbers were skipped", counted(training.non_finite)));
-  Table table({counted(dataset.test.size()) + " test views", "PSNR dB", "SSIM", "FLIP"});
-  table.row({"drawn by the trainer", fmt::format("{:.2f}", training.run.test_psnr_db)});
-  if (result.evaluation) {
-    const ViewMetrics& mean = result.evaluation->mean;
-    table.row({options.output, fmt::format("{:.2f}", mean.psnr_db),
-               fmt::format("{:.4f}", mean.ssim), fmt::format("{:.4f}", mean.flip)});
+    say("skipped " + counted(training.non_finite, "non-finite number"));
+  if (training.run.test_psnr_db) {
+    Table table({counted(dataset.test.size(), "test view"), "PSNR dB", "SSIM", "FLIP"});
+    table.row({"drawn by the trainer", fmt::format("{:.2f}", *training.run.test_psnr_db)});
+    if (result.evaluation) {
+      const ViewMetrics& mean = result.evaluation->mean;
+      table.row({options.output, fmt::format("{:.2f}", mean.psnr_db),
+                 fmt::format("{:.4f}", mean.ssim), fmt::format("{:.4f}", mean.flip)});
+    }
+    for (const std::string& line : table.lines()) say(line);
   }
-  for (const std::string& line : table.lines()) say(line);
   for (const std::string& path : result.output) say("wrote " + path);
 }
 
@@ -139,7 +152,7 @@ class TrainingWindow {
 };
 
 /// The scene of --init.
-std::optional<Scene> read_mesh(const TrainingOptions& options) {
+std::optional<Scene> read_mesh(const TrainingOptions& options, const TrainingMethod& method) {
   const fs::path path = options.mesh();
   if (path.empty()) return std::nullopt;
   const std::vector<std::string> words{"random", "points"};
@@ -147,7 +160,10 @@ std::optional<Scene> read_mesh(const TrainingOptions& options) {
     throw InputError({path.string(), {}, {}},
                      why_missing(path) + "; --init takes random, points or a scene",
                      did_you_mean(path.string(), words));
-  return read_one_layer(SceneArgument{.path = path.string()});
+  Scene scene = read_one_layer(SceneArgument{.path = path.string()});
+  if (const auto reason = method.unsuitable(scene))
+    throw InputError({path.string(), {}, {}}, reason->what, reason->instead);
+  return scene;
 }
 
 /// Throws UsageError if the run would replace an existing file by mistake.
@@ -156,11 +172,22 @@ void check_existing(const TrainOptions& options, const TrainingFiles& files) {
   if (const fs::path mesh = options.training.mesh(); fs::equivalent(mesh, files.scene, error))
     throw UsageError("-o would replace " + mesh.string() + ", the scene for --init",
                      "choose another name");
-  if (!options.resume && fs::exists(files.scene, error))
-    say(files.scene.string() + " exists; training replaces its log now and the file at the end");
   if (!options.resume && fs::exists(files.checkpoint, error))
     throw UsageError(files.checkpoint.string() + " exists, from an unfinished run",
                      "continue this run with --resume, or remove the file to start again");
+}
+
+/// Notes for after all checks of the inputs, immediately before the training replaces files.
+std::vector<std::string> first_notes(const TrainOptions& options, const TrainingFiles& files,
+                                     const Dataset& dataset) {
+  std::vector<std::string> notes;
+  std::error_code error;
+  if (!options.resume && fs::exists(files.scene, error))
+    notes.push_back(files.scene.string() +
+                    " exists; training replaces its log now and the file at the end");
+  if (dataset.test.empty())
+    notes.push_back("The dataset has no test views: the training does not measure its error");
+  return notes;
 }
 
 /// Reads the inputs of a run. Ctrl-C during reading writes no checkpoint, unlike Ctrl-C during
@@ -196,7 +223,8 @@ ExitCode train(const TrainOptions& options) {
   if (options.resume) method->resume(files.checkpoint);
   method->settle(nullptr);
   const std::optional<Scene> mesh = before_the_first_step(options, [&] {
-    return options.resume || options.print_config ? std::nullopt : read_mesh(options.training);
+    return options.resume || options.print_config ? std::nullopt
+                                                  : read_mesh(options.training, *method);
   });
 
   Dataset dataset =
@@ -255,8 +283,13 @@ ExitCode train(const TrainOptions& options) {
                      [&](double fraction) { evaluating.update(fraction); });
           }};
   if (options.watch) run.snapshot = [&](const Scene& scene) { window.show(scene); };
-  result.training = method->train(dataset, mesh ? &*mesh : nullptr, std::move(run), say);
-  if (!result.evaluation)
+  std::vector<std::string> notes = first_notes(options, files, dataset);
+  const auto say_checked = [&](const std::string& sentence) {
+    for (const std::string& note : std::exchange(notes, {})) say(note);
+    say(sentence);
+  };
+  result.training = method->train(dataset, mesh ? &*mesh : nullptr, std::move(run), say_checked);
+  if (!result.evaluation && !dataset.test.empty())
     say("The runtime cannot draw the scene here; the metrics are from the trainer's own "
         "renderer: " +
         result.why_not_drawn);
@@ -284,8 +317,8 @@ void add_file_options(Command& command, TrainOptions& options) {
       .add_option(
           "--preview-every", options.preview_every,
           "steps between previews; a preview is an image in the folder OUT.previews: a test "
-          "view beside its photograph; no previews by default; for gaussians also OUT-previews.mp4 "
-          "if ffmpeg is installed")
+          "view beside its photograph; no previews by default; also a video, OUT-previews.mp4, if "
+          "ffmpeg is installed")
       .check(between(1, 10'000'000))
       .value_name("N");
   command.add_flag("--watch", options.watch,

@@ -183,9 +183,9 @@ std::size_t splat_count(const Scene& scene) {
 }
 
 std::string primitives_text(std::uint64_t triangles, std::uint64_t splats) {
-  if (splats == 0) return counted(triangles) + " triangles";
-  if (triangles == 0) return counted(splats) + " splats";
-  return counted(triangles) + " triangles and " + counted(splats) + " splats";
+  if (splats == 0) return counted(triangles, "triangle");
+  if (triangles == 0) return counted(splats, "splat");
+  return counted(triangles, "triangle") + " and " + counted(splats, "splat");
 }
 
 void make_opaque(Scene& scene) {

@@ -32,9 +32,14 @@ void sort_by_name(Frames& frames) {
                    [](const DatasetFrame& a, const DatasetFrame& b) { return a.name < b.name; });
 }
 
-/// Every n-th in name order is a test view, beginning with the first.
+/// Every n-th in name order is a test view, beginning with the first. A training needs the only
+/// photograph of a dataset itself.
 void split(Frames all, const DatasetOptions& options, Outline& outline) {
   sort_by_name(all);
+  if (all.size() == 1 && options.part != DatasetPart::test) {
+    outline.train = std::move(all);
+    return;
+  }
   for (std::size_t i = 0; i < all.size(); ++i)
     (i % std::size_t(options.test_every) == 0 ? outline.test : outline.train)
         .push_back(std::move(all[i]));
@@ -137,17 +142,17 @@ Outline make_outline(const fs::path& path, const DatasetOptions& options,
                    "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0");
 }
 
-/// Rejects a split without training or test views.
+/// Rejects a part without photographs. All of a dataset may have no test views.
 void require_photographs(const Outline& outline, const DatasetOptions& options) {
-  const auto refuse = [&](const Frames& frames, DatasetPart other, const char* what) {
-    if (options.part != other && frames.empty())
+  const auto refuse = [&](const Frames& frames, bool needed, const char* what) {
+    if (needed && frames.empty())
       throw InputError({outline.file, {}, {}},
                        std::string("there are no photographs to ") + what + ": it has " +
                            std::to_string(outline.train.size()) + " to train on and " +
                            std::to_string(outline.test.size()) + " to test");
   };
-  refuse(outline.train, DatasetPart::test, "train on");
-  refuse(outline.test, DatasetPart::train, "test");
+  refuse(outline.train, options.part != DatasetPart::test, "train on");
+  refuse(outline.test, options.part == DatasetPart::test, "test");
 }
 
 /// The images of all frames, or an InputError with the names of those that are missing.

@@ -12,7 +12,7 @@
 
 namespace tureen {
 
-/// The photographs to read; others are not opened.
+/// The photographs to read; others are not opened. `all`: a dataset may have no test views.
 enum class DatasetPart { train, test, all };
 
 struct DatasetOptions {
@@ -22,7 +22,7 @@ struct DatasetOptions {
   /// Reads images_N (a folder beside images in 360_v2) instead of images; 1 means images.
   int images_folder = 1;
   /// For datasets without a split: every n-th photograph in name order, beginning with the first,
-  /// is a test view.
+  /// is a test view. The only photograph of a dataset is a training view, unless `part` is test.
   int test_every = 8;
   DatasetPart part = DatasetPart::all;
   /// Called with the fraction done, 0..1; may throw to cancel.
@@ -35,8 +35,8 @@ struct DatasetOptions {
 ///
 /// Throws InputError with the file and the reason: missing images (all are named, up to a dozen),
 /// an image size that differs from the camera's, a camera model whose distortion cannot be removed,
-/// a pose whose matrix differs from a rotation by more than about 0.001, a split without training
-/// or test views, or photographs that exceed the memory budget (base/memory_budget.hpp).
+/// a pose whose matrix differs from a rotation by more than about 0.001, a part without
+/// photographs, or photographs that exceed the memory budget (base/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 }  // namespace tureen

@@ -29,7 +29,8 @@ class DiffsoupMethod final : public TrainingMethod {
     const bool is_new = !checkpoint_ || options_.name_a_base();
     config_ =
         with_options(is_new ? base_config(options_, otherwise) : checkpoint_->config, options_);
-    if (checkpoint_)
+    // Without the dataset, a preset that no option names is unknown.
+    if (checkpoint_ && (dataset || !is_new))
       if (const auto reason = difference(config_, checkpoint_->config))
         throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
     if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
@@ -37,13 +38,21 @@ class DiffsoupMethod final : public TrainingMethod {
       throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
   }
 
+  std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
+    const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
+    // Triangle windows become opaque triangles.
+    if (!splats || std::holds_alternative<TriangleWindows>(splats->kernel)) return std::nullopt;
+    return UnsuitableStart{
+        fmt::format("the scene has {} ({}), but soups begin with triangles",
+                    counted(splat_count(start), "splat"), kernel_name(splats->kernel)),
+        "--method gaussians continues from Gaussians; --init random needs no scene"};
+  }
+
   std::string constants() const override { return trainer::config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const std::string&)>& say) override {
-    if (!checkpoint_ && !options_.preset && options_.file.empty())
-      say(dataset.has_alpha ? "The images have alpha: --preset object"
-                            : "The images have no alpha: --preset scene");
+    const bool preset_by_alpha = !checkpoint_ && !options_.preset && options_.file.empty();
     if (checkpoint_)
       if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
         throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
@@ -55,9 +64,13 @@ class DiffsoupMethod final : public TrainingMethod {
          .device = options_.device,
          .run = std::move(run),
          .begun = [&](const trainer::Backend& backend, bool visible) {
-           say(fmt::format("{}; {} steps to {} triangles; {}", describe_views(dataset),
-                           counted(std::uint64_t(config_.steps)),
-                           counted(std::uint64_t(config_.triangles)), backend.description()));
+           if (preset_by_alpha)
+             say(dataset.has_alpha ? "The images have alpha: --preset object"
+                                   : "The images have no alpha: --preset scene");
+           say(fmt::format("{}; {} to {}; {}", describe_views(dataset),
+                           counted(std::uint64_t(config_.steps), "step"),
+                           counted(std::uint64_t(config_.triangles), "triangle"),
+                           backend.description()));
            if (!visible)
              say("No training image shows a triangle yet: check the cameras of the "
                  "dataset.");
@@ -80,9 +93,9 @@ class DiffsoupMethod final : public TrainingMethod {
 
 std::string describe_views(const Dataset& dataset) {
   const Camera& first = dataset.train.front().camera;
-  return fmt::format("{} training views and {} test views, the first {} x {}",
-                     counted(dataset.train.size()), counted(dataset.test.size()), first.width,
-                     first.height);
+  return fmt::format("{} and {}, the first {} x {}",
+                     counted(dataset.train.size(), "training view"),
+                     counted(dataset.test.size(), "test view"), first.width, first.height);
 }
 
 std::unique_ptr<TrainingMethod> make_diffsoup_method(const TrainingOptions& options) {

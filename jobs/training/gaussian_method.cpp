@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/memory_budget.hpp"
@@ -30,17 +32,33 @@ class GaussianMethod final : public TrainingMethod {
       base.far_splats = 0.5;
     }
     if (!options_.file.empty())
-      base = trainer::read_gaussian_config(std::filesystem::path(options_.file), base);
+      base = base_config(options_, base);
     else if (checkpoint_)
       base = checkpoint_->config;
     config_ = with_options(base, options_);
+    replaced_minutes_ = options_.steps ? base.minutes : 0;
     if (dataset) limit_memory(*dataset);
-    if (checkpoint_)
+    // --max-memory lowered the number of this run; its limit may depend on the version of Tureen.
+    if (checkpoint_ && options_.max_memory)
+      config_.max_splats = std::min(config_.max_splats, checkpoint_->config.max_splats);
+    // Without the dataset, the background of a file that does not name it is unknown.
+    if (checkpoint_ && (dataset || options_.file.empty()))
       if (const auto reason = difference(config_, checkpoint_->config))
         throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
     if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
         options_.mesh().empty())
       throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
+  }
+
+  std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
+    const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
+    const auto* gaussians = splats ? std::get_if<Gaussians>(&splats->kernel) : nullptr;
+    if (!splats || (gaussians && !gaussians->flat)) return std::nullopt;
+    return UnsuitableStart{fmt::format("the scene has {} ({}), but Gaussians begin with Gaussians "
+                                       "or triangles",
+                                       counted(splat_count(start), "splat"),
+                                       kernel_name(splats->kernel)),
+                           "--init random needs no scene"};
   }
 
   std::string constants() const override { return trainer::config_to_json(config_); }
@@ -51,8 +69,6 @@ class GaussianMethod final : public TrainingMethod {
       if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
         throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
     const std::string views = describe_views(dataset);
-    if (is_limited_)
-      say(fmt::format("--max-memory allows at most {} splats", counted(config_.max_splats)));
     const trainer::GaussianResult result = trainer::train_gaussians(
         dataset,
         {.config = config_,
@@ -60,9 +76,14 @@ class GaussianMethod final : public TrainingMethod {
          .checkpoint = std::move(checkpoint_),
          .run = std::move(run),
          .begun = [&](const trainer::GaussianForecast& forecast) {
-           say(fmt::format("{}; {} steps, from {} to at most {} splats; CPU, {} threads", views,
-                           counted(std::uint64_t(forecast.steps)), counted(forecast.splats),
-                           counted(config_.max_splats), forecast.threads));
+           if (is_limited_)
+             say("--max-memory allows at most " + counted(config_.max_splats, "splat"));
+           if (replaced_minutes_ > 0)
+             say(fmt::format("--steps replaces the {} min of the constants", replaced_minutes_));
+           say(fmt::format("{}; {}, from {} to at most {}; CPU, {}", views,
+                           counted(std::uint64_t(forecast.steps), "step"),
+                           counted(forecast.splats), counted(config_.max_splats, "splat"),
+                           counted(std::uint64_t(forecast.threads), "thread")));
            say(fmt::format("forecast: {} of training, {} of memory",
                            duration_text(forecast.seconds), memory_size_text(forecast.bytes)));
          }});
@@ -89,6 +110,7 @@ class GaussianMethod final : public TrainingMethod {
   std::optional<trainer::GaussianCheckpoint> checkpoint_;
   GaussianConfig config_;
   bool is_limited_ = false;
+  double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 
 }  // namespace

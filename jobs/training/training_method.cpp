@@ -1,6 +1,8 @@
 #include "jobs/training/training_method.hpp"
 
-#include <utility>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "jobs/training/methods.hpp"
@@ -9,25 +11,50 @@ namespace tureen {
 
 namespace {
 
-/// Throws UsageError if an option of the other method is given, or both --steps and --minutes.
-void require_own_options(const TrainingOptions& options) {
-  using Given = std::pair<bool, const char*>;
-  const Given soup[] = {{options.preset.has_value(), "--preset"},
-                        {options.published, "--compat"},
-                        {options.triangles.has_value(), "--triangles"},
-                        {options.batch.has_value(), "--batch"},
-                        {options.level.has_value(), "--level"},
-                        {options.device == trainer::Device::cuda, "--device cuda"}};
-  const Given gaussians[] = {{options.max_splats.has_value(), "--max-splats"},
-                             {options.minutes.has_value(), "--minutes"}};
-  const auto refuse = [](auto& others, const char* method, const char* hint) {
-    for (const auto& [given, name] : others)
-      if (given) throw UsageError(std::string(name) + " needs --method " + method, hint);
+using Methods = std::vector<TrainingMethodName>;
+
+/// An option that not every method has.
+struct OwnOption {
+  bool given;
+  const char* name;
+  Methods methods;  // that have it
+  const char* instead;  // the hint for the other methods
+};
+
+std::vector<OwnOption> own_options(const TrainingOptions& options) {
+  const Methods soups{TrainingMethodName::diffsoup}, splats{TrainingMethodName::gaussians};
+  return {
+      {options.preset.has_value(), "--preset", soups,
+       "this method chooses its constants by the alpha of the photographs; --config changes them"},
+      {options.published, "--compat", soups, "--config sets the constants of this method"},
+      {options.triangles.has_value(), "--triangles", soups,
+       "--max-splats limits the number of splats"},
+      {options.batch.has_value(), "--batch", soups,
+       "a step of this method uses one photograph; --steps sets the number of steps"},
+      {options.level.has_value(), "--level", soups,
+       "splats have no textures; --max-splats sets how much detail they can show"},
+      {options.device == trainer::Device::cuda, "--device cuda", soups,
+       "this method trains on the processor, with --device cpu or auto"},
+      {options.max_splats.has_value(), "--max-splats", splats,
+       "--triangles sets the number of triangles"},
+      {options.minutes.has_value(), "--minutes", splats, "--steps sets the length of the training"},
   };
-  if (options.method == TrainingMethodName::gaussians)
-    refuse(soup, "diffsoup", "--max-splats limits the number of Gaussians");
-  else
-    refuse(gaussians, "gaussians", "--triangles sets the number of triangles of a soup");
+}
+
+/// "diffsoup", "diffsoup or gaussians".
+std::string listed(const Methods& methods) {
+  std::string text;
+  for (const TrainingMethodName method : methods)
+    text += (text.empty() ? "" : " or ") + std::string(name_of(method));
+  return text;
+}
+
+/// Throws UsageError if an option of another method is given, or both --steps and --minutes.
+void require_own_options(const TrainingOptions& options) {
+  for (const OwnOption& option : own_options(options))
+    if (option.given && std::ranges::find(option.methods, options.method) == option.methods.end())
+      throw UsageError(std::string(option.name) + " needs --method " + listed(option.methods),
+                       option.instead);
   if (options.steps && options.minutes)
     throw UsageError("--steps and --minutes exclude each other",
                      "--minutes fits the number of steps to the time");

@@ -25,6 +25,11 @@ struct TrainingSummary {
   std::optional<double> opacity_binary_fraction = {};  // only of diffsoup
 };
 
+/// Why a method cannot begin with a scene, and a hint.
+struct UnsuitableStart {
+  std::string what, instead;
+};
+
 class TrainingMethod {
  public:
   virtual ~TrainingMethod() = default;
@@ -37,12 +42,17 @@ class TrainingMethod {
   /// if the options are invalid, or differ from the checkpoint; InputError for an invalid file.
   virtual void settle(const Dataset* dataset) = 0;
 
+  /// Why the first primitives cannot come from this scene, as far as that is known before the
+  /// dataset is read; nothing if they can.
+  virtual std::optional<UnsuitableStart> unsuitable(const Scene& start) const = 0;
+
   /// The constants as a --config file.
   virtual std::string constants() const = 0;
 
   /// After settle() with this dataset. `start`: the scene of TrainingOptions::mesh(), or null.
-  /// `say`: receives sentences about the run before its first step. Throws UsageError if the
-  /// checkpoint has other views, and the errors of the method's run.
+  /// `say`: receives sentences about the run before its first step, after all checks of the input;
+  /// no file is replaced before. Throws UsageError if the checkpoint has other views, and the errors
+  /// of the method's run.
   virtual TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                                 const std::function<void(const std::string&)>& say) = 0;
 };

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/json/json_file.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
 
@@ -33,6 +38,62 @@ int as_int(std::int64_t value, std::string_view name, Fields fields) {
   return static_cast<int>(value);
 }
 
+std::vector<std::string> constant_names(TrainingMethodName method) {
+  std::vector<std::string> names;
+  const auto add = [&](const auto& fields) {
+    for (const auto& field : fields) names.emplace_back(field.name);
+  };
+  switch (method) {
+    case TrainingMethodName::diffsoup:
+      add(trainer::config_fields());
+      break;
+    case TrainingMethodName::gaussians:
+      add(trainer::gaussian_config_fields());
+      break;
+  }
+  return names;
+}
+
+/// The other method that has all constants of the file; nothing if the own method has them all, or
+/// no method does.
+std::optional<TrainingMethodName> other_method_of(const std::filesystem::path& file,
+                                                  TrainingMethodName own) {
+  Input input = Input::open(file);
+  const nlohmann::json document = read_json(input);
+  if (!document.is_object()) return std::nullopt;
+  const auto has_all = [&](TrainingMethodName method) {
+    const std::vector<std::string> names = constant_names(method);
+    return std::ranges::all_of(document.items(), [&](const auto& item) {
+      return std::ranges::find(names, item.key()) != names.end();
+    });
+  };
+  if (has_all(own)) return std::nullopt;
+  for (std::size_t i = 0; i < std::size(training_method_words); ++i)
+    if (const auto method = TrainingMethodName(i); method != own && has_all(method)) return method;
+  return std::nullopt;
+}
+
+/// The constants that `read` takes from the file of the options. Throws its InputError, or that the
+/// file has the constants of another method.
+template <class Read>
+auto constants_of_file(const TrainingOptions& options, const Read& read) {
+  const std::filesystem::path file = options.file;
+  try {
+    return read(file);
+  } catch (const InputError&) {
+    std::optional<TrainingMethodName> other;
+    try {
+      other = other_method_of(file, options.method);
+    } catch (const InputError&) {  // the first error is about the same file
+    }
+    if (!other) throw;
+    const std::string name = name_of(*other), own = name_of(options.method);
+    throw InputError({options.file, {}, {}}, "these are constants of --method " + name,
+                     "use --method " + name + ", or list the constants with --method " + own +
+                         " --list-config");
+  }
+}
+
 void set_initialisation(Initialisation& initialisation, const TrainingOptions& options) {
   if (options.begin == "random")
     initialisation = Initialisation::random;
@@ -48,11 +109,19 @@ Config base_config(const TrainingOptions& options, Preset otherwise) {
   const Preset kind = options.preset.value_or(otherwise);
   if (options.file.empty())
     return options.published ? trainer::published(kind) : trainer::preset(kind);
-  const Config config = trainer::read_config(std::filesystem::path(options.file),
-                                             {.preset = kind, .published = options.published});
+  const Config config = constants_of_file(options, [&](const std::filesystem::path& file) {
+    return trainer::read_config(file, {.preset = kind, .published = options.published});
+  });
   if (options.preset && config.preset != kind)
     throw UsageError("--preset and " + options.file + " name different presets");
   return config;
+}
+
+GaussianConfig base_config(const TrainingOptions& options, const GaussianConfig& defaults) {
+  if (options.file.empty()) return defaults;
+  return constants_of_file(options, [&](const std::filesystem::path& file) {
+    return trainer::read_gaussian_config(file, defaults);
+  });
 }
 
 Config with_options(const Config& base, const TrainingOptions& options) {
@@ -88,7 +157,14 @@ GaussianConfig with_options(const GaussianConfig& base, const TrainingOptions& o
     if (*options.max_splats < 0) refuse(*options.max_splats, "max_splats", fields);
     config.max_splats = std::uint64_t(*options.max_splats);
   }
-  config.minutes = options.minutes.value_or(config.minutes);
+  if (options.minutes) {
+    // In a file, 0 means a fixed number of steps; on the command line, --steps does.
+    if (!(*options.minutes > 0))
+      throw UsageError("--minutes: " + trainer::double_text(*options.minutes) +
+                           " is out of range; the time must be more than 0",
+                       "--steps sets a fixed number of steps");
+    config.minutes = *options.minutes;
+  }
   config.seed = options.seed.value_or(config.seed);
   set_initialisation(config.initialisation, options);
   if (const std::optional<std::string> reason = trainer::defect(config)) throw UsageError(*reason);

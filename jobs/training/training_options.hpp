@@ -2,6 +2,7 @@
 // single constants. A file can set all constants.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,13 @@
 namespace tureen {
 
 enum class TrainingMethodName { diffsoup, gaussians };
+
+/// In the order of the enumerators, as --method takes them.
+inline constexpr const char* training_method_words[] = {"diffsoup", "gaussians"};
+
+constexpr const char* name_of(TrainingMethodName method) {
+  return training_method_words[std::size_t(method)];
+}
 
 struct TrainingOptions {
   TrainingMethodName method = TrainingMethodName::diffsoup;
@@ -44,6 +52,10 @@ struct TrainingOptions {
 /// The preset, with the file's constants. `otherwise`: the preset if neither names one. Throws
 /// InputError for an invalid file, UsageError if it names another preset than `preset`.
 trainer::Config base_config(const TrainingOptions& options, trainer::Preset otherwise);
+
+/// `defaults` with the file's constants. Throws InputError for an invalid file.
+trainer::GaussianConfig base_config(const TrainingOptions& options,
+                                    const trainer::GaussianConfig& defaults);
 
 /// `base` with the single constants. `triangles` scales the initial number of triangles in
 /// proportion. `level` also limits the other levels. Throws UsageError for invalid constants.

@@ -25,8 +25,8 @@ results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
   if (outcome.evaluation) {
     test.update(results::to_json(outcome.evaluation->mean, true));
     test["drawn_by"] = outcome.evaluation->renderer;
-  } else {
-    test["psnr_db"] = training.run.test_psnr_db;
+  } else if (training.run.test_psnr_db) {
+    test["psnr_db"] = *training.run.test_psnr_db;
     test["drawn_by"] = "trainer";
   }
   results::Json json{{"done", true},
@@ -35,7 +35,7 @@ results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
                      {name_of(training.primitives.kind), training.primitives.count}};
   if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
   json["test"] = test;
-  json["trainer_psnr_db"] = training.run.test_psnr_db;
+  if (training.run.test_psnr_db) json["trainer_psnr_db"] = *training.run.test_psnr_db;
   if (training.opacity_binary_fraction)
     json["opacity_binary_fraction"] = *training.opacity_binary_fraction;
   json["non_finite"] = training.non_finite;

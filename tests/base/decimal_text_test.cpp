@@ -7,6 +7,12 @@
 namespace tureen {
 namespace decimal_text_test {
 
+TEST(Counted, HasTheNounInItsNumber) {
+  EXPECT_EQ(counted(0, "step"), "0 steps");
+  EXPECT_EQ(counted(1, "step"), "1 step");
+  EXPECT_EQ(counted(33417, "step"), "33,417 steps");
+}
+
 TEST(DecimalText, HasSignificantDigitsOrPlaces) {
   EXPECT_EQ(short_decimal(0.75, 4), "0.75");
   EXPECT_EQ(short_decimal(100, 4), "100");

@@ -36,6 +36,11 @@ TEST(Suggestion, NamesTheNearestAndNothingThatIsFar) {
   EXPECT_EQ(nearest("comp", known), "compare");  // a prefix
   EXPECT_EQ(nearest("tradeoff", known), "");
   EXPECT_EQ(nearest("", known), "");
+  // The case of letters is ignored, but decides between names that differ in nothing else.
+  EXPECT_EQ(nearest("RENDER", known), "render");
+  EXPECT_EQ(nearest("COVNERT", known), "convert");
+  EXPECT_EQ(nearest("COMP", known), "compare");
+  EXPECT_EQ(nearest("Scene.GLP", std::vector<std::string>{"scene.glb", "Scene.GLB"}), "Scene.GLB");
 }
 
 TEST(Values, ReadWhatIsMeantAndRefuseTheRest) {

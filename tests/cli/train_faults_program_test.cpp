@@ -215,7 +215,7 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   expect_full(often, "ball.checkpoint", little);
 
   fs::create_directory(folder / "ball.previews");
-  const std::string image = "ball.previews/step_010.png";
+  const std::string image = "ball.previews/step_00000010.png";
   write(image, "an older image");
   expect_full({"--preview-every", "10"}, image, little);
   EXPECT_EQ(bytes(image), "an older image");
@@ -228,12 +228,12 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   put_old();
   // This run ends after the third of six checkpoints: a folder has the name of its image of step
   // 100.
-  fs::create_directories(folder / "ball.previews/step_100.png");
+  fs::create_directories(folder / "ball.previews/step_00000100.png");
   std::vector<std::string> until_100 = often;
   until_100.insert(until_100.end(), {"--preview-every", "100"});
   const ChildResult ended = train("ball.glb", until_100, steps);
   EXPECT_EQ(ended.exit_code, 5);
-  EXPECT_THAT(ended.err, Names("step_100.png"));
+  EXPECT_THAT(ended.err, Names("step_00000100.png"));
   ASSERT_TRUE(exists("ball.checkpoint"));
   std::vector<std::string> resume = often;
   resume.emplace_back("--resume");

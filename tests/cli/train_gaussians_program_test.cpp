@@ -46,8 +46,9 @@ TEST_F(TrainGaussians, WritesTheSceneAndItsFiles) {
   const ChildResult result = gaussians(
       "ball.glb", {"--steps", "250", "--max-splats", "400", "--json", "--preview-every", "100"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  std::vector<std::string> expected{"ball.glb", "ball.jsonl", "ball.previews/step_100.png",
-                                    "ball.previews/step_200.png", "ball.previews/step_250.png"};
+  std::vector<std::string> expected{"ball.glb", "ball.jsonl", "ball.previews/step_00000100.png",
+                                    "ball.previews/step_00000200.png",
+                                    "ball.previews/step_00000250.png"};
   if (have_ffmpeg()) expected.insert(expected.begin(), "ball-previews.mp4");
   EXPECT_EQ(files(), expected);
   // The forecast, before the first step.
@@ -99,8 +100,9 @@ TEST_F(TrainGaussians, ResumesAfterCtrlCWithTheSameBits) {
   refused({"--resume", "--seed", "3"}, "seed", 3, 0);
   refused({"--resume", "--max-splats", "301"}, "max_splats", 301, 300);
   refused({"--resume", "--scale", "0.5"}, "r_0.png", 16, 32);
-  // The checkpoint of another method.
-  EXPECT_EQ(run({"train", "ball", "-o", "ball.glb", "--resume"}).exit_code, 3);
+  const ChildResult soup = run({"train", "ball", "-o", "ball.glb", "--resume"});
+  EXPECT_EQ(soup.exit_code, 3);
+  EXPECT_THAT(soup.err, Names("ball.checkpoint", "--method gaussians"));
 
   // Without options, the constants are those of the checkpoint; other threads, the same bits.
   const ChildResult result = run(
@@ -141,6 +143,14 @@ TEST_F(TrainGaussians, ReadsConstantsFromFileAndOptions) {
   EXPECT_EQ(mixed["degree"], 1);
   EXPECT_EQ(mixed["initialisation"], "random");
   EXPECT_EQ(print({"--minutes", "2.5"})["minutes"], 2.5);
+  // --steps replaces the minutes of a file, and the program says so.
+  write("long.json", R"({"minutes": 90, "steps": 7})");
+  EXPECT_EQ(print({"--config", "long.json"})["minutes"], 90);
+  EXPECT_EQ(print({"--config", "long.json", "--steps", "20"})["minutes"], 0);
+  const ChildResult short_run =
+      gaussians("short.glb", {"--config", "long.json", "--steps", "20", "--max-splats", "40"});
+  ASSERT_EQ(short_run.exit_code, 0) << short_run.err;
+  EXPECT_THAT(short_run.err, Names("--steps", "90 min", "20 steps"));
   // Less memory, fewer splats.
   const std::uint64_t some = print({"--max-memory", "90MiB"})["max_splats"];
   EXPECT_LT(some, 60'000u);
@@ -171,19 +181,31 @@ TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
     EXPECT_EQ(result.exit_code, code) << result.err;
     EXPECT_THAT(result.err, Names(values...));
   };
-  expect({"--level", "2"}, 2, "--level", "diffsoup");
-  expect({"--preset", "scene"}, 2, "--preset", "diffsoup");
+  // The hints fit the options.
+  expect({"--level", "2"}, 2, "--level", "diffsoup", "textures");
+  expect({"--preset", "scene"}, 2, "--preset", "diffsoup", "alpha", "--config");
+  expect({"--compat"}, 2, "--compat", "diffsoup", "--config");
+  expect({"--batch", "2"}, 2, "--batch", "diffsoup", "--steps");
   expect({"--triangles", "100"}, 2, "--triangles", "--max-splats");
-  expect({"--export-diffsoup", "web"}, 2, "--export-diffsoup");
+  expect({"--device", "cuda"}, 2, "--device cuda", "processor");
+  expect({"--export-diffsoup", "web"}, 2, "--export-diffsoup", "page.html");
   expect({"--steps", "5", "--minutes", "1"}, 2, "--steps", "--minutes");
   expect({"--max-splats", "0"}, 2, "max_splats", 0, 1);
   expect({"--max-splats", "-3"}, 2, "max_splats", -3);
-  expect({"--minutes", "-1"}, 2, "minutes", -1);
+  expect({"--minutes", "-1"}, 2, "--minutes", -1, 0, "--steps");
+  expect({"--minutes", "0"}, 2, "--minutes", 0, "--steps");
+  expect({"--minutes", "nan"}, 2, "--minutes", "nan");
+  expect({"--minutes", "1e6"}, 2, "minutes", 1000000, 100000);
+  write("past.json", R"({"minutes": -0.5})");
+  expect({"--config", "past.json"}, 3, "past.json", "minutes", "-0.5", "fixed number of steps");
   expect({"--max-memory", "16MiB"}, 2, "--max-memory");
   expect({"--init", "points"}, 3, "points");
   expect({"--init", "pionts"}, 3, "pionts", "points");
   write("bad.json", R"({"max_splat": 3})");
   expect({"--config", "bad.json"}, 3, "bad.json", "max_splat", "max_splats");
+  expect({"--config", "nofile.json"}, 3, "nofile.json", "no such file");
+  write("soup.json", run({"train", "ball", "--print-config"}).out);
+  expect({"--config", "soup.json"}, 3, "soup.json", "--method diffsoup", "--list-config");
   write("mesh.json", R"({"initialisation": "mesh"})");
   expect({"--config", "mesh.json"}, 2, "--init", "FILE");
   expect({"--resume"}, 3, "b.checkpoint");
@@ -192,8 +214,96 @@ TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
   EXPECT_THAT(method.err, Names("gausians", "gaussians"));
   const ChildResult soup = train("b.glb", {"--max-splats", "100"});
   EXPECT_EQ(soup.exit_code, 2);
-  EXPECT_THAT(soup.err, Names("--max-splats", "gaussians"));
+  EXPECT_THAT(soup.err, Names("--max-splats", "gaussians", "--triangles"));
+  const ChildResult minutes = run({"train", "ball", "-o", "b.glb", "--minutes", "1"});
+  EXPECT_EQ(minutes.exit_code, 2);
+  EXPECT_THAT(minutes.err, AllOf(Names("--minutes", "gaussians", "--steps"),
+                                 Not(testing::HasSubstr("--triangles"))));
+  write("splats.json",
+        run({"train", "ball", "--method", "gaussians", "--print-config"}).out);
+  const ChildResult config = train("b.glb", {"--config", "splats.json"});
+  EXPECT_EQ(config.exit_code, 3);
+  EXPECT_THAT(config.err, Names("splats.json", "--method gaussians"));
+  const ChildResult upper = run({"train", "ball", "-o", "b.glb", "--method", "GAUSSIANS"});
+  EXPECT_EQ(upper.exit_code, 2);
+  EXPECT_THAT(upper.err, Names("GAUSSIANS", "did you mean gaussians"));
   EXPECT_FALSE(exists("b.glb"));
+}
+
+TEST_F(TrainGaussians, AreNoStartForASoup) {
+  make_dataset();
+  ASSERT_EQ(gaussians("a.glb", {"--steps", "3", "--max-splats", "200"}).exit_code, 0);
+  const ChildResult result = train("b.glb", {"--init", "a.glb"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, Names("a.glb", "200 splats", "Gaussians", "triangles",
+                                "--method gaussians", "--init random"));
+  EXPECT_FALSE(exists("b.glb"));
+}
+
+TEST_F(TrainGaussians, ResumesWithAMemoryLimitAndAFileWithoutBackground) {
+  make_dataset(false);  // without alpha the background is black, which the file does not say
+  write("few.json", R"({"steps": 600, "seed": 5})");
+  const std::vector<std::string> more{"--config", "few.json", "--max-memory", "80MiB"};
+  {
+    test::Child child(words("ball.glb", more), folder);
+    ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
+    child.signal(SIGINT);
+    const ChildResult result = child.wait();
+    ASSERT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_THAT(result.err, Names("--max-memory"));
+  }
+  const auto resumed = [&](std::vector<std::string> changed) {
+    changed.emplace_back("--resume");
+    return gaussians("ball.glb", changed);
+  };
+  // Other constants are refused as without these options.
+  const ChildResult seed =
+      resumed({"--config", "few.json", "--max-memory", "80MiB", "--seed", "6"});
+  EXPECT_EQ(seed.exit_code, 2);
+  EXPECT_THAT(seed.err, Names("seed", 6, 5));
+  const ChildResult fewer =
+      resumed({"--config", "few.json", "--max-memory", "80MiB", "--max-splats", "100"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_THAT(fewer.err, Names("max_splats", 100));
+  const ChildResult result = resumed({"--config", "few.json", "--max-memory", "80MiB"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(TrainGaussians, NeedsNeitherTestViewsNorPointsNorTwoPhotographs) {
+  write_split("train", 1, 0, false);
+  write("ball/transforms.json", bytes("ball/transforms_train.json"));
+  fs::remove(folder / "ball/transforms_train.json");
+  for (const std::string method : {"gaussians", "diffsoup"}) {
+    SCOPED_TRACE(method);
+    const ChildResult result =
+        run({"train", "ball", "-o", method + ".glb", "--method", method, "--steps", "30",
+             "--preview-every", "15", "--json", "--threads", "2", "--device", "cpu"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, Names("no test views", "1 training view and 0 test views"));
+    EXPECT_THAT(result.err, Not(testing::HasSubstr("PSNR")));
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["test"], nlohmann::json({{"views", 0}}));
+    EXPECT_FALSE(json.contains("trainer_psnr_db"));
+    EXPECT_EQ(read_png(method + ".previews/step_00000015.png").width, size);
+    EXPECT_FALSE(trainer::read_training_log(folder / (method + ".jsonl")).back().test_psnr_db);
+    EXPECT_EQ(run({"info", method + ".glb"}).exit_code, 0);
+    EXPECT_EQ(run({"report", method + ".jsonl", "-o", method + ".html"}).exit_code, 0);
+  }
+}
+
+TEST_F(TrainGaussians, AnnounceWhatTheyReplaceAfterAllChecks) {
+  make_dataset();
+  ASSERT_EQ(gaussians("ball.glb", {"--steps", "3", "--max-splats", "50"}).exit_code, 0);
+  const auto replaces = testing::HasSubstr("training replaces");
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"--init", "points"}, {"--scale", "0.2"}, {"--config", "none.json"}}) {
+    const ChildResult result = gaussians("ball.glb", wrong);
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, Not(replaces));
+  }
+  const ChildResult again = gaussians("ball.glb", {"--steps", "1", "--max-splats", "50"});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, AllOf(replaces, Names("1 step,")));
 }
 
 }  // namespace train_gaussians_program_test

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "formats/scene_file.hpp"
+#include "image/video_file.hpp"
 #include "tests/cli/train_fixture.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
@@ -29,10 +30,17 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   const ChildResult result =
       train("ball.glb", {"--json", "--preview-every", "20", "--export-diffsoup", "export"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(files(),
-              ElementsAre("ball.glb", "ball.jsonl", "ball.previews/step_20.png",
-                          "ball.previews/step_40.png", "export/lut0.png", "export/lut1.png",
-                          "export/mesh.ply", "export/meta.json", "export/mlp_weights.json"));
+  std::vector<std::string> expected{"ball.glb",
+                                    "ball.jsonl",
+                                    "ball.previews/step_00000020.png",
+                                    "ball.previews/step_00000040.png",
+                                    "export/lut0.png",
+                                    "export/lut1.png",
+                                    "export/mesh.ply",
+                                    "export/meta.json",
+                                    "export/mlp_weights.json"};
+  if (have_ffmpeg()) expected.insert(expected.begin(), "ball-previews.mp4");
+  EXPECT_EQ(files(), expected);
   EXPECT_THAT(result.err, Names("--preset object"));
 
   ASSERT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);  // one line
@@ -56,7 +64,7 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   const auto& soup = only_soup(scene);
   EXPECT_EQ(soup.triangles.size(), 100u);
   EXPECT_FALSE(std::get<LatticeTexture>(soup.appearance).is_float());
-  EXPECT_EQ(read_png("ball.previews/step_40.png").width, 3 * size);
+  EXPECT_EQ(read_png("ball.previews/step_00000040.png").width, 3 * size);
   const ChildResult evaluated = run({"eval", "ball.glb", "ball", "--json"});
   if (evaluated.exit_code == 0) {
     EXPECT_EQ(nlohmann::ordered_json::parse(evaluated.out)["mean"]["psnr_db"],
@@ -364,11 +372,11 @@ TEST_F(Train, TwoRunsDoNotShareAnOutput) {
 
 TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
   make_dataset();
-  fs::create_directories(folder / "ball.previews/step_20.png/in the way");
+  fs::create_directories(folder / "ball.previews/step_00000020.png/in the way");
   const std::vector<std::string> previews{"--preview-every", "10"};
   const ChildResult failed = train("ball.glb", previews);
   EXPECT_EQ(failed.exit_code, 5);
-  EXPECT_THAT(failed.err, Names("ball.checkpoint", "20 of 40", "ball.previews/step_20.png"));
+  EXPECT_THAT(failed.err, Names("ball.checkpoint", "20 of 40", "ball.previews/step_00000020.png"));
   EXPECT_FALSE(exists("ball.glb"));
 
   const ChildResult went_on = train("ball.glb", {"--resume"});

@@ -31,7 +31,8 @@ TEST(MemorySize, IsReadAsPeopleWriteIt) {
 
 TEST(MemorySize, IsSaidAsItIsRead) {
   EXPECT_EQ(memory_size_text(0), "0 bytes");
-  EXPECT_EQ(memory_size_text(1023), "1023 bytes");
+  EXPECT_EQ(memory_size_text(1), "1 byte");
+  EXPECT_EQ(memory_size_text(1023), "1,023 bytes");
   EXPECT_EQ(memory_size_text(1536), "1.5 KiB");
   EXPECT_EQ(memory_size_text(default_max_memory), "4 GiB");
   EXPECT_EQ(memory_size_text(std::uint64_t(3) << 40), "3 TiB");

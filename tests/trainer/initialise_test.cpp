@@ -184,11 +184,37 @@ TEST(Region, OfParallelCamerasLiesBeforeThem) {
   EXPECT_GT(region.half_side, 0.5);
 }
 
-TEST(Region, NeedsAScale) {
+TEST(Region, OfCamerasAtOnePositionHasHalfSide1) {
   Dataset dataset;
   EXPECT_THROW(region_of_interest(dataset), InputError);
+  // One camera: ahead of it, where half the image's smaller side is 1.
+  dataset.train = {view_from({1, 0, 0}, {0, 0, 0})};
+  const Camera& camera = dataset.train[0].camera;
+  Region region = region_of_interest(dataset);
+  EXPECT_DOUBLE_EQ(region.half_side, 1);
+  const double depth = 1 - region.centre.x;
+  EXPECT_NEAR(depth * std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy), 1,
+              1e-12);
+  EXPECT_NEAR(glm::length(glm::dvec2(region.centre.y, region.centre.z)), 0, 1e-12);
+  // Twice the same camera, and the second photograph of a burst.
+  dataset.train.push_back(dataset.train[0]);
+  EXPECT_NEAR(glm::distance(region_of_interest(dataset).centre, region.centre), 0, 1e-12);
+  // A panorama: around the cameras.
   dataset.train = {view_from({1, 0, 0}, {0, 0, 0}), view_from({1, 0, 0}, {0, 0, 1})};
-  EXPECT_THROW(region_of_interest(dataset), InputError);
+  region = region_of_interest(dataset);
+  EXPECT_EQ(region.centre, glm::dvec3(1, 0, 0));
+  EXPECT_DOUBLE_EQ(region.half_side, 1);
+  // Back to back, at one position and at two.
+  dataset.train = {view_from({1, 0, 0}, {0, 0, 0}), view_from({1, 0, 0}, {2, 0, 0})};
+  EXPECT_DOUBLE_EQ(region_of_interest(dataset).half_side, 1);
+  dataset.train = {view_from({-3, 0, 0}, {-4, 0, 0}), view_from({5, 0, 0}, {6, 0, 0})};
+  region = region_of_interest(dataset);
+  EXPECT_EQ(region.centre, glm::dvec3(1, 0, 0));
+  EXPECT_DOUBLE_EQ(region.half_side, 8);
+  // Points are more precise.
+  dataset.train = {view_from({1, 0, 0}, {0, 0, 0})};
+  dataset.points = ball(77, 200, {0, 0, 0}, 10);
+  EXPECT_NEAR(region_of_interest(dataset).half_side, 7.9, 1.0);
 }
 
 // --- Triangles

@@ -197,7 +197,7 @@ TEST(SmokeTraining, RunsWithoutTheCommandLine) {
   EXPECT_EQ(calls, (std::vector<std::string>{"begun", "finished", "evaluate"}));
   EXPECT_EQ(last_step, 19);
   EXPECT_EQ(result.state.step, 20);
-  EXPECT_GT(result.run.test_psnr_db, 0);
+  EXPECT_GT(result.run.test_psnr_db.value(), 0);
   EXPECT_EQ(evaluated.info.name, "still life");
   EXPECT_EQ(evaluated.cameras.size(), still_life().train.size());
   EXPECT_EQ(only_soup(evaluated).triangles.size(), result.state.model.faces());

@@ -90,6 +90,19 @@ class CheckpointReader {
 
 using CheckpointMagic = std::array<char, 8>;
 
+/// The first bytes of the checkpoints of each method of `tureen train`.
+inline constexpr CheckpointMagic diffsoup_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
+inline constexpr CheckpointMagic gaussians_magic{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'};
+
+struct CheckpointMethod {
+  CheckpointMagic magic;
+  const char* name;  // of the method, as --method takes it
+};
+
+/// Every method. An error names the method of a checkpoint that another method shall continue.
+inline constexpr CheckpointMethod checkpoint_methods[] = {{diffsoup_magic, "diffsoup"},
+                                                          {gaussians_magic, "gaussians"}};
+
 struct CheckpointKind {
   CheckpointMagic magic;
   std::uint32_t version;
@@ -103,7 +116,7 @@ struct CheckpointHead {
 };
 
 void write_head(CheckpointWriter& writer, const CheckpointKind& kind, const CheckpointHead& head);
-/// Throws InputError for other kinds and versions.
+/// Throws InputError for other kinds and versions; it names the method of another known kind.
 CheckpointHead read_head(CheckpointReader& reader, const CheckpointKind& kind);
 
 /// The configuration of a head. Requires exactly the text that `write` makes from it, because the

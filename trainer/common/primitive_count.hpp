@@ -12,6 +12,11 @@ constexpr const char* name_of(PrimitiveKind kind) {
   return kind == PrimitiveKind::triangles ? "triangles" : "splats";
 }
 
+/// "triangle" or "splat", for counted().
+constexpr const char* noun_of(PrimitiveKind kind) {
+  return kind == PrimitiveKind::triangles ? "triangle" : "splat";
+}
+
 struct PrimitiveCount {
   PrimitiveKind kind;
   std::size_t count;

@@ -49,6 +49,10 @@ std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) 
   return inverse * right;
 }
 
+double half_angle(const Camera& camera) {  // tangent of
+  return std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy);
+}
+
 /// The region around a centre that most cameras look at; nothing if it is behind most cameras.
 std::optional<Region> looked_at(const std::vector<Photograph>& views, glm::dvec3 centre) {
   std::vector<double> half_sides;
@@ -56,8 +60,7 @@ std::optional<Region> looked_at(const std::vector<Photograph>& views, glm::dvec3
     const Camera& camera = view.camera;
     const double depth = glm::dot(centre - camera.eye(), forward(camera));
     if (depth > rounding * glm::length(camera.eye()))
-      half_sides.push_back(
-          depth * std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy));
+      half_sides.push_back(depth * half_angle(camera));
   }
   if (2 * half_sides.size() <= views.size()) return std::nullopt;
   return Region{centre, median(half_sides)};
@@ -86,10 +89,15 @@ Region of_eyes(const std::vector<Photograph>& views, bool outwards) {
   double extent = 0;
   for (const Photograph& view : views)
     extent = std::max(extent, glm::distance(view.camera.eye(), middle));
-  if (extent <= rounding * glm::length(middle)) return {middle, 0};
-  if (outwards) return {middle, 2 * extent};
-  const glm::dvec3 centre = middle + 8 * extent * glm::normalize(direction);
-  return looked_at(views, centre).value_or(Region{middle, 0});
+  const bool coincide = extent <= rounding * glm::length(middle);
+  // Axes of opposite directions have no mean direction: these cameras look outwards, too.
+  const Region around{middle, coincide ? 1 : 2 * extent};
+  if (outwards || glm::length(direction) < rounding) return around;
+  const glm::dvec3 ahead = glm::normalize(direction);
+  if (!coincide) return looked_at(views, middle + 8 * extent * ahead).value_or(around);
+  std::vector<double> half_angles;
+  for (const Photograph& view : views) half_angles.push_back(half_angle(view.camera));
+  return {middle + ahead / median(std::move(half_angles)), 1};
 }
 
 }  // namespace
@@ -103,10 +111,9 @@ Region region_of_interest(const Dataset& dataset) {
   region.half_side = 0;
   if (!dataset.points.empty()) region = of_points(dataset.points);
   if (!(region.half_side > 0)) region = of_eyes(dataset.train, centre.has_value());
+  // Squares of the coordinates may overflow.
   if (!(region.half_side > 0) || !std::isfinite(region.half_side))
-    throw InputError({},
-                     "the size of the scene is unknown: all cameras are at one position and the "
-                     "dataset has no points");
+    throw InputError({}, "the positions of the cameras give no finite size of the scene");
   return region;
 }
 

@@ -21,11 +21,14 @@ struct Region {
 ///    middle to the nearer border; the result is the median over the cameras. NeRF-synthetic lego:
 ///    about 1.45 around the origin.
 /// 2. The dataset has points: their median, and the median distance from it.
-/// 3. The cameras look outwards: their mean position, and twice their extent.
+/// 3. The cameras look outwards: their mean position, and twice their extent; 1 if they are all at
+///    one position.
 /// 4. The cameras are parallel: the centre lies ahead of them at eight times their extent, and the
-///    half side is computed as in case 1.
+///    half side is computed as in case 1. If they are all at one position, for example with a single
+///    camera, the images give no scale: the half side is 1, and the centre lies at the depth where
+///    the image (the median over the cameras) has this half side.
 ///
-/// Throws InputError if nothing determines a scale: one camera, or all cameras at one position.
+/// Throws InputError if there is no training view, or the region is not finite.
 Region region_of_interest(const Dataset& dataset);
 
 }  // namespace tureen::trainer

@@ -144,6 +144,7 @@ void TrainingSession::after_step(const StepReport& report) {
 }
 
 void TrainingSession::measure() {
+  if (measured_views_.empty()) return;
   fresh_test_psnr_ = mean_psnr_db(run_, measured_views_);
   shown_test_psnr_ = fresh_test_psnr_;
 }
@@ -167,9 +168,11 @@ void TrainingSession::record() {
 }
 
 void TrainingSession::write_preview() {
-  const int digits = int(std::to_string(run_.steps()).size());
-  Output output(options_.previews / fmt::format("step_{:0{}}.png", run_.steps_done(), digits));
-  output.write(encode_png(preview(run_, options_.test_views.front())));
+  // Eight digits for every run, so that the names sort after a change of the number of steps, too.
+  Output output(options_.previews / fmt::format("step_{:08}.png", run_.steps_done()));
+  output.write(encode_png(options_.test_views.empty()
+                              ? drawn(run_, options_.preview_camera)
+                              : preview(run_, options_.test_views.front())));
   output.commit();
 }
 

@@ -35,7 +35,8 @@ struct SessionOptions {
   std::filesystem::path previews;               // an existing folder, if preview_every > 0
   std::optional<int> checkpoint_every;          // steps; by default every two minutes
   int preview_every = 0;                        // steps; 0 for no previews
-  std::span<const Photograph> test_views = {};  // at least one
+  std::span<const Photograph> test_views = {};  // if none, no error is measured
+  Camera preview_camera = {};                   // of the previews without test views
   double seconds_before = 0;                    // training time of earlier sessions of this run
   std::uint64_t non_finite_before = 0;          // numbers quarantined in earlier sessions
   RunControl* control = nullptr;                // pauses the run, and finishes it early

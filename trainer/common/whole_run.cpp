@@ -21,6 +21,7 @@ RunResult run_to_the_end(Trainable& run, RunRequest request, const Dataset& data
     return result;
   };
   request.session.test_views = dataset.test;
+  request.session.preview_camera = dataset.train.front().camera;
   if (request.snapshot) request.session.snapshot = [&] { request.snapshot(described()); };
   TrainingSession session(run, std::move(request.session));
   session.run();
@@ -28,6 +29,7 @@ RunResult run_to_the_end(Trainable& run, RunRequest request, const Dataset& data
   const Scene finished = described();
   if (request.finished) session.keep_if_it_fails([&] { request.finished(finished); });
   if (request.snapshot) request.snapshot(finished);
+  if (dataset.test.empty()) return result;
   result.test_psnr_db = mean_psnr_db(run, dataset.test, request.measuring);
   if (request.evaluate) request.evaluate(finished);
   return result;

@@ -16,7 +16,7 @@ namespace tureen::trainer {
 
 namespace {
 
-constexpr CheckpointKind kind{{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'}, checkpoint_version};
+constexpr CheckpointKind kind{diffsoup_magic, checkpoint_version};
 
 /// Visits every member of a state, in the order of the file. A new member of the structs causes a
 /// compile error until it is added here.

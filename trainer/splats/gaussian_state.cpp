@@ -13,8 +13,7 @@ namespace tureen::trainer {
 
 namespace {
 
-constexpr CheckpointKind gaussian_kind{{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'},
-                                       gaussian_checkpoint_version};
+constexpr CheckpointKind gaussian_kind{gaussians_magic, gaussian_checkpoint_version};
 
 /// Values of a state in the form of the file.
 struct StoredState {

@@ -340,9 +340,6 @@ TEST(Dataset, RefusesPosesThatAreNoRotations) {
 
 TEST(Dataset, RefusesAnEmptySplit) {
   const TemporaryFolder folder;
-  write_transforms(folder, 1);
-  EXPECT_THAT(refusal(folder / ""), Names(0, 1));
-  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::test}), std::nullopt);
   write_transforms(folder, 3);
   EXPECT_NE(refusal(folder / "", {.test_every = 1}), std::nullopt);
   write_text(folder / "transforms.json", transforms(intrinsics, {}));
@@ -352,7 +349,25 @@ TEST(Dataset, RefusesAnEmptySplit) {
   EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms_test.json"));
   EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), std::nullopt);
   write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
-  EXPECT_THAT(refusal(folder / ""), Names(1));
+  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}), Names(1, 0));
+  write_text(folder / "transforms_test.json", transforms(intrinsics, {frame("images/0.png")}));
+  write_text(folder / "transforms_train.json", transforms(intrinsics, {}));
+  EXPECT_THAT(refusal(folder / ""), Names(0, 1));
+}
+
+TEST(Dataset, NeedsNoTestViews) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 1);
+  // The only photograph is for the training; an evaluation of the test views has it, too.
+  const Dataset one = read_dataset(folder / "");
+  EXPECT_EQ(one.train.size(), 1u);
+  EXPECT_TRUE(one.test.empty());
+  EXPECT_EQ(read_dataset(folder / "", {.part = DatasetPart::test}).test.size(), 1u);
+  write_text(folder / "transforms_train.json", transforms(intrinsics, {frame("images/0.png")}));
+  write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
+  const Dataset split = read_dataset(folder / "");
+  EXPECT_EQ(split.train.size(), 1u);
+  EXPECT_TRUE(split.test.empty());
 }
 
 TEST(Dataset, RefusesWhatIsNoDataset) {
