@@ -11,8 +11,8 @@ namespace tureen {
 /// string alignment distance).
 int edit_distance(const std::string& a, const std::string& b);
 
-/// The nearest of `known`, without regard to the case of ASCII letters. If more than a third of the letters are wrong, the first that begins
-/// with the word, or else "".
+/// The nearest of `known`, without regard to the case of ASCII letters. If more than a third of the
+/// letters are wrong, the first that begins with the word, or else "".
 std::string nearest(const std::string& word, std::span<const std::string> known);
 
 /// "did you mean NAME?" with the nearest of `known`, or "". For the hint of an error.

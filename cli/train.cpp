@@ -100,17 +100,14 @@ void write_results(const TrainOptions& options, const TrainingFiles& files, cons
 void say_result(const TrainOptions& options, const Dataset& dataset,
                 const TrainingOutcome& result) {
   const TrainingSummary& training = result.training;
-  std::string sentence =
-      fmt::format("{} after {} in {}",
-                  counted(training.primitives.count, noun_of(training.primitives.kind)),
-                  counted(std::uint64_t(training.steps), "step"),
-                  duration_text(training.run.seconds));
+  std::string sentence = fmt::format(
+      "{} after {} in {}", counted(training.primitives.count, noun_of(training.primitives.kind)),
+      counted(std::uint64_t(training.steps), "step"), duration_text(training.run.seconds));
   if (training.opacity_binary_fraction)
     sentence += fmt::format("; {:.1f} % of the texels are transparent or opaque",
                             100 * *training.opacity_binary_fraction);
   say(sentence);
-  if (training.non_finite > 0)
-    say("skipped " + counted(training.non_finite, "non-finite number"));
+  if (training.non_finite > 0) say("skipped " + counted(training.non_finite, "non-finite number"));
   if (training.run.test_psnr_db) {
     Table table({counted(dataset.test.size(), "test view"), "PSNR dB", "SSIM", "FLIP"});
     table.row({"drawn by the trainer", fmt::format("{:.2f}", *training.run.test_psnr_db)});

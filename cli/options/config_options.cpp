@@ -45,12 +45,14 @@ void add_config_options(Command& command, TrainingOptions& options) {
              "number of triangles at the end; 15,000 by default");
   add_number(command, "--max-splats", options.max_splats,
              "largest number of Gaussians; 60,000 by default");
-  add_number(command, "--steps", options.steps,
-             "number of optimiser steps; by default 10,000, for gaussians 5,000; replaces the minutes "
-             "of --config");
-  add_number(command, "--minutes", options.minutes,
-             "time for the training of gaussians, more than 0; the number of steps is fitted to it and "
-             "replaces the steps of --config");
+  add_number(
+      command, "--steps", options.steps,
+      "number of optimiser steps; by default 10,000, for gaussians 5,000; replaces the minutes "
+      "of --config");
+  add_number(
+      command, "--minutes", options.minutes,
+      "time for the training of gaussians, more than 0; the number of steps is fitted to it and "
+      "replaces the steps of --config");
   add_number(command, "--batch", options.batch, "views per step; 4 by default");
   add_number(command, "--seed", options.seed, "seed of the random numbers; 0 by default")
       .check(refuse_seed);

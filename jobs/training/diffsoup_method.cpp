@@ -57,24 +57,23 @@ class DiffsoupMethod final : public TrainingMethod {
       if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
         throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
     trainer::TrainingResult result = trainer::train(
-        dataset,
-        {.config = config_,
-         .mesh = start,
-         .checkpoint = std::move(checkpoint_),
-         .device = options_.device,
-         .run = std::move(run),
-         .begun = [&](const trainer::Backend& backend, bool visible) {
-           if (preset_by_alpha)
-             say(dataset.has_alpha ? "The images have alpha: --preset object"
-                                   : "The images have no alpha: --preset scene");
-           say(fmt::format("{}; {} to {}; {}", describe_views(dataset),
-                           counted(std::uint64_t(config_.steps), "step"),
-                           counted(std::uint64_t(config_.triangles), "triangle"),
-                           backend.description()));
-           if (!visible)
-             say("No training image shows a triangle yet: check the cameras of the "
-                 "dataset.");
-         }});
+        dataset, {.config = config_,
+                  .mesh = start,
+                  .checkpoint = std::move(checkpoint_),
+                  .device = options_.device,
+                  .run = std::move(run),
+                  .begun = [&](const trainer::Backend& backend, bool visible) {
+                    if (preset_by_alpha)
+                      say(dataset.has_alpha ? "The images have alpha: --preset object"
+                                            : "The images have no alpha: --preset scene");
+                    say(fmt::format("{}; {} to {}; {}", describe_views(dataset),
+                                    counted(std::uint64_t(config_.steps), "step"),
+                                    counted(std::uint64_t(config_.triangles), "triangle"),
+                                    backend.description()));
+                    if (!visible)
+                      say("No training image shows a triangle yet: check the cameras of the "
+                          "dataset.");
+                  }});
     return {.run = result.run,
             .primitives = {trainer::PrimitiveKind::triangles, result.state.model.faces()},
             .steps = result.state.step,
@@ -93,8 +92,7 @@ class DiffsoupMethod final : public TrainingMethod {
 
 std::string describe_views(const Dataset& dataset) {
   const Camera& first = dataset.train.front().camera;
-  return fmt::format("{} and {}, the first {} x {}",
-                     counted(dataset.train.size(), "training view"),
+  return fmt::format("{} and {}, the first {} x {}", counted(dataset.train.size(), "training view"),
                      counted(dataset.test.size(), "test view"), first.width, first.height);
 }
 

@@ -54,11 +54,11 @@ class GaussianMethod final : public TrainingMethod {
     const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
     const auto* gaussians = splats ? std::get_if<Gaussians>(&splats->kernel) : nullptr;
     if (!splats || (gaussians && !gaussians->flat)) return std::nullopt;
-    return UnsuitableStart{fmt::format("the scene has {} ({}), but Gaussians begin with Gaussians "
-                                       "or triangles",
-                                       counted(splat_count(start), "splat"),
-                                       kernel_name(splats->kernel)),
-                           "--init random needs no scene"};
+    return UnsuitableStart{
+        fmt::format("the scene has {} ({}), but Gaussians begin with Gaussians "
+                    "or triangles",
+                    counted(splat_count(start), "splat"), kernel_name(splats->kernel)),
+        "--init random needs no scene"};
   }
 
   std::string constants() const override { return trainer::config_to_json(config_); }
@@ -81,8 +81,8 @@ class GaussianMethod final : public TrainingMethod {
            if (replaced_minutes_ > 0)
              say(fmt::format("--steps replaces the {} min of the constants", replaced_minutes_));
            say(fmt::format("{}; {}, from {} to at most {}; CPU, {}", views,
-                           counted(std::uint64_t(forecast.steps), "step"),
-                           counted(forecast.splats), counted(config_.max_splats, "splat"),
+                           counted(std::uint64_t(forecast.steps), "step"), counted(forecast.splats),
+                           counted(config_.max_splats, "splat"),
                            counted(std::uint64_t(forecast.threads), "thread")));
            say(fmt::format("forecast: {} of training, {} of memory",
                            duration_text(forecast.seconds), memory_size_text(forecast.bytes)));

@@ -17,7 +17,7 @@ using Methods = std::vector<TrainingMethodName>;
 struct OwnOption {
   bool given;
   const char* name;
-  Methods methods;  // that have it
+  Methods methods;      // that have it
   const char* instead;  // the hint for the other methods
 };
 

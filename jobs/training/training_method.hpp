@@ -51,8 +51,8 @@ class TrainingMethod {
 
   /// After settle() with this dataset. `start`: the scene of TrainingOptions::mesh(), or null.
   /// `say`: receives sentences about the run before its first step, after all checks of the input;
-  /// no file is replaced before. Throws UsageError if the checkpoint has other views, and the errors
-  /// of the method's run.
+  /// no file is replaced before. Throws UsageError if the checkpoint has other views, and the
+  /// errors of the method's run.
   virtual TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                                 const std::function<void(const std::string&)>& say) = 0;
 };

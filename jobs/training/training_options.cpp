@@ -88,9 +88,9 @@ auto constants_of_file(const TrainingOptions& options, const Read& read) {
     }
     if (!other) throw;
     const std::string name = name_of(*other), own = name_of(options.method);
-    throw InputError({options.file, {}, {}}, "these are constants of --method " + name,
-                     "use --method " + name + ", or list the constants with --method " + own +
-                         " --list-config");
+    throw InputError(
+        {options.file, {}, {}}, "these are constants of --method " + name,
+        "use --method " + name + ", or list the constants with --method " + own + " --list-config");
   }
 }
 

@@ -194,7 +194,7 @@ TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
   expect({"--max-splats", "-3"}, 2, "max_splats", -3);
   expect({"--minutes", "-1"}, 2, "--minutes", -1, 0, "--steps");
   expect({"--minutes", "0"}, 2, "--minutes", 0, "--steps");
-  expect({"--minutes", "nan"}, 2, "--minutes", "nan");
+  expect({"--minutes", "nan"}, 2, "--minutes", "finite number");
   expect({"--minutes", "1e6"}, 2, "minutes", 1000000, 100000);
   write("past.json", R"({"minutes": -0.5})");
   expect({"--config", "past.json"}, 3, "past.json", "minutes", "-0.5", "fixed number of steps");
@@ -219,8 +219,7 @@ TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
   EXPECT_EQ(minutes.exit_code, 2);
   EXPECT_THAT(minutes.err, AllOf(Names("--minutes", "gaussians", "--steps"),
                                  Not(testing::HasSubstr("--triangles"))));
-  write("splats.json",
-        run({"train", "ball", "--method", "gaussians", "--print-config"}).out);
+  write("splats.json", run({"train", "ball", "--method", "gaussians", "--print-config"}).out);
   const ChildResult config = train("b.glb", {"--config", "splats.json"});
   EXPECT_EQ(config.exit_code, 3);
   EXPECT_THAT(config.err, Names("splats.json", "--method gaussians"));

@@ -24,9 +24,9 @@ struct Region {
 /// 3. The cameras look outwards: their mean position, and twice their extent; 1 if they are all at
 ///    one position.
 /// 4. The cameras are parallel: the centre lies ahead of them at eight times their extent, and the
-///    half side is computed as in case 1. If they are all at one position, for example with a single
-///    camera, the images give no scale: the half side is 1, and the centre lies at the depth where
-///    the image (the median over the cameras) has this half side.
+///    half side is computed as in case 1. If they are all at one position, for example with a
+///    single camera, the images give no scale: the half side is 1, and the centre lies at the depth
+///    where the image (the median over the cameras) has this half side.
 ///
 /// Throws InputError if there is no training view, or the region is not finite.
 Region region_of_interest(const Dataset& dataset);

@@ -13,8 +13,8 @@
 namespace tureen::trainer {
 
 struct RunRequest {
-  std::string name;        // of the scene
-  int threads = 0;         // 0: one per core
+  std::string name;  // of the scene
+  int threads = 0;   // 0: one per core
   /// The run sets `test_views`, `preview_camera` and `snapshot`, and values of a checkpoint.
   SessionOptions session;
 
@@ -37,9 +37,9 @@ struct RunResult {
   std::optional<double> test_psnr_db = {};  // drawn by the trainer; none without test views
 };
 
-/// Trains to the end, hands the scene to the callbacks, and measures dataset.test, if it has views. `scene`: makes
-/// the layers of the current state; cameras and info are added. Throws OutputError if a file of the
-/// session cannot be written, and any error from a callback.
+/// Trains to the end, hands the scene to the callbacks, and measures dataset.test, if it has views.
+/// `scene`: makes the layers of the current state; cameras and info are added. Throws OutputError
+/// if a file of the session cannot be written, and any error from a callback.
 RunResult run_to_the_end(Trainable& run, RunRequest request, const Dataset& dataset,
                          const std::function<Scene()>& scene);
 

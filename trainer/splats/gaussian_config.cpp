@@ -21,8 +21,11 @@ constexpr Range length{0, 1e3, Range::Ends::low_open, "the value is a length"};
 constexpr Range extent{1, 1e6, {}, "the splats lie outside of the region"};
 constexpr Range any_seed{
     0, 18446744073709551616.0, {}, "the seed is an unsigned number of 64 bits"};
-constexpr Range minutes{
-    0, 1e5, {}, "the value is a time, or 0 for a fixed number of steps", "the run would take months"};
+constexpr Range minutes{0,
+                        1e5,
+                        {},
+                        "the value is a time, or 0 for a fixed number of steps",
+                        "the run would take months"};
 constexpr Range none{};
 
 const GaussianConfigField fields[] = {
