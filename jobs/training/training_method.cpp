@@ -9,7 +9,7 @@ namespace tureen {
 
 namespace {
 
-/// Throws UsageError if an option of the other method is given, or both --steps and --minutes.
+/// Throws UsageError if an option of another method is given, or both --steps and --minutes.
 void require_own_options(const TrainingOptions& options) {
   using Given = std::pair<bool, const char*>;
   const Given soup[] = {{options.preset.has_value(), "--preset"},
@@ -18,16 +18,21 @@ void require_own_options(const TrainingOptions& options) {
                         {options.batch.has_value(), "--batch"},
                         {options.level.has_value(), "--level"},
                         {options.device == trainer::Device::cuda, "--device cuda"}};
-  const Given gaussians[] = {{options.max_splats.has_value(), "--max-splats"},
-                             {options.minutes.has_value(), "--minutes"}};
-  const auto refuse = [](auto& others, const char* method, const char* hint) {
+  const Given splats[] = {{options.max_splats.has_value(), "--max-splats"},
+                          {options.minutes.has_value(), "--minutes"}};
+  const Given triangles[] = {{options.opaque, "--opaque"}};
+  const auto refuse = [](auto& others, const char* methods, const char* hint) {
     for (const auto& [given, name] : others)
-      if (given) throw UsageError(std::string(name) + " needs --method " + method, hint);
+      if (given) throw UsageError(std::string(name) + " needs --method " + methods, hint);
   };
-  if (options.method == TrainingMethodName::gaussians)
-    refuse(soup, "diffsoup", "--max-splats limits the number of Gaussians");
+  const bool is_soup = options.method == TrainingMethodName::diffsoup;
+  if (options.method != TrainingMethodName::triangles)
+    refuse(triangles, "triangles",
+           is_soup ? "the triangles of a soup are always opaque" : "Gaussians stay soft");
+  if (is_soup)
+    refuse(splats, "gaussians or triangles", "--triangles sets the number of triangles of a soup");
   else
-    refuse(gaussians, "gaussians", "--triangles sets the number of triangles of a soup");
+    refuse(soup, "diffsoup", "--max-splats limits the number of splats");
   if (options.steps && options.minutes)
     throw UsageError("--steps and --minutes exclude each other",
                      "--minutes fits the number of steps to the time");
@@ -37,8 +42,15 @@ void require_own_options(const TrainingOptions& options) {
 
 std::unique_ptr<TrainingMethod> make_training_method(const TrainingOptions& options) {
   require_own_options(options);
-  return options.method == TrainingMethodName::gaussians ? make_gaussian_method(options)
-                                                         : make_diffsoup_method(options);
+  switch (options.method) {
+    case TrainingMethodName::gaussians:
+      return make_gaussian_method(options);
+    case TrainingMethodName::triangles:
+      return make_window_method(options);
+    case TrainingMethodName::diffsoup:
+      break;
+  }
+  return make_diffsoup_method(options);
 }
 
 }  // namespace tureen

@@ -15,6 +15,7 @@ using trainer::Config;
 using trainer::GaussianConfig;
 using trainer::Initialisation;
 using trainer::Preset;
+using trainer::WindowConfig;
 
 namespace {
 
@@ -40,6 +41,25 @@ void set_initialisation(Initialisation& initialisation, const TrainingOptions& o
     initialisation = Initialisation::points;
   else if (!options.begin.empty())
     initialisation = Initialisation::mesh;
+}
+
+template <class C>
+C splats_with_options(C config, const TrainingOptions& options) {
+  const auto fields = trainer::splat_config_fields<C>();
+  if (options.steps) {
+    config.steps = as_int(*options.steps, "steps", fields);
+    config.minutes = 0;
+  }
+  if (options.max_splats) {
+    if (*options.max_splats < 0) refuse(*options.max_splats, "max_splats", fields);
+    config.max_splats = std::uint64_t(*options.max_splats);
+  }
+  config.minutes = options.minutes.value_or(config.minutes);
+  config.seed = options.seed.value_or(config.seed);
+  set_initialisation(config.initialisation, options);
+  if (const std::optional<std::string> reason = trainer::splat_config_defect(config))
+    throw UsageError(*reason);
+  return config;
 }
 
 }  // namespace
@@ -78,26 +98,25 @@ Config with_options(const Config& base, const TrainingOptions& options) {
 }
 
 GaussianConfig with_options(const GaussianConfig& base, const TrainingOptions& options) {
-  const auto fields = trainer::gaussian_config_fields();
-  GaussianConfig config = base;
-  if (options.steps) {
-    config.steps = as_int(*options.steps, "steps", fields);
-    config.minutes = 0;
-  }
-  if (options.max_splats) {
-    if (*options.max_splats < 0) refuse(*options.max_splats, "max_splats", fields);
-    config.max_splats = std::uint64_t(*options.max_splats);
-  }
-  config.minutes = options.minutes.value_or(config.minutes);
-  config.seed = options.seed.value_or(config.seed);
-  set_initialisation(config.initialisation, options);
-  if (const std::optional<std::string> reason = trainer::defect(config)) throw UsageError(*reason);
-  return config;
+  return splats_with_options(base, options);
+}
+
+WindowConfig with_options(const WindowConfig& base, const TrainingOptions& options) {
+  WindowConfig config = base;
+  config.opaque = options.opaque || base.opaque;
+  return splats_with_options(config, options);
 }
 
 std::string constants_reference(const TrainingOptions& options) {
-  return options.method == TrainingMethodName::gaussians ? trainer::gaussian_config_reference()
-                                                         : trainer::config_reference();
+  switch (options.method) {
+    case TrainingMethodName::gaussians:
+      return trainer::splat_config_reference<GaussianConfig>();
+    case TrainingMethodName::triangles:
+      return trainer::splat_config_reference<WindowConfig>();
+    case TrainingMethodName::diffsoup:
+      break;
+  }
+  return trainer::config_reference();
 }
 
 }  // namespace tureen

@@ -9,10 +9,10 @@
 #include "base/error.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
-#include "trainer/splats/gaussian_forecast.hpp"
-#include "trainer/splats/gaussian_initialise.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
-#include "trainer/splats/gaussian_training.hpp"
+#include "trainer/splats/splat_forecast.hpp"
+#include "trainer/splats/splat_initialise.hpp"
+#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/splat_training.hpp"
 
 namespace tureen::trainer {
 namespace gaussian_run_test {
@@ -44,7 +44,7 @@ Dataset disc_dataset(glm::dvec3 centre = {1000, -2000, 500}) {
 GaussianParameters first(const Dataset& dataset, const GaussianConfig& config,
                          const Scene* start = nullptr) {
   Random random(5);
-  return initial_gaussians(dataset, config, region_of_interest(dataset), start, random);
+  return initial_splats<GaussianTraining>(dataset, config, region_of_interest(dataset), start, random);
 }
 
 bool all_finite(const GaussianParameters& parameters) {
@@ -98,7 +98,7 @@ TEST(FirstGaussians, HaveTheMeanDistanceToThreeNeighbours) {
 TEST(FirstGaussians, OfCoincidentPointsHaveASize) {
   Dataset dataset = disc_dataset();
   for (int i = 0; i < 9; ++i) dataset.points.push_back({{1000, -2000, 500}, {9, 9, 9}});
-  const GaussianConfig config{.first_splats = 9};
+  const GaussianConfig config{{.first_splats = 9}};
   const GaussianParameters splats = first(dataset, config);
   const double half_side = region_of_interest(dataset).half_side;
   ASSERT_EQ(splats.count(), 9u);
@@ -115,7 +115,7 @@ TEST(FirstGaussians, LieOnTheTrianglesOfAScene) {
   soup.triangles = {{0, 1, 2}, {3, 4, 5}};
   soup.appearance = FaceColors{{glm::u8vec4(255, 0, 0, 255), glm::u8vec4(0, 255, 0, 255)}};
   Scene scene = scene_of(soup);
-  const GaussianConfig config{.first_splats = 4000, .initialisation = Initialisation::mesh};
+  const GaussianConfig config{{.first_splats = 4000, .initialisation = Initialisation::mesh}};
   const GaussianParameters splats = first(dataset, config, &scene);
   ASSERT_EQ(splats.count(), 4000u);
   const Region region = region_of_interest(dataset);
@@ -136,7 +136,7 @@ TEST(FirstGaussians, OfASceneAreTakenAsTheyAre) {
   Random random(1);
   const GaussianParameters made = random_gaussians({.first_splats = 12, .degree = 1}, {}, random);
   Scene scene = scene_of(made.splats(), {1000, -2000, 500});
-  const GaussianConfig config{.degree = 2, .initialisation = Initialisation::mesh};
+  const GaussianConfig config{{.degree = 2, .initialisation = Initialisation::mesh}};
   const GaussianParameters splats = first(dataset, config, &scene);
   ASSERT_EQ(splats.count(), 12u);
   EXPECT_EQ(splats.degree, 2);
@@ -151,21 +151,21 @@ TEST(FirstGaussians, OfASceneAreTakenAsTheyAre) {
   EXPECT_THROW(first(dataset, config, &scene), InputError);
 }
 
-TEST(GaussianForecast, LimitsTheSplatsToTheMemory) {
+TEST(SplatForecast, LimitsTheSplatsToTheMemory) {
   const Dataset dataset = disc_dataset();
-  GaussianConfig config{.max_splats = 100'000};
-  const std::uint64_t all = gaussian_memory(config, dataset);
+  GaussianConfig config{{.max_splats = 100'000}};
+  const std::uint64_t all = splat_memory(config, dataset);
   EXPECT_EQ(max_splats_within(all + 1000, config, dataset), 100'000u);
   EXPECT_EQ(max_splats_within(2 * all, config, dataset), 100'000u);
   const auto half = max_splats_within(all / 2, config, dataset);
   ASSERT_TRUE(half);
   EXPECT_LT(*half, 51'000u);
   config.max_splats = *half;
-  EXPECT_LE(gaussian_memory(config, dataset), all / 2);
+  EXPECT_LE(splat_memory(config, dataset), all / 2);
   EXPECT_FALSE(max_splats_within(100'000, config, dataset));
 }
 
-TEST(GaussianForecast, FitsTheStepsToTheTime) {
+TEST(SplatForecast, FitsTheStepsToTheTime) {
   GaussianConfig config;
   config.half_size_until = 0;
   EXPECT_EQ(fitted_steps(config, 0, 60, 0.1), 600);
@@ -203,16 +203,16 @@ GaussianRequest request(const Files& files, const GaussianConfig& config) {
 TEST(GaussianTraining, LearnsTheDiscFarFromTheOrigin) {
   const Files files;
   Dataset dataset = disc_dataset();
-  GaussianRequest asked = request(files, {.steps = 400,
+  GaussianRequest asked = request(files, {{.steps = 400,
                                           .max_splats = 300,
                                           .first_splats = 200,
                                           .densify_every = 40,
-                                          .background = {0, 0, 0}});
-  GaussianForecast forecast;
-  asked.begun = [&](const GaussianForecast& given) { forecast = given; };
+                                          .background = {0, 0, 0}}});
+  SplatForecast forecast;
+  asked.begun = [&](const SplatForecast& given) { forecast = given; };
   Scene scene;
   asked.run.finished = [&](const Scene& finished) { scene = finished; };
-  const GaussianResult result = train_gaussians(dataset, std::move(asked));
+  const SplatResult result = train_splats(dataset, std::move(asked));
   EXPECT_EQ(forecast.splats, 200u);
   EXPECT_EQ(forecast.steps, 400);
   EXPECT_GT(forecast.seconds, 0);
@@ -224,7 +224,7 @@ TEST(GaussianTraining, LearnsTheDiscFarFromTheOrigin) {
   EXPECT_EQ(scene.info.source, "Tureen trainer, 400 steps");
   const Layer& layer = only_layer(scene);
   EXPECT_LT(glm::distance(origin_of(layer), glm::dvec3(1000, -2000, 500)), 1);
-  EXPECT_EQ(count(std::get<Splats>(layer.primitives)), result.splats);
+  EXPECT_EQ(count(std::get<Splats>(layer.primitives)), result.primitives.count);
   EXPECT_EQ(defect(std::get<Splats>(layer.primitives)).value_or(""), "");
   const auto log = read_training_log(files.folder / "disc.jsonl");
   EXPECT_EQ(log.back().step, 400);
@@ -247,8 +247,8 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
     late = now.step > 0.6 * now.steps ? late + 1 : 0;
     if (late == 5) throw Stop();
   };
-  EXPECT_THROW(train_gaussians(dataset, std::move(asked)), Stop);
-  GaussianCheckpoint stored = read_gaussian_checkpoint(files.folder / "disc.checkpoint");
+  EXPECT_THROW(train_splats(dataset, std::move(asked)), Stop);
+  GaussianCheckpoint stored = read_splat_checkpoint<GaussianCheckpoint>(files.folder / "disc.checkpoint");
   EXPECT_EQ(stored.state.fits, 3);
   EXPECT_GT(stored.state.step, 1);
   const int steps = stored.config.steps;
@@ -256,7 +256,7 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
   Dataset again = disc_dataset();
   GaussianRequest resumed = request(files, stored.config);
   resumed.checkpoint = std::move(stored);
-  const GaussianResult result = train_gaussians(again, std::move(resumed));
+  const SplatResult result = train_splats(again, std::move(resumed));
   EXPECT_EQ(result.steps, steps);
   // The machine may be busy for a part of the time.
   EXPECT_GT(result.run.seconds, 0.2 * seconds);
@@ -269,10 +269,10 @@ TEST(GaussianTraining, SurvivesPhotographsThatShowNothing) {
     for (Photograph& view : *views) view.image = Image8(size, size, glm::u8vec4(255));
   // White on white: all splats fade.
   GaussianRequest asked =
-      request(files, {.steps = 120, .max_splats = 60, .first_splats = 50, .densify_every = 10});
+      request(files, {{.steps = 120, .max_splats = 60, .first_splats = 50, .densify_every = 10}});
   Scene scene;
   asked.run.finished = [&](const Scene& finished) { scene = finished; };
-  const GaussianResult result = train_gaussians(dataset, std::move(asked));
+  const SplatResult result = train_splats(dataset, std::move(asked));
   EXPECT_GT(result.run.test_psnr_db, 20);
   EXPECT_EQ(defect(std::get<Splats>(only_layer(scene).primitives)).value_or(""), "");
 }

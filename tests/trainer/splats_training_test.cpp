@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "tests/trainer/disc_views.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_method.hpp"
 
 namespace tureen::trainer {
 namespace splats_training_test {
@@ -114,7 +114,7 @@ TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
     double first = 0, last = 0;
     std::size_t quarantined = 0;
     while (!trainer.done()) {
-      const GaussianStepReport report = trainer.step();
+      const SplatStepReport report = trainer.step();
       if (trainer.steps_done() <= 6) first += report.loss;
       if (trainer.steps_done() > 144) last += report.loss;
       quarantined += report.quarantined;

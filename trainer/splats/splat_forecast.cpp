@@ -52,18 +52,15 @@ double bytes_without_splats(const Dataset& dataset) {
          planes_a_pixel * sizeof(float) * double(largest);
 }
 
-}  // namespace
-
 template <class Method>
-std::uint64_t splat_memory(const typename Method::Config& config, const Dataset& dataset) {
+std::uint64_t memory_of(const SplatConfig& config, const Dataset& dataset) {
   return std::uint64_t(bytes_without_splats(dataset) +
                        bytes_a_splat<Method>(config) * double(config.max_splats));
 }
 
 template <class Method>
-std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes,
-                                               const typename Method::Config& config,
-                                               const Dataset& dataset) {
+std::optional<std::uint64_t> splats_within(std::uint64_t bytes, const SplatConfig& config,
+                                           const Dataset& dataset) {
   const double left = double(bytes) - bytes_without_splats(dataset);
   const double fitting = std::floor(left / bytes_a_splat<Method>(config));
   if (!(fitting >= double(std::min(min_splats, config.max_splats)))) return std::nullopt;
@@ -71,12 +68,11 @@ std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes,
 }
 
 template <class Method>
-double measured_step_seconds(const typename Method::Config& config,
-                             std::span<const TrainingView> views, const Region& region, int threads,
-                             const SplatState<typename Method::Parameters>& state) {
+double step_seconds(typename Method::Config probe, std::span<const TrainingView> views,
+                    const Region& region, int threads,
+                    const SplatState<typename Method::Parameters>& state) {
   constexpr int max_steps = 20;
   constexpr double enough = 0.5;  // seconds
-  typename Method::Config probe = config;
   probe.steps = state.step + max_steps + 1;
   probe.densify_every = probe.steps + 1;
   probe.half_size_until = 0;
@@ -91,6 +87,38 @@ double measured_step_seconds(const typename Method::Config& config,
   return seconds / steps;
 }
 
+}  // namespace
+
+std::uint64_t splat_memory(const GaussianConfig& config, const Dataset& dataset) {
+  return memory_of<GaussianTraining>(config, dataset);
+}
+
+std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset) {
+  return memory_of<WindowTraining>(config, dataset);
+}
+
+std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
+                                               const Dataset& dataset) {
+  return splats_within<GaussianTraining>(bytes, config, dataset);
+}
+
+std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const WindowConfig& config,
+                                               const Dataset& dataset) {
+  return splats_within<WindowTraining>(bytes, config, dataset);
+}
+
+double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
+                             const Region& region, int threads, const GaussianState& state) {
+  return step_seconds<GaussianTraining>(config, views, region, threads, state);
+}
+
+double measured_step_seconds(const WindowConfig& config, std::span<const TrainingView> views,
+                             const Region& region, int threads, const WindowState& state) {
+  WindowConfig soft = config;
+  soft.opaque = false;  // the schedule of the probe would make the windows opaque
+  return step_seconds<WindowTraining>(soft, views, region, threads, state);
+}
+
 double remaining_work(const SplatConfig& config, int done) {
   const double full_from = std::max(config.half_size_until * config.steps, double(done));
   return half_size_work * (full_from - done) + (config.steps - full_from);
@@ -103,20 +131,5 @@ int fitted_steps(const SplatConfig& config, int done, double seconds, double ste
   if (half * steps < done) steps = done + work;
   return int(std::clamp(std::round(steps), double(done) + 1, 1e7));
 }
-
-template std::uint64_t splat_memory<GaussianTraining>(const GaussianConfig&, const Dataset&);
-template std::uint64_t splat_memory<WindowTraining>(const WindowConfig&, const Dataset&);
-template std::optional<std::uint64_t> max_splats_within<GaussianTraining>(std::uint64_t,
-                                                                          const GaussianConfig&,
-                                                                          const Dataset&);
-template std::optional<std::uint64_t> max_splats_within<WindowTraining>(std::uint64_t,
-                                                                        const WindowConfig&,
-                                                                        const Dataset&);
-template double measured_step_seconds<GaussianTraining>(const GaussianConfig&,
-                                                        std::span<const TrainingView>,
-                                                        const Region&, int, const GaussianState&);
-template double measured_step_seconds<WindowTraining>(const WindowConfig&,
-                                                      std::span<const TrainingView>, const Region&,
-                                                      int, const WindowState&);
 
 }  // namespace tureen::trainer

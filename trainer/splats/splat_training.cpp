@@ -138,14 +138,14 @@ SplatResult train_by(Dataset& dataset, Request request) {
                   ? std::move(request.checkpoint->state)
                   : first_state<Method>(dataset, run.config, region, request.start);
   SplatForecast forecast{.splats = run.state.parameters.count(),
-                         .bytes = splat_memory<Method>(run.config, dataset)};
+                         .bytes = splat_memory(run.config, dataset)};
 
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
   for (TrainingView& view : views) view.camera = moved(view.camera, region.centre);
   const Region local{.centre = glm::dvec3(0), .half_side = region.half_side};
   const double step_seconds =
-      measured_step_seconds<Method>(run.config, views, local, request.run.threads, run.state);
+      measured_step_seconds(run.config, views, local, request.run.threads, run.state);
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
   else if (run.config.minutes > 0)

@@ -4,25 +4,26 @@
 #include "base/error.hpp"
 #include "base/memory_budget.hpp"
 #include "jobs/training/methods.hpp"
-#include "trainer/splats/gaussian_forecast.hpp"
-#include "trainer/splats/gaussian_training.hpp"
+#include "trainer/splats/splat_forecast.hpp"
+#include "trainer/splats/splat_training.hpp"
 
 namespace tureen {
 
 namespace {
 
-using trainer::GaussianConfig;
-
-class GaussianMethod final : public TrainingMethod {
+template <class Config, class Parameters>
+class SplatMethod final : public TrainingMethod {
  public:
-  explicit GaussianMethod(const TrainingOptions& options) : options_(options) {}
+  using Checkpoint = trainer::SplatCheckpoint<Config, Parameters>;
+
+  explicit SplatMethod(const TrainingOptions& options) : options_(options) {}
 
   void resume(const std::filesystem::path& checkpoint) override {
-    checkpoint_ = trainer::read_gaussian_checkpoint(checkpoint);
+    checkpoint_ = trainer::read_splat_checkpoint<Checkpoint>(checkpoint);
   }
 
   void settle(const Dataset* dataset) override {
-    GaussianConfig base;
+    Config base;
     // Photographs of a scene have no background: a pixel without a splat is an error. With a white
     // background it would match white walls.
     if (dataset && !dataset->has_alpha) {
@@ -30,20 +31,20 @@ class GaussianMethod final : public TrainingMethod {
       base.far_splats = 0.5;
     }
     if (!options_.file.empty())
-      base = trainer::read_gaussian_config(std::filesystem::path(options_.file), base);
+      base = trainer::read_splat_config(std::filesystem::path(options_.file), base);
     else if (checkpoint_)
       base = checkpoint_->config;
     config_ = with_options(base, options_);
     if (dataset) limit_memory(*dataset);
     if (checkpoint_)
-      if (const auto reason = difference(config_, checkpoint_->config))
+      if (const auto reason = splat_config_difference(config_, checkpoint_->config))
         throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
     if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
         options_.mesh().empty())
       throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
   }
 
-  std::string constants() const override { return trainer::config_to_json(config_); }
+  std::string constants() const override { return trainer::splat_config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const std::string&)>& say) override {
@@ -53,21 +54,20 @@ class GaussianMethod final : public TrainingMethod {
     const std::string views = describe_views(dataset);
     if (is_limited_)
       say(fmt::format("--max-memory allows at most {} splats", counted(config_.max_splats)));
-    const trainer::GaussianResult result = trainer::train_gaussians(
-        dataset,
-        {.config = config_,
-         .start = start,
-         .checkpoint = std::move(checkpoint_),
-         .run = std::move(run),
-         .begun = [&](const trainer::GaussianForecast& forecast) {
-           say(fmt::format("{}; {} steps, from {} to at most {} splats; CPU, {} threads", views,
-                           counted(std::uint64_t(forecast.steps)), counted(forecast.splats),
-                           counted(config_.max_splats), forecast.threads));
-           say(fmt::format("forecast: {} of training, {} of memory",
-                           duration_text(forecast.seconds), memory_size_text(forecast.bytes)));
-         }});
+    trainer::SplatRequest<Config, Parameters> request{.config = config_,
+                                                      .start = start,
+                                                      .checkpoint = std::move(checkpoint_),
+                                                      .run = std::move(run)};
+    request.begun = [&](const trainer::SplatForecast& forecast) {
+      say(fmt::format("{}; {} steps, from {} to at most {} splats; CPU, {} threads", views,
+                      counted(std::uint64_t(forecast.steps)), counted(forecast.splats),
+                      counted(config_.max_splats), forecast.threads));
+      say(fmt::format("forecast: {} of training, {} of memory", duration_text(forecast.seconds),
+                      memory_size_text(forecast.bytes)));
+    };
+    const trainer::SplatResult result = trainer::train_splats(dataset, std::move(request));
     return {.run = result.run,
-            .primitives = {trainer::PrimitiveKind::splats, result.splats},
+            .primitives = result.primitives,
             .steps = result.steps,
             .non_finite = result.non_finite};
   }
@@ -86,15 +86,20 @@ class GaussianMethod final : public TrainingMethod {
   }
 
   const TrainingOptions& options_;
-  std::optional<trainer::GaussianCheckpoint> checkpoint_;
-  GaussianConfig config_;
+  std::optional<Checkpoint> checkpoint_;
+  Config config_;
   bool is_limited_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<TrainingMethod> make_gaussian_method(const TrainingOptions& options) {
-  return std::make_unique<GaussianMethod>(options);
+  return std::make_unique<SplatMethod<trainer::GaussianConfig, trainer::GaussianParameters>>(
+      options);
+}
+
+std::unique_ptr<TrainingMethod> make_window_method(const TrainingOptions& options) {
+  return std::make_unique<SplatMethod<trainer::WindowConfig, trainer::WindowParameters>>(options);
 }
 
 }  // namespace tureen
