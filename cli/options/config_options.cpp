@@ -49,8 +49,9 @@ void add_config_options(Command& command, TrainingOptions& options) {
              "largest number of Gaussians or soft triangles; 60,000 by default");
   add_number(command, "--steps", options.steps,
              "number of optimiser steps; by default 10,000, for gaussians and triangles 5,000");
-  add_number(command, "--minutes", options.minutes,
-             "time for the training of gaussians or triangles; the number of steps is fitted to it");
+  add_number(
+      command, "--minutes", options.minutes,
+      "time for the training of gaussians or triangles; the number of steps is fitted to it");
   command.add_flag("--opaque", options.opaque,
                    "triangles become opaque at the end; the result is a triangle soup");
   add_number(command, "--batch", options.batch, "views per step; 4 by default");

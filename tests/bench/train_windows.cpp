@@ -160,8 +160,8 @@ int run(int argc, char** argv) {
     save("soft", view, trainer.render(test[view].camera));
   if (config.opaque) {
     Scene scene;
-    scene.layers.push_back({.primitives = WindowTraining::primitives(
-                                config, trainer.parameters(), trainer.state().memory)});
+    scene.layers.push_back({.primitives = WindowTraining::primitives(config, trainer.parameters(),
+                                                                     trainer.state().memory)});
     double sums[2] = {0, 0};
     for (std::size_t view = 0; view < test.size(); ++view)
       for (const int which : {0, 1}) {

@@ -19,7 +19,7 @@ void training_checkpoint(Bytes bytes) {
   std::memcpy(whole.data() + bytes.size(), &sum, sizeof sum);
   Input input = Input::memory("fuzz.checkpoint", whole);
   if (bytes.size() > 7 && bytes[7] == std::byte('S'))  // TUREENGS
-    trainer::read_splat_checkpoint<GaussianCheckpoint>(input);
+    trainer::read_splat_checkpoint<trainer::GaussianCheckpoint>(input);
   else
     trainer::read_checkpoint(input);
 }

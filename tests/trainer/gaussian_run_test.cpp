@@ -9,9 +9,9 @@
 #include "base/error.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
+#include "trainer/splats/gaussian_method.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_initialise.hpp"
-#include "trainer/splats/gaussian_method.hpp"
 #include "trainer/splats/splat_training.hpp"
 
 namespace tureen::trainer {
@@ -44,7 +44,8 @@ Dataset disc_dataset(glm::dvec3 centre = {1000, -2000, 500}) {
 GaussianParameters first(const Dataset& dataset, const GaussianConfig& config,
                          const Scene* start = nullptr) {
   Random random(5);
-  return initial_splats<GaussianTraining>(dataset, config, region_of_interest(dataset), start, random);
+  return initial_splats<GaussianTraining>(dataset, config, region_of_interest(dataset), start,
+                                          random);
 }
 
 bool all_finite(const GaussianParameters& parameters) {
@@ -204,10 +205,10 @@ TEST(GaussianTraining, LearnsTheDiscFarFromTheOrigin) {
   const Files files;
   Dataset dataset = disc_dataset();
   GaussianRequest asked = request(files, {{.steps = 400,
-                                          .max_splats = 300,
-                                          .first_splats = 200,
-                                          .densify_every = 40,
-                                          .background = {0, 0, 0}}});
+                                           .max_splats = 300,
+                                           .first_splats = 200,
+                                           .densify_every = 40,
+                                           .background = {0, 0, 0}}});
   SplatForecast forecast;
   asked.begun = [&](const SplatForecast& given) { forecast = given; };
   Scene scene;
@@ -248,7 +249,8 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
     if (late == 5) throw Stop();
   };
   EXPECT_THROW(train_splats(dataset, std::move(asked)), Stop);
-  GaussianCheckpoint stored = read_splat_checkpoint<GaussianCheckpoint>(files.folder / "disc.checkpoint");
+  GaussianCheckpoint stored =
+      read_splat_checkpoint<GaussianCheckpoint>(files.folder / "disc.checkpoint");
   EXPECT_EQ(stored.state.fits, 3);
   EXPECT_GT(stored.state.step, 1);
   const int steps = stored.config.steps;

@@ -1,6 +1,4 @@
 // Checkpoints of Gaussians: a run continues with the same bits after any step.
-#include "trainer/splats/splat_state.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -13,6 +11,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/trainer/disc_views.hpp"
 #include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {
 namespace gaussian_state_test {
@@ -24,10 +23,10 @@ constexpr Region region{.centre = {0, 0, 0}, .half_side = 1};
 
 GaussianConfig short_run() {
   return {{.steps = 60,
-          .max_splats = 350,
-          .first_splats = 150,
-          .densify_every = 20,
-          .background = {0, 0, 0}}};
+           .max_splats = 350,
+           .first_splats = 150,
+           .densify_every = 20,
+           .background = {0, 0, 0}}};
 }
 
 std::vector<ViewFingerprint> fingerprints(std::size_t count) {

@@ -53,8 +53,8 @@ TEST(WindowDensify, DividesTheLongestEdge) {
   Line line(3);
   for (const std::size_t i : {0u, 2u}) line.memory.statistics.row(splat_statistic::motion)[i] = 0;
   Random random(1);
-  const DensifyReport report = densify_windows(
-      {.max_splats = 10, .growth = 0.4, .overlap = 0.1f}, random, line.parameters, line.memory);
+  const DensifyReport report = densify_windows({.max_splats = 10, .growth = 0.4, .overlap = 0.1f},
+                                               random, line.parameters, line.memory);
   EXPECT_EQ(report.split, 1u);
   ASSERT_EQ(line.parameters.count(), 4u);
   // From (11, 0) to (10, 3): the first half ends at 0.6 of it, the second one begins at 0.4.
@@ -220,8 +220,8 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
     EXPECT_LE(parameters.drawn.row(row::sigma)[i], 1.02f * config.last_sigma);
   }
   Scene scene;
-  scene.layers.push_back({.primitives = WindowTraining::primitives(
-                              config, parameters, trainer.state().memory)});
+  scene.layers.push_back(
+      {.primitives = WindowTraining::primitives(config, parameters, trainer.state().memory)});
   double soft = 0, opaque = 0;
   for (const TrainingView& view : views) {
     const std::vector<float> planes = trainer.render(view.camera);

@@ -15,8 +15,8 @@ DensifyReport densify(const DensifyOptions& options, Random& random, GaussianPar
           parameters.trained(row::scale_x + longest)[parent])
         longest = axis;
     const auto value = [&](std::size_t r) { return parameters.drawn.row(r)[parent]; };
-    const glm::quat rotation(value(row::rotation_w), value(row::rotation_x),
-                             value(row::rotation_y), value(row::rotation_z));
+    const glm::quat rotation(value(row::rotation_w), value(row::rotation_x), value(row::rotation_y),
+                             value(row::rotation_z));
     glm::vec3 axis(0.0f);
     axis[int(longest)] = options.distance * value(row::scale_x + longest);
     const glm::vec3 offset = rotation * axis;
@@ -29,12 +29,12 @@ DensifyReport densify(const DensifyOptions& options, Random& random, GaussianPar
       parameters.trained(row::x + std::size_t(k))[place] += offset[k];
     }
   };
-  return densify_splats({.max_splats = options.max_splats,
-                         .growth = options.growth,
-                         .min_opacity = options.min_opacity},
-                        random, parameters, memory,
-                        [&](std::size_t i) { return memory.statistics.row(splat_statistic::motion)[i]; },
-                        split);
+  return densify_splats(
+      {.max_splats = options.max_splats,
+       .growth = options.growth,
+       .min_opacity = options.min_opacity},
+      random, parameters, memory,
+      [&](std::size_t i) { return memory.statistics.row(splat_statistic::motion)[i]; }, split);
 }
 
 }  // namespace tureen::trainer

@@ -9,10 +9,10 @@ namespace tureen::trainer {
 
 struct DensifyOptions {
   std::size_t max_splats;
-  double growth = 0.15;       // DensifyLimits
-  float min_opacity = 0.01f;  // below: dead
-  float distance = 0.75f;     // of children from their parent's centre, in standard deviations
-  float shrink_along = 1.8f;  // divides the children's scale along the longest axis
+  double growth = 0.15;        // DensifyLimits
+  float min_opacity = 0.01f;   // below: dead
+  float distance = 0.75f;      // of children from their parent's centre, in standard deviations
+  float shrink_along = 1.8f;   // divides the children's scale along the longest axis
   float shrink_across = 1.1f;  // and along the others
 };
 

@@ -20,8 +20,8 @@ extern const std::array<ParameterKind, 6> gaussian_parameter_kinds;
 
 /// Rows are gaussian_row's. Trained values are logarithms of scales, quaternions of any length, and
 /// logits of opacities.
-struct GaussianParameters : SplatParameters<splatting::gaussian_row::scale_x,
-                                            splatting::gaussian_row::harmonics> {
+struct GaussianParameters
+    : SplatParameters<splatting::gaussian_row::scale_x, splatting::gaussian_row::harmonics> {
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and scales to 1e-30 or more.
   GaussianParameters(const Gaussians& gaussians, const SplatColor& color, int degree);

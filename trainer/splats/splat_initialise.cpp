@@ -32,9 +32,8 @@ void put_all(typename Method::Parameters& parameters, const std::vector<ColoredP
 }
 
 template <class Method>
-typename Method::Parameters at_points(const Dataset& dataset,
-                                      const typename Method::Config& config, const Region& region,
-                                      Random& random) {
+typename Method::Parameters at_points(const Dataset& dataset, const typename Method::Config& config,
+                                      const Region& region, Random& random) {
   std::vector<std::uint32_t> chosen =
       draw(random, std::size_t(config.max_splats), dataset.points.size());
   std::sort(chosen.begin(), chosen.end());
@@ -81,8 +80,8 @@ WindowParameters on_triangles(const Scene& scene, const WindowConfig& config, co
   for (std::size_t i = 0; i < result.count(); ++i) {
     glm::dvec3 corners[3];
     for (int k = 0; k < 3; ++k)
-      corners[k] = glm::dvec3(
-          place * glm::dvec4(glm::dvec3(soup.positions[soup.triangles[i][k]]), 1.0));
+      corners[k] =
+          glm::dvec3(place * glm::dvec4(glm::dvec3(soup.positions[soup.triangles[i][k]]), 1.0));
     put_window(config, corners, colors[i], i, result);
   }
   return result;

@@ -20,8 +20,8 @@ namespace tureen::trainer {
 inline constexpr double constant_harmonic = 0.28209479177387814;
 
 struct ColoredPoint {
-  glm::dvec3 position;          // relative to the region's centre
-  glm::vec3 color{0.5f};        // display-referred
+  glm::dvec3 position;    // relative to the region's centre
+  glm::vec3 color{0.5f};  // display-referred
 };
 
 /// config.first_splats grey splats, at most config.max_splats, uniform in the cube of the region.
@@ -39,8 +39,8 @@ typename Method::Parameters random_splats(const typename Method::Config& config,
     const glm::dvec3 point =
         i < near ? near_point(region, random) : far_point(region, config.far_extent, random);
     const double distance = glm::distance(point, region.centre) / region.half_side;
-    Method::put(config, {.position = point}, Method::size_of_share(config, side) * (i < near ? 1 : distance), random,
-                i, result);
+    Method::put(config, {.position = point},
+                Method::size_of_share(config, side) * (i < near ? 1 : distance), random, i, result);
   }
   return result;
 }

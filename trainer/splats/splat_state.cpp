@@ -137,8 +137,7 @@ Config parsed_splat_config(Input& text) {
 template <class Config, class Parameters>
 void read_into(SplatCheckpoint<Config, Parameters>& checkpoint, Input& input) {
   CheckpointReader reader(input);
-  CheckpointHead head =
-      read_head(reader, checkpoint_kind<SplatCheckpoint<Config, Parameters>>);
+  CheckpointHead head = read_head(reader, checkpoint_kind<SplatCheckpoint<Config, Parameters>>);
   StoredState state;
   visit_splat_state(reader, state);
   reader.finish();

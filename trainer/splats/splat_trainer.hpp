@@ -103,9 +103,9 @@ class SplatTrainer {
     // Short runs densify more often, or they would end with few splats.
     const int every = std::min(config_.densify_every, std::max(config_.steps / 25, 20));
     if (state_.step % every == 0 && state_.step <= config_.densify_until * config_.steps) {
-      const DensifyReport densified = Method::densify(config_, state_.step, state_.step / every,
-                                                      state_.random, state_.parameters,
-                                                      state_.memory);
+      const DensifyReport densified =
+          Method::densify(config_, state_.step, state_.step / every, state_.random,
+                          state_.parameters, state_.memory);
       // No splat is left to split: the run begins again, at other places.
       if (densified.dead == parameters().count()) begin();
       sort_in_memory(region_, state_.parameters, state_.memory);

@@ -134,9 +134,8 @@ SplatResult train_by(Dataset& dataset, Request request) {
       .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
-  run.state = request.checkpoint
-                  ? std::move(request.checkpoint->state)
-                  : first_state<Method>(dataset, run.config, region, request.start);
+  run.state = request.checkpoint ? std::move(request.checkpoint->state)
+                                 : first_state<Method>(dataset, run.config, region, request.start);
   SplatForecast forecast{.splats = run.state.parameters.count(),
                          .bytes = splat_memory(run.config, dataset)};
 

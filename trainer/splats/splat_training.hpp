@@ -23,8 +23,8 @@ struct SplatForecast {
 template <class Config, class Parameters>
 struct SplatRequest {
   Config config;
-  const Scene* start = nullptr;                                    // for Initialisation::mesh
-  std::optional<SplatCheckpoint<Config, Parameters>> checkpoint;   // to continue from
+  const Scene* start = nullptr;                                   // for Initialisation::mesh
+  std::optional<SplatCheckpoint<Config, Parameters>> checkpoint;  // to continue from
   RunRequest run;
   /// Called before the first step. May be empty, and may throw to end the run.
   std::function<void(const SplatForecast&)> begun = {};

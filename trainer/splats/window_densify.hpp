@@ -9,7 +9,7 @@ namespace tureen::trainer {
 
 /// The weight of a window in the choice of those to divide.
 enum class WindowSampling {
-  motion,         // splat_statistic::motion
+  motion,  // splat_statistic::motion
   opacity,
   inverse_sigma,  // 1 / sigma
   alternating     // opacity and 1 / sigma in turn, as Triangle Splatting

@@ -38,7 +38,9 @@ struct WindowTraining {
   /// circumradius, as WindowConfig::first_size says. Coincident points have the size of a single
   /// one.
   static constexpr std::size_t neighbours = 1;
-  static double size_of_share(const Config& config, double side) { return config.first_size * side; }
+  static double size_of_share(const Config& config, double side) {
+    return config.first_size * side;
+  }
   static double size_at_point(const Config& config, double distance, double spacing, double);
   static void put(const Config& config, const ColoredPoint& point, double size, Random& random,
                   std::size_t place, Parameters& parameters);

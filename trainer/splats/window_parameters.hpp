@@ -40,7 +40,9 @@ struct WindowParameters
   glm::vec3 corner(std::size_t i, std::size_t k) const {
     return triple(splatting::window_row::corners + 3 * k, i);
   }
-  glm::vec3 center(std::size_t i) const { return (corner(i, 0) + corner(i, 1) + corner(i, 2)) / 3.0f; }
+  glm::vec3 center(std::size_t i) const {
+    return (corner(i, 0) + corner(i, 1) + corner(i, 2)) / 3.0f;
+  }
   float opacity(std::size_t i) const { return drawn.row(splatting::window_row::opacity)[i]; }
   /// The trained values for a drawn sigma and a drawn opacity, limited as in the constructor.
   static float log_of_sigma(float sigma);
