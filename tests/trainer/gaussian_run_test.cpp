@@ -58,11 +58,11 @@ bool all_finite(const GaussianParameters& parameters) {
 
 TEST(FirstGaussians, AreRandomWithoutPoints) {
   const Dataset dataset = disc_dataset();
-  const GaussianParameters some = first(dataset, {.first_splats = 70});
+  const GaussianParameters some = first(dataset, {{.first_splats = 70}});
   EXPECT_EQ(some.count(), 70u);
   EXPECT_TRUE(all_finite(some));
-  EXPECT_EQ(first(dataset, {.max_splats = 30, .first_splats = 70}).count(), 30u);
-  EXPECT_THROW(first(dataset, {.initialisation = Initialisation::points}), InputError);
+  EXPECT_EQ(first(dataset, {{.max_splats = 30, .first_splats = 70}}).count(), 30u);
+  EXPECT_THROW(first(dataset, {{.initialisation = Initialisation::points}}), InputError);
 }
 
 TEST(FirstGaussians, AreAtPointsHoweverFew) {
@@ -72,7 +72,7 @@ TEST(FirstGaussians, AreAtPointsHoweverFew) {
     for (std::size_t i = 0; i < count; ++i)
       dataset.points.push_back(
           {glm::dvec3(1000, -2000, 500) + 0.3 * random.in_ball(), {255, 0, 51}});
-    const GaussianParameters splats = first(dataset, {.first_splats = 20});
+    const GaussianParameters splats = first(dataset, {{.first_splats = 20}});
     ASSERT_EQ(splats.count(), std::max<std::size_t>(count, 20)) << count;
     EXPECT_TRUE(all_finite(splats)) << count;
     const Region region = region_of_interest(dataset);
@@ -91,7 +91,7 @@ TEST(FirstGaussians, AreAtPointsHoweverFew) {
 TEST(FirstGaussians, HaveTheMeanDistanceToThreeNeighbours) {
   Dataset dataset = disc_dataset({0, 0, 0});
   for (const double x : {0.0, 0.1, 0.3, 0.6}) dataset.points.push_back({{x, 0, 0}, {9, 9, 9}});
-  const GaussianParameters splats = first(dataset, {.first_splats = 4});
+  const GaussianParameters splats = first(dataset, {{.first_splats = 4}});
   EXPECT_NEAR(splats.drawn.row(row::scale_y)[0], (0.1 + 0.3 + 0.6) / 3, 1e-6);
   EXPECT_NEAR(splats.drawn.row(row::scale_y)[3], (0.3 + 0.5 + 0.6) / 3, 1e-6);
 }
@@ -135,7 +135,8 @@ TEST(FirstGaussians, LieOnTheTrianglesOfAScene) {
 TEST(FirstGaussians, OfASceneAreTakenAsTheyAre) {
   const Dataset dataset = disc_dataset();
   Random random(1);
-  const GaussianParameters made = random_gaussians({.first_splats = 12, .degree = 1}, {}, random);
+  const GaussianParameters made =
+      random_splats<GaussianTraining>({{.first_splats = 12, .degree = 1}}, {}, random);
   Scene scene = scene_of(made.splats(), {1000, -2000, 500});
   const GaussianConfig config{{.degree = 2, .initialisation = Initialisation::mesh}};
   const GaussianParameters splats = first(dataset, config, &scene);
@@ -240,7 +241,7 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
   constexpr double seconds = 4;
   GaussianRequest asked = request(
       files,
-      {.max_splats = 300, .first_splats = 200, .background = {0, 0, 0}, .minutes = seconds / 60});
+      {{.max_splats = 300, .first_splats = 200, .background = {0, 0, 0}, .minutes = seconds / 60}});
   struct Stop {};
   // A fit can lower the steps so that the next fit is due at once: the run stops when all are over.
   int late = 0;

@@ -105,11 +105,11 @@ TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
   std::vector<float> images[3];
   const int threads[] = {1, 2, 5};
   for (int run = 0; run < 3; ++run) {
-    GaussianTrainer trainer({.steps = 150,
-                             .max_splats = 300,
-                             .first_splats = 200,
-                             .densify_every = 40,
-                             .background = {0, 0, 0}},
+    GaussianTrainer trainer({{.steps = 150,
+                              .max_splats = 300,
+                              .first_splats = 200,
+                              .densify_every = 40,
+                              .background = {0, 0, 0}}},
                             views, {.centre = {0, 0, 0}, .half_side = 1}, threads[run]);
     double first = 0, last = 0;
     std::size_t quarantined = 0;
