@@ -28,9 +28,11 @@ std::string refuse_seed(const std::string& text) {
 void add_config_options(Command& command, TrainingOptions& options) {
   add_choice<TrainingMethodName>(
       command, "--method", options.method,
-      {{"diffsoup", TrainingMethodName::diffsoup}, {"gaussians", TrainingMethodName::gaussians}},
+      {{"diffsoup", TrainingMethodName::diffsoup},
+       {"gaussians", TrainingMethodName::gaussians},
+       {"triangles", TrainingMethodName::triangles}},
       "diffsoup (default): opaque triangles with textures; gaussians: 3D Gaussian Splatting, on "
-      "the processor")
+      "the processor; triangles: Triangle Splatting, on the processor")
       .value_name("NAME");
   add_choice<std::optional<Preset>>(
       command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},
@@ -44,15 +46,15 @@ void add_config_options(Command& command, TrainingOptions& options) {
   add_number(command, "--triangles", options.triangles,
              "number of triangles at the end; 15,000 by default");
   add_number(command, "--max-splats", options.max_splats,
-             "largest number of Gaussians; 60,000 by default");
-  add_number(
-      command, "--steps", options.steps,
-      "number of optimiser steps; by default 10,000, for gaussians 5,000; replaces the minutes "
-      "of --config");
-  add_number(
-      command, "--minutes", options.minutes,
-      "time for the training of gaussians, more than 0; the number of steps is fitted to it and "
-      "replaces the steps of --config");
+             "largest number of Gaussians or soft triangles; 60,000 by default");
+  add_number(command, "--steps", options.steps,
+             "number of optimiser steps; by default 10,000, for gaussians and triangles 5,000; "
+             "replaces the minutes of --config");
+  add_number(command, "--minutes", options.minutes,
+             "time for the training of gaussians or triangles, more than 0; the number of steps is "
+             "fitted to it and replaces the steps of --config");
+  command.add_flag("--opaque", options.opaque,
+                   "triangles become opaque at the end; the result is a triangle soup");
   add_number(command, "--batch", options.batch, "views per step; 4 by default");
   add_number(command, "--seed", options.seed, "seed of the random numbers; 0 by default")
       .check(refuse_seed);

@@ -13,5 +13,6 @@ std::string describe_views(const Dataset& dataset);
 
 std::unique_ptr<TrainingMethod> make_diffsoup_method(const TrainingOptions& options);
 std::unique_ptr<TrainingMethod> make_gaussian_method(const TrainingOptions& options);
+std::unique_ptr<TrainingMethod> make_window_method(const TrainingOptions& options);
 
 }  // namespace tureen

@@ -22,7 +22,8 @@ struct OwnOption {
 };
 
 std::vector<OwnOption> own_options(const TrainingOptions& options) {
-  const Methods soups{TrainingMethodName::diffsoup}, splats{TrainingMethodName::gaussians};
+  const Methods soups{TrainingMethodName::diffsoup}, triangles{TrainingMethodName::triangles},
+      splats{TrainingMethodName::gaussians, TrainingMethodName::triangles};
   return {
       {options.preset.has_value(), "--preset", soups,
        "this method chooses its constants by the alpha of the photographs; --config changes them"},
@@ -38,6 +39,9 @@ std::vector<OwnOption> own_options(const TrainingOptions& options) {
       {options.max_splats.has_value(), "--max-splats", splats,
        "--triangles sets the number of triangles"},
       {options.minutes.has_value(), "--minutes", splats, "--steps sets the length of the training"},
+      {options.opaque, "--opaque", triangles,
+       options.method == TrainingMethodName::diffsoup ? "the triangles of a soup are always opaque"
+                                                      : "Gaussians stay soft"},
   };
 }
 
@@ -64,8 +68,15 @@ void require_own_options(const TrainingOptions& options) {
 
 std::unique_ptr<TrainingMethod> make_training_method(const TrainingOptions& options) {
   require_own_options(options);
-  return options.method == TrainingMethodName::gaussians ? make_gaussian_method(options)
-                                                         : make_diffsoup_method(options);
+  switch (options.method) {
+    case TrainingMethodName::gaussians:
+      return make_gaussian_method(options);
+    case TrainingMethodName::triangles:
+      return make_window_method(options);
+    case TrainingMethodName::diffsoup:
+      break;
+  }
+  return make_diffsoup_method(options);
 }
 
 }  // namespace tureen

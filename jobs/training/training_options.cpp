@@ -20,6 +20,7 @@ using trainer::Config;
 using trainer::GaussianConfig;
 using trainer::Initialisation;
 using trainer::Preset;
+using trainer::WindowConfig;
 
 namespace {
 
@@ -48,7 +49,10 @@ std::vector<std::string> constant_names(TrainingMethodName method) {
       add(trainer::config_fields());
       break;
     case TrainingMethodName::gaussians:
-      add(trainer::gaussian_config_fields());
+      add(trainer::splat_config_fields<GaussianConfig>());
+      break;
+    case TrainingMethodName::triangles:
+      add(trainer::splat_config_fields<WindowConfig>());
       break;
   }
   return names;
@@ -103,6 +107,40 @@ void set_initialisation(Initialisation& initialisation, const TrainingOptions& o
     initialisation = Initialisation::mesh;
 }
 
+template <class C>
+C splat_base_config(const TrainingOptions& options, const C& defaults) {
+  if (options.file.empty()) return defaults;
+  return constants_of_file(options, [&](const std::filesystem::path& file) {
+    return trainer::read_splat_config(file, defaults);
+  });
+}
+
+template <class C>
+C splats_with_options(C config, const TrainingOptions& options) {
+  const auto fields = trainer::splat_config_fields<C>();
+  if (options.steps) {
+    config.steps = as_int(*options.steps, "steps", fields);
+    config.minutes = 0;
+  }
+  if (options.max_splats) {
+    if (*options.max_splats < 0) refuse(*options.max_splats, "max_splats", fields);
+    config.max_splats = std::uint64_t(*options.max_splats);
+  }
+  if (options.minutes) {
+    // In a file, 0 means a fixed number of steps; on the command line, --steps does.
+    if (!(*options.minutes > 0))
+      throw UsageError("--minutes: " + trainer::double_text(*options.minutes) +
+                           " is out of range; the time must be more than 0",
+                       "--steps sets a fixed number of steps");
+    config.minutes = *options.minutes;
+  }
+  config.seed = options.seed.value_or(config.seed);
+  set_initialisation(config.initialisation, options);
+  if (const std::optional<std::string> reason = trainer::splat_config_defect(config))
+    throw UsageError(*reason);
+  return config;
+}
+
 }  // namespace
 
 Config base_config(const TrainingOptions& options, Preset otherwise) {
@@ -118,10 +156,11 @@ Config base_config(const TrainingOptions& options, Preset otherwise) {
 }
 
 GaussianConfig base_config(const TrainingOptions& options, const GaussianConfig& defaults) {
-  if (options.file.empty()) return defaults;
-  return constants_of_file(options, [&](const std::filesystem::path& file) {
-    return trainer::read_gaussian_config(file, defaults);
-  });
+  return splat_base_config(options, defaults);
+}
+
+WindowConfig base_config(const TrainingOptions& options, const WindowConfig& defaults) {
+  return splat_base_config(options, defaults);
 }
 
 Config with_options(const Config& base, const TrainingOptions& options) {
@@ -147,33 +186,25 @@ Config with_options(const Config& base, const TrainingOptions& options) {
 }
 
 GaussianConfig with_options(const GaussianConfig& base, const TrainingOptions& options) {
-  const auto fields = trainer::gaussian_config_fields();
-  GaussianConfig config = base;
-  if (options.steps) {
-    config.steps = as_int(*options.steps, "steps", fields);
-    config.minutes = 0;
-  }
-  if (options.max_splats) {
-    if (*options.max_splats < 0) refuse(*options.max_splats, "max_splats", fields);
-    config.max_splats = std::uint64_t(*options.max_splats);
-  }
-  if (options.minutes) {
-    // In a file, 0 means a fixed number of steps; on the command line, --steps does.
-    if (!(*options.minutes > 0))
-      throw UsageError("--minutes: " + trainer::double_text(*options.minutes) +
-                           " is out of range; the time must be more than 0",
-                       "--steps sets a fixed number of steps");
-    config.minutes = *options.minutes;
-  }
-  config.seed = options.seed.value_or(config.seed);
-  set_initialisation(config.initialisation, options);
-  if (const std::optional<std::string> reason = trainer::defect(config)) throw UsageError(*reason);
-  return config;
+  return splats_with_options(base, options);
+}
+
+WindowConfig with_options(const WindowConfig& base, const TrainingOptions& options) {
+  WindowConfig config = base;
+  config.opaque = options.opaque || base.opaque;
+  return splats_with_options(config, options);
 }
 
 std::string constants_reference(const TrainingOptions& options) {
-  return options.method == TrainingMethodName::gaussians ? trainer::gaussian_config_reference()
-                                                         : trainer::config_reference();
+  switch (options.method) {
+    case TrainingMethodName::gaussians:
+      return trainer::splat_config_reference<GaussianConfig>();
+    case TrainingMethodName::triangles:
+      return trainer::splat_config_reference<WindowConfig>();
+    case TrainingMethodName::diffsoup:
+      break;
+  }
+  return trainer::config_reference();
 }
 
 }  // namespace tureen

@@ -19,7 +19,7 @@
 
 #include "formats/dataset/dataset.hpp"
 #include "image/metrics.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_method.hpp"
 
 namespace tureen::test {
 namespace {
@@ -81,7 +81,7 @@ int run(int argc, char** argv) {
   std::size_t quarantined = 0, dead = 0;
   while (!trainer.done()) {
     const double start = processor_seconds();
-    const GaussianStepReport report = trainer.step();
+    const SplatStepReport report = trainer.step();
     seconds += processor_seconds() - start;
     loss += report.loss;
     quarantined += report.quarantined;

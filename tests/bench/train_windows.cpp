@@ -4,8 +4,8 @@
 //
 //   train_windows DATASET SCALE STEPS [NAME=VALUE ..]
 //
-// Names: splats, marks, first, size, rate, overlap, opacity_weight, size_weight, sampling (0:
-// motion, 1: opacity and 1 / sigma in turn), opaque, from, until, sigma, seed, every,
+// Names: splats, marks, first, size, overlap, opacity_weight, size_weight, sampling (an
+// index of window_sampling_words), half, growth, opaque, from, until, sigma, seed, every,
 // densify_until, degree, and images (a folder for images of the first held-out views).
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@
 #include "image/metrics.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/scene.hpp"
-#include "trainer/splats/window_trainer.hpp"
+#include "trainer/splats/window_method.hpp"
 
 namespace tureen::test {
 namespace {
@@ -89,11 +89,12 @@ int run(int argc, char** argv) {
   config.max_splats = std::size_t(number("splats", double(config.max_splats)));
   config.first_splats = std::size_t(number("first", double(config.first_splats)));
   config.first_size = float(number("size", config.first_size));
-  config.rate_factor = number("rate", config.rate_factor);
   config.overlap = float(number("overlap", config.overlap));
   config.opacity_weight = float(number("opacity_weight", config.opacity_weight));
   config.size_weight = float(number("size_weight", config.size_weight));
-  config.alternate_sampling = number("sampling", 0) > 0;
+  config.sampling = WindowSampling(int(number("sampling", 0)));
+  config.half_size_until = number("half", config.half_size_until);
+  config.growth = number("growth", config.growth);
   config.densify_every = int(number("every", config.densify_every));
   config.degree = int(number("degree", config.degree));
   config.densify_until = number("densify_until", config.densify_until);
@@ -116,7 +117,7 @@ int run(int argc, char** argv) {
   std::size_t quarantined = 0, dead = 0;
   while (!trainer.done()) {
     const double start = processor_seconds();
-    const WindowStepReport report = trainer.step();
+    const SplatStepReport report = trainer.step();
     seconds += processor_seconds() - start;
     loss += report.loss;
     quarantined += report.quarantined;
@@ -159,7 +160,8 @@ int run(int argc, char** argv) {
     save("soft", view, trainer.render(test[view].camera));
   if (config.opaque) {
     Scene scene;
-    scene.layers.push_back({.primitives = trainer.to_soup()});
+    scene.layers.push_back({.primitives = WindowTraining::primitives(config, trainer.parameters(),
+                                                                     trainer.state().memory)});
     double sums[2] = {0, 0};
     for (std::size_t view = 0; view < test.size(); ++view)
       for (const int which : {0, 1}) {

@@ -78,6 +78,29 @@ TEST_F(TrainGaussians, WritesTheSceneAndItsFiles) {
   EXPECT_EQ(run({"report", "ball.jsonl", "-o", "report.html"}).exit_code, 0);
 }
 
+TEST_F(TrainGaussians, TrianglesAreSoftOrOpaque) {
+  make_dataset();
+  const auto train = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"train", "ball", "-o", output, "--method", "triangles"};
+    all.insert(all.end(), {"--steps", "200", "--max-splats", "400", "--threads", "2", "--json"});
+    all.insert(all.end(), more.begin(), more.end());
+    const ChildResult result = run(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    // 19 dB or more when written, opaque 18. Other processors round differently.
+    EXPECT_GT(nlohmann::json::parse(result.out)["test"]["psnr_db"], 13) << output;
+    return read_scene(folder / output);
+  };
+  const Scene soft = train("soft.glb", {});
+  EXPECT_EQ(profile_name(splats_of(soft)), "triangle-splatting");
+  EXPECT_LE(count(splats_of(soft)), 400u);
+  const Scene opaque = train("opaque.glb", {"--opaque"});
+  const TriangleSoup& soup = only_soup(opaque);
+  EXPECT_GT(soup.triangles.size(), 20u);
+  EXPECT_TRUE(std::holds_alternative<Harmonics>(soup.appearance));
+  EXPECT_THAT(run({"train", "ball", "-o", "x.glb", "--opaque"}).err,
+              Names("--opaque", "--method triangles"));
+}
+
 TEST_F(TrainGaussians, ResumesAfterCtrlCWithTheSameBits) {
   make_dataset();
   fs::create_directories(folder / "whole");

@@ -22,7 +22,7 @@
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
-#include "trainer/splats/gaussian_state.hpp"
+#include "trainer/splats/splat_state.hpp"
 #include "viewer/files/session.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION

@@ -1,4 +1,4 @@
-// A training checkpoint in our format, of a soup or of Gaussians. The bytes come without their
+// A training checkpoint in our format, of any method. The bytes come without their
 // checksum, because no fuzzer would find it.
 #include <zlib.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/fuzz/targets.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
-#include "trainer/splats/gaussian_state.hpp"
+#include "trainer/splats/splat_state.hpp"
 
 namespace tureen::fuzz {
 
@@ -18,8 +18,11 @@ void training_checkpoint(Bytes bytes) {
   whole.resize(bytes.size() + sizeof sum);
   std::memcpy(whole.data() + bytes.size(), &sum, sizeof sum);
   Input input = Input::memory("fuzz.checkpoint", whole);
-  if (bytes.size() > 7 && bytes[7] == std::byte('S'))  // TUREENGS
-    trainer::read_gaussian_checkpoint(input);
+  const auto last = bytes.size() > 7 ? char(bytes[7]) : '\0';  // of the magic bytes
+  if (last == trainer::gaussians_magic.back())
+    trainer::read_splat_checkpoint<trainer::GaussianCheckpoint>(input);
+  else if (last == trainer::triangles_magic.back())
+    trainer::read_splat_checkpoint<trainer::WindowCheckpoint>(input);
   else
     trainer::read_checkpoint(input);
 }

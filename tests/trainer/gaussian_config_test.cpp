@@ -18,7 +18,7 @@ using tureen::test::ErrorAt;
 
 GaussianConfig read(const std::string& text, const GaussianConfig& defaults = {}) {
   Input input = Input::memory("run.json", std::as_bytes(std::span(text)));
-  return read_gaussian_config(input, defaults);
+  return read_splat_config<GaussianConfig>(input, defaults);
 }
 
 /// Converts to any type in an aggregate initialiser.
@@ -27,10 +27,10 @@ struct Anything {
   operator T() const;
 };
 
-/// The number of values in a GaussianConfig: an initialiser with one more is ill-formed.
+/// The number of values in a SplatConfig: an initialiser with one more is ill-formed.
 template <class... Values>
 constexpr int value_count() {
-  if constexpr (requires { GaussianConfig{Values{}..., Anything{}}; })
+  if constexpr (requires { SplatConfig{Values{}..., Anything{}}; })
     return value_count<Values..., Anything>();
   else
     return int(sizeof...(Values));
@@ -41,7 +41,7 @@ TEST(GaussianConfigFields, AreAllMembersOnceAndInOrder) {
   const GaussianConfig config;
   const char* last = nullptr;
   std::set<std::string> names;
-  for (const GaussianConfigField& field : gaussian_config_fields()) {
+  for (const GaussianConfig::Field& field : splat_config_fields<GaussianConfig>()) {
     values += std::holds_alternative<Color GaussianConfig::*>(field.member) ? 3 : 1;
     const char* address =
         std::visit([&](auto member) { return reinterpret_cast<const char*>(&(config.*member)); },
@@ -51,8 +51,8 @@ TEST(GaussianConfigFields, AreAllMembersOnceAndInOrder) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name << " is listed twice";
     EXPECT_EQ(numbers(config, field).empty(), std::string(field.range.reason).empty());
   }
-  EXPECT_EQ(values, value_count<>());
-  EXPECT_FALSE(defect(config));
+  EXPECT_EQ(values, value_count<>() + 2);  // and the scales
+  EXPECT_FALSE(splat_config_defect(config));
 }
 
 TEST(GaussianConfigFile, ComesBackToTheBit) {
@@ -66,8 +66,8 @@ TEST(GaussianConfigFile, ComesBackToTheBit) {
   config.seed = 18446744073709551615u;
   config.initialisation = Initialisation::random;
   config.minutes = 2.7;
-  const GaussianConfig same = read(config_to_json(config));
-  EXPECT_FALSE(first_difference(config, same, gaussian_config_fields()));
+  const GaussianConfig same = read(splat_config_to_json(config));
+  EXPECT_FALSE(first_difference(config, same, splat_config_fields<GaussianConfig>()));
   EXPECT_EQ(same.densify_until, config.densify_until);
   EXPECT_EQ(same.seed, config.seed);
   // Fields that a file does not name keep the given defaults.
@@ -94,16 +94,16 @@ TEST(GaussianConfigFile, ReportsErrors) {
 TEST(GaussianConfigDifference, IgnoresStepsThatWereFitted) {
   GaussianConfig now, checkpoint;
   checkpoint.steps = 700;
-  EXPECT_THAT(difference(now, checkpoint).value_or(""), testing::HasSubstr("steps"));
+  EXPECT_THAT(splat_config_difference(now, checkpoint).value_or(""), testing::HasSubstr("steps"));
   now.minutes = checkpoint.minutes = 3;
-  EXPECT_FALSE(difference(now, checkpoint));
+  EXPECT_FALSE(splat_config_difference(now, checkpoint));
   now.minutes = 4;
-  EXPECT_THAT(difference(now, checkpoint).value_or(""), testing::HasSubstr("minutes"));
+  EXPECT_THAT(splat_config_difference(now, checkpoint).value_or(""), testing::HasSubstr("minutes"));
 }
 
 TEST(GaussianConfigReference, HasEveryField) {
-  const std::string text = gaussian_config_reference();
-  for (const GaussianConfigField& field : gaussian_config_fields())
+  const std::string text = splat_config_reference<GaussianConfig>();
+  for (const GaussianConfig::Field& field : splat_config_fields<GaussianConfig>())
     EXPECT_THAT(text, testing::HasSubstr(std::string(field.name) + ": " +
                                          value_text(GaussianConfig{}, field)))
         << field.name;

@@ -1,6 +1,4 @@
 // Checkpoints of Gaussians: a run continues with the same bits after any step.
-#include "trainer/splats/gaussian_state.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -12,7 +10,8 @@
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/trainer/disc_views.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {
 namespace gaussian_state_test {
@@ -23,11 +22,11 @@ using Bytes = std::vector<std::byte>;
 constexpr Region region{.centre = {0, 0, 0}, .half_side = 1};
 
 GaussianConfig short_run() {
-  return {.steps = 60,
-          .max_splats = 350,
-          .first_splats = 150,
-          .densify_every = 20,
-          .background = {0, 0, 0}};
+  return {{.steps = 60,
+           .max_splats = 350,
+           .first_splats = 150,
+           .densify_every = 20,
+           .background = {0, 0, 0}}};
 }
 
 std::vector<ViewFingerprint> fingerprints(std::size_t count) {
@@ -46,7 +45,7 @@ Bytes written(const GaussianCheckpoint& checkpoint) {
 
 GaussianCheckpoint read(std::span<const std::byte> bytes) {
   Input input = Input::memory("run.checkpoint", bytes);
-  return read_gaussian_checkpoint(input);
+  return read_splat_checkpoint<GaussianCheckpoint>(input);
 }
 
 TEST(GaussianCheckpoint, AnyStepContinuesWithTheSameBits) {
@@ -61,7 +60,7 @@ TEST(GaussianCheckpoint, AnyStepContinuesWithTheSameBits) {
   std::size_t densified = 0;
   while (!whole.done()) {
     checkpoints.push_back(checkpoint(whole));
-    const GaussianStepReport report = whole.step();
+    const SplatStepReport report = whole.step();
     densified += report.split > 0;
   }
   EXPECT_EQ(densified, 2u);  // after steps 20 and 40
@@ -95,7 +94,7 @@ GaussianCheckpoint small() {
 
 TEST(GaussianCheckpoint, KeepsTheRun) {
   const GaussianCheckpoint a = small(), b = read(written(a));
-  EXPECT_FALSE(difference(a.config, b.config));
+  EXPECT_FALSE(splat_config_difference(a.config, b.config));
   EXPECT_FALSE(difference(a.views, b.views));
   EXPECT_EQ(a.seconds, b.seconds);
   EXPECT_EQ(b.state.non_finite, 4u);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "image/metrics.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_method.hpp"
 
 namespace tureen::trainer {
 namespace splats_robust_test {
@@ -46,7 +46,7 @@ GaussianConfig short_run(int steps) {
 /// Trains to the end; the mean PSNR of the views.
 double psnr_after(GaussianTrainer& trainer, std::span<const TrainingView> views) {
   while (!trainer.done()) {
-    const GaussianStepReport report = trainer.step();
+    const SplatStepReport report = trainer.step();
     EXPECT_EQ(report.quarantined, 0u);
     EXPECT_TRUE(std::isfinite(report.loss));
   }

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "tests/trainer/disc_views.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_method.hpp"
 
 namespace tureen::trainer {
 namespace splats_training_test {
@@ -105,16 +105,16 @@ TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
   std::vector<float> images[3];
   const int threads[] = {1, 2, 5};
   for (int run = 0; run < 3; ++run) {
-    GaussianTrainer trainer({.steps = 150,
-                             .max_splats = 300,
-                             .first_splats = 200,
-                             .densify_every = 40,
-                             .background = {0, 0, 0}},
+    GaussianTrainer trainer({{.steps = 150,
+                              .max_splats = 300,
+                              .first_splats = 200,
+                              .densify_every = 40,
+                              .background = {0, 0, 0}}},
                             views, {.centre = {0, 0, 0}, .half_side = 1}, threads[run]);
     double first = 0, last = 0;
     std::size_t quarantined = 0;
     while (!trainer.done()) {
-      const GaussianStepReport report = trainer.step();
+      const SplatStepReport report = trainer.step();
       if (trainer.steps_done() <= 6) first += report.loss;
       if (trainer.steps_done() > 144) last += report.loss;
       quarantined += report.quarantined;

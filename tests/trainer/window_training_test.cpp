@@ -3,11 +3,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "oracle/oracle.hpp"
-#include "trainer/splats/window_trainer.hpp"
+#include "trainer/splats/window_method.hpp"
 
 namespace tureen::trainer {
 namespace window_training_test {
@@ -52,8 +53,8 @@ TEST(WindowDensify, DividesTheLongestEdge) {
   Line line(3);
   for (const std::size_t i : {0u, 2u}) line.memory.statistics.row(splat_statistic::motion)[i] = 0;
   Random random(1);
-  const WindowDensifyReport report = densify_windows(
-      {.max_splats = 10, .growth = 0.4, .overlap = 0.1f}, random, line.parameters, line.memory);
+  const DensifyReport report = densify_windows({.max_splats = 10, .growth = 0.4, .overlap = 0.1f},
+                                               random, line.parameters, line.memory);
   EXPECT_EQ(report.split, 1u);
   ASSERT_EQ(line.parameters.count(), 4u);
   // From (11, 0) to (10, 3): the first half ends at 0.6 of it, the second one begins at 0.4.
@@ -89,7 +90,7 @@ TEST(WindowDensify, RelocatesDeadWindowsAndKeepsTheLimit) {
        {WindowSampling::motion, WindowSampling::opacity, WindowSampling::inverse_sigma}) {
     Line copy = line;
     Random random(1);
-    const WindowDensifyReport report =
+    const DensifyReport report =
         densify_windows({.max_splats = 21, .growth = 0.5, .sampling = sampling}, random,
                         copy.parameters, copy.memory);
     EXPECT_EQ(report.dead, 3u);
@@ -162,12 +163,14 @@ std::vector<TrainingView> views_of_a_square() {
 }
 
 WindowConfig small_run(int steps) {
-  return {.steps = steps,
-          .max_splats = 300,
-          .first_splats = 200,
-          .first_size = 0.7f,
-          .densify_every = 40,
-          .background = {0, 0, 0}};
+  WindowConfig config;
+  config.steps = steps;
+  config.max_splats = 300;
+  config.first_splats = 200;
+  config.first_size = 0.7f;
+  config.densify_every = 40;
+  std::fill_n(config.background, 3, 0.0f);
+  return config;
 }
 
 double psnr(const std::vector<double>& image, const TrainingView& view) {
@@ -187,13 +190,13 @@ TEST(WindowTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
     double first = 0, last = 0;
     std::size_t quarantined = 0;
     while (!trainer.done()) {
-      const WindowStepReport report = trainer.step();
+      const SplatStepReport report = trainer.step();
       if (trainer.steps_done() <= 8) first += report.loss;
       if (trainer.steps_done() > 392) last += report.loss;
       quarantined += report.quarantined;
     }
     RecordProperty("ratio", std::to_string(last / first));
-    EXPECT_LT(last, 0.5 * first);  // the ratio is 0.25 with this seed; without training it is 1
+    EXPECT_LT(last, 0.5 * first);  // the ratio is 0.20 with this seed; without training it is 1
     EXPECT_EQ(quarantined, 0u);
     EXPECT_EQ(trainer.parameters().count(), 300u);
     images[run] = trainer.render(views[0].camera);
@@ -217,7 +220,8 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
     EXPECT_LE(parameters.drawn.row(row::sigma)[i], 1.02f * config.last_sigma);
   }
   Scene scene;
-  scene.layers.push_back({.primitives = trainer.to_soup()});
+  scene.layers.push_back(
+      {.primitives = WindowTraining::primitives(config, parameters, trainer.state().memory)});
   double soft = 0, opaque = 0;
   for (const TrainingView& view : views) {
     const std::vector<float> planes = trainer.render(view.camera);
@@ -230,22 +234,26 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   }
   RecordProperty("soft_db", std::to_string(soft));
   RecordProperty("opaque_db", std::to_string(opaque));
-  // 57.8 and 48.5 dB with this seed: a difference in a few pixels, where the order differs (by
+  // 52.3 and 40.4 dB with this seed: a difference in a few pixels, where the order differs (by
   // centre, and by the depth of each pixel). A black image has 10 dB.
   EXPECT_GT(soft, 30);
   EXPECT_GT(opaque, 30);
 }
 
 TEST(WindowTraining, BeginsAtPoints) {
-  const std::vector<TrainingView> views = views_of_a_square();
   const std::vector<DatasetPoint> points = {{.position = {0.1, 0.2, 0.3}, .color = {255, 0, 51}},
                                             {.position = {0.1, 0.2, 0.3}, .color = {255, 0, 51}},
                                             {.position = {-0.4, 0.2, 0}, .color = {255, 0, 51}}};
   for (const std::size_t count : {1u, 3u}) {
-    const WindowTrainer trainer(small_run(10), views, {.centre = {0, 0, 0}, .half_side = 1}, 1,
-                                {points.data(), count});
-    ASSERT_EQ(trainer.parameters().count(), count);
-    const Splats splats = trainer.parameters().splats();
+    Dataset dataset;
+    dataset.points.assign(points.begin(), points.begin() + std::ptrdiff_t(count));
+    WindowConfig config = small_run(10);
+    config.first_splats = count;
+    Random random(1);
+    const WindowParameters parameters = initial_splats<WindowTraining>(
+        dataset, config, {.centre = {0, 0, 0}, .half_side = 1}, nullptr, random);
+    ASSERT_EQ(parameters.count(), count);
+    const Splats splats = parameters.splats();
     EXPECT_FALSE(defect(splats)) << *defect(splats);
     for (std::size_t i = 0; i < count; ++i) {
       const glm::dvec3 middle = center(splats, i);
@@ -255,11 +263,55 @@ TEST(WindowTraining, BeginsAtPoints) {
       EXPECT_LT(nearest, 1e-6);
     }
     // 1/2 + 0.2821 c: the colour.
-    EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics)[0]), 1,
-                1e-6);
-    EXPECT_NEAR(0.5 + 0.28209479 * double(trainer.parameters().trained(row::harmonics + 2)[0]), 0.2,
-                1e-6);
+    EXPECT_NEAR(0.5 + 0.28209479 * double(parameters.trained(row::harmonics)[0]), 1, 1e-6);
+    EXPECT_NEAR(0.5 + 0.28209479 * double(parameters.trained(row::harmonics + 2)[0]), 0.2, 1e-6);
   }
+}
+
+TEST(WindowTraining, BeginsWithTheTrianglesOfAScene) {
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+  soup.triangles = {{0, 1, 2}, {1, 2, 3}};
+  soup.appearance = Harmonics{.degree = 0, .coefficients = {glm::vec3(1), glm::vec3(-1)}};
+  const Scene scene = scene_of(std::move(soup), {10, 0, 0});
+  WindowConfig config = small_run(10);
+  config.initialisation = Initialisation::mesh;
+  Random random(1);
+  const WindowParameters parameters = initial_splats<WindowTraining>(
+      {}, config, {.centre = {9, 0, 0}, .half_side = 1}, &scene, random);
+  ASSERT_EQ(parameters.count(), 2u);
+  EXPECT_EQ(parameters.corner(1, 2), glm::vec3(1, 0, 3));
+  EXPECT_NEAR(0.5 + 0.28209479 * double(parameters.trained(row::harmonics)[0]), 0.78209479, 1e-5);
+  EXPECT_NEAR(parameters.opacity(0), config.first_opacity, 1e-6);
+}
+
+TEST(WindowTraining, ACheckpointContinuesWithTheSameBits) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  const Region region{.centre = {0, 0, 0}, .half_side = 1};
+  WindowConfig config = small_run(120);
+  config.opaque = true;
+  const auto path = std::filesystem::path(testing::TempDir()) / "tureen_windows.checkpoint";
+  const auto checkpoint = [&](const WindowTrainer& trainer) {
+    write_checkpoint(path, WindowCheckpoint{.config = config,
+                                            .views = std::vector<ViewFingerprint>(
+                                                views.size(), {"r_0", 40, 33, 1u, 2u}),
+                                            .state = trainer.state()});
+  };
+  WindowTrainer whole(config, views, region, 2);
+  // Before and after the first limit of opacity, at step 60, and densifications.
+  while (whole.steps_done() < 83) whole.step();
+  checkpoint(whole);
+  while (!whole.done()) whole.step();
+  WindowCheckpoint stored = read_splat_checkpoint<WindowCheckpoint>(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(stored.state.step, 83);
+  EXPECT_GT(stored.state.parameters.min_opacity, 0);
+  EXPECT_FALSE(splat_config_difference(stored.config, config));
+  WindowTrainer second(stored.config, views, region, 1, std::move(stored.state));
+  while (!second.done()) second.step();
+  const auto a = whole.parameters().drawn.values(), b = second.parameters().drawn.values();
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size_bytes()), 0);
 }
 
 }  // namespace window_training_test

@@ -93,6 +93,7 @@ using CheckpointMagic = std::array<char, 8>;
 /// The first bytes of the checkpoints of each method of `tureen train`.
 inline constexpr CheckpointMagic diffsoup_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
 inline constexpr CheckpointMagic gaussians_magic{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'};
+inline constexpr CheckpointMagic triangles_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'W'};
 
 struct CheckpointMethod {
   CheckpointMagic magic;
@@ -100,8 +101,8 @@ struct CheckpointMethod {
 };
 
 /// Every method. An error names the method of a checkpoint that another method shall continue.
-inline constexpr CheckpointMethod checkpoint_methods[] = {{diffsoup_magic, "diffsoup"},
-                                                          {gaussians_magic, "gaussians"}};
+inline constexpr CheckpointMethod checkpoint_methods[] = {
+    {diffsoup_magic, "diffsoup"}, {gaussians_magic, "gaussians"}, {triangles_magic, "triangles"}};
 
 struct CheckpointKind {
   CheckpointMagic magic;

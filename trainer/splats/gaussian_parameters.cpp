@@ -7,7 +7,6 @@
 
 #include "splatting/gaussian_rows.hpp"
 #include "splatting/harmonics_rows.hpp"
-#include "trainer/splats/splat_order.hpp"
 
 namespace tureen::trainer {
 
@@ -24,14 +23,9 @@ const std::array<ParameterKind, 6> gaussian_parameter_kinds = {{
      Inheritance::copied},
 }};
 
-GaussianParameters::GaussianParameters(std::size_t count, int degree_of_harmonics)
-    : degree(degree_of_harmonics),
-      drawn(row::harmonics + splatting::harmonics_rows(degree_of_harmonics), count),
-      raw(raw_rows, count) {}
-
 GaussianParameters::GaussianParameters(const Gaussians& gaussians, const SplatColor& color,
                                        int degree_of_harmonics)
-    : GaussianParameters(gaussians.centers.size(), degree_of_harmonics) {
+    : SplatParameters(gaussians.centers.size(), degree_of_harmonics) {
   std::vector<std::uint32_t> all(count());
   std::iota(all.begin(), all.end(), 0u);
   const splatting::ParameterRows values =
@@ -50,18 +44,6 @@ GaussianParameters::GaussianParameters(const Gaussians& gaussians, const SplatCo
   }
 }
 
-std::size_t GaussianParameters::rows() const {
-  return row::harmonics + splatting::harmonics_rows(degree);
-}
-
-float* GaussianParameters::trained(std::size_t r) {
-  return r >= first_raw && r < row::harmonics ? raw.row(r - first_raw) : drawn.row(r);
-}
-
-const float* GaussianParameters::trained(std::size_t r) const {
-  return r >= first_raw && r < row::harmonics ? raw.row(r - first_raw) : drawn.row(r);
-}
-
 void GaussianParameters::activate(std::size_t i) {
   float squared = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -75,30 +57,17 @@ void GaussianParameters::activate(std::size_t i) {
   drawn.row(row::opacity)[i] = 1 / (1 + std::exp(-trained(row::opacity)[i]));
 }
 
-void GaussianParameters::reorder(std::span<const std::uint32_t> order) {
-  drawn = reordered(drawn, rows(), order);
-  raw = reordered(raw, raw_rows, order);
-}
-
 Splats GaussianParameters::splats() const {
   Gaussians gaussians;
-  SplatColor color{.degree = degree};
-  const std::size_t coefficients = splatting::harmonics_rows(degree) / 3;
   for (std::size_t i = 0; i < count(); ++i) {
     const auto value = [&](std::size_t r) { return drawn.row(r)[i]; };
-    const auto triple = [&](std::size_t r) {
-      return glm::vec3(value(r), value(r + 1), value(r + 2));
-    };
-    gaussians.centers.push_back(triple(row::x));
-    gaussians.scales.push_back(triple(row::scale_x));
+    gaussians.centers.push_back(center(i));
+    gaussians.scales.push_back(triple(row::scale_x, i));
     gaussians.rotations.emplace_back(value(row::rotation_w), value(row::rotation_x),
                                      value(row::rotation_y), value(row::rotation_z));
-    gaussians.opacity.push_back(value(row::opacity));
-    for (std::size_t k = 0; k < coefficients; ++k)
-      color.coefficients.push_back(triple(row::harmonics + 3 * k));
+    gaussians.opacity.push_back(opacity(i));
   }
-  return {
-      .kernel = std::move(gaussians), .color = std::move(color), .profile = *profile_named("3dgs")};
+  return {.kernel = std::move(gaussians), .color = color(), .profile = *profile_named("3dgs")};
 }
 
 }  // namespace tureen::trainer

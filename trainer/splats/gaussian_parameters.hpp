@@ -7,8 +7,8 @@
 
 #include "scene/splats.hpp"
 #include "splatting/gaussian_kernels.hpp"
-#include "splatting/parameter_rows.hpp"
 #include "trainer/splats/parameter_kinds.hpp"
+#include "trainer/splats/splat_parameters.hpp"
 
 namespace tureen::trainer {
 
@@ -18,31 +18,18 @@ namespace tureen::trainer {
 /// 1e-3, opacity logit 5e-2, harmonics 2.5e-3 and 1.25e-4.
 extern const std::array<ParameterKind, 6> gaussian_parameter_kinds;
 
-/// Values of splats. Rows are gaussian_row's, with harmonics up to `degree`.
-struct GaussianParameters {
-  /// Rows of gaussian_row whose trained values differ from the drawn ones.
-  static constexpr std::size_t first_raw = splatting::gaussian_row::scale_x;
-  static constexpr std::size_t raw_rows = splatting::gaussian_row::harmonics - first_raw;
-
-  int degree = 0;
-  splatting::ParameterRows drawn;  // after activation
-  splatting::ParameterRows raw;    // raw_rows rows: logarithms of scales, any quaternion, logits
-
-  GaussianParameters() = default;
-  GaussianParameters(std::size_t count, int degree);
+/// Rows are gaussian_row's. Trained values are logarithms of scales, quaternions of any length, and
+/// logits of opacities.
+struct GaussianParameters
+    : SplatParameters<splatting::gaussian_row::scale_x, splatting::gaussian_row::harmonics> {
+  using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and scales to 1e-30 or more.
   GaussianParameters(const Gaussians& gaussians, const SplatColor& color, int degree);
 
-  std::size_t count() const { return drawn.count(); }
-  std::size_t rows() const;
-  /// The trained values of a row of gaussian_row.
-  float* trained(std::size_t row);
-  const float* trained(std::size_t row) const;
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
-
-  /// Splat i becomes the one at order[i]. `order`: each index once.
-  void reorder(std::span<const std::uint32_t> order);
+  glm::vec3 center(std::size_t i) const { return triple(splatting::gaussian_row::x, i); }
+  float opacity(std::size_t i) const { return drawn.row(splatting::gaussian_row::opacity)[i]; }
 
   /// As a scene stores them, with the profile "3dgs".
   Splats splats() const;

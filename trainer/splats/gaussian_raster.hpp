@@ -10,6 +10,8 @@ namespace tureen::trainer {
 /// The splats of a view.
 class ProjectedGaussians {
  public:
+  static constexpr std::size_t bytes_a_splat = sizeof(splatting::GaussianEntry);
+
   void project(ThreadPool& pool, const splatting::ImageView& view,
                const splatting::ParameterRows& drawn, int degree) {
     const std::size_t count = drawn.count();

@@ -60,8 +60,7 @@ struct SplatMemory {
   void enlarge(std::size_t count) {
     SplatMemory more(rows, count);
     std::copy(moments.begin(), moments.end(), more.moments.begin());
-    for (std::size_t which = 0; which < splat_statistic::count; ++which)
-      std::copy_n(statistics.row(which), statistics.count(), more.statistics.row(which));
+    more.statistics = enlarged(statistics, splat_statistic::count, count);
     *this = std::move(more);
   }
 

@@ -49,4 +49,12 @@ inline splatting::ParameterRows reordered(const splatting::ParameterRows& rows,
   return result;
 }
 
+/// The same rows for more splats, with zeros.
+inline splatting::ParameterRows enlarged(const splatting::ParameterRows& rows,
+                                         std::size_t row_count, std::size_t count) {
+  splatting::ParameterRows result(row_count, count);
+  for (std::size_t r = 0; r < row_count; ++r) std::copy_n(rows.row(r), rows.count(), result.row(r));
+  return result;
+}
+
 }  // namespace tureen::trainer

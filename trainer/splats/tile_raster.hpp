@@ -59,6 +59,8 @@ template <class Method>
 class TileRaster {
  public:
   using Parameters = typename Method::Parameters;
+  using Projected = typename Method::Projected;
+  using Moments = typename Method::Moments;
   using BackwardInput = typename Method::BackwardInput;
 
   explicit TileRaster(ThreadPool& pool) : pool_(pool) {}
@@ -220,13 +222,13 @@ class TileRaster {
   ThreadPool& pool_;
   splatting::ImageView view_{};
   int degree_ = 0;
-  typename Method::Projected projected_;
+  Projected projected_;
   std::vector<KeyedIndex> keys_, key_scratch_;
   std::vector<PairSpan> pairs_;        // of each splat
   std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
   splatting::TileLists lists_;
   std::vector<Row> rows_;
-  std::vector<typename Method::Moments> moments_;  // of the pairs
+  std::vector<Moments> moments_;  // of the pairs
   SplatTimes times_;
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "splatting/harmonics_rows.hpp"
-#include "trainer/splats/splat_order.hpp"
 
 namespace tureen::trainer {
 
@@ -22,14 +21,9 @@ const std::array<ParameterKind, 5> window_parameter_kinds = {{
      Inheritance::copied},
 }};
 
-WindowParameters::WindowParameters(std::size_t count, int degree_of_harmonics)
-    : degree(degree_of_harmonics),
-      drawn(window_row::harmonics + splatting::harmonics_rows(degree_of_harmonics), count),
-      raw(raw_rows, count) {}
-
 WindowParameters::WindowParameters(const TriangleWindows& windows, const SplatColor& color,
                                    int degree_of_harmonics)
-    : WindowParameters(windows.sigma.size(), degree_of_harmonics) {
+    : SplatParameters(windows.sigma.size(), degree_of_harmonics) {
   const auto stored = std::size_t(harmonics::count(color.degree));
   const auto used = std::min(stored, std::size_t(harmonics::count(degree)));
   for (std::size_t i = 0; i < count(); ++i) {
@@ -43,18 +37,6 @@ WindowParameters::WindowParameters(const TriangleWindows& windows, const SplatCo
             color.coefficients[stored * i + k][channel];
     activate(i);
   }
-}
-
-std::size_t WindowParameters::rows() const {
-  return window_row::harmonics + splatting::harmonics_rows(degree);
-}
-
-float* WindowParameters::trained(std::size_t r) {
-  return r >= first_raw && r < window_row::harmonics ? raw.row(r - first_raw) : drawn.row(r);
-}
-
-const float* WindowParameters::trained(std::size_t r) const {
-  return r >= first_raw && r < window_row::harmonics ? raw.row(r - first_raw) : drawn.row(r);
 }
 
 void WindowParameters::activate(std::size_t i) {
@@ -72,28 +54,15 @@ float WindowParameters::logit_of(float opacity) const {
   return std::log(fraction / (1 - fraction));
 }
 
-void WindowParameters::reorder(std::span<const std::uint32_t> order) {
-  drawn = reordered(drawn, rows(), order);
-  raw = reordered(raw, raw_rows, order);
-}
-
 Splats WindowParameters::splats() const {
   TriangleWindows windows;
-  SplatColor color{.degree = degree};
-  const auto coefficients = std::size_t(harmonics::count(degree));
   for (std::size_t i = 0; i < count(); ++i) {
-    const auto triple = [&](std::size_t r) {
-      return glm::vec3(drawn.row(r)[i], drawn.row(r + 1)[i], drawn.row(r + 2)[i]);
-    };
-    for (std::size_t k = 0; k < 3; ++k)
-      windows.corners.push_back(triple(window_row::corners + 3 * k));
+    for (std::size_t k = 0; k < 3; ++k) windows.corners.push_back(corner(i, k));
     windows.sigma.push_back(drawn.row(window_row::sigma)[i]);
-    windows.opacity.push_back(drawn.row(window_row::opacity)[i]);
-    for (std::size_t k = 0; k < coefficients; ++k)
-      color.coefficients.push_back(triple(window_row::harmonics + 3 * k));
+    windows.opacity.push_back(opacity(i));
   }
   return {.kernel = std::move(windows),
-          .color = std::move(color),
+          .color = color(),
           .profile = *profile_named("triangle-splatting")};
 }
 

@@ -4,13 +4,11 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
 #include "scene/splats.hpp"
-#include "splatting/parameter_rows.hpp"
 #include "splatting/window_kernels.hpp"
 #include "trainer/splats/parameter_kinds.hpp"
+#include "trainer/splats/splat_parameters.hpp"
 
 namespace tureen::trainer {
 
@@ -25,37 +23,30 @@ inline constexpr float min_log_sigma = -11.5f, max_log_sigma = 3.0f;
 /// Beyond, the sigmoid is 1 in single precision, and its derivative 0.
 inline constexpr float max_logit = 16.0f;
 
-/// Values of splats. Rows are window_row's, with harmonics up to `degree`.
-struct WindowParameters {
-  /// Rows of window_row whose trained values differ from the drawn ones.
-  static constexpr std::size_t first_raw = splatting::window_row::sigma;
-  static constexpr std::size_t raw_rows = splatting::window_row::harmonics - first_raw;
-
-  int degree = 0;
+/// Rows are window_row's. Trained values are logarithms of sigma - sigma_floor, and logits of
+/// opacities.
+struct WindowParameters
+    : SplatParameters<splatting::window_row::sigma, splatting::window_row::harmonics> {
   /// Opacities are min_opacity + (1 - min_opacity) sigmoid(logit), in [0, 1): 0, except while the
   /// windows become opaque.
   float min_opacity = 0;
-  splatting::ParameterRows drawn;  // after activation
-  splatting::ParameterRows raw;    // raw_rows rows: logarithms of sigma - sigma_floor, logits
 
-  WindowParameters() = default;
-  WindowParameters(std::size_t count, int degree);
+  using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and sigmas to at least 1.01 sigma_floor.
   WindowParameters(const TriangleWindows& windows, const SplatColor& color, int degree);
 
-  std::size_t count() const { return drawn.count(); }
-  std::size_t rows() const;
-  /// The trained values of a row of window_row.
-  float* trained(std::size_t row);
-  const float* trained(std::size_t row) const;
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
+  glm::vec3 corner(std::size_t i, std::size_t k) const {
+    return triple(splatting::window_row::corners + 3 * k, i);
+  }
+  glm::vec3 center(std::size_t i) const {
+    return (corner(i, 0) + corner(i, 1) + corner(i, 2)) / 3.0f;
+  }
+  float opacity(std::size_t i) const { return drawn.row(splatting::window_row::opacity)[i]; }
   /// The trained values for a drawn sigma and a drawn opacity, limited as in the constructor.
   static float log_of_sigma(float sigma);
   float logit_of(float opacity) const;
-
-  /// Splat i becomes the one at order[i]. `order`: each index once.
-  void reorder(std::span<const std::uint32_t> order);
 
   /// As a scene stores them, with the profile "triangle-splatting".
   Splats splats() const;

@@ -10,6 +10,10 @@ namespace tureen::trainer {
 /// The splats of a view.
 class ProjectedWindows {
  public:
+  static constexpr std::size_t bytes_a_splat =
+      sizeof(float) * splatting::projected_window_row::count + sizeof(splatting::WindowEntry) +
+      sizeof(splatting::WindowOutline);
+
   void project(ThreadPool&, const splatting::ImageView& view, const splatting::ParameterRows& drawn,
                int degree) {
     if (rows_.count() != drawn.count())

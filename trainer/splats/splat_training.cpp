@@ -1,4 +1,4 @@
-#include "trainer/splats/gaussian_training.hpp"
+#include "trainer/splats/splat_training.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
-#include "trainer/splats/gaussian_forecast.hpp"
-#include "trainer/splats/gaussian_initialise.hpp"
-#include "trainer/splats/gaussian_trainer.hpp"
+#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/splat_forecast.hpp"
+#include "trainer/splats/window_method.hpp"
 
 namespace tureen::trainer {
 
@@ -30,34 +30,19 @@ Camera moved(Camera camera, glm::dvec3 origin) {
   return camera;
 }
 
-/// The splats that a viewer can draw.
-Splats drawable(const Splats& all) {
-  const auto& gaussians = std::get<Gaussians>(all.kernel);
-  const std::size_t coefficients = coefficients_per_splat(all.color);
-  Splats kept{.kernel = Gaussians{}, .color = {.degree = all.color.degree}, .profile = all.profile};
-  auto& into = std::get<Gaussians>(kept.kernel);
-  for (std::size_t i = 0; i < gaussians.centers.size(); ++i) {
-    const glm::vec3* color = all.color.coefficients.data() + i * coefficients;
-    const glm::quat q = gaussians.rotations[i];
-    float sum = gaussians.opacity[i] + q.x + q.y + q.z + q.w;  // finite if all values are
-    for (int axis = 0; axis < 3; ++axis) {
-      sum += gaussians.centers[i][axis] + gaussians.scales[i][axis];
-      for (std::size_t k = 0; k < coefficients; ++k) sum += color[k][axis];
-    }
-    if (!std::isfinite(sum) || gaussians.opacity[i] < all.profile.min_alpha) continue;
-    into.centers.push_back(gaussians.centers[i]);
-    into.scales.push_back(gaussians.scales[i]);
-    into.rotations.push_back(q);
-    into.opacity.push_back(gaussians.opacity[i]);
-    kept.color.coefficients.insert(kept.color.coefficients.end(), color, color + coefficients);
-  }
-  return kept;
+PrimitiveCount count_of(const Primitives& primitives) {
+  if (const auto* splats = std::get_if<Splats>(&primitives))
+    return {PrimitiveKind::splats, count(*splats)};
+  return {PrimitiveKind::triangles, std::get<TriangleSoup>(primitives).triangles.size()};
 }
 
-class GaussianRun final : public Trainable {
+template <class Method>
+class SplatRun final : public Trainable {
  public:
+  using Checkpoint = SplatCheckpoint<typename Method::Config, typename Method::Parameters>;
+
   /// `run`: configuration and views for the checkpoints, and the seconds so far.
-  GaussianRun(GaussianTrainer& trainer, glm::dvec3 origin, GaussianCheckpoint run)
+  SplatRun(SplatTrainer<Method>& trainer, glm::dvec3 origin, Checkpoint run)
       : trainer_(trainer), origin_(origin), run_(std::move(run)) {
     spent_ = run_.seconds;
     non_finite_ = run_.state.non_finite;
@@ -80,7 +65,7 @@ class GaussianRun final : public Trainable {
   StepReport step() override {
     fit();
     double seconds = 0;
-    GaussianStepReport report;
+    SplatStepReport report;
     const double work = remaining_work(trainer_.config(), steps_done());
     {
       const Stopwatch watch(seconds);
@@ -98,7 +83,7 @@ class GaussianRun final : public Trainable {
   }
 
   void write_checkpoint(const std::filesystem::path& path, double seconds) const override {
-    GaussianCheckpoint run = run_;
+    Checkpoint run = run_;
     run.config.steps = steps();
     run.seconds = seconds;
     run.state = trainer_.state();
@@ -120,9 +105,9 @@ class GaussianRun final : public Trainable {
     recent_ = recent_work_ = 0;
   }
 
-  GaussianTrainer& trainer_;
+  SplatTrainer<Method>& trainer_;
   glm::dvec3 origin_;
-  GaussianCheckpoint run_;  // without a state
+  Checkpoint run_;          // without a state
   double spent_ = 0;        // seconds, over all sessions
   double recent_ = 0;       // seconds of the steps since the last fit
   double recent_work_ = 0;  // their work, in steps of full size
@@ -130,27 +115,29 @@ class GaussianRun final : public Trainable {
   int fits_ = 0;
 };
 
-GaussianState first_state(const Dataset& dataset, const GaussianConfig& config,
-                          const Region& region, const Scene* start) {
-  GaussianState state{.random = Random(config.seed)};
-  state.parameters = initial_gaussians(dataset, config, region, start, state.random);
+template <class Method>
+SplatState<typename Method::Parameters> first_state(const Dataset& dataset,
+                                                    const typename Method::Config& config,
+                                                    const Region& region, const Scene* start) {
+  SplatState<typename Method::Parameters> state{.random = Random(config.seed)};
+  state.parameters = initial_splats<Method>(dataset, config, region, start, state.random);
   state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   return state;
 }
 
-}  // namespace
-
-GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request) {
-  GaussianCheckpoint run{.config = request.config,
-                         .views = fingerprint(dataset.train),
-                         .seconds = request.checkpoint ? request.checkpoint->seconds : 0.0,
-                         .state = {}};
+template <class Method, class Request>
+SplatResult train_by(Dataset& dataset, Request request) {
+  typename SplatRun<Method>::Checkpoint run{
+      .config = request.config,
+      .views = fingerprint(dataset.train),
+      .seconds = request.checkpoint ? request.checkpoint->seconds : 0.0,
+      .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
   run.state = request.checkpoint ? std::move(request.checkpoint->state)
-                                 : first_state(dataset, run.config, region, request.start);
-  GaussianForecast forecast{.splats = run.state.parameters.count(),
-                            .bytes = gaussian_memory(run.config, dataset)};
+                                 : first_state<Method>(dataset, run.config, region, request.start);
+  SplatForecast forecast{.splats = run.state.parameters.count(),
+                         .bytes = splat_memory(run.config, dataset)};
 
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
@@ -163,7 +150,7 @@ GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request) {
   else if (run.config.minutes > 0)
     run.config.steps =
         fitted_steps(run.config, 0, 60 * run.config.minutes, overhead * step_seconds);
-  GaussianTrainer trainer(run.config, views, local, request.run.threads, run.state);
+  SplatTrainer<Method> trainer(run.config, views, local, request.run.threads, run.state);
   forecast.steps = run.config.steps;
   forecast.seconds = overhead * step_seconds * remaining_work(run.config, run.state.step);
   forecast.threads = trainer.threads();
@@ -171,16 +158,28 @@ GaussianResult train_gaussians(Dataset& dataset, GaussianRequest request) {
 
   request.run.session.seconds_before = run.seconds;
   request.run.session.non_finite_before = run.state.non_finite;
-  GaussianRun gaussian_run(trainer, region.centre, std::move(run));
-  const auto scene = [&] {
-    return tureen::scene_of(drawable(trainer.parameters().splats()), region.centre);
+  SplatRun<Method> splat_run(trainer, region.centre, std::move(run));
+  const auto primitives = [&] {
+    const auto& state = trainer.state();
+    return Method::primitives(trainer.config(), state.parameters, state.memory);
   };
-  GaussianResult result;
-  result.run = run_to_the_end(gaussian_run, std::move(request.run), dataset, scene);
+  SplatResult result;
+  result.run = run_to_the_end(splat_run, std::move(request.run), dataset,
+                              [&] { return scene_of(primitives(), region.centre); });
   result.steps = trainer.steps_done();
-  result.splats = splat_count(scene());
-  result.non_finite = gaussian_run.non_finite();
+  result.primitives = count_of(primitives());
+  result.non_finite = splat_run.non_finite();
   return result;
+}
+
+}  // namespace
+
+SplatResult train_splats(Dataset& dataset, GaussianRequest request) {
+  return train_by<GaussianTraining>(dataset, std::move(request));
+}
+
+SplatResult train_splats(Dataset& dataset, WindowRequest request) {
+  return train_by<WindowTraining>(dataset, std::move(request));
 }
 
 }  // namespace tureen::trainer

@@ -1,4 +1,4 @@
-// The time and the memory of a run of Gaussians, estimated before its start.
+// The time and the memory of a run of splats, estimated before its start.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,21 @@
 #include "scene/photographs.hpp"
 #include "trainer/common/region.hpp"
 #include "trainer/common/training_views.hpp"
-#include "trainer/splats/gaussian_state.hpp"
+#include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {
 
 /// Bytes that a run needs at its largest: the program, photographs, parameters with their moments
 /// (twice, while their number grows), lists of tiles, and planes of images. An estimate: lists
 /// depend on the sizes of splats.
-std::uint64_t gaussian_memory(const GaussianConfig& config, const Dataset& dataset);
+std::uint64_t splat_memory(const GaussianConfig& config, const Dataset& dataset);
+std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset);
 
-/// The largest max_splats, at most config.max_splats, with which gaussian_memory() is at most
+/// The largest max_splats, at most config.max_splats, with which splat_memory() is at most
 /// `bytes`; nullopt if not even 1,000 splats fit.
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
+                                               const Dataset& dataset);
+std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const WindowConfig& config,
                                                const Dataset& dataset);
 
 /// The work of a step on images with half the width and height, relative to one of full size: a
@@ -28,15 +31,17 @@ std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Gaussi
 inline constexpr double half_size_work = 0.28;
 
 /// The work of all steps after the first `done`, in steps of full size.
-double remaining_work(const GaussianConfig& config, int done);
+double remaining_work(const SplatConfig& config, int done);
 
 /// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
 /// half a second, or two steps if they take longer. `threads`: 0 for all cores.
 double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
                              const Region& region, int threads, const GaussianState& state);
+double measured_step_seconds(const WindowConfig& config, std::span<const TrainingView> views,
+                             const Region& region, int threads, const WindowState& state);
 
 /// The number of steps, of which `done` are done, whose remaining work takes `seconds` if a step of
 /// full size takes `step_seconds`; at least done + 1, at most 10 million.
-int fitted_steps(const GaussianConfig& config, int done, double seconds, double step_seconds);
+int fitted_steps(const SplatConfig& config, int done, double seconds, double step_seconds);
 
 }  // namespace tureen::trainer

@@ -6,25 +6,27 @@
 #include "base/error.hpp"
 #include "base/memory_budget.hpp"
 #include "jobs/training/methods.hpp"
-#include "trainer/splats/gaussian_forecast.hpp"
-#include "trainer/splats/gaussian_training.hpp"
+#include "trainer/splats/splat_forecast.hpp"
+#include "trainer/splats/splat_start.hpp"
+#include "trainer/splats/splat_training.hpp"
 
 namespace tureen {
 
 namespace {
 
-using trainer::GaussianConfig;
-
-class GaussianMethod final : public TrainingMethod {
+template <class Config, class Parameters>
+class SplatMethod final : public TrainingMethod {
  public:
-  explicit GaussianMethod(const TrainingOptions& options) : options_(options) {}
+  using Checkpoint = trainer::SplatCheckpoint<Config, Parameters>;
+
+  explicit SplatMethod(const TrainingOptions& options) : options_(options) {}
 
   void resume(const std::filesystem::path& checkpoint) override {
-    checkpoint_ = trainer::read_gaussian_checkpoint(checkpoint);
+    checkpoint_ = trainer::read_splat_checkpoint<Checkpoint>(checkpoint);
   }
 
   void settle(const Dataset* dataset) override {
-    GaussianConfig base;
+    Config base;
     // Photographs of a scene have no background: a pixel without a splat is an error. With a white
     // background it would match white walls.
     if (dataset && !dataset->has_alpha) {
@@ -43,7 +45,7 @@ class GaussianMethod final : public TrainingMethod {
       config_.max_splats = std::min(config_.max_splats, checkpoint_->config.max_splats);
     // Without the dataset, the background of a file that does not name it is unknown.
     if (checkpoint_ && (dataset || options_.file.empty()))
-      if (const auto reason = difference(config_, checkpoint_->config))
+      if (const auto reason = splat_config_difference(config_, checkpoint_->config))
         throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
     if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
         options_.mesh().empty())
@@ -52,16 +54,15 @@ class GaussianMethod final : public TrainingMethod {
 
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
     const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
-    const auto* gaussians = splats ? std::get_if<Gaussians>(&splats->kernel) : nullptr;
-    if (!splats || (gaussians && !gaussians->flat)) return std::nullopt;
+    if (!splats || trainer::can_begin_with(*splats, config_)) return std::nullopt;
+    const char* own = trainer::kernel_of(config_);
     return UnsuitableStart{
-        fmt::format("the scene has {} ({}), but Gaussians begin with Gaussians "
-                    "or triangles",
-                    counted(splat_count(start), "splat"), kernel_name(splats->kernel)),
+        fmt::format("the scene has {} ({}), but {} begin with {} or triangles",
+                    counted(splat_count(start), "splat"), kernel_name(splats->kernel), own, own),
         "--init random needs no scene"};
   }
 
-  std::string constants() const override { return trainer::config_to_json(config_); }
+  std::string constants() const override { return trainer::splat_config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const std::string&)>& say) override {
@@ -69,26 +70,24 @@ class GaussianMethod final : public TrainingMethod {
       if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
         throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
     const std::string views = describe_views(dataset);
-    const trainer::GaussianResult result = trainer::train_gaussians(
-        dataset,
-        {.config = config_,
-         .start = start,
-         .checkpoint = std::move(checkpoint_),
-         .run = std::move(run),
-         .begun = [&](const trainer::GaussianForecast& forecast) {
-           if (is_limited_)
-             say("--max-memory allows at most " + counted(config_.max_splats, "splat"));
-           if (replaced_minutes_ > 0)
-             say(fmt::format("--steps replaces the {} min of the constants", replaced_minutes_));
-           say(fmt::format("{}; {}, from {} to at most {}; CPU, {}", views,
-                           counted(std::uint64_t(forecast.steps), "step"), counted(forecast.splats),
-                           counted(config_.max_splats, "splat"),
-                           counted(std::uint64_t(forecast.threads), "thread")));
-           say(fmt::format("forecast: {} of training, {} of memory",
-                           duration_text(forecast.seconds), memory_size_text(forecast.bytes)));
-         }});
+    trainer::SplatRequest<Config, Parameters> request{.config = config_,
+                                                      .start = start,
+                                                      .checkpoint = std::move(checkpoint_),
+                                                      .run = std::move(run)};
+    request.begun = [&](const trainer::SplatForecast& forecast) {
+      if (is_limited_) say("--max-memory allows at most " + counted(config_.max_splats, "splat"));
+      if (replaced_minutes_ > 0)
+        say(fmt::format("--steps replaces the {} min of the constants", replaced_minutes_));
+      say(fmt::format("{}; {}, from {} to at most {}; CPU, {}", views,
+                      counted(std::uint64_t(forecast.steps), "step"), counted(forecast.splats),
+                      counted(config_.max_splats, "splat"),
+                      counted(std::uint64_t(forecast.threads), "thread")));
+      say(fmt::format("forecast: {} of training, {} of memory", duration_text(forecast.seconds),
+                      memory_size_text(forecast.bytes)));
+    };
+    const trainer::SplatResult result = trainer::train_splats(dataset, std::move(request));
     return {.run = result.run,
-            .primitives = {trainer::PrimitiveKind::splats, result.splats},
+            .primitives = result.primitives,
             .steps = result.steps,
             .non_finite = result.non_finite};
   }
@@ -107,8 +106,8 @@ class GaussianMethod final : public TrainingMethod {
   }
 
   const TrainingOptions& options_;
-  std::optional<trainer::GaussianCheckpoint> checkpoint_;
-  GaussianConfig config_;
+  std::optional<Checkpoint> checkpoint_;
+  Config config_;
   bool is_limited_ = false;
   double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
@@ -116,7 +115,12 @@ class GaussianMethod final : public TrainingMethod {
 }  // namespace
 
 std::unique_ptr<TrainingMethod> make_gaussian_method(const TrainingOptions& options) {
-  return std::make_unique<GaussianMethod>(options);
+  return std::make_unique<SplatMethod<trainer::GaussianConfig, trainer::GaussianParameters>>(
+      options);
+}
+
+std::unique_ptr<TrainingMethod> make_window_method(const TrainingOptions& options) {
+  return std::make_unique<SplatMethod<trainer::WindowConfig, trainer::WindowParameters>>(options);
 }
 
 }  // namespace tureen

@@ -1,0 +1,54 @@
+#include "trainer/splats/gaussian_method.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tureen::trainer {
+
+namespace row = splatting::gaussian_row;
+
+GaussianStep GaussianTraining::step_of(const GaussianConfig& config, double half_side, double,
+                                       std::size_t) {
+  return {.rates = {},
+          .min_log_scale = float(std::log(config.min_scale * half_side)),
+          .max_log_scale = float(std::log(config.max_scale * half_side))};
+}
+
+DensifyReport GaussianTraining::densify(const GaussianConfig& config, int, int, Random& random,
+                                        GaussianParameters& parameters, SplatMemory& memory) {
+  return trainer::densify({.max_splats = config.max_splats, .growth = config.growth}, random,
+                          parameters, memory);
+}
+
+double GaussianTraining::size_at_point(const GaussianConfig& config, double distance, double,
+                                       double half_side) {
+  return std::clamp(distance, double(config.min_scale) * half_side,
+                    double(config.max_scale) * half_side);
+}
+
+void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& point, double size,
+                           Random&, std::size_t place, GaussianParameters& parameters) {
+  for (int axis = 0; axis < 3; ++axis) {
+    parameters.trained(row::x + std::size_t(axis))[place] = float(point.position[axis]);
+    parameters.trained(row::scale_x + std::size_t(axis))[place] = float(std::log(size));
+    parameters.trained(row::harmonics + std::size_t(axis))[place] =
+        float((double(point.color[axis]) - 0.5) / constant_harmonic);
+  }
+  parameters.trained(row::rotation_w)[place] = 1;
+  parameters.trained(row::opacity)[place] =
+      std::log(config.first_opacity / (1 - config.first_opacity));
+  parameters.activate(place);
+}
+
+Primitives GaussianTraining::primitives(const GaussianConfig&, const GaussianParameters& parameters,
+                                        const SplatMemory&) {
+  GaussianParameters kept = parameters;
+  std::vector<std::uint32_t> drawn;
+  for (std::uint32_t i = 0; i < parameters.count(); ++i)
+    if (parameters.is_finite(i) && parameters.opacity(i) >= profile_named("3dgs")->min_alpha)
+      drawn.push_back(i);
+  kept.reorder(drawn);
+  return kept.splats();
+}
+
+}  // namespace tureen::trainer

@@ -1,0 +1,47 @@
+// Gaussians as a method of SplatTrainer (3D Gaussian Splatting, arXiv 2308.04079).
+#pragma once
+
+#include "scene/scene.hpp"
+#include "trainer/splats/gaussian_densify.hpp"
+#include "trainer/splats/gaussian_raster.hpp"
+#include "trainer/splats/splat_trainer.hpp"
+
+namespace tureen::trainer {
+
+struct GaussianTraining {
+  using Config = GaussianConfig;
+  using Parameters = GaussianParameters;
+  using Raster = GaussianRaster;
+  using Step = GaussianStep;
+  static constexpr const auto& kinds = gaussian_parameter_kinds;
+  static constexpr auto step_splats = &step_gaussians;
+
+  /// The constants of a step after the fraction `done` of the run, without the rates.
+  static Step step_of(const Config& config, double half_side, double done, std::size_t count);
+
+  /// The densification after `step` steps, the one with this number, from 1 on.
+  static DensifyReport densify(const Config& config, int step, int number, Random& random,
+                               Parameters& parameters, SplatMemory& memory);
+
+  /// After a step: nothing is to be limited.
+  static void limit(const Config&, int, Parameters&) {}
+
+  /// The first splats are round. A size is their standard deviation: a quarter of the side of a
+  /// cube that is a splat's share of the volume, and at points the mean distance to this many
+  /// others (as 3DGS), if it is between the lowest and the highest scale; coincident points have
+  /// distance 0.
+  static constexpr std::size_t neighbours = 3;
+  static double size_of_share(const Config&, double side) { return side / 4; }
+  static double size_at_point(const Config& config, double distance, double spacing,
+                              double half_side);
+  static void put(const Config& config, const ColoredPoint& point, double size, Random& random,
+                  std::size_t place, Parameters& parameters);
+
+  /// The splats that a viewer can draw: finite, and not too transparent.
+  static Primitives primitives(const Config& config, const Parameters& parameters,
+                               const SplatMemory& memory);
+};
+
+using GaussianTrainer = SplatTrainer<GaussianTraining>;
+
+}  // namespace tureen::trainer

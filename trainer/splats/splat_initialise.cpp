@@ -1,0 +1,167 @@
+#include "trainer/splats/splat_initialise.hpp"
+
+#include <cassert>
+#include <glm/matrix.hpp>
+#include <string>
+
+#include "base/error.hpp"
+#include "scene/edit/mean_color.hpp"
+#include "scene/edit/moved_splats.hpp"
+#include "trainer/common/neighbours.hpp"
+#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/splat_start.hpp"
+#include "trainer/splats/window_method.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+/// Puts splats at the points into the first places of `parameters`. `spacing`: the distance of a
+/// single point to others.
+template <class Method>
+void put_all(typename Method::Parameters& parameters, const std::vector<ColoredPoint>& points,
+             const typename Method::Config& config, double half_side, double spacing,
+             Random& random) {
+  std::vector<glm::dvec3> positions;
+  for (const ColoredPoint& point : points) positions.push_back(point.position);
+  const std::vector<double> distances = nearest_distances(positions, Method::neighbours);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance = points.size() > 1 ? distances[i] : spacing;
+    Method::put(config, points[i], Method::size_at_point(config, distance, spacing, half_side),
+                random, i, parameters);
+  }
+}
+
+template <class Method>
+typename Method::Parameters at_points(const Dataset& dataset, const typename Method::Config& config,
+                                      const Region& region, Random& random) {
+  std::vector<std::uint32_t> chosen =
+      draw(random, std::size_t(config.max_splats), dataset.points.size());
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<ColoredPoint> points;
+  for (const std::uint32_t i : chosen) {
+    const DatasetPoint& point = dataset.points[i];
+    points.push_back({point.position - region.centre, glm::vec3(point.color) / 255.0f});
+  }
+  typename Method::Config filled = config;
+  filled.first_splats =
+      std::max<std::uint64_t>(std::min(config.first_splats, config.max_splats), points.size());
+  // The points replace the first of the random ones.
+  auto result = random_splats<Method>(
+      filled, {.centre = glm::dvec3(0), .half_side = region.half_side}, random);
+  put_all<Method>(result, points, config, region.half_side,
+                  region.half_side / std::cbrt(double(filled.first_splats)), random);
+  return result;
+}
+
+[[noreturn]] void refuse_more(std::size_t count, const SplatConfig& config, const char* what) {
+  throw InputError({},
+                   "the initial scene has " + std::to_string(count) + " " + what +
+                       ", more than max_splats, " + std::to_string(config.max_splats),
+                   "allow more splats, or convert the scene to one with fewer");
+}
+
+GaussianParameters on_triangles(const Scene& scene, const GaussianConfig& config,
+                                const Region& region, Random& random) {
+  const auto count = std::size_t(std::min(config.first_splats, config.max_splats));
+  GaussianParameters result(count, config.degree);
+  put_all<GaussianTraining>(result, points_on_triangles(scene, region, count, random), config,
+                            region.half_side, region.half_side, random);
+  return result;
+}
+
+WindowParameters on_triangles(const Scene& scene, const WindowConfig& config, const Region& region,
+                              Random&) {
+  const TriangleSoup& soup = only_soup(scene);
+  if (soup.triangles.size() > config.max_splats)
+    refuse_more(soup.triangles.size(), config, "triangles");
+  const glm::dmat4 place = at_origin(-region.centre) * only_layer(scene).world_from_layer;
+  const std::vector<glm::vec3> colors = mean_colors(soup);
+  WindowParameters result(soup.triangles.size(), config.degree);
+  for (std::size_t i = 0; i < result.count(); ++i) {
+    glm::dvec3 corners[3];
+    for (int k = 0; k < 3; ++k)
+      corners[k] =
+          glm::dvec3(place * glm::dvec4(glm::dvec3(soup.positions[soup.triangles[i][k]]), 1.0));
+    put_window(config, corners, colors[i], i, result);
+  }
+  return result;
+}
+
+template <class Method>
+typename Method::Parameters from_scene(const Scene& scene, const typename Method::Config& config,
+                                       const Region& region, Random& random) {
+  const Layer& layer = only_layer(scene);
+  if (std::holds_alternative<TriangleSoup>(layer.primitives)) {
+    if (only_soup(scene).triangles.empty())
+      throw InputError({}, "the initial scene has no triangle");
+    return on_triangles(scene, config, region, random);
+  }
+  Splats splats = std::get<Splats>(layer.primitives);
+  move_splats(splats, at_origin(-region.centre) * layer.world_from_layer);
+  const auto* own = own_kernel(splats, config);
+  if (!can_begin_with(splats, config))
+    throw InputError({}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
+                             (own ? " with colours of corners" : "") + "; the training of " +
+                             kernel_of(config) + " begins with " + kernel_of(config) +
+                             " or opaque triangles");
+  if (count(splats) == 0) throw InputError({}, "the initial scene has no splat");
+  if (count(splats) > config.max_splats) refuse_more(count(splats), config, "splats");
+  return {*own, splats.color, config.degree};
+}
+
+}  // namespace
+
+std::vector<ColoredPoint> points_on_triangles(const Scene& scene, const Region& region,
+                                              std::size_t count, Random& random) {
+  const TriangleSoup& soup = only_soup(scene);
+  const glm::dmat4 place = only_layer(scene).world_from_layer;
+  const std::vector<glm::vec3> colors = mean_colors(soup);
+  const auto corner = [&](std::size_t triangle, int k) {
+    const glm::vec3 position = soup.positions[soup.triangles[triangle][k]];
+    return glm::dvec3(place * glm::dvec4(glm::dvec3(position), 1.0));
+  };
+  std::vector<double> areas;  // sums of twice the areas up to each triangle
+  double sum = 0;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    const double area = glm::length(glm::cross(b - a, c - a));
+    if (std::isfinite(area)) sum += area;
+    areas.push_back(sum);
+  }
+  if (!(sum > 0)) throw InputError({}, "the initial scene has no triangle with an area");
+  std::vector<ColoredPoint> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = random.uniform(0, sum);
+    const auto t =
+        std::size_t(std::upper_bound(areas.begin(), areas.end() - 1, at) - areas.begin());
+    const double u = std::sqrt(random.uniform()), v = random.uniform();
+    const glm::dvec3 position =
+        (1 - u) * corner(t, 0) + u * (1 - v) * corner(t, 1) + u * v * corner(t, 2);
+    points.push_back({position - region.centre, colors[t]});
+  }
+  return points;
+}
+
+template <class Method>
+typename Method::Parameters initial_splats(const Dataset& dataset,
+                                           const typename Method::Config& config,
+                                           const Region& region, const Scene* start,
+                                           Random& random) {
+  assert((start != nullptr) == (config.initialisation == Initialisation::mesh));
+  if (start) return from_scene<Method>(*start, config, region, random);
+  if (config.initialisation == Initialisation::points && dataset.points.empty())
+    throw InputError({}, "the dataset has no points for the first splats",
+                     "use random initialisation");
+  if (!dataset.points.empty() && config.initialisation != Initialisation::random)
+    return at_points<Method>(dataset, config, region, random);
+  return random_splats<Method>(config, {.centre = glm::dvec3(0), .half_side = region.half_side},
+                               random);
+}
+
+template GaussianParameters initial_splats<GaussianTraining>(const Dataset&, const GaussianConfig&,
+                                                             const Region&, const Scene*, Random&);
+template WindowParameters initial_splats<WindowTraining>(const Dataset&, const WindowConfig&,
+                                                         const Region&, const Scene*, Random&);
+
+}  // namespace tureen::trainer

@@ -1,0 +1,72 @@
+// The first splats of a training: at points of the dataset, at random points, on the triangles of a
+// scene, or those of a scene.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "scene/photographs.hpp"
+#include "scene/scene.hpp"
+#include "trainer/common/random.hpp"
+#include "trainer/common/random_points.hpp"
+#include "trainer/common/region.hpp"
+#include "trainer/splats/splat_config.hpp"
+
+namespace tureen::trainer {
+
+/// The value of the constant spherical harmonic, 1 / (2 sqrt(pi)).
+inline constexpr double constant_harmonic = 0.28209479177387814;
+
+struct ColoredPoint {
+  glm::dvec3 position;    // relative to the region's centre
+  glm::vec3 color{0.5f};  // display-referred
+};
+
+/// config.first_splats grey splats, at most config.max_splats, uniform in the cube of the region.
+/// Each has a size in proportion to the side of a cube that is its share of the volume. The last
+/// ones are around the region, as SplatConfig::far_splats says, and larger in proportion to their
+/// distance.
+template <class Method>
+typename Method::Parameters random_splats(const typename Method::Config& config,
+                                          const Region& region, Random& random) {
+  const auto count = std::size_t(std::min(config.first_splats, config.max_splats));
+  typename Method::Parameters result(count, config.degree);
+  const double side = 2 * region.half_side / std::cbrt(double(std::max<std::size_t>(count, 1)));
+  const auto near = count - std::size_t(config.far_splats * double(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 point =
+        i < near ? near_point(region, random) : far_point(region, config.far_extent, random);
+    const double distance = glm::distance(point, region.centre) / region.half_side;
+    Method::put(config, {.position = point},
+                Method::size_of_share(config, side) * (i < near ? 1 : distance), random, i, result);
+  }
+  return result;
+}
+
+/// The first splats, with positions relative to the centre of `region`, of the size that
+/// Method::size_at_point gives, and with config.first_opacity.
+///
+/// Points: at most config.max_splats of them, with their colours. Further random ones in the region
+/// make up config.first_splats.
+///
+/// `start`: the scene for Initialisation::mesh, null for all others; it has one layer. Splats of
+/// the method's kernel are taken as they are, in world coordinates. For triangles, see
+/// Method::on_triangles.
+///
+/// Throws InputError if points are required and the dataset has none, for a scene without triangles
+/// or splats of the kernel, and for one with more splats than config.max_splats; UsageError for a
+/// scene with several layers.
+template <class Method>
+typename Method::Parameters initial_splats(const Dataset& dataset,
+                                           const typename Method::Config& config,
+                                           const Region& region, const Scene* start,
+                                           Random& random);
+
+/// `count` points on the triangles of a scene with one layer, uniform in area, with the mean
+/// colours of the triangles. Throws InputError if no triangle has an area.
+std::vector<ColoredPoint> points_on_triangles(const Scene& scene, const Region& region,
+                                              std::size_t count, Random& random);
+
+}  // namespace tureen::trainer

@@ -1,0 +1,82 @@
+// Values of splats in training, for any kernel: those that are drawn, and those that are trained.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "scene/splats.hpp"
+#include "splatting/harmonics_rows.hpp"
+#include "splatting/parameter_rows.hpp"
+#include "trainer/splats/splat_order.hpp"
+
+namespace tureen::trainer {
+
+/// The rows of a kernel, with harmonics up to `degree` from the row `Harmonics` on. From `FirstRaw`
+/// to there, trained values differ from drawn ones.
+template <std::size_t FirstRaw, std::size_t Harmonics>
+struct SplatParameters {
+  static constexpr std::size_t first_raw = FirstRaw, raw_rows = Harmonics - FirstRaw;
+
+  int degree = 0;
+  splatting::ParameterRows drawn;  // after activation
+  splatting::ParameterRows raw;    // raw_rows rows
+
+  SplatParameters() = default;
+  SplatParameters(std::size_t count, int degree_of_harmonics)
+      : degree(degree_of_harmonics),
+        drawn(Harmonics + splatting::harmonics_rows(degree_of_harmonics), count),
+        raw(raw_rows, count) {}
+
+  std::size_t count() const { return drawn.count(); }
+  std::size_t rows() const { return Harmonics + splatting::harmonics_rows(degree); }
+
+  /// The trained values of a row.
+  float* trained(std::size_t row) { return const_cast<float*>(std::as_const(*this).trained(row)); }
+  const float* trained(std::size_t row) const {
+    return row >= FirstRaw && row < Harmonics ? raw.row(row - FirstRaw) : drawn.row(row);
+  }
+
+  /// Of the trained and the drawn values.
+  bool is_finite(std::size_t splat) const {
+    for (std::size_t row = 0; row < rows(); ++row)
+      if (!std::isfinite(trained(row)[splat]) || !std::isfinite(drawn.row(row)[splat]))
+        return false;
+    return true;
+  }
+
+  /// The trained values of one splat become those of another one.
+  void copy(std::size_t from, std::size_t to) {
+    for (std::size_t row = 0; row < rows(); ++row) trained(row)[to] = trained(row)[from];
+  }
+
+  /// Zeros for the splats from count() on.
+  void enlarge(std::size_t new_count) {
+    drawn = enlarged(drawn, rows(), new_count);
+    raw = enlarged(raw, raw_rows, new_count);
+  }
+
+  /// Splat i becomes the one at order[i]; the others are removed. `order`: each index at most once.
+  void reorder(std::span<const std::uint32_t> order) {
+    drawn = reordered(drawn, rows(), order);
+    raw = reordered(raw, raw_rows, order);
+  }
+
+  /// Three drawn values of a splat, from `row` on.
+  glm::vec3 triple(std::size_t row, std::size_t splat) const {
+    return {drawn.row(row)[splat], drawn.row(row + 1)[splat], drawn.row(row + 2)[splat]};
+  }
+
+  /// The colours, as a scene stores them.
+  SplatColor color() const {
+    SplatColor color{.degree = degree};
+    for (std::size_t i = 0; i < count(); ++i)
+      for (std::size_t row = Harmonics; row < rows(); row += 3)
+        color.coefficients.push_back(triple(row, i));
+    return color;
+  }
+};
+
+}  // namespace tureen::trainer

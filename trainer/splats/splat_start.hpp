@@ -1,0 +1,29 @@
+// The scenes with which the training of a kernel can begin.
+#pragma once
+
+#include "scene/splats.hpp"
+#include "trainer/splats/gaussian_config.hpp"
+#include "trainer/splats/window_config.hpp"
+
+namespace tureen::trainer {
+
+/// The kernel that a configuration trains, "Gaussians" or "triangle windows".
+inline const char* kernel_of(const GaussianConfig&) { return "Gaussians"; }
+inline const char* kernel_of(const WindowConfig&) { return "triangle windows"; }
+
+/// The splats of the kernel that the configuration trains; null if `splats` has another kernel.
+inline const Gaussians* own_kernel(const Splats& splats, const GaussianConfig&) {
+  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  return gaussians && !gaussians->flat ? gaussians : nullptr;
+}
+inline const TriangleWindows* own_kernel(const Splats& splats, const WindowConfig&) {
+  return std::get_if<TriangleWindows>(&splats.kernel);
+}
+
+/// Whether the splats can be the first ones: of the own kernel, with one colour each.
+template <class Config>
+bool can_begin_with(const Splats& splats, const Config& config) {
+  return own_kernel(splats, config) && !splats.color.per_corner;
+}
+
+}  // namespace tureen::trainer

@@ -1,0 +1,192 @@
+// A training run of splats on posed photographs: one photograph a step. The next step depends only
+// on the configuration, the views and the state; it has the same bits with any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "trainer/common/cpu/image_loss.hpp"
+#include "trainer/common/region.hpp"
+#include "trainer/common/stopwatch.hpp"
+#include "trainer/common/training_views.hpp"
+#include "trainer/splats/splat_densify.hpp"
+#include "trainer/splats/splat_initialise.hpp"
+#include "trainer/splats/splat_state.hpp"
+#include "trainer/splats/tile_raster.hpp"
+
+namespace tureen::trainer {
+
+struct SplatStepReport {
+  double loss = 0, l1 = 0, ssim = 0;  // of the image
+  std::size_t quarantined = 0;        // splats and pixels that are not finite
+  std::size_t dead = 0, split = 0;    // of a densification after this step
+};
+
+/// Mean squared error of a step's image over the pixels of the view that are not ignored, without
+/// clamping. `planes`: red, green and blue.
+double mean_squared_error(std::span<const float> planes, const TrainingView& view);
+
+/// `Method`: a kernel, as GaussianTraining and WindowTraining.
+template <class Method>
+class SplatTrainer {
+ public:
+  using Config = typename Method::Config;
+  using Parameters = typename Method::Parameters;
+  using State = SplatState<Parameters>;
+
+  /// Begins with random splats. `views` must outlive the trainer. `threads`: 0 for all cores.
+  SplatTrainer(const Config& config, std::span<const TrainingView> views, const Region& region,
+               int threads)
+      : SplatTrainer(config, views, region, threads, {.random = Random(config.seed)}) {
+    begin();
+  }
+
+  /// Continues from a state, whose splats have config.degree.
+  SplatTrainer(const Config& config, std::span<const TrainingView> views, const Region& region,
+               int threads, State state)
+      : config_(config),
+        views_(views),
+        region_(region),
+        pool_(threads),
+        raster_(pool_),
+        state_(std::move(state)) {
+    assert(!views.empty() && config.degree <= max_trained_degree);
+    state_.non_finite = 0;
+    state_.fits = 0;
+  }
+
+  bool done() const { return state_.step >= config_.steps; }
+  int steps_done() const { return state_.step; }
+  /// Sets the number of steps of the run, at least steps_done(), for the schedule from the next
+  /// step on.
+  void set_steps(int steps) { config_.steps = steps; }
+  const Config& config() const { return config_; }
+  const Parameters& parameters() const { return state_.parameters; }
+  /// For a checkpoint, which has its own SplatState::non_finite and fits.
+  const State& state() const { return state_; }
+  int threads() const { return pool_.threads(); }
+  SplatTimes& times() { return raster_.times(); }
+
+  SplatStepReport step() {
+    assert(!done());
+    const TrainingView& view = next_view();
+    last_view_ = &view;
+    const int width = view.camera.width, height = view.camera.height;
+    planes_.resize(3 * std::size_t(width) * std::size_t(height));
+    gradient_.resize(planes_.size());
+    raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_);
+    SplatStepReport report;
+    {
+      const Stopwatch watch(times().loss);
+      const ImageLoss loss = image_loss<float>({.width = width,
+                                                .height = height,
+                                                .rendered = planes_,
+                                                .target = view.target,
+                                                .ignored = view.ignored,
+                                                .l1_weight = config_.l1_weight,
+                                                .ssim_weight = config_.ssim_weight,
+                                                .gradient = gradient_},
+                                               loss_scratch_, pool_);
+      report = {
+          .loss = loss.loss, .l1 = loss.l1, .ssim = loss.ssim, .quarantined = loss.non_finite};
+    }
+    const auto input = raster_.backward(planes_, gradient_);
+    const Stopwatch watch(times().update);
+    report.quarantined += update(input);
+    ++times().steps;
+    ++state_.step;
+    // Short runs densify more often, or they would end with few splats.
+    const int every = std::min(config_.densify_every, std::max(config_.steps / 25, 20));
+    if (state_.step % every == 0 && state_.step <= config_.densify_until * config_.steps) {
+      const DensifyReport densified =
+          Method::densify(config_, state_.step, state_.step / every, state_.random,
+                          state_.parameters, state_.memory);
+      // No splat is left to split: the run begins again, at other places.
+      if (densified.dead == parameters().count()) begin();
+      sort_in_memory(region_, state_.parameters, state_.memory);
+      report.dead = densified.dead;
+      report.split = densified.split;
+    }
+    Method::limit(config_, state_.step, state_.parameters);
+    return report;
+  }
+
+  /// mean_squared_error() of the last step. Needs a step().
+  double last_mse() const { return mean_squared_error(planes_, *last_view_); }
+
+  /// Red, green and blue planes, row 0 on top, not clamped; with harmonics of all degrees.
+  std::vector<float> render(const Camera& camera) {
+    const SplatTimes times = raster_.times();
+    std::vector<float> planes(3 * std::size_t(camera.width) * std::size_t(camera.height));
+    raster_.forward(state_.parameters, camera, config_.degree, background(), planes);
+    raster_.times() = times;
+    return planes;
+  }
+
+ private:
+  std::span<const float, 3> background() const {
+    return std::span<const float, 3>(config_.background);
+  }
+
+  int degree_now() const {
+    const int reached = int(state_.step / std::max(1.0, config_.degree_steps * config_.steps));
+    return std::min(config_.degree, reached);
+  }
+
+  void begin() {
+    state_.parameters = random_splats<Method>(config_, region_, state_.random);
+    state_.memory = SplatMemory(parameters().rows(), parameters().count());
+  }
+
+  const TrainingView& next_view() {
+    std::vector<std::uint32_t>& epoch = state_.epoch;
+    if (epoch.empty()) epoch = draw(state_.random, views_.size(), views_.size());
+    const bool half = state_.step < config_.half_size_until * config_.steps;
+    if (half && half_views_.empty())
+      for (const TrainingView& each : views_) half_views_.push_back(halved(each));
+    if (!half) half_views_ = {};
+    const TrainingView& view = half ? half_views_[epoch.back()] : views_[epoch.back()];
+    epoch.pop_back();
+    return view;
+  }
+
+  /// Returns the number of splats that are not finite.
+  std::size_t update(const typename Method::Raster::BackwardInput& input) {
+    const double done = double(state_.step) / config_.steps;
+    const std::size_t count = parameters().count();
+    typename Method::Step step = Method::step_of(config_, region_.half_side, done, count);
+    for (std::size_t k = 0; k < Method::kinds.size(); ++k) {
+      const ParameterKind& kind = Method::kinds[k];
+      step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
+    }
+    step.rates[0] *= float(region_.half_side);
+    std::vector<std::size_t> quarantined((count + splats_a_task - 1) / splats_a_task);
+    pool_.run(quarantined.size(), [&](std::size_t task) {
+      const std::size_t first = task * splats_a_task;
+      quarantined[task] =
+          Method::step_splats(input, step, first, std::min(first + splats_a_task, count),
+                              state_.parameters, state_.memory);
+    });
+    std::size_t sum = 0;
+    for (const std::size_t each : quarantined) sum += each;
+    return sum;
+  }
+
+  Config config_;
+  std::span<const TrainingView> views_;
+  std::vector<TrainingView> half_views_;
+  Region region_;  // its half side is the unit of rates and scales
+  ThreadPool pool_;
+  typename Method::Raster raster_;
+  State state_;
+  const TrainingView* last_view_ = nullptr;
+  std::vector<float> planes_, gradient_;
+  ImageLossScratch<float> loss_scratch_;
+};
+
+}  // namespace tureen::trainer

@@ -1,0 +1,53 @@
+// A whole training run of splats, from photographs to a scene, for any program.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "scene/photographs.hpp"
+#include "scene/scene.hpp"
+#include "trainer/common/whole_run.hpp"
+#include "trainer/splats/splat_state.hpp"
+
+namespace tureen::trainer {
+
+/// An estimate before the first step.
+struct SplatForecast {
+  std::size_t splats = 0;   // at the start
+  int steps = 0;            // of the whole run; with minutes, a first guess
+  double seconds = 0;       // of the remaining steps
+  std::uint64_t bytes = 0;  // splat_memory()
+  int threads = 0;
+};
+
+template <class Config, class Parameters>
+struct SplatRequest {
+  Config config;
+  const Scene* start = nullptr;                                   // for Initialisation::mesh
+  std::optional<SplatCheckpoint<Config, Parameters>> checkpoint;  // to continue from
+  RunRequest run;
+  /// Called before the first step. May be empty, and may throw to end the run.
+  std::function<void(const SplatForecast&)> begun = {};
+};
+
+using GaussianRequest = SplatRequest<GaussianConfig, GaussianParameters>;
+using WindowRequest = SplatRequest<WindowConfig, WindowParameters>;
+
+struct SplatResult {
+  RunResult run;
+  int steps = 0;
+  PrimitiveCount primitives;     // of the scene
+  std::uint64_t non_finite = 0;  // pixels and splats quarantined
+};
+
+/// Trains on dataset.train and tests on dataset.test; frees the images of dataset.train. The scene
+/// has one layer, at the centre of the region of interest, with the primitives of the method
+/// (GaussianTraining::primitives, WindowTraining::primitives). With config.minutes, the number of
+/// steps is fitted to the time at the start and three times later, last at half the run; after
+/// that, a run that resumes has the same bits. Throws the errors of region_of_interest,
+/// initial_splats and run_to_the_end. Asserts that a checkpoint has the views of the dataset; its
+/// configuration must be request.config, except `steps` with minutes.
+SplatResult train_splats(Dataset& dataset, GaussianRequest request);
+SplatResult train_splats(Dataset& dataset, WindowRequest request);
+
+}  // namespace tureen::trainer

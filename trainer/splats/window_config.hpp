@@ -1,0 +1,50 @@
+// All constants of the training of triangle windows, with the table that reads, writes, checks and
+// documents them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "trainer/splats/splat_config.hpp"
+#include "trainer/splats/window_densify.hpp"
+
+namespace tureen::trainer {
+
+struct WindowConfig : SplatConfig {
+  using Field = BasicConfigField<WindowConfig, Initialisation, WindowSampling>;
+
+  /// first_opacity and first_sigma are those of Triangle Splatting (arXiv 2505.19175).
+  WindowConfig() {
+    first_splats = 30000;
+    first_opacity = 0.28f;
+    densify_every = 100;
+    growth = 0.15;
+    half_size_until = 0;
+  }
+
+  /// Circumradius of the first triangles: at random places relative to the mean spacing, at points
+  /// relative to twice the distance to the nearest other point.
+  float first_size = 0.4f;
+  float first_sigma = 1.16f;
+  WindowSampling sampling = WindowSampling::motion;
+  float overlap = 0.1f;            // WindowDensifyOptions
+  float opacity_weight = 0.0055f;  // of the mean opacity
+  float size_weight = 1e-8f;       // of the mean of 1 / area, in 1 / (layer unit)^2
+  double size_until = 0.83;        // fraction of the steps; 25,000 of 30,000
+  /// The windows become opaque triangles between opaque_from and opaque_until, fractions of the
+  /// steps.
+  bool opaque = false;
+  double opaque_from = 0.5, opaque_until = 0.9;
+  /// From this fraction of the steps on, windows below this opacity are dead. The floor of opacity
+  /// soon exceeds it.
+  double prune_from = 0.4;
+  float min_opacity_before_opaque = 0.2f;
+  /// At opaque_until: the largest sigma, and the floor of opacity.
+  float last_sigma = 0.03f, last_min_opacity = 0.9999f;
+};
+
+template <>
+std::span<const WindowConfig::Field> splat_config_fields<WindowConfig>();
+std::optional<std::string> own_defect(const WindowConfig& config);
+
+}  // namespace tureen::trainer
