@@ -82,12 +82,12 @@ TEST_F(TrainGaussians, TrianglesAreSoftOrOpaque) {
   make_dataset();
   const auto train = [&](const std::string& output, const std::vector<std::string>& more) {
     std::vector<std::string> all{"train", "ball", "-o", output, "--method", "triangles"};
-    all.insert(all.end(), {"--steps", "200", "--max-splats", "400", "--threads", "2", "--json"});
+    all.insert(all.end(), {"--steps", "600", "--max-splats", "400", "--threads", "2", "--json"});
     all.insert(all.end(), more.begin(), more.end());
     const ChildResult result = run(all);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    // 19 dB or more when written, opaque 18. Other processors round differently.
-    EXPECT_GT(nlohmann::json::parse(result.out)["test"]["psnr_db"], 13) << output;
+    // 20.7 dB when written, opaque 18.3. Other processors round differently.
+    EXPECT_GT(nlohmann::json::parse(result.out)["test"]["psnr_db"], 15) << output;
     return read_scene(folder / output);
   };
   const Scene soft = train("soft.glb", {});

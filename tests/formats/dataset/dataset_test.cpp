@@ -349,7 +349,7 @@ TEST(Dataset, RefusesAnEmptySplit) {
   EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms_test.json"));
   EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), std::nullopt);
   write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
-  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}), Names(1, 0));
+  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}), ErrorIn("transforms_test.json"));
   write_text(folder / "transforms_test.json", transforms(intrinsics, {frame("images/0.png")}));
   write_text(folder / "transforms_train.json", transforms(intrinsics, {}));
   EXPECT_THAT(refusal(folder / ""), Names(0, 1));
