@@ -345,7 +345,7 @@ Examples:
   tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
   tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
   tureen train lego -o lego.glb --method gaussians --minutes 5   as much as 5 minutes allow
-  tureen train lego -o lego.glb --method triangles --opaque      for any renderer of triangles
+  tureen train lego -o lego.glb --method triangles --opaque    a soup with one color each
   tureen train lego -o lego.glb --preview-every 500          write previews
   tureen train lego -o lego.glb --watch                      show the training in a window
   tureen train lego -o better.glb --init lego.glb            continue from a trained soup

@@ -42,8 +42,8 @@ class TrainingMethod {
   /// if the options are invalid, or differ from the checkpoint; InputError for an invalid file.
   virtual void settle(const Dataset* dataset) = 0;
 
-  /// Why the first primitives cannot come from this scene, as far as that is known before the
-  /// dataset is read; nothing if they can.
+  /// The reason why the first primitives cannot come from this scene; nothing if they can. It is an
+  /// early check: train() may still refuse the scene.
   virtual std::optional<UnsuitableStart> unsuitable(const Scene& start) const = 0;
 
   /// The constants as a --config file.

@@ -49,7 +49,8 @@ std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) 
   return inverse * right;
 }
 
-double half_angle(const Camera& camera) {  // tangent of
+/// The tangent of half the angle that the smaller side of the image covers.
+double half_tangent(const Camera& camera) {
   return std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy);
 }
 
@@ -60,7 +61,7 @@ std::optional<Region> looked_at(const std::vector<Photograph>& views, glm::dvec3
     const Camera& camera = view.camera;
     const double depth = glm::dot(centre - camera.eye(), forward(camera));
     if (depth > rounding * glm::length(camera.eye()))
-      half_sides.push_back(depth * half_angle(camera));
+      half_sides.push_back(depth * half_tangent(camera));
   }
   if (2 * half_sides.size() <= views.size()) return std::nullopt;
   return Region{centre, median(half_sides)};
@@ -95,9 +96,9 @@ Region of_eyes(const std::vector<Photograph>& views, bool outwards) {
   if (outwards || glm::length(direction) < rounding) return around;
   const glm::dvec3 ahead = glm::normalize(direction);
   if (!coincide) return looked_at(views, middle + 8 * extent * ahead).value_or(around);
-  std::vector<double> half_angles;
-  for (const Photograph& view : views) half_angles.push_back(half_angle(view.camera));
-  return {middle + ahead / median(std::move(half_angles)), 1};
+  std::vector<double> half_tangents;
+  for (const Photograph& view : views) half_tangents.push_back(half_tangent(view.camera));
+  return {middle + ahead / median(std::move(half_tangents)), 1};
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ struct SplatConfig {
   double minutes = 0;
 };
 
-/// The functions below are for a configuration C, a SplatConfig with C::Field and a table:
-/// all fields, in the order of their members. Each kernel specialises it.
+/// All fields of the configuration C, in the order of its members. C is a SplatConfig with a type
+/// C::Field; each kernel specialises this function, and has an own_defect(C).
 template <class C>
 std::span<const typename C::Field> splat_config_fields();
 
