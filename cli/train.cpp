@@ -334,11 +334,11 @@ void add_train(Command& program) {
   Command command = program.add_command("train", "Train a scene from photographs");
   command.footer(
       R"(Trains a scene to match the photographs: triangles with lattice textures and a color MLP
-(--method diffsoup), Gaussians (--method gaussians), or soft or opaque triangles with one color
-each, which depends on the direction (--method triangles). Writes the scene as OUT.glb and a log as
-OUT.jsonl, and measures the scene on the test views. Ctrl-C writes a checkpoint; --resume continues
-from it. Equal seeds give equal scenes on a CPU, with any number of threads. For gaussians and
-triangles, --max-memory also limits the number of splats.
+(--method diffsoup), Gaussians or, with --flat, discs (--method gaussians), or soft or opaque
+triangles with one color each, which depends on the direction (--method triangles). Writes the scene
+as OUT.glb and a log as OUT.jsonl, and measures the scene on the test views. Ctrl-C writes a
+checkpoint; --resume continues from it. Equal seeds give equal scenes on a CPU, with any number of
+threads. For gaussians and triangles, --max-memory also limits the number of splats.
 
 Examples:
   tureen train lego -o lego.glb

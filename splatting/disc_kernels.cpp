@@ -10,14 +10,12 @@
 #include <hwy/highway.h>
 
 #include "splatting/blending-inl.hpp"
+#include "splatting/disc_alpha-inl.hpp"
 #include "splatting/harmonics-inl.hpp"
 #include "splatting/rotation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
-
-/// log2(e) / 2: exp(-q / 2) = 2^-(factor q).
-constexpr float half_log2_e = 0.721347520f;
 
 /// The map of a disc's plane into the image, as projected_disc_row: (u, v, 1) to homogeneous pixels
 /// from an origin.
@@ -63,11 +61,11 @@ HWY_INLINE void bounds_of(const Vector3& along, const Vector3& of_w, Floats orig
 }
 
 void project_discs_on(const ImageView& view, const ParameterRows& discs, int degree,
-                      ParameterRows& projected) {
+                      std::size_t begin, std::size_t end, ParameterRows& projected) {
   namespace in = gaussian_row;
   namespace out = projected_disc_row;
   const Floats zero = hn::Zero(d), one = constant(1.0f), near = constant(view.near);
-  for (std::size_t i = 0; i < discs.count(); i += lanes) {
+  for (std::size_t i = begin; i < end; i += lanes) {
     const auto load = [&](std::size_t row) { return hn::Load(d, discs.row(row) + i); };
     const auto store = [&](std::size_t row, Floats value) {
       hn::Store(value, d, projected.row(row) + i);
@@ -128,48 +126,9 @@ void project_discs_on(const ImageView& view, const ParameterRows& discs, int deg
   }
 }
 
-struct DiscAlpha {
-  float near, min_log_alpha, inverse_screen_variance;
-
-  HWY_INLINE Mask operator()(const DiscEntry& e, Floats x, Floats y, Floats inverse_behind,
-                             Floats& alpha) const {
-    const Floats dx = hn::Sub(x, constant(e.x)), dy = hn::Sub(y, constant(e.y));
-    // (u, v, 1) is orthogonal to both.
-    const Vector3 k{hn::NegMulAdd(dx, constant(e.u_w), constant(e.u_x)),
-                    hn::NegMulAdd(dx, constant(e.v_w), constant(e.v_x)),
-                    hn::NegMulAdd(dx, constant(e.c_w), constant(e.c_x))};
-    const Vector3 l{hn::NegMulAdd(dy, constant(e.u_w), constant(e.u_y)),
-                    hn::NegMulAdd(dy, constant(e.v_w), constant(e.v_y)),
-                    hn::NegMulAdd(dy, constant(e.c_w), constant(e.c_y))};
-    const Vector3 point = cross(k, l);
-    const Floats scale = hn::Div(constant(1.0f), point.z);
-    const Floats u = hn::Mul(point.x, scale), v = hn::Mul(point.y, scale);
-    Floats depth = hn::MulAdd(u, constant(e.u_w), hn::MulAdd(v, constant(e.v_w), constant(e.c_w)));
-    Floats squared = hn::MulAdd(u, u, hn::Mul(v, v));
-    // False for a plane that contains the ray.
-    const Mask meets = hn::And(hn::Ge(depth, constant(near)), hn::Lt(squared, constant(1e30f)));
-    squared = hn::IfThenElse(meets, squared, constant(1e30f));
-    if (inverse_screen_variance > 0) {
-      const Floats on_screen =
-          hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), constant(inverse_screen_variance));
-      const Mask filtered = hn::Lt(on_screen, squared);
-      squared = hn::Min(on_screen, squared);
-      depth = hn::IfThenElse(filtered, constant(e.c_w), depth);
-    }
-    const Floats log_alpha = hn::NegMulAdd(constant(half_log2_e), squared, constant(e.log_opacity));
-    Mask covered = hn::Ge(log_alpha, constant(min_log_alpha));
-    if (hn::AllFalse(d, covered)) return covered;
-    covered = hn::And(covered, hn::Lt(hn::Mul(depth, inverse_behind), constant(1.0f)));
-    alpha = exp2_of(hn::Max(log_alpha, constant(min_log_alpha)));
-    return covered;
-  }
-};
-
 void blend_discs_on(const ImageView& view, std::span<const DiscEntry> entries,
                     std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  blend_entries(view, entries, tile,
-                DiscAlpha{view.near, std::log2(view.min_alpha),
-                          view.screen_variance > 0 ? 1.0f / view.screen_variance : 0.0f},
+  blend_entries(view, entries, tile, DiscAlpha{std::log2(view.min_alpha), disc_constants(view)},
                 pixels);
 }
 
@@ -183,8 +142,8 @@ HWY_EXPORT(project_discs_on);
 HWY_EXPORT(blend_discs_on);
 
 void project_discs(const ImageView& view, const ParameterRows& discs, int harmonics_degree,
-                   ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_discs_on)(view, discs, harmonics_degree, projected);
+                   std::size_t begin, std::size_t end, ParameterRows& projected) {
+  HWY_DYNAMIC_DISPATCH(project_discs_on)(view, discs, harmonics_degree, begin, end, projected);
 }
 
 void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,

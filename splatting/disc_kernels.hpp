@@ -46,10 +46,10 @@ struct alignas(64) DiscEntry {
   float x, y, u_x, v_x, c_x, u_y, v_y, c_y, u_w, v_w, c_w, log_opacity, red, green, blue;
 };
 
-/// `discs` has the rows of gaussian_row, `projected` projected_disc_row::count rows of as many
-/// splats.
+/// Projects the discs [begin, end), with `begin` a multiple of row_alignment. `discs` has the rows
+/// of gaussian_row, `projected` projected_disc_row::count rows of as many splats.
 void project_discs(const ImageView& view, const ParameterRows& discs, int harmonics_degree,
-                   ParameterRows& projected);
+                   std::size_t begin, std::size_t end, ParameterRows& projected);
 
 /// Blends the entries front to back into the pixels of a tile.
 void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,

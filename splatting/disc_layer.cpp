@@ -1,5 +1,6 @@
 #include "splatting/disc_layer.hpp"
 
+#include "splatting/disc_entries.hpp"
 #include "splatting/gaussian_rows.hpp"
 
 namespace tureen::splatting {
@@ -11,23 +12,16 @@ DiscLayer::DiscLayer(const Gaussians& discs, const SplatColor& color,
       projected_(projected_disc_row::count, which.size()) {}
 
 std::span<const float> DiscLayer::project(const ImageView& view) {
-  project_discs(view, rows_, degree_, projected_);
+  project_discs(view, rows_, degree_, 0, count(), projected_);
   return {projected_.row(projected_disc_row::depth), count()};
 }
 
 void DiscLayer::set_order(std::span<const std::uint32_t> splats) {
-  namespace row = projected_disc_row;
   entries_.resize(splats.size());
   boxes_.resize(splats.size());
   for (std::size_t place = 0; place < splats.size(); ++place) {
-    const auto value = [&, i = splats[place]](std::size_t which) {
-      return projected_.row(which)[i];
-    };
-    entries_[place] = {value(row::x),   value(row::y),     value(row::u_x), value(row::v_x),
-                       value(row::c_x), value(row::u_y),   value(row::v_y), value(row::c_y),
-                       value(row::u_w), value(row::v_w),   value(row::c_w), value(row::log_opacity),
-                       value(row::red), value(row::green), value(row::blue)};
-    boxes_[place] = {value(row::left), value(row::right), value(row::top), value(row::bottom)};
+    entries_[place] = disc_entry(projected_, splats[place]);
+    boxes_[place] = disc_box(projected_, splats[place]);
   }
 }
 

@@ -49,11 +49,11 @@ HWY_INLINE void outline_of(const ImageView& view, const Vector3 (&point)[3], Flo
 }
 
 void project_windows_on(const ImageView& view, const ParameterRows& windows, int degree,
-                        ParameterRows& projected) {
+                        std::size_t begin, std::size_t end, ParameterRows& projected) {
   namespace in = window_row;
   namespace out = projected_window_row;
   const Floats zero = hn::Zero(d), one = constant(1.0f);
-  for (std::size_t i = 0; i < windows.count(); i += lanes) {
+  for (std::size_t i = begin; i < end; i += lanes) {
     const auto load = [&](std::size_t row) { return hn::Load(d, windows.row(row) + i); };
     const auto store = [&](std::size_t row, Floats value) {
       hn::Store(value, d, projected.row(row) + i);
@@ -112,8 +112,8 @@ HWY_EXPORT(project_windows_on);
 HWY_EXPORT(blend_windows_on);
 
 void project_windows(const ImageView& view, const ParameterRows& windows, int harmonics_degree,
-                     ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_windows_on)(view, windows, harmonics_degree, projected);
+                     std::size_t begin, std::size_t end, ParameterRows& projected) {
+  HWY_DYNAMIC_DISPATCH(project_windows_on)(view, windows, harmonics_degree, begin, end, projected);
 }
 
 void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,

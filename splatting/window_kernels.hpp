@@ -50,9 +50,10 @@ struct alignas(16) WindowEntry {
   bool reaches_near;  // some part may be nearer than the near plane
 };
 
-/// `projected` has projected_window_row::count rows of as many splats.
+/// Projects the windows [begin, end), with `begin` a multiple of row_alignment. `projected` has
+/// projected_window_row::count rows of as many splats.
 void project_windows(const ImageView& view, const ParameterRows& windows, int harmonics_degree,
-                     ParameterRows& projected);
+                     std::size_t begin, std::size_t end, ParameterRows& projected);
 
 /// Blends the entries front to back into the pixels of a tile.
 void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,

@@ -19,7 +19,7 @@ WindowLayer::WindowLayer(const TriangleWindows& windows, const SplatColor& color
 }
 
 std::span<const float> WindowLayer::project(const ImageView& view) {
-  project_windows(view, rows_, degree_, projected_);
+  project_windows(view, rows_, degree_, 0, count(), projected_);
   return {projected_.row(projected_window_row::depth), count()};
 }
 

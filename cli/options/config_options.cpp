@@ -53,6 +53,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
   add_number(command, "--minutes", options.minutes,
              "time for the training of gaussians or triangles, more than 0; the number of steps is "
              "fitted to it and replaces the steps of --config");
+  command.add_flag("--flat", options.flat,
+                   "discs (2D Gaussian Splatting) instead of Gaussians with three scales");
   command.add_flag("--opaque", options.opaque,
                    "triangles become opaque at the end; the result is a triangle soup");
   add_number(command, "--batch", options.batch, "views per step; 4 by default");

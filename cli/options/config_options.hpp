@@ -6,9 +6,9 @@
 
 namespace tureen::cli {
 
-/// --method, --preset, --config, --compat, --triangles, --max-splats, --steps, --minutes, --opaque,
-/// --batch,
-/// --seed, --level and --init. `options` must live until the arguments are parsed.
+/// --method, --preset, --config, --compat, --triangles, --max-splats, --steps, --minutes, --flat,
+/// --opaque, --batch, --seed, --level and --init. `options` must live until the arguments are
+/// parsed.
 void add_config_options(Command& command, TrainingOptions& options);
 
 }  // namespace tureen::cli

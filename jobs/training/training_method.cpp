@@ -22,7 +22,8 @@ struct OwnOption {
 };
 
 std::vector<OwnOption> own_options(const TrainingOptions& options) {
-  const Methods soups{TrainingMethodName::diffsoup}, triangles{TrainingMethodName::triangles},
+  const Methods soups{TrainingMethodName::diffsoup}, gaussians{TrainingMethodName::gaussians},
+      triangles{TrainingMethodName::triangles},
       splats{TrainingMethodName::gaussians, TrainingMethodName::triangles};
   return {
       {options.preset.has_value(), "--preset", soups,
@@ -39,6 +40,7 @@ std::vector<OwnOption> own_options(const TrainingOptions& options) {
       {options.max_splats.has_value(), "--max-splats", splats,
        "--triangles sets the number of triangles"},
       {options.minutes.has_value(), "--minutes", splats, "--steps sets the length of the training"},
+      {options.flat, "--flat", gaussians, "triangles are always flat"},
       {options.opaque, "--opaque", triangles,
        options.method == TrainingMethodName::diffsoup ? "the triangles of a soup are always opaque"
                                                       : "Gaussians stay soft"},

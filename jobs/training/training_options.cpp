@@ -186,7 +186,9 @@ Config with_options(const Config& base, const TrainingOptions& options) {
 }
 
 GaussianConfig with_options(const GaussianConfig& base, const TrainingOptions& options) {
-  return splats_with_options(base, options);
+  GaussianConfig config = base;
+  config.flat = options.flat || base.flat;
+  return splats_with_options(config, options);
 }
 
 WindowConfig with_options(const WindowConfig& base, const TrainingOptions& options) {

@@ -41,6 +41,9 @@ struct TrainingOptions {
   std::optional<double> minutes;            // of training; the run fits its steps
   std::optional<std::uint64_t> max_memory;  // bytes; the run has fewer splats if it needs more
 
+  // Only of gaussians.
+  bool flat = false;  // discs
+
   // Only of triangles.
   bool opaque = false;  // the result is a triangle soup
 

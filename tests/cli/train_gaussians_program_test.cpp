@@ -101,6 +101,27 @@ TEST_F(TrainGaussians, TrianglesAreSoftOrOpaque) {
               Names("--opaque", "--method triangles"));
 }
 
+TEST_F(TrainGaussians, FlatOnesAreDiscs) {
+  make_dataset();
+  const ChildResult result =
+      gaussians("discs.glb", {"--flat", "--steps", "250", "--max-splats", "400", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(json["test"]["psnr_db"].get<double>(), json["trainer_psnr_db"].get<double>(), 0.1);
+  // The value when written is 17.6 dB. Other processors round differently.
+  EXPECT_GT(json["trainer_psnr_db"], 15);
+  const Scene discs = read_scene(folder / "discs.glb");
+  EXPECT_EQ(profile_name(splats_of(discs)), "2dgs");
+  EXPECT_TRUE(std::get<Gaussians>(splats_of(discs).kernel).flat);
+  // They are the first ones of another run of discs, but not of one of Gaussians.
+  EXPECT_EQ(gaussians("more.glb", {"--flat", "--init", "discs.glb", "--steps", "20"}).exit_code, 0);
+  const ChildResult round = gaussians("round.glb", {"--init", "discs.glb", "--steps", "20"});
+  EXPECT_EQ(round.exit_code, 3);
+  EXPECT_THAT(round.err, Names("flat Gaussians", "discs.glb"));
+  EXPECT_THAT(run({"train", "ball", "-o", "x.glb", "--flat"}).err,
+              Names("--flat", "--method gaussians"));
+}
+
 TEST_F(TrainGaussians, ResumesAfterCtrlCWithTheSameBits) {
   make_dataset();
   fs::create_directories(folder / "whole");

@@ -51,7 +51,7 @@ TEST(GaussianConfigFields, AreAllMembersOnceAndInOrder) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name << " is listed twice";
     EXPECT_EQ(numbers(config, field).empty(), std::string(field.range.reason).empty());
   }
-  EXPECT_EQ(values, value_count<>() + 2);  // and the scales
+  EXPECT_EQ(values, value_count<>() + 3);  // and flat, and the scales
   EXPECT_FALSE(splat_config_defect(config));
 }
 
@@ -61,6 +61,7 @@ TEST(GaussianConfigFile, ComesBackToTheBit) {
   config.max_splats = 7'654'321;
   config.degree_steps = 0.1 + 1e-17;
   config.densify_until = 1.0 / 3;
+  config.flat = true;
   config.min_scale = 1.1e-5f;
   config.background[1] = 0.3f;
   config.seed = 18446744073709551615u;

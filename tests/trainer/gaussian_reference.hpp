@@ -1,5 +1,5 @@
-// Gaussians of the profile "3dgs" drawn in double precision, one pixel and one splat after the
-// other, for numbers that carry a derivative.
+// Gaussians of the profile "3dgs" and discs of "2dgs", drawn in double precision, one pixel and one
+// splat after the other, for numbers that carry a derivative.
 #pragma once
 
 #include <algorithm>
@@ -39,66 +39,50 @@ inline Dual power(Dual x) { return {std::exp(x.value), std::exp(x.value) * x.slo
 
 /// The branches that a drawing took, in order: one letter each. n: nearer than the profile allows;
 /// c, per axis: the Jacobian's slope is limited; a: alpha below the smallest; m: alpha limited to
-/// the largest; s: the pixel is closed; '.': every other case.
+/// the largest; s: the pixel is closed; f: alpha is that of the filter on the screen; p: because
+/// the ray does not meet the disc; '.': every other case.
 using Branches = std::vector<char>;
 
-/// The values of a splat that do not depend on the pixel.
+/// The values of a splat's parameters in a view.
 template <class Real>
-struct ReferenceSplat {
-  Real x, y, inverse_xx, inverse_xy, inverse_yy, opacity;
-  std::array<Real, 3> color;
-  double depth;
+struct ReferenceValues {
+  std::array<Real, 3> center;               // in view coordinates: x right, y down, z forward
+  std::array<std::array<Real, 3>, 3> axes;  // of unit length, in view coordinates
+  std::array<Real, 3> scales, color;
+  Real opacity;
 };
 
 /// `p` are the trained values of a splat, in the order of gaussian_row.
 template <class Real>
-ReferenceSplat<Real> reference_projection(const Real* p, int degree, const Camera& camera,
-                                          Branches& branches) {
+ReferenceValues<Real> reference_values(const Real* p, int degree, const Camera& camera) {
   namespace row = splatting::gaussian_row;
-  ReferenceSplat<Real> result;
+  ReferenceValues<Real> result;
   const glm::dvec3 eye = camera.eye();
   const glm::dmat3 turn(camera.view_from_world);
   const std::array<Real, 3> offset{p[row::x] - Real(eye.x), p[row::y] - Real(eye.y),
                                    p[row::z] - Real(eye.z)};
   // OpenGL's y points up and its z backwards.
-  const auto in_view = [&](const std::array<Real, 3>& v, int axis) {
-    const double sign = axis == 0 ? 1 : -1;
-    return Real(sign * turn[0][axis]) * v[0] + Real(sign * turn[1][axis]) * v[1] +
-           Real(sign * turn[2][axis]) * v[2];
+  const auto in_view = [&](const std::array<Real, 3>& v) {
+    std::array<Real, 3> turned;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double sign = axis == 0 ? 1 : -1;
+      turned[std::size_t(axis)] = Real(sign * turn[0][axis]) * v[0] +
+                                  Real(sign * turn[1][axis]) * v[1] +
+                                  Real(sign * turn[2][axis]) * v[2];
+    }
+    return turned;
   };
-  const Real x = in_view(offset, 0), y = in_view(offset, 1), z = in_view(offset, 2);
-  result.depth = value_of(z);
-  result.x = Real(camera.fx) * x / z + Real(camera.cx);
-  result.y = Real(camera.fy) * y / z + Real(camera.cy);
-  const auto clamped = [&](Real slope, double low, double high) {
-    branches.push_back(value_of(slope) < low || value_of(slope) > high ? 'c' : '.');
-    return value_of(slope) < low ? Real(low) : value_of(slope) > high ? Real(high) : slope;
-  };
-  const double margin_x = ewa_margin * camera.width, margin_y = ewa_margin * camera.height;
-  const Real along_x = clamped(x / z, (-margin_x - camera.cx) / camera.fx,
-                               (camera.width + margin_x - camera.cx) / camera.fx);
-  const Real along_y = clamped(y / z, (-margin_y - camera.cy) / camera.fy,
-                               (camera.height + margin_y - camera.cy) / camera.fy);
+  result.center = in_view(offset);
   Real i = p[row::rotation_x], j = p[row::rotation_y], k = p[row::rotation_z],
        w = p[row::rotation_w];
   const Real length = root(i * i + j * j + k * k + w * w);
   i = i / length, j = j / length, k = k / length, w = w / length;
   const Real two(2), one(1);
-  const std::array<std::array<Real, 3>, 3> axes{
-      {{one - two * (j * j + k * k), two * (i * j + w * k), two * (i * k - w * j)},
-       {two * (i * j - w * k), one - two * (i * i + k * k), two * (j * k + w * i)},
-       {two * (i * k + w * j), two * (j * k - w * i), one - two * (i * i + j * j)}}};
-  Real xx(dilation_variance), xy(0), yy(dilation_variance);
-  for (std::size_t n = 0; n < 3; ++n) {
-    const Real scale = power(p[row::scale_x + n]) / z, depth = in_view(axes[n], 2);
-    const Real a = Real(camera.fx) * scale * (in_view(axes[n], 0) - along_x * depth);
-    const Real b = Real(camera.fy) * scale * (in_view(axes[n], 1) - along_y * depth);
-    xx = xx + a * a, xy = xy + a * b, yy = yy + b * b;
-  }
-  const Real determinant = xx * yy - xy * xy;
-  result.inverse_xx = yy / determinant;
-  result.inverse_xy = Real(0) - xy / determinant;
-  result.inverse_yy = xx / determinant;
+  result.axes = {
+      in_view({one - two * (j * j + k * k), two * (i * j + w * k), two * (i * k - w * j)}),
+      in_view({two * (i * j - w * k), one - two * (i * i + k * k), two * (j * k + w * i)}),
+      in_view({two * (i * k + w * j), two * (j * k - w * i), one - two * (i * i + j * j)})};
+  for (std::size_t n = 0; n < 3; ++n) result.scales[n] = power(p[row::scale_x + n]);
   result.opacity = one / (one + power(Real(0) - p[row::opacity]));
   const Real distance = root(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
   const auto basis = harmonics::basis(
@@ -112,17 +96,101 @@ ReferenceSplat<Real> reference_projection(const Real* p, int degree, const Camer
   return result;
 }
 
+/// A Gaussian, of the profile "3dgs".
+template <class Real>
+struct ReferenceGaussian {
+  static constexpr const char* profile = "3dgs";
+  Real x, y, inverse_xx, inverse_xy, inverse_yy, opacity;
+  std::array<Real, 3> color;
+  double depth;
+
+  ReferenceGaussian(const ReferenceValues<Real>& values, const Camera& camera, Branches& branches)
+      : opacity(values.opacity), color(values.color) {
+    const auto& [center_x, center_y, z] = values.center;
+    depth = value_of(z);
+    x = Real(camera.fx) * center_x / z + Real(camera.cx);
+    y = Real(camera.fy) * center_y / z + Real(camera.cy);
+    const auto clamped = [&](Real slope, double low, double high) {
+      branches.push_back(value_of(slope) < low || value_of(slope) > high ? 'c' : '.');
+      return value_of(slope) < low ? Real(low) : value_of(slope) > high ? Real(high) : slope;
+    };
+    const double margin_x = ewa_margin * camera.width, margin_y = ewa_margin * camera.height;
+    const Real along_x = clamped(center_x / z, (-margin_x - camera.cx) / camera.fx,
+                                 (camera.width + margin_x - camera.cx) / camera.fx);
+    const Real along_y = clamped(center_y / z, (-margin_y - camera.cy) / camera.fy,
+                                 (camera.height + margin_y - camera.cy) / camera.fy);
+    Real xx(dilation_variance), xy(0), yy(dilation_variance);
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Real scale = values.scales[n] / z;
+      const auto& axis = values.axes[n];
+      const Real a = Real(camera.fx) * scale * (axis[0] - along_x * axis[2]);
+      const Real b = Real(camera.fy) * scale * (axis[1] - along_y * axis[2]);
+      xx = xx + a * a, xy = xy + a * b, yy = yy + b * b;
+    }
+    const Real determinant = xx * yy - xy * xy;
+    inverse_xx = yy / determinant;
+    inverse_xy = Real(0) - xy / determinant;
+    inverse_yy = xx / determinant;
+  }
+
+  Real alpha(double pixel_x, double pixel_y, const Camera&, Branches&) const {
+    const Real dx = Real(pixel_x) - x, dy = Real(pixel_y) - y;
+    const Real q = inverse_xx * dx * dx + Real(2) * inverse_xy * dx * dy + inverse_yy * dy * dy;
+    return opacity * power(Real(-0.5) * q);
+  }
+};
+
+/// A disc, of the profile "2dgs".
+template <class Real>
+struct ReferenceDisc {
+  static constexpr const char* profile = "2dgs";
+  ReferenceValues<Real> values;
+  std::array<Real, 3> color;
+  double depth;
+
+  ReferenceDisc(const ReferenceValues<Real>& in_view, const Camera&, Branches&)
+      : values(in_view), color(in_view.color), depth(value_of(in_view.center[2])) {}
+
+  /// Solves centre + u U + v V = t (ray), as two equations without t.
+  Real alpha(double pixel_x, double pixel_y, const Camera& camera, Branches& branches) const {
+    const Real ray_x((pixel_x - camera.cx) / camera.fx), ray_y((pixel_y - camera.cy) / camera.fy);
+    const auto beside = [&](const std::array<Real, 3>& a, Real scale) {
+      return std::array<Real, 2>{scale * (a[0] - a[2] * ray_x), scale * (a[1] - a[2] * ray_y)};
+    };
+    const auto a = beside(values.axes[0], values.scales[0]);
+    const auto b = beside(values.axes[1], values.scales[1]);
+    const auto c = beside(values.center, Real(1));
+    const Real determinant = a[0] * b[1] - a[1] * b[0];
+    const Real u = (c[1] * b[0] - c[0] * b[1]) / determinant;
+    const Real v = (a[1] * c[0] - a[0] * c[1]) / determinant;
+    const Real at = values.center[2] + u * values.scales[0] * values.axes[0][2] +
+                    v * values.scales[1] * values.axes[1][2];
+    Real q = u * u + v * v;
+    const bool meets = std::isfinite(value_of(q)) && value_of(at) >= near;
+    const Real dx =
+        Real(pixel_x) - Real(camera.fx) * values.center[0] / values.center[2] - Real(camera.cx);
+    const Real dy =
+        Real(pixel_y) - Real(camera.fy) * values.center[1] / values.center[2] - Real(camera.cy);
+    const Real on_screen = (dx * dx + dy * dy) / Real(screen_variance);
+    const bool filtered = !meets || value_of(on_screen) < value_of(q);
+    branches.push_back(!meets ? 'p' : filtered ? 'f' : '.');
+    return values.opacity * power(Real(-0.5) * (filtered ? on_screen : q));
+  }
+
+  static constexpr double near = 1e-3;  // of TileRaster
+};
+
 /// The image over a background: red, green and blue planes, row 0 on top. `p` has `rows` values a
 /// splat.
-template <class Real>
+template <template <class> class Splat, class Real>
 std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, int degree,
                                   const Camera& camera, const std::array<float, 3>& background,
                                   Branches* taken = nullptr) {
-  const SplatProfile profile = *profile_named("3dgs");
-  std::vector<ReferenceSplat<Real>> splats;
+  const SplatProfile profile = *profile_named(Splat<Real>::profile);
+  std::vector<Splat<Real>> splats;
   Branches branches;
   for (std::size_t first = 0; first < p.size(); first += rows) {
-    const ReferenceSplat<Real> splat = reference_projection(&p[first], degree, camera, branches);
+    const Splat<Real> splat(reference_values(&p[first], degree, camera), camera, branches);
     const bool near = !(splat.depth > double(profile.min_center_depth));
     branches.push_back(near ? 'n' : '.');
     if (!near) splats.push_back(splat);
@@ -136,11 +204,8 @@ std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, 
     const double y = double(pixel / std::size_t(camera.width)) + 0.5;
     Real left(1);
     std::array<Real, 3> color{Real(0), Real(0), Real(0)};
-    for (const ReferenceSplat<Real>& splat : splats) {
-      const Real dx = Real(x) - splat.x, dy = Real(y) - splat.y;
-      const Real q = splat.inverse_xx * dx * dx + Real(2) * splat.inverse_xy * dx * dy +
-                     splat.inverse_yy * dy * dy;
-      Real alpha = splat.opacity * power(Real(-0.5) * q);
+    for (const Splat<Real>& splat : splats) {
+      Real alpha = splat.alpha(x, y, camera, branches);
       branches.push_back('a');
       if (value_of(alpha) < double(profile.min_alpha)) continue;
       branches.back() = '.';

@@ -181,6 +181,22 @@ TEST(SplatForecast, FitsTheStepsToTheTime) {
   }
 }
 
+TEST(SplatForecast, FollowsTheGrowthOfTheNumber) {
+  GaussianConfig config{{.steps = 100, .max_splats = 4000}};
+  config.densify_every = 20;
+  config.densify_until = 1;
+  config.growth = 1;
+  config.half_size_until = 0;
+  // 1,000, 2,000 and three times 4,000 splats.
+  EXPECT_DOUBLE_EQ(growth_of_work(config, 0, 1000), 3);
+  EXPECT_DOUBLE_EQ(growth_of_work(config, 0, 4000), 1);
+  EXPECT_DOUBLE_EQ(growth_of_work(config, 50, 5000), 1);
+  // The first two fifths with half the sides, which take less time.
+  config.half_size_until = 0.4;
+  EXPECT_DOUBLE_EQ(growth_of_work(config, 0, 1000),
+                   (3 * half_size_work + 12) / (2 * half_size_work + 3));
+}
+
 struct Files {
   fs::path folder;
   Files() {

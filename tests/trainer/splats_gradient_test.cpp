@@ -1,6 +1,6 @@
-// Gradients of Gaussians: derivatives in double precision against central differences and, as
-// images, against the oracle; the vector kernels against these; the same bits with any number of
-// threads.
+// Gradients of Gaussians and discs: derivatives in double precision against central differences
+// and, as images, against the oracle; the vector kernels against these; the same bits with any
+// number of threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "oracle/oracle.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/gaussian_reference.hpp"
+#include "trainer/splats/disc_raster.hpp"
 #include "trainer/splats/gaussian_raster.hpp"
 
 namespace tureen::trainer {
@@ -32,7 +33,7 @@ Camera camera() {
 
 /// Splats in the ball of radius 1 about the origin.
 GaussianParameters random_parameters(std::uint64_t seed, std::size_t count, int degree,
-                                     double mean_logit = 0) {
+                                     double mean_logit = 0, double mean_log_scale = -1.8) {
   Random random(seed);
   GaussianParameters result(count, degree);
   for (std::size_t i = 0; i < count; ++i) {
@@ -40,7 +41,7 @@ GaussianParameters random_parameters(std::uint64_t seed, std::size_t count, int 
     const glm::dvec3 centre = random.uniform(0, 1) * random.direction();
     for (int axis = 0; axis < 3; ++axis) {
       set(row::x + std::size_t(axis), centre[axis]);
-      set(row::scale_x + std::size_t(axis), -1.8 + 0.6 * random.normal());
+      set(row::scale_x + std::size_t(axis), mean_log_scale + 0.6 * random.normal());
     }
     for (std::size_t k = 0; k < 4; ++k) set(row::rotation_x + k, 1.7 * random.normal());
     set(row::opacity, mean_logit + random.normal());
@@ -68,15 +69,55 @@ std::vector<float> random_gradient(std::uint64_t seed) {
   return result;
 }
 
+struct GaussianKernel {
+  template <class Real>
+  using Reference = test::ReferenceGaussian<Real>;
+  using Raster = GaussianRaster;
+  using Moments = GaussianMoments;
+  static constexpr auto gradients = &gaussian_gradients;
+  static constexpr auto step = &step_gaussians;
+  static constexpr bool flat = false;
+  static constexpr std::string_view branches = "ncams";
+};
+
+struct DiscKernel {
+  template <class Real>
+  using Reference = test::ReferenceDisc<Real>;
+  using Raster = DiscRaster;
+  using Moments = DiscMoments;
+  static constexpr auto gradients = &disc_gradients;
+  static constexpr auto step = &step_discs;
+  static constexpr bool flat = true;
+  static constexpr std::string_view branches = "nfams";
+};
+
+template <class Kernel>
+class SplatsGradient : public testing::Test {};
+struct KernelNames {
+  template <class Kernel>
+  static std::string GetName(int) {
+    return Kernel::flat ? "Discs" : "Gaussians";
+  }
+};
+using Kernels = testing::Types<GaussianKernel, DiscKernel>;
+TYPED_TEST_SUITE(SplatsGradient, Kernels, KernelNames);
+
+template <class Kernel, class Real>
+std::vector<Real> image_of(const std::vector<Real>& values, std::size_t rows, int degree,
+                           test::Branches* branches = nullptr) {
+  return test::reference_image<Kernel::template Reference>(values, rows, degree, camera(),
+                                                           background, branches);
+}
+
 /// The derivative of sum(image . gradient) by each value.
+template <class Kernel>
 std::vector<double> reference_gradient(const GaussianParameters& parameters, int degree,
                                        const std::vector<float>& gradient) {
   std::vector<Dual> values = values_of<Dual>(parameters);
   std::vector<double> result;
   for (Dual& variable : values) {
     variable.slope = 1;
-    const std::vector<Dual> image =
-        test::reference_image(values, parameters.rows(), degree, camera(), background);
+    const std::vector<Dual> image = image_of<Kernel>(values, parameters.rows(), degree);
     variable.slope = 0;
     double sum = 0;
     for (std::size_t k = 0; k < image.size(); ++k) sum += image[k].slope * double(gradient[k]);
@@ -86,15 +127,16 @@ std::vector<double> reference_gradient(const GaussianParameters& parameters, int
 }
 
 /// Of the kernels, splat after splat.
+template <class Kernel>
 std::vector<float> kernel_gradient(const GaussianParameters& parameters, int degree,
                                    const std::vector<float>& gradient, int threads = 1) {
   ThreadPool pool(threads);
-  GaussianRaster raster(pool);
+  typename Kernel::Raster raster(pool);
   std::vector<float> planes(gradient.size());
   raster.forward(parameters, camera(), degree, background, planes);
-  const GaussianBackwardInput input = raster.backward(planes, gradient);
+  const auto input = raster.backward(planes, gradient);
   splatting::ParameterRows rows(parameters.rows(), parameters.count());
-  gaussian_gradients(input, parameters, 0, parameters.count(), rows);
+  Kernel::gradients(input, parameters, 0, parameters.count(), rows);
   std::vector<float> result;
   for (std::size_t i = 0; i < parameters.count(); ++i)
     for (std::size_t r = 0; r < parameters.rows(); ++r) result.push_back(rows.row(r)[i]);
@@ -103,10 +145,11 @@ std::vector<float> kernel_gradient(const GaussianParameters& parameters, int deg
 
 /// Each kind of parameter of each splat, relative to its length. Single precision gives about 1e-5
 /// through the inverse covariance and the sums over pixels; thin splats lose a digit.
+template <class Kernel>
 void expect_agreement(const GaussianParameters& parameters, int degree, std::uint64_t seed) {
   const std::vector<float> by_image = random_gradient(seed);
-  const std::vector<double> expected = reference_gradient(parameters, degree, by_image);
-  const std::vector<float> actual = kernel_gradient(parameters, degree, by_image);
+  const std::vector<double> expected = reference_gradient<Kernel>(parameters, degree, by_image);
+  const std::vector<float> actual = kernel_gradient<Kernel>(parameters, degree, by_image);
   const std::size_t rows = parameters.rows();
   std::size_t moving = 0;
   for (std::size_t i = 0; i < parameters.count(); ++i)
@@ -125,15 +168,14 @@ void expect_agreement(const GaussianParameters& parameters, int degree, std::uin
   EXPECT_GT(moving, parameters.count()) << "too little to compare";
 }
 
-TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
+TYPED_TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
   for (const double mean_logit : {0.0, 4.0}) {  // with 4, many pixels reach the largest alpha
     const GaussianParameters parameters = random_parameters(1, 6, 3, mean_logit);
     const std::vector<float> by_image = random_gradient(2);
-    const std::vector<double> gradient = reference_gradient(parameters, 3, by_image);
+    const std::vector<double> gradient = reference_gradient<TypeParam>(parameters, 3, by_image);
     std::vector<double> values = values_of<double>(parameters);
     const auto loss = [&] {
-      const std::vector<double> image =
-          test::reference_image(values, parameters.rows(), 3, camera(), background);
+      const std::vector<double> image = image_of<TypeParam>(values, parameters.rows(), 3);
       double sum = 0;
       for (std::size_t k = 0; k < image.size(); ++k) sum += image[k] * double(by_image[k]);
       return sum;
@@ -156,16 +198,15 @@ TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
 }
 
 /// At both sides of each branch, the derivative is that of one-sided differences.
-TEST(SplatsGradient, OfTheReferenceHoldsAtBranches) {
-  const GaussianParameters parameters = random_parameters(7, 14, 1, 3.5);
+TYPED_TEST(SplatsGradient, OfTheReferenceHoldsAtBranches) {
+  const GaussianParameters parameters = random_parameters(7, 14, 1, 3.5, -1.4);
   const std::vector<float> by_image = random_gradient(8);
   const std::vector<double> start = values_of<double>(parameters);
   test::Branches branches;
   const auto loss = [&](std::size_t k, auto value) {
     std::vector<decltype(value)> values(start.begin(), start.end());
     values[k] = value;
-    const auto image =
-        test::reference_image(values, parameters.rows(), 1, camera(), background, &branches);
+    const auto image = image_of<TypeParam>(values, parameters.rows(), 1, &branches);
     decltype(value) sum = 0;
     for (std::size_t i = 0; i < image.size(); ++i) sum = sum + image[i] * double(by_image[i]);
     return sum;
@@ -213,18 +254,18 @@ TEST(SplatsGradient, OfTheReferenceHoldsAtBranches) {
     scan(splat * rows + row::z, 3, 4, 20);  // through the smallest depth
     scan(splat * rows + row::x, 0, 5, 20);  // out of the image
   }
-  for (const char branch : {'n', 'c', 'a', 'm', 's'})
+  for (const char branch : TypeParam::branches)
     EXPECT_NE(met.find(branch), std::string::npos) << branch;
 }
 
-TEST(SplatsGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
+TYPED_TEST(SplatsGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
   const GaussianParameters parameters = random_parameters(3, 40, 3, 1);
   Scene scene;
-  scene.layers.push_back({.primitives = parameters.splats()});
+  scene.layers.push_back({.primitives = parameters.splats(TypeParam::flat)});
   const OracleImage expected = render_oracle(
       scene, {camera()}, {.background = glm::vec3(background[0], background[1], background[2])});
-  const std::vector<double> image = test::reference_image(
-      values_of<double>(parameters), parameters.rows(), 3, camera(), background);
+  const std::vector<double> image =
+      image_of<TypeParam>(values_of<double>(parameters), parameters.rows(), 3);
   for (std::size_t pixel = 0; pixel < expected.color.pixels.size(); ++pixel)
     for (std::size_t c = 0; c < 3; ++c)
       // Scales, rotations and opacities are rounded to floats before the oracle draws.
@@ -232,89 +273,89 @@ TEST(SplatsGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
                   expected.color.pixels[pixel][int(c)], 1e-5);
 }
 
-TEST(SplatsGradient, ImagesOfTheKernelsAreThoseOfTheReference) {
+TYPED_TEST(SplatsGradient, ImagesOfTheKernelsAreThoseOfTheReference) {
   const GaussianParameters parameters = random_parameters(4, 40, 3, 1);
   ThreadPool pool(1);
-  GaussianRaster raster(pool);
+  typename TypeParam::Raster raster(pool);
   std::vector<float> planes(3 * width * height);
   raster.forward(parameters, camera(), 3, background, planes);
-  const std::vector<double> image = test::reference_image(
-      values_of<double>(parameters), parameters.rows(), 3, camera(), background);
+  const std::vector<double> image =
+      image_of<TypeParam>(values_of<double>(parameters), parameters.rows(), 3);
   for (std::size_t k = 0; k < image.size(); ++k)
     EXPECT_NEAR(double(planes[k]), image[k], 2e-5);  // rounding; no splat is near a limit here
 }
 
-TEST(SplatsGradient, OfTheKernelsIsThatOfTheReference) {
+TYPED_TEST(SplatsGradient, OfTheKernelsIsThatOfTheReference) {
   for (std::uint64_t seed = 10; seed < 14; ++seed)
-    expect_agreement(random_parameters(seed, 9, 3), 3, seed);
+    expect_agreement<TypeParam>(random_parameters(seed, 9, 3), 3, seed);
 }
 
 /// More splats than a batch in each block, which reach the stop.
-TEST(SplatsGradient, HoldsBehindManySplats) {
-  expect_agreement(random_parameters(20, 40, 1, 1.5), 1, 20);
+TYPED_TEST(SplatsGradient, HoldsBehindManySplats) {
+  expect_agreement<TypeParam>(random_parameters(20, 40, 1, 1.5), 1, 20);
 }
 
-TEST(SplatsGradient, HoldsWhereAlphaIsLimited) {
-  expect_agreement(random_parameters(21, 12, 0, 5), 0, 21);
+TYPED_TEST(SplatsGradient, HoldsWhereAlphaIsLimited) {
+  expect_agreement<TypeParam>(random_parameters(21, 12, 0, 5), 0, 21);
 }
 
 /// Of the harmonics of lower degrees only, if only those are drawn.
-TEST(SplatsGradient, HoldsForFewerDegrees) {
+TYPED_TEST(SplatsGradient, HoldsForFewerDegrees) {
   for (int degree = 0; degree < 3; ++degree)
-    expect_agreement(random_parameters(22, 6, 3), degree, 22);
+    expect_agreement<TypeParam>(random_parameters(22, 6, 3), degree, 22);
 }
 
-TEST(SplatsGradient, OfLimitedColorsAndHiddenSplatsIsZero) {
+TYPED_TEST(SplatsGradient, OfLimitedColorsAndHiddenSplatsIsZero) {
   GaussianParameters parameters = random_parameters(23, 3, 0);
   parameters.trained(row::harmonics)[0] = -5;  // no red
   parameters.trained(row::z)[1] = 3.9f;        // before the least depth
   parameters.trained(row::opacity)[2] = -9;    // below the smallest alpha
   for (std::size_t i = 0; i < 3; ++i) parameters.activate(i);
-  const std::vector<float> gradient = kernel_gradient(parameters, 0, random_gradient(1));
+  const std::vector<float> gradient = kernel_gradient<TypeParam>(parameters, 0, random_gradient(1));
   const std::size_t rows = parameters.rows();
   EXPECT_EQ(gradient[row::harmonics], 0);
   EXPECT_NE(gradient[row::harmonics + 1], 0);
   for (std::size_t k = rows; k < gradient.size(); ++k) EXPECT_EQ(gradient[k], 0) << k;
-  expect_agreement(parameters, 0, 23);
+  expect_agreement<TypeParam>(parameters, 0, 23);
 }
 
 /// A centre outside of the image, beyond the margin of the Jacobian.
-TEST(SplatsGradient, HoldsBesideTheImage) {
+TYPED_TEST(SplatsGradient, HoldsBesideTheImage) {
   GaussianParameters parameters = random_parameters(24, 2, 1, 2);
   for (std::size_t axis = 0; axis < 3; ++axis) parameters.trained(row::scale_x + axis)[0] = 0.5f;
   parameters.trained(row::x)[0] = 3.5f;
   for (std::size_t i = 0; i < 2; ++i) parameters.activate(i);
-  expect_agreement(parameters, 1, 24);
+  expect_agreement<TypeParam>(parameters, 1, 24);
 }
 
-TEST(SplatsGradient, HasTheSameBitsWithMoreThreads) {
+TYPED_TEST(SplatsGradient, HasTheSameBitsWithMoreThreads) {
   const GaussianParameters parameters = random_parameters(30, 500, 2);
   const std::vector<float> by_image = random_gradient(30);
-  const std::vector<float> one = kernel_gradient(parameters, 2, by_image, 1);
+  const std::vector<float> one = kernel_gradient<TypeParam>(parameters, 2, by_image, 1);
   for (const int threads : {2, 5}) {
-    const std::vector<float> more = kernel_gradient(parameters, 2, by_image, threads);
+    const std::vector<float> more = kernel_gradient<TypeParam>(parameters, 2, by_image, threads);
     EXPECT_EQ(std::memcmp(one.data(), more.data(), one.size() * sizeof(float)), 0) << threads;
   }
 }
 
 /// One splat that is not finite neither moves nor stops the others.
-TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
+TYPED_TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
   GaussianParameters parameters = random_parameters(31, 20, 1);
   ThreadPool pool(1);
-  GaussianRaster raster(pool);
+  typename TypeParam::Raster raster(pool);
   std::vector<float> planes(3 * width * height);
   raster.forward(parameters, camera(), 1, background, planes);
-  const GaussianBackwardInput input = raster.backward(planes, random_gradient(31));
-  std::vector<GaussianMoments> moments(input.moments.begin(), input.moments.end());
+  const auto input = raster.backward(planes, random_gradient(31));
+  std::vector<typename TypeParam::Moments> moments(input.moments.begin(), input.moments.end());
   ASSERT_LT(input.pairs[7].begin, input.pairs[7].end);
-  moments[input.pairs[7].begin].xy = std::numeric_limits<float>::quiet_NaN();
+  moments[input.pairs[7].begin].red = std::numeric_limits<float>::quiet_NaN();
   const GaussianParameters before = parameters;
   SplatMemory memory(parameters.rows(), parameters.count());
   const GaussianStep step{.rates = {1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f},
                           .min_log_scale = -20,
                           .max_log_scale = 20};
-  const GaussianBackwardInput damaged{input.view, input.degree, input.pairs, moments};
-  EXPECT_EQ(step_gaussians(damaged, step, 0, 20, parameters, memory), 1u);
+  const decltype(raster.backward({}, {})) damaged{input.view, input.degree, input.pairs, moments};
+  EXPECT_EQ(TypeParam::step(damaged, step, 0, 20, parameters, memory), 1u);
   for (std::size_t i = 0; i < 20; ++i) {
     if (input.pairs[i].begin == input.pairs[i].end) continue;
     EXPECT_EQ(parameters.trained(row::opacity)[i] == before.trained(row::opacity)[i], i == 7) << i;

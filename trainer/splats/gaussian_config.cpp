@@ -7,6 +7,11 @@ namespace tureen::trainer {
 template <>
 std::span<const GaussianConfig::Field> splat_config_fields<GaussianConfig>() {
   static const std::vector<GaussianConfig::Field> fields = with_common_fields<GaussianConfig>({
+      {"flat",
+       &GaussianConfig::flat,
+       {},
+       {},
+       "true: discs (2D Gaussian Splatting) instead of Gaussians with three scales"},
       {"min_scale",
        &GaussianConfig::min_scale,
        splat_range::length,

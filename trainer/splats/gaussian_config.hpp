@@ -12,6 +12,9 @@ namespace tureen::trainer {
 struct GaussianConfig : SplatConfig {
   using Field = BasicConfigField<GaussianConfig, Initialisation>;
 
+  /// Discs with two scales on their planes (2D Gaussian Splatting, arXiv 2403.17888), instead of
+  /// Gaussians with three.
+  bool flat = false;
   /// Scales have at least and at most this length, relative to the region's half side.
   float min_scale = 3e-4f, max_scale = 1;
 };

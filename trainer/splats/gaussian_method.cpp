@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
 namespace tureen::trainer {
 
 namespace row = splatting::gaussian_row;
+
+namespace {
+
+/// The third scale of a disc. GaussianStep::min_log_scale raises it to the smallest scale.
+constexpr float flat_log_scale = -30;
+
+}  // namespace
 
 GaussianStep GaussianTraining::step_of(const GaussianConfig& config, double half_side, double,
                                        std::size_t) {
@@ -27,7 +35,7 @@ double GaussianTraining::size_at_point(const GaussianConfig& config, double dist
 }
 
 void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& point, double size,
-                           Random&, std::size_t place, GaussianParameters& parameters) {
+                           Random& random, std::size_t place, GaussianParameters& parameters) {
   for (int axis = 0; axis < 3; ++axis) {
     parameters.trained(row::x + std::size_t(axis))[place] = float(point.position[axis]);
     parameters.trained(row::scale_x + std::size_t(axis))[place] = float(std::log(size));
@@ -35,20 +43,29 @@ void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& poi
         float((double(point.color[axis]) - 0.5) / constant_harmonic);
   }
   parameters.trained(row::rotation_w)[place] = 1;
+  if (config.flat) {
+    const glm::dquat rotation(random.rotation());
+    for (int k = 0; k < 3; ++k)
+      parameters.trained(row::rotation_x + std::size_t(k))[place] = float(k == 0   ? rotation.x
+                                                                          : k == 1 ? rotation.y
+                                                                                   : rotation.z);
+    parameters.trained(row::rotation_w)[place] = float(rotation.w);
+    parameters.trained(row::scale_z)[place] = flat_log_scale;
+  }
   parameters.trained(row::opacity)[place] =
       std::log(config.first_opacity / (1 - config.first_opacity));
   parameters.activate(place);
 }
 
-Primitives GaussianTraining::primitives(const GaussianConfig&, const GaussianParameters& parameters,
-                                        const SplatMemory&) {
+Primitives GaussianTraining::primitives(const GaussianConfig& config,
+                                        const GaussianParameters& parameters, const SplatMemory&) {
   GaussianParameters kept = parameters;
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t i = 0; i < parameters.count(); ++i)
     if (parameters.is_finite(i) && parameters.opacity(i) >= profile_named("3dgs")->min_alpha)
       drawn.push_back(i);
   kept.reorder(drawn);
-  return kept.splats();
+  return kept.splats(config.flat);
 }
 
 }  // namespace tureen::trainer

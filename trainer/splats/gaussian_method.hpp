@@ -1,7 +1,12 @@
-// Gaussians as a method of SplatTrainer (3D Gaussian Splatting, arXiv 2308.04079).
+// Gaussians and discs as methods of SplatTrainer: 3D Gaussian Splatting (arXiv 2308.04079), and 2D
+// Gaussian Splatting (arXiv 2403.17888).
+//
+// Not implemented: the losses of normals and of distance distortion of 2D Gaussian Splatting, which
+// are for the extraction of surfaces.
 #pragma once
 
 #include "scene/scene.hpp"
+#include "trainer/splats/disc_raster.hpp"
 #include "trainer/splats/gaussian_densify.hpp"
 #include "trainer/splats/gaussian_raster.hpp"
 #include "trainer/splats/splat_trainer.hpp"
@@ -26,10 +31,10 @@ struct GaussianTraining {
   /// After a step: nothing is to be limited.
   static void limit(const Config&, int, Parameters&) {}
 
-  /// The first splats are round. A size is their standard deviation: a quarter of the side of a
-  /// cube that is a splat's share of the volume, and at points the mean distance to this many
-  /// others (as 3DGS), if it is between the lowest and the highest scale; coincident points have
-  /// distance 0.
+  /// The first splats are round; discs have random orientations. A size is their standard
+  /// deviation: a quarter of the side of a cube that is a splat's share of the volume, and at
+  /// points the mean distance to this many others (as 3DGS), if it is between the lowest and the
+  /// highest scale; coincident points have distance 0.
   static constexpr std::size_t neighbours = 3;
   static double size_of_share(const Config&, double side) { return side / 4; }
   static double size_at_point(const Config& config, double distance, double spacing,
@@ -43,5 +48,12 @@ struct GaussianTraining {
 };
 
 using GaussianTrainer = SplatTrainer<GaussianTraining>;
+
+/// For GaussianConfig::flat. Discs have the parameters of Gaussians; their third scale stays the
+/// smallest one.
+struct DiscTraining : GaussianTraining {
+  using Raster = DiscRaster;
+  static constexpr auto step_splats = &step_discs;
+};
 
 }  // namespace tureen::trainer

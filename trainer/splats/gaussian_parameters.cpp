@@ -57,17 +57,21 @@ void GaussianParameters::activate(std::size_t i) {
   drawn.row(row::opacity)[i] = 1 / (1 + std::exp(-trained(row::opacity)[i]));
 }
 
-Splats GaussianParameters::splats() const {
+Splats GaussianParameters::splats(bool flat) const {
   Gaussians gaussians;
+  gaussians.flat = flat;
   for (std::size_t i = 0; i < count(); ++i) {
     const auto value = [&](std::size_t r) { return drawn.row(r)[i]; };
     gaussians.centers.push_back(center(i));
-    gaussians.scales.push_back(triple(row::scale_x, i));
+    const glm::vec3 scales = triple(row::scale_x, i);
+    gaussians.scales.emplace_back(scales.x, scales.y, flat ? 0 : scales.z);
     gaussians.rotations.emplace_back(value(row::rotation_w), value(row::rotation_x),
                                      value(row::rotation_y), value(row::rotation_z));
     gaussians.opacity.push_back(opacity(i));
   }
-  return {.kernel = std::move(gaussians), .color = color(), .profile = *profile_named("3dgs")};
+  return {.kernel = std::move(gaussians),
+          .color = color(),
+          .profile = *profile_named(flat ? "2dgs" : "3dgs")};
 }
 
 }  // namespace tureen::trainer

@@ -31,8 +31,8 @@ struct GaussianParameters
   glm::vec3 center(std::size_t i) const { return triple(splatting::gaussian_row::x, i); }
   float opacity(std::size_t i) const { return drawn.row(splatting::gaussian_row::opacity)[i]; }
 
-  /// As a scene stores them, with the profile "3dgs".
-  Splats splats() const;
+  /// As a scene stores them: Gaussians of the profile "3dgs", or discs of "2dgs".
+  Splats splats(bool flat = false) const;
 };
 
 }  // namespace tureen::trainer

@@ -14,13 +14,10 @@ class ProjectedGaussians {
 
   void project(ThreadPool& pool, const splatting::ImageView& view,
                const splatting::ParameterRows& drawn, int degree) {
-    const std::size_t count = drawn.count();
-    entries_.resize(count);
-    pool.run((count + splats_a_task - 1) / splats_a_task, [&](std::size_t task) {
-      const std::size_t begin = task * splats_a_task;
-      splatting::project_gaussians(
-          view, drawn, degree, begin,
-          std::span(entries_).subspan(begin, std::min(splats_a_task, count - begin)));
+    entries_.resize(drawn.count());
+    run_in_tasks(pool, drawn.count(), [&](std::size_t begin, std::size_t end) {
+      splatting::project_gaussians(view, drawn, degree, begin,
+                                   std::span(entries_).subspan(begin, end - begin));
     });
   }
   const std::vector<splatting::GaussianEntry>& entries() const { return entries_; }
@@ -39,7 +36,6 @@ struct GaussianMethod {
   using Parameters = GaussianParameters;
   using Projected = ProjectedGaussians;
   using Moments = GaussianMoments;
-  using Scratch = MomentScratch;
   using BackwardInput = GaussianBackwardInput;
   static constexpr std::string_view profile = "3dgs";
   static constexpr auto blend_recorded = &blend_gaussians_recorded;

@@ -9,8 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "splatting/blending-inl.hpp"
 #include "splatting/gaussian_alpha-inl.hpp"
+#include "trainer/splats/tile_loops-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
@@ -24,6 +24,7 @@ using splatting::ImageView;
 using splatting::place_mask;
 using splatting::tile_side;
 using splatting::TilePixels;
+using tiles::BlockGradient;
 
 /// Entries that are tested together for the pixels of a block.
 constexpr std::size_t tested_batch = 16;
@@ -106,7 +107,7 @@ void blend_recorded_on(const ImageView& view, std::span<const GaussianEntry> ent
 constexpr std::size_t columns = 12;
 constexpr std::size_t column_parts = (columns + lanes - 1) / lanes;
 constexpr std::size_t row_floats = 16;
-/// The column of MomentScratch whose products are 0; it holds GaussianMoments::evident.
+/// The column of TileLine whose products are 0; it holds GaussianMoments::evident.
 constexpr std::size_t evident_column = 7;
 /// Entries whose sums are in registers at the same time.
 constexpr std::size_t batch = lanes == 16 ? 8 : 4;
@@ -166,7 +167,7 @@ HWY_INLINE void write_matrix(const TileGradient& gradient, int block, Buffers& b
 
 /// Adds the sums of the entries in the buffers to their lines.
 HWY_INLINE void add_sums(const Buffers& buffers, const std::uint32_t (&of)[batch],
-                         std::size_t count, MomentScratch::Line* lines) {
+                         std::size_t count, TileLine* lines) {
   Floats sums[batch][column_parts];
   for (std::size_t e = 0; e < batch; ++e)
     for (std::size_t part = 0; part < column_parts; ++part) sums[e][part] = hn::Zero(d);
@@ -187,50 +188,17 @@ HWY_INLINE void add_sums(const Buffers& buffers, const std::uint32_t (&of)[batch
   }
 }
 
-/// The pixels of a block that the backward pass blends again.
-struct BlockGradient {
-  Floats x[parts], y[parts], red[parts], green[parts], blue[parts], behind[parts],
-      transmittance[parts];
-
-  HWY_INLINE BlockGradient(const TileGradient& tile, int block) {
-    pixel_centers(tile.x, tile.y, block, x, y);
-    for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t at = std::size_t(block) * block_pixels + part * lanes;
-      red[part] = hn::Load(d, tile.red + at);
-      green[part] = hn::Load(d, tile.green + at);
-      blue[part] = hn::Load(d, tile.blue + at);
-      behind[part] = hn::Load(d, tile.behind + at);
-      transmittance[part] = hn::Load(d, tile.transmittance + at);
-    }
-  }
-};
-
 /// Blends an entry again, and writes (h, weight) of the block's pixels.
 HWY_INLINE void replay(const ImageView& view, const GaussianEntry& entry, Floats min_log_alpha,
                        BlockGradient& block, float* pairs) {
-  const Floats zero = hn::Zero(d), one = constant(1.0f);
-  const Floats max_alpha = constant(view.max_alpha), stop = constant(view.stop_transmittance);
   for (std::size_t part = 0; part < parts; ++part) {
-    Floats& transmittance = block.transmittance[part];
-    Floats& behind = block.behind[part];
     const Floats log_alpha = log_alpha_of(entry, block.x[part], block.y[part]);
-    Mask blended = hn::And(hn::Ge(log_alpha, min_log_alpha), hn::Gt(transmittance, zero));
+    const Mask covered = hn::Ge(log_alpha, min_log_alpha);
     const Floats unlimited = exp2_of(hn::Max(log_alpha, min_log_alpha));
-    const Floats alpha = hn::Min(unlimited, max_alpha);
-    const Floats after = hn::NegMulAdd(alpha, transmittance, transmittance);
-    const Mask ends = hn::And(blended, hn::Lt(after, stop));
-    blended = hn::AndNot(ends, blended);
-    const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
-    const Floats along = hn::MulAdd(constant(entry.red), block.red[part],
-                                    hn::MulAdd(constant(entry.green), block.green[part],
-                                               hn::Mul(constant(entry.blue), block.blue[part])));
-    behind = hn::NegMulAdd(weight, along, behind);
-    const Floats ratio = hn::Div(alpha, hn::Sub(one, alpha));
-    const Mask moves = hn::And(blended, hn::Le(unlimited, max_alpha));
-    const Floats h =
-        hn::IfThenElseZero(moves, hn::NegMulAdd(behind, ratio, hn::Mul(weight, along)));
-    transmittance = hn::IfThenElse(blended, after, transmittance);
-    transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
+    const Floats alpha = hn::Min(unlimited, constant(view.max_alpha));
+    const Floats ratio = hn::Div(alpha, hn::Sub(constant(1.0f), alpha));
+    const auto [weight, h] =
+        tiles::blend_again(view, entry, covered, unlimited, ratio, block, part);
     store_pairs(h, weight, pairs + 2 * part * lanes);
   }
 }
@@ -254,11 +222,11 @@ HWY_INLINE GaussianMoments moved(const float* line, float x, float y) {
 
 void blend_backward_on(const ImageView& view, std::span<const GaussianEntry> entries,
                        std::span<const std::uint32_t> tile, std::span<const std::uint32_t> numbers,
-                       const TileRecord& record, TileGradient& gradient, MomentScratch& scratch,
+                       const TileRecord& record, TileGradient& gradient, TileScratch& scratch,
                        std::span<GaussianMoments> moments) {
   const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   if (scratch.lines.size() < tile.size()) scratch.lines.resize(tile.size());
-  MomentScratch::Line* lines = scratch.lines.data();
+  TileLine* lines = scratch.lines.data();
   std::memset(lines, 0, tile.size() * sizeof *lines);
   Buffers buffers{};
   for (int i = 0; i < blocks_a_tile; ++i) {
@@ -308,7 +276,7 @@ void blend_gaussians_backward(const splatting::ImageView& view,
                               std::span<const splatting::GaussianEntry> entries,
                               std::span<const std::uint32_t> tile,
                               std::span<const std::uint32_t> numbers, const TileRecord& record,
-                              TileGradient& gradient, MomentScratch& scratch,
+                              TileGradient& gradient, TileScratch& scratch,
                               std::span<GaussianMoments> moments) {
   HWY_DYNAMIC_DISPATCH(blend_backward_on)
   (view, entries, tile, numbers, record, gradient, scratch, moments);

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "splatting/gaussian_kernels.hpp"
 #include "trainer/splats/tile_passes.hpp"
@@ -19,14 +18,6 @@ struct GaussianMoments {
   float evident;  // > 0: evident_weight is reached
 };
 
-/// Memory of blend_gaussians_backward(), kept between calls.
-struct MomentScratch {
-  struct alignas(64) Line {
-    float values[16];
-  };
-  std::vector<Line> lines;
-};
-
 /// splatting::blend_gaussians() for a tile without opaque surfaces, with its record.
 void blend_gaussians_recorded(const splatting::ImageView& view,
                               std::span<const splatting::GaussianEntry> entries,
@@ -38,7 +29,7 @@ void blend_gaussians_backward(const splatting::ImageView& view,
                               std::span<const splatting::GaussianEntry> entries,
                               std::span<const std::uint32_t> tile,
                               std::span<const std::uint32_t> numbers, const TileRecord& record,
-                              TileGradient& gradient, MomentScratch& scratch,
+                              TileGradient& gradient, TileScratch& scratch,
                               std::span<GaussianMoments> moments);
 
 }  // namespace tureen::trainer

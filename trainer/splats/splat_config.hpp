@@ -3,6 +3,7 @@
 // (trainer/diffsoup/config_file.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -44,6 +45,11 @@ struct SplatConfig {
   /// Training time to which the run fits `steps`, in minutes; 0: `steps` as given.
   double minutes = 0;
 };
+
+/// Steps between densifications. Short runs densify more often, or they would end with few splats.
+inline int densify_interval(const SplatConfig& config) {
+  return std::min(config.densify_every, std::max(config.steps / 25, 20));
+}
 
 /// All fields of the configuration C, in the order of its members. C is a SplatConfig with a type
 /// C::Field; each kernel specialises this function, and has an own_defect(C).

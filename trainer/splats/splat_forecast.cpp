@@ -90,7 +90,8 @@ double step_seconds(typename Method::Config probe, std::span<const TrainingView>
 }  // namespace
 
 std::uint64_t splat_memory(const GaussianConfig& config, const Dataset& dataset) {
-  return memory_of<GaussianTraining>(config, dataset);
+  return config.flat ? memory_of<DiscTraining>(config, dataset)
+                     : memory_of<GaussianTraining>(config, dataset);
 }
 
 std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset) {
@@ -99,7 +100,8 @@ std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset) {
 
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
                                                const Dataset& dataset) {
-  return splats_within<GaussianTraining>(bytes, config, dataset);
+  return config.flat ? splats_within<DiscTraining>(bytes, config, dataset)
+                     : splats_within<GaussianTraining>(bytes, config, dataset);
 }
 
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const WindowConfig& config,
@@ -109,7 +111,8 @@ std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Window
 
 double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
                              const Region& region, int threads, const GaussianState& state) {
-  return step_seconds<GaussianTraining>(config, views, region, threads, state);
+  return config.flat ? step_seconds<DiscTraining>(config, views, region, threads, state)
+                     : step_seconds<GaussianTraining>(config, views, region, threads, state);
 }
 
 double measured_step_seconds(const WindowConfig& config, std::span<const TrainingView> views,
@@ -122,6 +125,22 @@ double measured_step_seconds(const WindowConfig& config, std::span<const Trainin
 double remaining_work(const SplatConfig& config, int done) {
   const double full_from = std::max(config.half_size_until * config.steps, double(done));
   return half_size_work * (full_from - done) + (config.steps - full_from);
+}
+
+double growth_of_work(const SplatConfig& config, int done, std::size_t count) {
+  const int every = densify_interval(config);
+  double now = double(std::max<std::size_t>(count, 1)), work = 0, sum = 0;
+  const double first = now, last = std::max(now, double(config.max_splats));
+  for (int step = done; step < config.steps;) {
+    const int next = std::min((step / every + 1) * every, config.steps);
+    const double part = remaining_work(config, step) - remaining_work(config, next);
+    work += part;
+    sum += part * now;
+    if (next <= config.densify_until * config.steps)
+      now = std::min(last, now * (1 + config.growth));
+    step = next;
+  }
+  return work > 0 ? sum / (work * first) : 1;
 }
 
 int fitted_steps(const SplatConfig& config, int done, double seconds, double step_seconds) {

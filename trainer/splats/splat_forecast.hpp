@@ -1,6 +1,7 @@
 // The time and the memory of a run of splats, estimated before its start.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -32,6 +33,10 @@ inline constexpr double half_size_work = 0.28;
 
 /// The work of all steps after the first `done`, in steps of full size.
 double remaining_work(const SplatConfig& config, int done);
+
+/// The mean time of the steps after the first `done`, over that of a step with `count` splats: the
+/// number grows as fast as it may, and the time of a step in proportion to it. An estimate.
+double growth_of_work(const SplatConfig& config, int done, std::size_t count);
 
 /// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
 /// half a second, or two steps if they take longer. `threads`: 0 for all cores.

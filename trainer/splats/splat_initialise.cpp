@@ -161,6 +161,8 @@ typename Method::Parameters initial_splats(const Dataset& dataset,
 
 template GaussianParameters initial_splats<GaussianTraining>(const Dataset&, const GaussianConfig&,
                                                              const Region&, const Scene*, Random&);
+template GaussianParameters initial_splats<DiscTraining>(const Dataset&, const GaussianConfig&,
+                                                         const Region&, const Scene*, Random&);
 template WindowParameters initial_splats<WindowTraining>(const Dataset&, const WindowConfig&,
                                                          const Region&, const Scene*, Random&);
 

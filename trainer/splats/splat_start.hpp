@@ -7,14 +7,16 @@
 
 namespace tureen::trainer {
 
-/// The kernel that a configuration trains, "Gaussians" or "triangle windows".
-inline const char* kernel_of(const GaussianConfig&) { return "Gaussians"; }
+/// The kernel that a configuration trains, as kernel_name().
+inline const char* kernel_of(const GaussianConfig& config) {
+  return config.flat ? "flat Gaussians" : "Gaussians";
+}
 inline const char* kernel_of(const WindowConfig&) { return "triangle windows"; }
 
 /// The splats of the kernel that the configuration trains; null if `splats` has another kernel.
-inline const Gaussians* own_kernel(const Splats& splats, const GaussianConfig&) {
+inline const Gaussians* own_kernel(const Splats& splats, const GaussianConfig& config) {
   const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
-  return gaussians && !gaussians->flat ? gaussians : nullptr;
+  return gaussians && gaussians->flat == config.flat ? gaussians : nullptr;
 }
 inline const TriangleWindows* own_kernel(const Splats& splats, const WindowConfig&) {
   return std::get_if<TriangleWindows>(&splats.kernel);

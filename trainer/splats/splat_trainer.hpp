@@ -100,8 +100,7 @@ class SplatTrainer {
     report.quarantined += update(input);
     ++times().steps;
     ++state_.step;
-    // Short runs densify more often, or they would end with few splats.
-    const int every = std::min(config_.densify_every, std::max(config_.steps / 25, 20));
+    const int every = densify_interval(config_);
     if (state_.step % every == 0 && state_.step <= config_.densify_until * config_.steps) {
       const DensifyReport densified =
           Method::densify(config_, state_.step, state_.step / every, state_.random,

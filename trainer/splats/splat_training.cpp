@@ -144,15 +144,15 @@ SplatResult train_by(Dataset& dataset, Request request) {
   for (TrainingView& view : views) view.camera = moved(view.camera, region.centre);
   const Region local{.centre = glm::dvec3(0), .half_side = region.half_side};
   const double step_seconds =
-      measured_step_seconds(run.config, views, local, request.run.threads, run.state);
+      overhead * measured_step_seconds(run.config, views, local, request.run.threads, run.state) *
+      growth_of_work(run.config, run.state.step, run.state.parameters.count());
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
   else if (run.config.minutes > 0)
-    run.config.steps =
-        fitted_steps(run.config, 0, 60 * run.config.minutes, overhead * step_seconds);
+    run.config.steps = fitted_steps(run.config, 0, 60 * run.config.minutes, step_seconds);
   SplatTrainer<Method> trainer(run.config, views, local, request.run.threads, run.state);
   forecast.steps = run.config.steps;
-  forecast.seconds = overhead * step_seconds * remaining_work(run.config, run.state.step);
+  forecast.seconds = step_seconds * remaining_work(run.config, run.state.step);
   forecast.threads = trainer.threads();
   if (request.begun) request.begun(forecast);
 
@@ -175,6 +175,7 @@ SplatResult train_by(Dataset& dataset, Request request) {
 }  // namespace
 
 SplatResult train_splats(Dataset& dataset, GaussianRequest request) {
+  if (request.config.flat) return train_by<DiscTraining>(dataset, std::move(request));
   return train_by<GaussianTraining>(dataset, std::move(request));
 }
 

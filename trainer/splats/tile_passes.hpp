@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "splatting/tile_lists.hpp"
 
@@ -33,6 +34,16 @@ struct alignas(64) TileGradient {
   float behind[splatting::tile_pixels];         // S
   float transmittance[splatting::tile_pixels];  // 1, or negative outside the image
   int x = 0, y = 0;                             // of the upper left pixel
+};
+
+/// Sums over a tile's pixels, of one splat.
+struct alignas(64) TileLine {
+  float values[16];
+};
+
+/// Memory of a tile's backward pass, kept between calls.
+struct TileScratch {
+  std::vector<TileLine> lines;
 };
 
 }  // namespace tureen::trainer

@@ -53,6 +53,15 @@ void for_each_run(int x, int y, int width, int height, const Act& act) {
 /// Threads share splats in groups of this many, a multiple of splatting::row_alignment.
 inline constexpr std::size_t splats_a_task = 1024;
 
+/// Calls act(begin, end) for all groups of `count` splats.
+template <class Act>
+void run_in_tasks(ThreadPool& pool, std::size_t count, const Act& act) {
+  pool.run((count + splats_a_task - 1) / splats_a_task, [&](std::size_t task) {
+    const std::size_t begin = task * splats_a_task;
+    act(begin, std::min(begin + splats_a_task, count));
+  });
+}
+
 /// `Method` names the types and functions of a kernel, as GaussianMethod and WindowMethod do. Its
 /// Projected holds the projected splats in their order in memory.
 template <class Method>
@@ -103,7 +112,7 @@ class TileRaster {
   struct Row {
     std::vector<std::uint32_t> blended;
     std::vector<TileRecord> records;
-    typename Method::Scratch scratch;
+    TileScratch scratch;
   };
 
   void project(const Parameters& parameters) {

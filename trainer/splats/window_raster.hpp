@@ -14,16 +14,18 @@ class ProjectedWindows {
       sizeof(float) * splatting::projected_window_row::count + sizeof(splatting::WindowEntry) +
       sizeof(splatting::WindowOutline);
 
-  void project(ThreadPool&, const splatting::ImageView& view, const splatting::ParameterRows& drawn,
-               int degree) {
+  void project(ThreadPool& pool, const splatting::ImageView& view,
+               const splatting::ParameterRows& drawn, int degree) {
     if (rows_.count() != drawn.count())
       rows_ = splatting::ParameterRows(splatting::projected_window_row::count, drawn.count());
-    splatting::project_windows(view, drawn, degree, rows_);
     // In memory order: in the order of blending, each of the rows would be a cache miss.
     entries_.resize(drawn.count());
     outlines_.resize(drawn.count());
-    for (std::size_t i = 0; i < drawn.count(); ++i)
-      if (std::isfinite(depth(i))) splatting::read_entry(rows_, i, entries_[i], outlines_[i]);
+    run_in_tasks(pool, drawn.count(), [&](std::size_t begin, std::size_t end) {
+      splatting::project_windows(view, drawn, degree, begin, end, rows_);
+      for (std::size_t i = begin; i < end; ++i)
+        if (std::isfinite(depth(i))) splatting::read_entry(rows_, i, entries_[i], outlines_[i]);
+    });
   }
   const std::vector<splatting::WindowEntry>& entries() const { return entries_; }
   /// NaN: not drawn.
@@ -41,7 +43,6 @@ class ProjectedWindows {
 struct WindowMethod {
   using Parameters = WindowParameters;
   using Moments = WindowMoments;
-  using Scratch = WindowScratch;
   using BackwardInput = WindowBackwardInput;
   static constexpr std::string_view profile = "triangle-splatting";
   using Projected = ProjectedWindows;

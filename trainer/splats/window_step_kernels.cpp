@@ -10,6 +10,7 @@
 
 #include "splatting/window_plane-inl.hpp"
 #include "trainer/splats/color_gradient-inl.hpp"
+#include "trainer/splats/pair_sums-inl.hpp"
 #include "trainer/splats/splat_adam-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,22 +39,9 @@ struct Moments {
   Mask drawn;  // whether the splats have pairs
 };
 
-/// Adds the pairs of each splat in their order.
 HWY_INLINE Moments moments_of(const WindowBackwardInput& input, std::size_t i) {
-  constexpr std::size_t values = sizeof(WindowMoments) / sizeof(float);
-  alignas(64) float sums[values][lanes] = {};
-  alignas(64) float drawn[lanes] = {};
-  const auto* moments = reinterpret_cast<const float*>(input.moments.data());
-  for (std::size_t lane = 0; lane < lanes && i + lane < input.pairs.size(); ++lane) {
-    const PairSpan pairs = input.pairs[i + lane];
-    if (pairs.begin == pairs.end) continue;
-    drawn[lane] = 1;
-    float total[values] = {};
-    for (std::uint32_t pair = pairs.begin; pair < pairs.end; ++pair)
-      for (std::size_t k = 0; k < values; ++k) total[k] += moments[values * pair + k];
-    for (std::size_t k = 0; k < values; ++k) sums[k][lane] = total[k];
-  }
-  const auto load = [&](std::size_t k) { return hn::Load(d, sums[k]); };
+  const auto sums = shared::pair_sums(input.pairs, input.moments, i);
+  const auto load = [&](std::size_t k) { return sums.values[k]; };
   Moments result;
   for (std::size_t k = 0; k < 3; ++k)
     result.edges[k] = {load(3 * k + 1), load(3 * k + 2), load(3 * k)};
@@ -61,7 +49,7 @@ HWY_INLINE Moments moments_of(const WindowBackwardInput& input, std::size_t i) {
   result.h_log_rho = load(10);
   result.color = {load(11), load(12), load(13)};
   result.evident = load(14);
-  result.drawn = hn::Gt(hn::Load(d, drawn), hn::Zero(d));
+  result.drawn = sums.drawn;
   return result;
 }
 

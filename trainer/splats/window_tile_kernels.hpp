@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "splatting/window_kernels.hpp"
 #include "trainer/splats/tile_passes.hpp"
@@ -32,14 +31,6 @@ struct WindowMoments {
 /// derivative has no bound). A random pixel of a triangle is nearer with a probability of 2e-6.
 inline constexpr float min_rho_in_gradient = 1e-6f;
 
-/// Memory of blend_windows_backward(), kept between calls.
-struct WindowScratch {
-  struct alignas(64) Line {
-    float values[16];
-  };
-  std::vector<Line> lines;
-};
-
 /// splatting::blend_windows() for a tile without opaque surfaces, with its record.
 void blend_windows_recorded(const splatting::ImageView& view,
                             std::span<const splatting::WindowEntry> entries,
@@ -51,7 +42,7 @@ void blend_windows_backward(const splatting::ImageView& view,
                             std::span<const splatting::WindowEntry> entries,
                             std::span<const std::uint32_t> tile,
                             std::span<const std::uint32_t> numbers, const TileRecord& record,
-                            TileGradient& gradient, WindowScratch& scratch,
+                            TileGradient& gradient, TileScratch& scratch,
                             std::span<WindowMoments> moments);
 
 }  // namespace tureen::trainer

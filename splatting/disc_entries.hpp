@@ -1,0 +1,12 @@
+// Projected discs for compositing, and the tiles that they touch.
+#pragma once
+
+#include "splatting/disc_kernels.hpp"
+
+namespace tureen::splatting {
+
+/// Reads disc `i` of rows of projected_disc_row.
+DiscEntry disc_entry(const ParameterRows& projected, std::size_t i);
+Box disc_box(const ParameterRows& projected, std::size_t i);
+
+}  // namespace tureen::splatting

@@ -1,0 +1,47 @@
+// The hot loops over the tiles of an image of discs in training, for the vectors of the processor,
+// chosen at run time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "splatting/disc_kernels.hpp"
+#include "trainer/splats/tile_passes.hpp"
+
+namespace tureen::trainer {
+
+/// Sums of h = dL/d ln(alpha) and of the derivatives by the colour, over the pixels of one tile or
+/// of all. Pixels whose alpha is limited to the profile's largest have h = 0.
+///
+/// A ray meets the disc's plane at (u, v) = (p_u, p_v) / p_w, p = k x l, where k and l are the
+/// lines of splatting::DiscAt, and ln(alpha) = ln(opacity) - (u^2 + v^2) / 2. So q = dL/dp = -h /
+/// p_w (u, v, -u^2 - v^2).
+struct DiscMoments {
+  struct Sum {
+    float u, v, w;
+  };
+  /// Of q, and of q times the offset (x, y) of the pixel from DiscEntry's (x, y), over the pixels
+  /// whose alpha is that on the plane.
+  Sum one, x, y;
+  /// Of h times this offset, over the pixels whose alpha is that of the filter on the screen.
+  float screen_x, screen_y;
+  float h;  // of h
+  float red, green, blue;
+  float evident;  // > 0: evident_weight is reached
+};
+
+/// splatting::blend_discs() for a tile without opaque surfaces, with its record.
+void blend_discs_recorded(const splatting::ImageView& view,
+                          std::span<const splatting::DiscEntry> entries,
+                          std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
+                          TileRecord& record);
+
+/// Writes the moments of each entry of `tile` to moments[numbers[its index]]. Changes `gradient`.
+void blend_discs_backward(const splatting::ImageView& view,
+                          std::span<const splatting::DiscEntry> entries,
+                          std::span<const std::uint32_t> tile,
+                          std::span<const std::uint32_t> numbers, const TileRecord& record,
+                          TileGradient& gradient, TileScratch& scratch,
+                          std::span<DiscMoments> moments);
+
+}  // namespace tureen::trainer
