@@ -71,8 +71,8 @@ struct Block {
 };
 
 /// Blends one entry into the open pixels of a block. Returns whether it closes any. `alpha_of` as
-/// in blend_entries(). `seen(weight)` is called with the entry's weights in pixels that it may
-/// change: 0 where it does not.
+/// in blend_entries(). `seen(part, weight)` is called with the entry's weights in a vector of
+/// pixels that it may change: 0 where it does not.
 template <class Entry, class AlphaOf, class Seen>
 HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, Floats max_alpha,
                             Floats stop, Block& block, const Seen& seen) {
@@ -88,7 +88,7 @@ HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, Floats 
     const Mask ends = hn::And(blended, hn::Lt(behind, stop));
     blended = hn::AndNot(ends, blended);
     const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
-    seen(weight);
+    seen(part, weight);
     block.red[part] = hn::MulAdd(weight, constant(entry.red), block.red[part]);
     block.green[part] = hn::MulAdd(weight, constant(entry.green), block.green[part]);
     block.blue[part] = hn::MulAdd(weight, constant(entry.blue), block.blue[part]);
@@ -114,7 +114,7 @@ HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entr
     if (!block.has_open_pixels()) continue;
     for (const std::uint32_t splat : tile)
       if (blend_entry(entries[splat & place_mask], alpha_of, max_alpha, stop, block,
-                      [](Floats) {}) &&
+                      [](std::size_t, Floats) {}) &&
           !block.has_open_pixels())
         break;
     block.store(pixels, i);

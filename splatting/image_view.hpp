@@ -19,12 +19,14 @@ struct ImageView {
   bool keep_integral;      // opacity compensates the dilation (Mip-Splatting)
   float screen_variance;   // of the low pass of 2DGS, in px^2; 0: none
   float min_alpha, max_alpha, stop_transmittance;
+  float solidity;  // of triangle windows (splatting/window_plane-inl.hpp)
   int width, height;
 };
 
-/// `camera` and `eye` are in layer coordinates (FrameCamera in runtime/passes/pass.hpp): the
-/// camera's rotation may contain a reflection, and its translation is not used. `near` > 0 is in
-/// layer units. `whole` is the camera of the whole image, for images drawn in tiles.
+/// The profile's constants, and solidity 0. `camera` and `eye` are in layer coordinates
+/// (FrameCamera in runtime/passes/pass.hpp): the camera's rotation may contain a reflection, and
+/// its translation is not used. `near` > 0 is in layer units. `whole` is the camera of the whole
+/// image, for images drawn in tiles.
 ImageView image_view(const Camera& camera, const glm::dvec3& eye, double near,
                      const SplatProfile& profile, const Camera& whole);
 

@@ -68,7 +68,11 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     Mask drawn = hn::Gt(depth, constant(std::fmax(view.near, view.min_center_depth)));
     const WindowPlane plane = plane_of(view, at);
     drawn = hn::And(drawn, plane.exists);
-    for (std::size_t k = 0; k < 9; ++k) store(out::edges + k, plane.edges[k]);
+    const SolidRamp ramp(view, plane);
+    for (std::size_t k = 0; k < 9; ++k) {
+      const float offset = k % 3 == 2 ? ramp.offset : 0;
+      store(out::edges + k, hn::MulAdd(ramp.gain, plane.edges[k], constant(offset)));
+    }
     for (std::size_t k = 0; k < 3; ++k)
       store(out::inverse_depth + k, hn::Mul(plane.inverse_depth[k], by_size));
 
@@ -80,7 +84,8 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
     const Floats min_rho = exp2_of(hn::Max(hn::Neg(hn::Div(excess, sigma)), constant(-126.0f)));
 
     Floats outline[6];
-    outline_of(view, at.point, hn::Mul(constant(view.near), by_size), min_rho, outline);
+    const Floats min_soft_rho = hn::Div(hn::Sub(min_rho, constant(ramp.offset)), ramp.gain);
+    outline_of(view, at.point, hn::Mul(constant(view.near), by_size), min_soft_rho, outline);
     for (std::size_t k = 0; k < 6; ++k) store(out::outline + k, outline[k]);
 
     store(out::x, hn::Add(at.x, constant(view.cx)));

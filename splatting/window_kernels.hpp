@@ -24,7 +24,7 @@ enum : std::size_t {
 
 /// Rows of projected windows. At an offset (dx, dy) from (x, y), in pixels, the distance from edge
 /// k over the inradius is edges[3 k] dx + edges[3 k + 1] dy + edges[3 k + 2], and one over the
-/// depth likewise.
+/// depth likewise. With ImageView::solidity, the edges are those of rho_s instead.
 namespace projected_window_row {
 enum : std::size_t {
   x,

@@ -132,6 +132,37 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
   return result;
 }
 
+/// Half of the width of the ramp at the edges of solid windows, in px. With the half px of a
+/// pixel's coverage, neighbours that touch would let 1/4 of what is behind them through along their
+/// edge; narrow ramps move edges by fewer pixels.
+inline constexpr float half_ramp = 0.25f;
+
+/// How windows become opaque triangles in training. rho at the solidity s, for an inradius r in px:
+///
+///   rho_s = gain rho + s / 2 with gain = 1 / (1 - s + 2 s min(half_ramp / r, 1)).
+///
+/// Solidity 0 is the window of Triangle Splatting. Solidity 1 is a ramp from 0 to 1 across each
+/// edge, from half_ramp outside of the triangle to half_ramp inside; in a small triangle, from its
+/// inradius outside to the incentre, so that the integral is at most 4/3 of the area.
+struct SolidRamp {
+  Floats gain, by_inradius;
+  Floats gain_slope;  // the derivative of gain by by_inradius
+  float offset;
+
+  HWY_INLINE SolidRamp(const ImageView& view, const WindowPlane& plane)
+      : offset(0.5f * view.solidity) {
+    const Floats one = constant(1.0f);
+    // The gradient of rho is one over the inradius, for each edge.
+    by_inradius = hn::Sqrt(
+        hn::MulAdd(plane.edges[0], plane.edges[0], hn::Mul(plane.edges[1], plane.edges[1])));
+    const Floats ratio = hn::Mul(by_inradius, constant(half_ramp));
+    gain = hn::Div(one, hn::MulAdd(hn::Min(ratio, one), constant(2 * view.solidity),
+                                   constant(1 - view.solidity)));
+    gain_slope = hn::IfThenElseZero(
+        hn::Lt(ratio, one), hn::Mul(constant(-2 * view.solidity * half_ramp), hn::Mul(gain, gain)));
+  }
+};
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

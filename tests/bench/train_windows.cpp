@@ -101,7 +101,7 @@ int run(int argc, char** argv) {
   config.opaque = number("opaque", 0) > 0;
   config.opaque_from = number("from", config.opaque_from);
   config.opaque_until = number("until", config.opaque_until);
-  config.last_sigma = float(number("sigma", config.last_sigma));
+  config.variance_weight = float(number("variance_weight", config.variance_weight));
   config.seed = std::uint64_t(number("seed", 0));
   const int marks = int(number("marks", 10));
   const auto folder = options.extract("images");

@@ -73,21 +73,31 @@ template <class Real>
 std::vector<Real> image_of(const std::vector<Real>& values, const WindowParameters& parameters,
                            int degree) {
   return test::reference_window_image(values, parameters.rows(), degree, camera(), background,
-                                      double(parameters.min_opacity));
+                                      double(parameters.solidity));
 }
 
-/// The derivative of sum(image . gradient) by each value.
+/// The sum of image . by_image, and VarianceLoss.
+template <class Real>
+Real loss_of(const std::vector<Real>& values, const WindowParameters& parameters, int degree,
+             const std::vector<float>& by_image, float variance_weight) {
+  const std::vector<Real> planes = image_of(values, parameters, degree);
+  const double by_variance = double(variance_weight) / double(by_image.size());
+  Real sum(0);
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    sum = sum + planes[k] * Real(k < by_image.size() ? double(by_image[k]) : by_variance);
+  return sum;
+}
+
+/// The derivative of loss_of() by each value.
 std::vector<double> reference_gradient(const WindowParameters& parameters, int degree,
-                                       const std::vector<float>& gradient) {
+                                       const std::vector<float>& by_image,
+                                       float variance_weight = 0) {
   std::vector<Dual> values = values_of<Dual>(parameters);
   std::vector<double> result;
   for (Dual& variable : values) {
     variable.slope = 1;
-    const std::vector<Dual> image = image_of(values, parameters, degree);
+    result.push_back(loss_of(values, parameters, degree, by_image, variance_weight).slope);
     variable.slope = 0;
-    double sum = 0;
-    for (std::size_t k = 0; k < image.size(); ++k) sum += image[k].slope * double(gradient[k]);
-    result.push_back(sum);
   }
   return result;
 }
@@ -95,12 +105,12 @@ std::vector<double> reference_gradient(const WindowParameters& parameters, int d
 /// Of the kernels, splat after splat.
 std::vector<float> kernel_gradient(const WindowParameters& parameters, int degree,
                                    const std::vector<float>& gradient, int threads = 1,
-                                   const WindowLoss& loss = {}) {
+                                   const WindowLoss& loss = {}, const VarianceLoss& variance = {}) {
   ThreadPool pool(threads);
   WindowRaster raster(pool);
   std::vector<float> planes(gradient.size());
-  raster.forward(parameters, camera(), degree, background, planes);
-  const WindowBackwardInput input = raster.backward(planes, gradient);
+  raster.forward(parameters, camera(), degree, background, planes, variance.weight > 0);
+  const WindowBackwardInput input = raster.backward(planes, gradient, variance);
   splatting::ParameterRows rows(parameters.rows(), parameters.count());
   window_gradients(input, loss, parameters, 0, parameters.count(), rows);
   std::vector<float> result;
@@ -113,10 +123,12 @@ std::vector<float> kernel_gradient(const WindowParameters& parameters, int degre
 /// through the lines of the edges and the sums over pixels; a pixel near an edge (rho 0.001) loses
 /// three digits, and thin windows one.
 void expect_agreement(const WindowParameters& parameters, int degree, std::uint64_t seed,
-                      double tolerance = 3e-4) {
+                      double tolerance = 3e-4, float variance_weight = 0) {
   const std::vector<float> by_image = random_gradient(seed);
-  const std::vector<double> expected = reference_gradient(parameters, degree, by_image);
-  const std::vector<float> actual = kernel_gradient(parameters, degree, by_image);
+  const std::vector<double> expected =
+      reference_gradient(parameters, degree, by_image, variance_weight);
+  const std::vector<float> actual =
+      kernel_gradient(parameters, degree, by_image, 1, {}, {.weight = variance_weight});
   const std::size_t rows = parameters.rows();
   std::size_t moving = 0;
   for (std::size_t i = 0; i < parameters.count(); ++i)
@@ -135,18 +147,12 @@ void expect_agreement(const WindowParameters& parameters, int degree, std::uint6
   EXPECT_GT(moving, parameters.count()) << "too little to compare";
 }
 
-double loss_of(const std::vector<double>& values, const WindowParameters& parameters, int degree,
-               const std::vector<float>& by_image) {
-  const std::vector<double> image = image_of(values, parameters, degree);
-  double sum = 0;
-  for (std::size_t k = 0; k < image.size(); ++k) sum += image[k] * double(by_image[k]);
-  return sum;
-}
-
 /// Of all values of `parameters`.
-void expect_differences(const WindowParameters& parameters, int degree, double step = 1e-6) {
+void expect_differences(const WindowParameters& parameters, int degree, double step = 1e-6,
+                        float variance_weight = 0) {
   const std::vector<float> by_image = random_gradient(2);
-  const std::vector<double> gradient = reference_gradient(parameters, degree, by_image);
+  const std::vector<double> gradient =
+      reference_gradient(parameters, degree, by_image, variance_weight);
   std::vector<double> values = values_of<double>(parameters);
   for (std::size_t k = 0; k < values.size(); ++k) {
     // Rounding / step is 1e-9 for the default. The error of central differences is step^2 times the
@@ -154,9 +160,9 @@ void expect_differences(const WindowParameters& parameters, int degree, double s
     // crosses a limit of alpha or a bisector of the edges within such a step.
     const double middle = values[k];
     values[k] = middle + step;
-    const double above = loss_of(values, parameters, degree, by_image);
+    const double above = loss_of(values, parameters, degree, by_image, variance_weight);
     values[k] = middle - step;
-    const double below = loss_of(values, parameters, degree, by_image);
+    const double below = loss_of(values, parameters, degree, by_image, variance_weight);
     values[k] = middle;
     const double difference = (above - below) / (2 * step);
     EXPECT_NEAR(gradient[k], difference, 1e-6 * std::max(1.0, std::abs(difference)))
@@ -170,8 +176,11 @@ TEST(WindowGradient, OfTheReferenceIsThatOfDifferences) {
   expect_differences(random_parameters(5, 4, 1, 0, 1), 1);   // peaked
   expect_differences(random_parameters(6, 4, 1, 0, -3), 1);  // nearly opaque inside
   WindowParameters floored = random_parameters(7, 4, 1);
-  floored.min_opacity = 0.4f;
+  floored.solidity = 0.4f;
   expect_differences(floored, 1);
+  expect_differences(floored, 1, 1e-6, 2000);
+  floored.solidity = 0.9999f;
+  expect_differences(floored, 1, 1e-6, 2000);
 }
 
 TEST(WindowGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
@@ -195,7 +204,7 @@ TEST(WindowGradient, ImagesOfTheKernelsAreThoseOfTheReference) {
   std::vector<float> planes(3 * width * height);
   raster.forward(parameters, camera(), 3, background, planes);
   const std::vector<double> image = image_of(values_of<double>(parameters), parameters, 3);
-  for (std::size_t k = 0; k < image.size(); ++k)
+  for (std::size_t k = 0; k < planes.size(); ++k)
     EXPECT_NEAR(double(planes[k]), image[k], 2e-5);  // rounding; no splat is near a limit here
 }
 
@@ -219,11 +228,32 @@ TEST(WindowGradient, HoldsForPeaksAndForNearlyOpaqueWindows) {
   expect_agreement(random_parameters(26, 9, 1, 1, -4), 1, 26);
 }
 
-TEST(WindowGradient, HoldsAboveAFloorOfOpacity) {
-  WindowParameters parameters = random_parameters(27, 9, 1);
-  parameters.min_opacity = 0.4f;
+/// Windows of ordinary size, and some smaller than the ramp.
+TEST(WindowGradient, HoldsWhileTrianglesBecomeSolid) {
+  for (const float solidity : {0.4f, 0.9999f})
+    for (const float variance_weight : {0.0f, 2000.0f}) {
+      WindowParameters parameters = random_parameters(27, 12, 1);
+      for (std::size_t k = 0; k < 9; ++k)
+        for (std::size_t i = 9; i < 12; ++i) parameters.trained(row::corners + k)[i] *= 0.05f;
+      parameters.solidity = solidity;
+      for (std::size_t i = 0; i < 12; ++i) parameters.activate(i);
+      expect_agreement(parameters, 1, 27, 3e-4, variance_weight);
+    }
+}
+
+/// The loss is that of the other pixels.
+TEST(WindowGradient, OfTheVarianceOmitsIgnoredPixels) {
+  WindowParameters parameters = random_parameters(30, 9, 1);
+  parameters.solidity = 0.7f;
   for (std::size_t i = 0; i < 9; ++i) parameters.activate(i);
-  expect_agreement(parameters, 1, 27);
+  const std::vector<float> nothing(3 * width * height);
+  const std::vector<std::uint8_t> all(width * height, 1);
+  for (const float value : kernel_gradient(parameters, 1, nothing, 1, {}, {1000, all}))
+    EXPECT_EQ(value, 0);
+  double sum = 0;
+  for (const float value : kernel_gradient(parameters, 1, nothing, 1, {}, {1000, {}}))
+    sum += std::abs(double(value));
+  EXPECT_GT(sum, 1);
 }
 
 /// Of the harmonics of lower degrees only, if only those are drawn.
@@ -243,6 +273,9 @@ TEST(WindowGradient, HoldsWithCornersBehindTheEye) {
   set_corner(1, 0, {0.6f, 0.3f, 4.3f});
   set_corner(1, 2, {-0.5f, 0.1f, 4.4f});
   expect_differences(parameters, 1, 2e-7);  // third derivatives are larger near the eye
+  expect_agreement(parameters, 1, 28);
+  parameters.solidity = 0.8f;
+  for (std::size_t i = 0; i < 6; ++i) parameters.activate(i);
   expect_agreement(parameters, 1, 28);
 }
 
@@ -334,7 +367,7 @@ class WindowBranch : public testing::Test {
     double at[3];
     for (int k = 0; k < 3; ++k) {
       values[index] = middle + k * step;
-      at[k] = loss_of(values, parameters, 0, by_image);
+      at[k] = loss_of(values, parameters, 0, by_image, 0);
     }
     const double difference = (-3 * at[0] + 4 * at[1] - at[2]) / (2 * step);
     EXPECT_NEAR(gradient[index], difference, 1e-6 * std::max(1.0, std::abs(difference))) << side;

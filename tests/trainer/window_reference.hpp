@@ -31,13 +31,23 @@ struct ReferenceWindow {
   std::array<std::array<Real, 2>, 3> corners;  // in pixels
   Real inradius, orientation, sigma, opacity;
   std::array<Real, 3> color;
-  double depth;
+  double depth, solidity;
   bool in_front;                              // all corners are beyond the near plane
   std::array<std::array<Real, 3>, 3> points;  // homogeneous, in pixels from the top left corner
 
-  /// The distance from the nearest edge over the inradius, at most 1. Not positive: not drawn.
+  /// SolidRamp's rho_s, at most 1. Not positive: not drawn.
   Real rho(double x, double y) const {
-    if (!in_front) return homogeneous_rho(x, y);
+    const Real soft = in_front ? soft_rho(x, y) : homogeneous_rho(x, y);
+    if (solidity == 0) return soft;
+    const Real ratio = Real(0.25) / inradius;
+    const Real width = value_of(ratio) < 1 ? ratio : Real(1);
+    const Real solid =
+        soft / (Real(1 - solidity) + Real(2 * solidity) * width) + Real(0.5 * solidity);
+    return value_of(solid) < 1 ? solid : Real(1);
+  }
+
+  /// The distance from the nearest edge over the inradius.
+  Real soft_rho(double x, double y) const {
     Real nearest(1e300);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& a = corners[k];
@@ -50,23 +60,36 @@ struct ReferenceWindow {
     return nearest;
   }
 
-  Real homogeneous_rho(double x, double y) const {
-    std::array<Real, 3> lengths, at;
-    Real weight(0), determinant(0), sum(0);
+  /// The edges' lines, their lengths in the image, and W and the determinant of W14.
+  struct Homogeneous {
+    std::array<std::array<Real, 3>, 3> lines;
+    std::array<Real, 3> lengths;
+    Real weight{0}, determinant{0};
+  };
+
+  Homogeneous homogeneous() const {
+    Homogeneous result;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& a = points[(k + 1) % 3];
       const auto& b = points[(k + 2) % 3];
-      const std::array<Real, 3> n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                                  a[0] * b[1] - a[1] * b[0]};
-      lengths[k] = root(n[0] * n[0] + n[1] * n[1]);
-      at[k] = n[0] * Real(x) + n[1] * Real(y) + n[2];
-      weight = weight + points[k][2] * lengths[k];
-      determinant = points[k][0] * n[0] + points[k][1] * n[1] + points[k][2] * n[2];
-      sum = sum + at[k];
+      auto& n = result.lines[k];
+      n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+      result.lengths[k] = root(n[0] * n[0] + n[1] * n[1]);
+      result.weight = result.weight + points[k][2] * result.lengths[k];
+      result.determinant = points[k][0] * n[0] + points[k][1] * n[1] + points[k][2] * n[2];
     }
-    if (!(value_of(weight) > 0)) return Real(0);
-    const double pixel_depth = value_of(determinant / sum);
-    if (!(pixel_depth >= reference_near)) return Real(0);
+    return result;
+  }
+
+  Real homogeneous_rho(double x, double y) const {
+    const Real not_drawn(-1e30);
+    const auto [lines, lengths, weight, determinant] = homogeneous();
+    std::array<Real, 3> at;
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = lines[k][0] * Real(x) + lines[k][1] * Real(y) + lines[k][2];
+    if (!(value_of(weight) > 0)) return not_drawn;
+    const double pixel_depth = value_of(determinant / (at[0] + at[1] + at[2]));
+    if (!(pixel_depth >= reference_near)) return not_drawn;
     Real nearest(1);
     for (std::size_t k = 0; k < 3; ++k) {
       const Real distance = weight * at[k] / (determinant * lengths[k]);
@@ -79,7 +102,7 @@ struct ReferenceWindow {
 /// `p` are the trained values of a splat, in the order of window_row.
 template <class Real>
 ReferenceWindow<Real> reference_window(const Real* p, int degree, const Camera& camera,
-                                       double min_opacity) {
+                                       double solidity) {
   namespace row = splatting::window_row;
   ReferenceWindow<Real> result;
   const glm::dvec3 eye = camera.eye();
@@ -108,6 +131,7 @@ ReferenceWindow<Real> reference_window(const Real* p, int degree, const Camera& 
     depth = depth + view[2] / Real(3);
   }
   result.depth = value_of(depth);
+  result.solidity = solidity;
   Real perimeter(0), doubled_area(0);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& a = result.corners[k];
@@ -118,9 +142,14 @@ ReferenceWindow<Real> reference_window(const Real* p, int degree, const Camera& 
   }
   result.orientation = Real(value_of(doubled_area) < 0 ? -1 : 1);
   result.inradius = result.orientation * doubled_area / perimeter;
+  if (!result.in_front) {
+    const auto homogeneous = result.homogeneous();
+    result.inradius = homogeneous.determinant / homogeneous.weight;
+    if (value_of(result.inradius) < 0) result.inradius = Real(0) - result.inradius;
+  }
   result.sigma = Real(0.01) + power(p[row::sigma]);
   result.opacity =
-      Real(min_opacity) + Real(1 - min_opacity) / (Real(1) + power(Real(0) - p[row::opacity]));
+      Real(solidity) + Real(1 - solidity) / (Real(1) + power(Real(0) - p[row::opacity]));
   const Real distance = root(center[0] * center[0] + center[1] * center[1] + center[2] * center[2]);
   const auto basis = harmonics::basis(
       glm::vec<3, Real>(center[0] / distance, center[1] / distance, center[2] / distance));
@@ -133,28 +162,30 @@ ReferenceWindow<Real> reference_window(const Real* p, int degree, const Camera& 
   return result;
 }
 
-/// The image over a background: red, green and blue planes, row 0 on top. `p` has `rows` values a
+/// The image over a background: red, green and blue planes, row 0 on top, and a fourth plane with
+/// the sum over the channels of the variance that VarianceLoss describes. `p` has `rows` values a
 /// splat.
 template <class Real>
 std::vector<Real> reference_window_image(const std::vector<Real>& p, std::size_t rows, int degree,
                                          const Camera& camera,
                                          const std::array<float, 3>& background,
-                                         double min_opacity = 0) {
+                                         double solidity = 0) {
   const SplatProfile profile = *profile_named("triangle-splatting");
   std::vector<ReferenceWindow<Real>> windows;
   for (std::size_t first = 0; first < p.size(); first += rows) {
-    const auto window = reference_window(&p[first], degree, camera, min_opacity);
+    const auto window = reference_window(&p[first], degree, camera, solidity);
     if (window.depth > double(profile.min_center_depth)) windows.push_back(window);
   }
   std::stable_sort(windows.begin(), windows.end(),
                    [](const auto& a, const auto& b) { return a.depth < b.depth; });
   const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
-  std::vector<Real> planes(3 * pixels);
+  std::vector<Real> planes(4 * pixels);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     const double x = double(pixel % std::size_t(camera.width)) + 0.5;
     const double y = double(pixel / std::size_t(camera.width)) + 0.5;
     Real left(1);
     std::array<Real, 3> color{Real(0), Real(0), Real(0)};
+    Real squares(0);
     for (const ReferenceWindow<Real>& window : windows) {
       const Real rho = window.rho(x, y);
       if (!(value_of(rho) > 0)) continue;
@@ -163,11 +194,20 @@ std::vector<Real> reference_window_image(const std::vector<Real>& p, std::size_t
       if (value_of(alpha) > double(profile.max_alpha)) alpha = Real(double(profile.max_alpha));
       const Real after = left * (Real(1) - alpha);
       if (value_of(after) < double(profile.stop_transmittance)) break;
-      for (std::size_t c = 0; c < 3; ++c) color[c] = color[c] + alpha * left * window.color[c];
+      for (std::size_t c = 0; c < 3; ++c) {
+        color[c] = color[c] + alpha * left * window.color[c];
+        squares = squares + alpha * left * window.color[c] * window.color[c];
+      }
       left = after;
     }
-    for (std::size_t c = 0; c < 3; ++c)
-      planes[c * pixels + pixel] = color[c] + left * Real(double(background[c]));
+    Real& variance = planes[3 * pixels + pixel];
+    variance = squares;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Real behind(double(background[c]));
+      const Real mean = color[c] + left * behind;
+      planes[c * pixels + pixel] = mean;
+      variance = variance + left * behind * behind - mean * mean;
+    }
   }
   return planes;
 }

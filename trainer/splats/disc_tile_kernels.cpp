@@ -79,7 +79,7 @@ HWY_INLINE void replay(const ImageView& view, const DiscConstants& constants,
 
 /// Moves the origin of moments from the middle of a tile to the entry's (x, y), `x` and `y` pixels
 /// before it.
-HWY_INLINE DiscMoments moved(const float* line, float x, float y) {
+HWY_INLINE DiscMoments moved(const DiscEntry&, const float* line, float x, float y) {
   const auto about = [&](const float* sums, float offset) -> DiscMoments::Sum {
     return {sums[0] + offset * line[0], sums[1] + offset * line[1], sums[2] + offset * line[2]};
   };

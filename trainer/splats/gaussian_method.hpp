@@ -28,6 +28,9 @@ struct GaussianTraining {
   static DensifyReport densify(const Config& config, int step, int number, Random& random,
                                Parameters& parameters, SplatMemory& memory);
 
+  /// Of VarianceLoss: the samples of a pixel that Gaussians cover are equal.
+  static float variance_weight(const Config&, const Parameters&) { return 0; }
+
   /// After a step: nothing is to be limited.
   static void limit(const Config&, int, Parameters&) {}
 

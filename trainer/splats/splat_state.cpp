@@ -30,13 +30,13 @@ struct StoredState {
   std::vector<std::uint32_t> epoch;
   std::uint64_t non_finite = 0;
   std::int32_t fits = 0;
-  float min_opacity = 0;  // WindowParameters::min_opacity; other kernels have 0
+  float solidity = 0;  // WindowParameters::solidity; other kernels have 0
 };
 
 template <class Archive, class State>
 void visit_splat_state(Archive& archive, State& state) {
   auto& [degree, count, drawn, raw, statistics, moments, random, step, epoch, non_finite, fits,
-         min_opacity] = state;
+         solidity] = state;
   archive(degree, "the degree");
   archive(count, "the number of splats");
   archive(drawn, "the drawn parameters");
@@ -48,7 +48,7 @@ void visit_splat_state(Archive& archive, State& state) {
   archive(epoch, "the views of the epoch");
   archive(non_finite, "the count of quarantined numbers");
   archive(fits, "the number of fits");
-  archive(min_opacity, "the lowest opacity");
+  archive(solidity, "the solidity");
 }
 
 std::vector<float> values_of(const splatting::ParameterRows& rows) {
@@ -68,8 +68,8 @@ StoredState stored(const SplatState<Parameters>& state) {
                      .epoch = state.epoch,
                      .non_finite = state.non_finite,
                      .fits = state.fits};
-  if constexpr (requires { state.parameters.min_opacity; })
-    result.min_opacity = state.parameters.min_opacity;
+  if constexpr (requires { state.parameters.solidity; })
+    result.solidity = state.parameters.solidity;
   return result;
 }
 
@@ -101,8 +101,7 @@ std::optional<std::string> defect(const StoredState& state, const SplatConfig& c
       std::any_of(state.epoch.begin(), state.epoch.end(), [&](auto i) { return i >= views; }))
     return fmt::format("the epoch does not match {} views", views);
   if (state.fits < 0) return "the number of fits is negative";
-  if (!(state.min_opacity >= 0 && state.min_opacity < 1))
-    return "the lowest opacity is not from 0 to 1";
+  if (!(state.solidity >= 0 && state.solidity < 1)) return "the solidity is not from 0 to 1";
   return std::nullopt;
 }
 
@@ -120,8 +119,8 @@ SplatState<Parameters> restored(StoredState&& stored) {
   state.parameters = Parameters(stored.count, stored.degree);
   copy_to(state.parameters.drawn, stored.drawn);
   copy_to(state.parameters.raw, stored.raw);
-  if constexpr (requires { state.parameters.min_opacity; })
-    state.parameters.min_opacity = stored.min_opacity;
+  if constexpr (requires { state.parameters.solidity; })
+    state.parameters.solidity = stored.solidity;
   state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   copy_to(state.memory.statistics, stored.statistics);
   state.memory.moments = std::move(stored.moments);

@@ -79,7 +79,9 @@ class SplatTrainer {
     const int width = view.camera.width, height = view.camera.height;
     planes_.resize(3 * std::size_t(width) * std::size_t(height));
     gradient_.resize(planes_.size());
-    raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_);
+    const VarianceLoss variance{Method::variance_weight(config_, parameters()), view.ignored};
+    raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_,
+                    variance.weight > 0);
     SplatStepReport report;
     {
       const Stopwatch watch(times().loss);
@@ -95,7 +97,7 @@ class SplatTrainer {
       report = {
           .loss = loss.loss, .l1 = loss.l1, .ssim = loss.ssim, .quarantined = loss.non_finite};
     }
-    const auto input = raster_.backward(planes_, gradient_);
+    const auto input = raster_.backward(planes_, gradient_, variance);
     const Stopwatch watch(times().update);
     report.quarantined += update(input);
     ++times().steps;

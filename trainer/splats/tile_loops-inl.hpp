@@ -28,6 +28,11 @@ using splatting::place_mask;
 using splatting::tile_side;
 using splatting::TilePixels;
 
+template <class Entry>
+HWY_INLINE float square_of_color(const Entry& entry) {
+  return entry.red * entry.red + entry.green * entry.green + entry.blue * entry.blue;
+}
+
 /// blend_entries() for a tile without opaque surfaces, with its record.
 template <class Entry, class AlphaOf>
 HWY_INLINE void blend_recorded(const ImageView& view, std::span<const Entry> entries,
@@ -40,23 +45,30 @@ HWY_INLINE void blend_recorded(const ImageView& view, std::span<const Entry> ent
   for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   for (int i = 0; i < blocks_a_tile; ++i) {
     Block block(pixels, i);
+    Floats squares[parts];
+    std::fill_n(squares, parts, hn::Zero(d));
     if (block.has_open_pixels()) {
       for (std::uint32_t k = 0; k < tile.size(); ++k) {
         // An entry that only closes pixels is recorded, too: the backward pass repeats this.
         bool changes = false;
         std::uint32_t bit = 0;
-        const bool closes = blend_entry(entries[tile[k] & place_mask], alpha_of, max_alpha, stop,
-                                        block, [&](Floats weight) {
-                                          changes = true;
-                                          if (!hn::AllFalse(d, hn::Ge(weight, evident)))
-                                            bit = TileRecord::evident_bit;
-                                        });
+        const Entry& entry = entries[tile[k] & place_mask];
+        const auto seen = [&](std::size_t part, Floats weight) {
+          changes = true;
+          if (!hn::AllFalse(d, hn::Ge(weight, evident))) bit = TileRecord::evident_bit;
+          if (record.keeps_squares)
+            squares[part] = hn::MulAdd(weight, constant(square_of_color(entry)), squares[part]);
+        };
+        const bool closes = blend_entry(entry, alpha_of, max_alpha, stop, block, seen);
         *end = k | bit;
         end += changes;
         if (closes && !block.has_open_pixels()) break;
       }
       block.store(pixels, i);
     }
+    if (record.keeps_squares)
+      for (std::size_t part = 0; part < parts; ++part)
+        hn::Store(squares[part], d, record.squares + std::size_t(i) * block_pixels + part * lanes);
     record.ends[i] = std::uint32_t(end - record.blended);
   }
 }
@@ -126,8 +138,9 @@ HWY_INLINE void add_sums(const Buffers& buffers, const std::uint32_t (&of)[batch
 struct BlockGradient {
   Floats x[parts], y[parts], red[parts], green[parts], blue[parts], behind[parts],
       transmittance[parts];
+  float by_square;
 
-  HWY_INLINE BlockGradient(const TileGradient& tile, int block) {
+  HWY_INLINE BlockGradient(const TileGradient& tile, int block) : by_square(tile.by_square) {
     pixel_centers(tile.x, tile.y, block, x, y);
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t at = std::size_t(block) * block_pixels + part * lanes;
@@ -162,9 +175,11 @@ HWY_INLINE Replayed blend_again(const ImageView& view, const Entry& entry, Mask 
   blended = hn::AndNot(ends, blended);
   Replayed result;
   result.weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
-  const Floats along = hn::MulAdd(constant(entry.red), block.red[part],
-                                  hn::MulAdd(constant(entry.green), block.green[part],
-                                             hn::Mul(constant(entry.blue), block.blue[part])));
+  const Floats along =
+      hn::MulAdd(constant(entry.red), block.red[part],
+                 hn::MulAdd(constant(entry.green), block.green[part],
+                            hn::MulAdd(constant(entry.blue), block.blue[part],
+                                       constant(block.by_square * square_of_color(entry)))));
   behind = hn::NegMulAdd(result.weight, along, behind);
   const Mask moves = hn::And(blended, hn::Le(unlimited, max_alpha));
   result.h = hn::IfThenElseZero(moves, hn::NegMulAdd(behind, ratio, hn::Mul(result.weight, along)));
@@ -175,8 +190,8 @@ HWY_INLINE Replayed blend_again(const ImageView& view, const Entry& entry, Mask 
 
 /// Blends the recorded splats of a tile again. `replay(entry, block, fours, line)` writes the four
 /// values of the block's pixels, and adds the sums that have no factor to the line.
-/// `moved(line, x, y)` makes the moments of a line about the entry's (x, y) from those about the
-/// middle of the tile, `x` and `y` pixels after it.
+/// `moved(entry, line, x, y)` makes the moments of a line about the entry's (x, y) from those about
+/// the middle of the tile, `x` and `y` pixels after it.
 template <class Entry, class Moments, class Replay, class Moved>
 HWY_INLINE void blend_backward(std::span<const Entry> entries, std::span<const std::uint32_t> tile,
                                std::span<const std::uint32_t> numbers, const TileRecord& record,
@@ -210,7 +225,7 @@ HWY_INLINE void blend_backward(std::span<const Entry> entries, std::span<const s
   const float middle_y = float(gradient.y) + 0.5f * tile_side;
   for (std::size_t k = 0; k < tile.size(); ++k) {
     const Entry& entry = entries[tile[k] & place_mask];
-    moments[numbers[k]] = moved(lines[k].values, middle_x - entry.x, middle_y - entry.y);
+    moments[numbers[k]] = moved(entry, lines[k].values, middle_x - entry.x, middle_y - entry.y);
   }
 }
 

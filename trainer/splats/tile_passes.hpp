@@ -7,7 +7,8 @@
 //   dL/dalpha_i = T_i c_i . g - S / (1 - alpha_i)
 //
 // S begins as C . g and loses w_i c_i . g at each splat: one scalar a pixel. alpha <= max_alpha
-// < 1.
+// < 1. A derivative q by the sum of squares Q = sum_i w_i c_i . c_i + T_end background . background
+// adds q c_i . c_i to each c_i . g here, and q Q to S.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +27,8 @@ struct TileRecord {
   /// Indices in the tile's list, perhaps with evident_bit. Room for its length times the blocks.
   std::uint32_t* blended = nullptr;
   std::uint32_t ends[splatting::blocks_a_tile] = {};  // of the blocks in `blended`
+  bool keeps_squares = false;
+  alignas(64) float squares[splatting::tile_pixels];  // Q, without the background; if kept
 };
 
 /// The input of a tile's backward pass, in the order of TilePixels.
@@ -33,6 +36,7 @@ struct alignas(64) TileGradient {
   float red[splatting::tile_pixels], green[splatting::tile_pixels], blue[splatting::tile_pixels];
   float behind[splatting::tile_pixels];         // S
   float transmittance[splatting::tile_pixels];  // 1, or negative outside the image
+  float by_square = 0;                          // q
   int x = 0, y = 0;                             // of the upper left pixel
 };
 

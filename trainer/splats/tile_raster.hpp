@@ -62,6 +62,15 @@ void run_in_tasks(ThreadPool& pool, std::size_t count, const Act& act) {
   });
 }
 
+/// A loss of the variance of the colour within pixels: `weight` times the mean over pixels and
+/// channels of V = sum_i w_i c_i^2 - C^2, with the weights w_i of the splats and of the background.
+/// If they are the parts of the pixel that each covers, one random sample of the pixel has the
+/// expected squared error V + (C - G)^2 against the photograph G.
+struct VarianceLoss {
+  float weight = 0;
+  std::span<const std::uint8_t> ignored = {};  // as in ImageLossView
+};
+
 /// `Method` names the types and functions of a kernel, as GaussianMethod and WindowMethod do. Its
 /// Projected holds the projected splats in their order in memory.
 template <class Method>
@@ -75,27 +84,34 @@ class TileRaster {
   explicit TileRaster(ThreadPool& pool) : pool_(pool) {}
 
   /// Draws the splats by the method's profile, with harmonics up to `degree`, over an opaque
-  /// background, 0..1. `planes`: red, green and blue, row 0 on top, not clamped.
+  /// background, 0..1. `planes`: red, green and blue, row 0 on top, not clamped. `keeps_squares`:
+  /// for a VarianceLoss; not of Gaussians.
   void forward(const Parameters& parameters, const Camera& camera, int degree,
-               std::span<const float, 3> background, std::span<float> planes) {
+               std::span<const float, 3> background, std::span<float> planes,
+               bool keeps_squares = false) {
     assert(planes.size() == 3 * std::size_t(camera.width) * std::size_t(camera.height));
     view_ = splatting::image_view(camera, camera.eye(), near_plane, *profile_named(Method::profile),
                                   camera);
+    if constexpr (requires { parameters.solidity; }) view_.solidity = parameters.solidity;
+    keeps_squares_ = keeps_squares;
+    std::copy(background.begin(), background.end(), background_);
     degree_ = std::min(degree, parameters.degree);
     project(parameters);
     make_lists(parameters.count());
     const Stopwatch watch(times_.forward);
     rows_.resize(std::size_t(lists_.rows()));
-    pool_.run(rows_.size(), [&](std::size_t row) { draw_row(int(row), background, planes); });
+    pool_.run(rows_.size(), [&](std::size_t row) { draw_row(int(row), planes); });
   }
 
   /// After forward() of the same camera and parameters. `planes` are its result, `gradient` the
   /// derivatives of a loss by them. Valid until the next call.
-  BackwardInput backward(std::span<const float> planes, std::span<const float> gradient) {
+  BackwardInput backward(std::span<const float> planes, std::span<const float> gradient,
+                         const VarianceLoss& variance = {}) {
+    assert(variance.weight == 0 || keeps_squares_);
     const Stopwatch watch(times_.backward);
     moments_.resize(lists_.pairs());
     pool_.run(rows_.size(),
-              [&](std::size_t row) { draw_row_backward(int(row), planes, gradient); });
+              [&](std::size_t row) { draw_row_backward(int(row), planes, gradient, variance); });
     times_.pairs += lists_.pairs();
     return {view_, degree_, pairs_, moments_};
   }
@@ -156,7 +172,7 @@ class TileRaster {
       hwy::Prefetch(&projected_.entries()[splat]);
   }
 
-  void draw_row(int row, std::span<const float, 3> background, std::span<float> planes) {
+  void draw_row(int row, std::span<float> planes) {
     using splatting::tile_side, splatting::tile_pixels, splatting::blocks_a_tile;
     lists_.finish_with_numbers(row, shifts_);
     Row& kept = rows_[std::size_t(row)];
@@ -167,6 +183,9 @@ class TileRaster {
     kept.blended.resize(listed * blocks_a_tile + 1);  // one place is written but not used
     std::uint32_t* blended = kept.blended.data();
     const std::size_t pixels_a_plane = planes.size() / 3;
+    const float background_square = background_[0] * background_[0] +
+                                    background_[1] * background_[1] +
+                                    background_[2] * background_[2];
     prefetch(0, row);
     for (int column = 0; column < lists_.columns(); ++column) {
       prefetch(column + 1, row);
@@ -181,50 +200,63 @@ class TileRaster {
                    });
       TileRecord& record = kept.records[std::size_t(column)];
       record.blended = blended;
+      record.keeps_squares = keeps_squares_;
       Method::blend_recorded(view_, projected_.entries(), lists_.tile(column, row), pixels, record);
       blended += record.ends[blocks_a_tile - 1];
       for_each_run(pixels.x, pixels.y, view_.width, view_.height,
                    [&](std::size_t at, std::size_t pixel, std::size_t count) {
                      for (std::size_t i = 0; i < count; ++i) {
                        const float left = std::abs(pixels.transmittance[at + i]);
+                       if (keeps_squares_) record.squares[at + i] += left * background_square;
                        float* out = planes.data() + pixel + i;
-                       out[0] = pixels.red[at + i] + left * background[0];
-                       out[pixels_a_plane] = pixels.green[at + i] + left * background[1];
-                       out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background[2];
+                       out[0] = pixels.red[at + i] + left * background_[0];
+                       out[pixels_a_plane] = pixels.green[at + i] + left * background_[1];
+                       out[2 * pixels_a_plane] = pixels.blue[at + i] + left * background_[2];
                      }
                    });
     }
   }
 
-  void draw_row_backward(int row, std::span<const float> planes, std::span<const float> gradient) {
+  void draw_row_backward(int row, std::span<const float> planes, std::span<const float> gradient,
+                         const VarianceLoss& variance) {
     using splatting::tile_side, splatting::tile_pixels;
     Row& kept = rows_[std::size_t(row)];
     const std::size_t pixels_a_plane = planes.size() / 3;
+    // L = .. + by_square (Q - C . C), with Q in trainer/splats/tile_passes.hpp.
+    const float by_square = variance.weight / float(planes.size());
     prefetch(0, row);
     for (int column = 0; column < lists_.columns(); ++column) {
       prefetch(column + 1, row);
       if (lists_.tile(column, row).empty()) continue;
+      const TileRecord& record = kept.records[std::size_t(column)];
       TileGradient tile{};
+      tile.by_square = by_square;
       tile.x = column * tile_side;
       tile.y = row * tile_side;
       std::fill_n(tile.transmittance, tile_pixels, -1.0f);
       for_each_run(tile.x, tile.y, view_.width, view_.height,
                    [&](std::size_t at, std::size_t pixel, std::size_t count) {
                      for (std::size_t i = 0; i < count; ++i) {
+                       // The gradient is 0 there, and the variance does not count.
+                       if (!variance.ignored.empty() && variance.ignored[pixel + i]) continue;
                        const float* value = planes.data() + pixel + i;
-                       const float* by = gradient.data() + pixel + i;
+                       const float* by_value = gradient.data() + pixel + i;
+                       const auto by = [&](std::size_t plane) {
+                         return by_value[plane] - 2 * by_square * value[plane];
+                       };
                        const std::size_t green = pixels_a_plane, blue = 2 * green;
-                       tile.red[at + i] = by[0];
-                       tile.green[at + i] = by[green];
-                       tile.blue[at + i] = by[blue];
+                       tile.red[at + i] = by(0);
+                       tile.green[at + i] = by(green);
+                       tile.blue[at + i] = by(blue);
                        tile.behind[at + i] =
-                           by[0] * value[0] + by[green] * value[green] + by[blue] * value[blue];
+                           by(0) * value[0] + by(green) * value[green] + by(blue) * value[blue];
+                       if (by_square > 0) tile.behind[at + i] += by_square * record.squares[at + i];
                        tile.transmittance[at + i] = 1;
                      }
                    });
       Method::blend_backward(view_, projected_.entries(), lists_.tile(column, row),
-                             lists_.pair_numbers(column, row), kept.records[std::size_t(column)],
-                             tile, kept.scratch, moments_);
+                             lists_.pair_numbers(column, row), record, tile, kept.scratch,
+                             moments_);
     }
   }
 
@@ -237,6 +269,8 @@ class TileRaster {
   std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
   splatting::TileLists lists_;
   std::vector<Row> rows_;
+  bool keeps_squares_ = false;
+  float background_[3] = {};
   std::vector<Moments> moments_;  // of the pairs
   SplatTimes times_;
 };

@@ -64,16 +64,12 @@ std::span<const WindowConfig::Field> splat_config_fields<WindowConfig>() {
        fraction,
        {},
        "If opaque: the opacity below which they are replaced"},
-      {"last_sigma",
-       &WindowConfig::last_sigma,
-       sigma,
+      {"variance_weight",
+       &WindowConfig::variance_weight,
+       weight,
        {},
-       "If opaque: largest sigma at opaque_until"},
-      {"last_min_opacity",
-       &WindowConfig::last_min_opacity,
-       fraction,
-       {},
-       "If opaque: lowest opacity at opaque_until"},
+       "If opaque: weight of the variance of the samples in a pixel, for sharp images with one "
+       "sample a pixel"},
   });
   return fields;
 }
@@ -82,9 +78,6 @@ std::optional<std::string> own_defect(const WindowConfig& config) {
   if (config.opaque && !(config.opaque_from < config.opaque_until))
     return "opaque_from: " + double_text(config.opaque_from) + " is not below opaque_until, " +
            double_text(config.opaque_until);
-  if (config.opaque && !(config.last_sigma <= config.first_sigma))
-    return "last_sigma: " + float_text(config.last_sigma) + " is above first_sigma, " +
-           float_text(config.first_sigma);
   return std::nullopt;
 }
 

@@ -34,13 +34,14 @@ struct WindowConfig : SplatConfig {
   /// The windows become opaque triangles between opaque_from and opaque_until, fractions of the
   /// steps.
   bool opaque = false;
-  double opaque_from = 0.5, opaque_until = 0.9;
-  /// From this fraction of the steps on, windows below this opacity are dead. The floor of opacity
-  /// soon exceeds it.
+  double opaque_from = 0.5, opaque_until = 0.7;
+  /// From this fraction of the steps on, windows below this opacity are dead. The solidity soon
+  /// exceeds it.
   double prune_from = 0.4;
   float min_opacity_before_opaque = 0.2f;
-  /// At opaque_until: the largest sigma, and the floor of opacity.
-  float last_sigma = 0.03f, last_min_opacity = 0.9999f;
+  /// Of VarianceLoss, times the solidity. Measured on photographs of lego that were held back from
+  /// training: 1, 3 and 6 give 25.2, 25.5 and 25.3 dB with one sample a pixel.
+  float variance_weight = 3;
 };
 
 template <>

@@ -13,6 +13,10 @@ namespace {
 
 /// Steps between changes of the limits of opaque training; each change is a pass over all windows.
 constexpr int steps_a_limit = 10;
+/// Opacity reaches it: the next float to 1 would make the derivative of its logit infinite.
+constexpr float last_solidity = 0.9999f;
+/// The lowest that WindowParameters represent.
+constexpr float lowest_sigma = 1.01f * sigma_floor;
 
 }  // namespace
 
@@ -32,7 +36,8 @@ DensifyReport WindowTraining::densify(const WindowConfig& config, int step, int 
                                       SplatMemory& memory) {
   WindowDensifyOptions options{.max_splats = config.max_splats,
                                .growth = config.growth,
-                               .overlap = config.overlap,
+                               // Solid halves cover the whole without overlap.
+                               .overlap = config.overlap * (1 - parameters.solidity),
                                .sampling = config.sampling};
   if (config.opaque && step >= config.prune_from * config.steps)
     options.min_opacity = config.min_opacity_before_opaque;
@@ -46,18 +51,19 @@ void WindowTraining::limit(const WindowConfig& config, int step, WindowParameter
   if (!config.opaque || done < config.opaque_from || step % steps_a_limit != 0) return;
   const double part = std::clamp(
       (done - config.opaque_from) / (config.opaque_until - config.opaque_from), 0.0, 1.0);
-  // Sigma falls by the same factor in equal times; the floor of opacity rises evenly.
-  const double max_sigma =
-      config.first_sigma * std::pow(double(config.last_sigma) / config.first_sigma, part);
-  const float max_log = WindowParameters::log_of_sigma(float(max_sigma));
-  const float floor = std::max(float(part) * config.last_min_opacity, parameters.min_opacity);
-  const bool rises = floor > parameters.min_opacity;
+  // The ramp at the edges is linear. Before, sigma moves towards 1 by equal factors in equal times.
+  const auto limit_of_sigma = [&](float now) {
+    return WindowParameters::log_of_sigma(float(std::pow(double(now), 1 - part)));
+  };
+  const float low = limit_of_sigma(lowest_sigma), high = limit_of_sigma(config.first_sigma);
+  const float solidity = std::max(float(part) * last_solidity, parameters.solidity);
   for (std::size_t i = 0; i < parameters.count(); ++i) {
     float& log_sigma = parameters.trained(window_row::sigma)[i];
-    log_sigma = std::min(log_sigma, max_log);
+    log_sigma = std::clamp(log_sigma, low, high);
   }
-  // The opacity stays the same unless it is below the floor.
-  parameters.min_opacity = floor;
+  // The opacity stays the same unless it is below the solidity.
+  const bool rises = solidity > parameters.solidity;
+  parameters.solidity = solidity;
   for (std::size_t i = 0; i < parameters.count(); ++i) {
     if (rises)
       parameters.trained(window_row::opacity)[i] = parameters.logit_of(parameters.opacity(i));
@@ -86,7 +92,7 @@ Primitives WindowTraining::primitives(const WindowConfig& config,
                                       const WindowParameters& parameters,
                                       const SplatMemory& memory) {
   Splats splats = parameters.splats();
-  const bool becomes_soup = config.opaque && parameters.min_opacity >= config.last_min_opacity;
+  const bool becomes_soup = config.opaque && parameters.solidity >= last_solidity;
   keep_windows(splats, [&](std::size_t i) {
     return parameters.is_finite(i) && parameters.opacity(i) >= splats.profile.min_alpha &&
            (!becomes_soup || memory.statistics.row(splat_statistic::evident)[i] > 0);

@@ -1,9 +1,11 @@
 // Triangle windows as a method of SplatTrainer (Triangle Splatting, arXiv 2505.19175).
 //
-// With WindowConfig::opaque, the windows become opaque triangles in the last part of the run: sigma
-// is limited to an ever lower value, and opacity has an ever higher floor, as in Triangle
-// Splatting+ (arXiv 2509.25122, section 3.3). The authors' variant for game engines has two losses
-// instead (mean sigma and one over the mean opacity), which fix neither the end nor its time.
+// With WindowConfig::opaque, the windows become opaque triangles in the second half of the run:
+// their solidity rises. As in Triangle Splatting+ (arXiv 2509.25122, section 3.3), opacity has an
+// ever higher floor. There, sigma falls to 1e-4, so that only pixels on an edge move it; here, the
+// window becomes a narrow ramp along the edges (splatting/window_plane-inl.hpp), and a VarianceLoss
+// accounts for renderings with one sample a pixel. The authors' variant for game engines (mean
+// sigma and one over the mean opacity as losses) fixes neither the end nor its time.
 //
 // Not implemented: the losses of normals and of distortion (weights 1e-4 and 0 for scenes without
 // walls).
@@ -31,7 +33,12 @@ struct WindowTraining {
   static DensifyReport densify(const Config& config, int step, int number, Random& random,
                                Parameters& parameters, SplatMemory& memory);
 
-  /// Limits sigma and opacity after `step` steps, on the way to opaque triangles.
+  /// Of VarianceLoss: soft triangles do not cover a part of a pixel, solid ones do.
+  static float variance_weight(const Config& config, const Parameters& parameters) {
+    return config.variance_weight * parameters.solidity;
+  }
+
+  /// Sets the solidity after `step` steps, and moves sigma towards 1.
   static void limit(const Config& config, int step, Parameters& parameters);
 
   /// The first windows are equilateral triangles with random orientations. A size is their

@@ -42,7 +42,7 @@ WindowParameters::WindowParameters(const TriangleWindows& windows, const SplatCo
 void WindowParameters::activate(std::size_t i) {
   drawn.row(window_row::sigma)[i] = sigma_floor + std::exp(trained(window_row::sigma)[i]);
   drawn.row(window_row::opacity)[i] =
-      min_opacity + (1 - min_opacity) / (1 + std::exp(-trained(window_row::opacity)[i]));
+      solidity + (1 - solidity) / (1 + std::exp(-trained(window_row::opacity)[i]));
 }
 
 float WindowParameters::log_of_sigma(float sigma) {
@@ -50,7 +50,7 @@ float WindowParameters::log_of_sigma(float sigma) {
 }
 
 float WindowParameters::logit_of(float opacity) const {
-  const float fraction = std::clamp((opacity - min_opacity) / (1 - min_opacity), 0.001f, 0.999f);
+  const float fraction = std::clamp((opacity - solidity) / (1 - solidity), 0.001f, 0.999f);
   return std::log(fraction / (1 - fraction));
 }
 

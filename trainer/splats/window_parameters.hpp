@@ -27,9 +27,9 @@ inline constexpr float max_logit = 16.0f;
 /// opacities.
 struct WindowParameters
     : SplatParameters<splatting::window_row::sigma, splatting::window_row::harmonics> {
-  /// Opacities are min_opacity + (1 - min_opacity) sigmoid(logit), in [0, 1): 0, except while the
-  /// windows become opaque.
-  float min_opacity = 0;
+  /// From 0, soft windows, to 1 (excluded), opaque triangles. Opacities are solidity +
+  /// (1 - solidity) sigmoid(logit), and windows have edges as splatting/window_plane-inl.hpp says.
+  float solidity = 0;
 
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and sigmas to at least 1.01 sigma_floor.

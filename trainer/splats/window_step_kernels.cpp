@@ -60,6 +60,20 @@ struct Gradient {
   Floats motion;
 };
 
+/// The derivatives by the lines of rho from those by the lines of rho_s (SolidRamp).
+HWY_INLINE void through_ramp(const SolidRamp& ramp, const WindowPlane& plane,
+                             Vector3 (&by_edge)[3]) {
+  Floats by_gain = hn::Zero(d);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 edge{plane.edges[3 * k], plane.edges[3 * k + 1], plane.edges[3 * k + 2]};
+    by_gain = hn::Add(by_gain, dot(edge, by_edge[k]));
+    by_edge[k] = product(by_edge[k], ramp.gain);
+  }
+  const Floats factor = hn::Div(hn::Mul(by_gain, ramp.gain_slope), ramp.by_inradius);
+  by_edge[0].x = hn::MulAdd(factor, plane.edges[0], by_edge[0].x);
+  by_edge[0].y = hn::MulAdd(factor, plane.edges[1], by_edge[0].y);
+}
+
 /// The derivatives by the homogeneous image points Q_k of the corners, in the unit of
 /// WindowCorners, from those by the three lines e_k.
 ///
@@ -131,6 +145,7 @@ HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& 
   const Floats sigma = load(row::sigma), opacity = load(row::opacity);
   Vector3 by_edge[3], by_point[3];
   for (std::size_t k = 0; k < 3; ++k) by_edge[k] = product(moments.edges[k], sigma);
+  if (view.solidity > 0) through_ramp(SolidRamp(view, plane), plane, by_edge);
   corner_gradient(at, plane, by_edge, by_point);
   gradient.color = shared::color_gradient_of(input.degree, drawn.row(row::harmonics),
                                              drawn.stride(), i, at.center, moments.color);
@@ -161,8 +176,8 @@ HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& 
   const Floats by_sigma =
       hn::MulAdd(moments.h_log_rho, constant(0.693147181f), constant(loss.sigma));
   gradient.values[row::sigma] = hn::Mul(by_sigma, hn::Sub(sigma, constant(sigma_floor)));
-  // With o = m + (1 - m) sigmoid(logit): d o = (o - m) (1 - o) / (1 - m) d(logit).
-  const float low = parameters.min_opacity;
+  // With o = s + (1 - s) sigmoid(logit): d o = (o - s) (1 - o) / (1 - s) d(logit).
+  const float low = parameters.solidity;
   const Floats by_logit = hn::Mul(hn::Mul(hn::Sub(opacity, constant(low)), hn::Sub(one, opacity)),
                                   constant(1 / (1 - low)));
   gradient.values[row::opacity] =
@@ -218,7 +233,7 @@ HWY_INLINE void activate(std::size_t i, WindowParameters& parameters) {
   hn::Store(sigma, d, parameters.drawn.row(row::sigma) + i);
   const Floats logit = limited(row::opacity, -max_logit, max_logit);
   const Floats fraction = hn::Div(one, hn::Add(one, shared::exp_of(hn::Neg(logit))));
-  const float low = parameters.min_opacity;
+  const float low = parameters.solidity;
   hn::Store(hn::MulAdd(fraction, constant(1 - low), constant(low)), d,
             parameters.drawn.row(row::opacity) + i);
 }

@@ -46,7 +46,7 @@ void blend_windows_recorded_on(const ImageView& view, std::span<const WindowEntr
   blend_recorded(view, entries, tile, AlphaAlone{constant(1.0f / view.near)}, pixels, record);
 }
 
-constexpr std::size_t log_column = h_column + 1;
+constexpr std::size_t log_column = h_column + 1, weight_column = h_column + 2;
 
 /// Blends an entry again, writes the four values of the block's pixels, and adds the sums that have
 /// no factor to its line.
@@ -54,7 +54,7 @@ HWY_INLINE void replay(const ImageView& view, const WindowEntry& entry, BlockGra
                        float* fours, float* line) {
   const Floats one = constant(1.0f), max_alpha = constant(view.max_alpha);
   const Floats inverse_near = constant(1.0f / view.near);
-  Floats h_sum = hn::Zero(d), log_sum = hn::Zero(d);
+  Floats h_sum = hn::Zero(d), log_sum = hn::Zero(d), weight_sum = hn::Zero(d);
   for (std::size_t part = 0; part < parts; ++part) {
     const WindowAt at(entry, block.x[part], block.y[part]);
     const Floats log_rho = log_rho_of(at.rho);
@@ -69,6 +69,7 @@ HWY_INLINE void replay(const ImageView& view, const WindowEntry& entry, BlockGra
         blend_again(view, entry, covers(entry, at, inverse_near), unlimited, ratio, block, part);
     h_sum = hn::Add(h_sum, h);
     log_sum = hn::MulAdd(h, log_rho, log_sum);
+    weight_sum = hn::Add(weight_sum, weight);
     // rho is at most 1: beyond, no edge moves alpha.
     const Floats by_rho =
         hn::IfThenElseZero(hn::Le(at.rho, one), hn::Mul(h, hn::Mul(inverse, left)));
@@ -80,20 +81,23 @@ HWY_INLINE void replay(const ImageView& view, const WindowEntry& entry, BlockGra
     hn::StoreInterleaved4(of_0, of_1, of_2, weight, d, fours + 4 * part * lanes);
   }
   line[h_column] += hn::GetLane(hn::SumOfLanes(d, h_sum));
+  line[weight_column] += hn::GetLane(hn::SumOfLanes(d, weight_sum));
   line[log_column] += hn::GetLane(hn::SumOfLanes(d, log_sum));
 }
 
 /// Moves the origin of moments from the middle of a tile to the entry's (x, y), `x` and `y` pixels
-/// before it.
-HWY_INLINE WindowMoments moved(const float* line, float x, float y) {
+/// before it. `by_square`: TileGradient's.
+HWY_INLINE WindowMoments moved(const WindowEntry& entry, float by_square, const float* line,
+                               float x, float y) {
   WindowMoments m;
   for (std::size_t k = 0; k < 3; ++k)
     m.edges[k] = {line[k], line[4 + k] + x * line[k], line[8 + k] + y * line[k]};
   m.h = line[h_column];
   m.h_log_rho = line[log_column];
-  m.red = line[3];
-  m.green = line[7];
-  m.blue = line[11];
+  const float by_color = 2 * by_square * line[weight_column];
+  m.red = line[3] + by_color * entry.red;
+  m.green = line[7] + by_color * entry.green;
+  m.blue = line[11] + by_color * entry.blue;
   m.evident = line[evident_column];
   m.unused = 0;
   return m;
@@ -109,7 +113,9 @@ void blend_windows_backward_on(const ImageView& view, std::span<const WindowEntr
       [&](const WindowEntry& entry, BlockGradient& block, float* fours, float* line) {
         replay(view, entry, block, fours, line);
       },
-      moved);
+      [&](const WindowEntry& entry, const float* line, float x, float y) {
+        return moved(entry, gradient.by_square, line, x, y);
+      });
 }
 
 }  // namespace windows
