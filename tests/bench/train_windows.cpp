@@ -4,7 +4,7 @@
 //
 //   train_windows DATASET SCALE STEPS [NAME=VALUE ..]
 //
-// Names: splats, marks, first, size, overlap, opacity_weight, size_weight, sampling (an
+// Names: splats, marks, first, size, opacity_weight, size_weight, sampling (an
 // index of window_sampling_words), half, growth, opaque, from, until, sigma, seed, every,
 // densify_until, degree, and images (a folder for images of the first held-out views).
 #include <algorithm>
@@ -89,7 +89,6 @@ int run(int argc, char** argv) {
   config.max_splats = std::size_t(number("splats", double(config.max_splats)));
   config.first_splats = std::size_t(number("first", double(config.first_splats)));
   config.first_size = float(number("size", config.first_size));
-  config.overlap = float(number("overlap", config.overlap));
   config.opacity_weight = float(number("opacity_weight", config.opacity_weight));
   config.size_weight = float(number("size_weight", config.size_weight));
   config.sampling = WindowSampling(int(number("sampling", 0)));

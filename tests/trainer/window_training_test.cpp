@@ -53,31 +53,21 @@ TEST(WindowDensify, DividesTheLongestEdge) {
   Line line(3);
   for (const std::size_t i : {0u, 2u}) line.memory.statistics.row(splat_statistic::motion)[i] = 0;
   Random random(1);
-  const DensifyReport report = densify_windows({.max_splats = 10, .growth = 0.4, .overlap = 0.1f},
-                                               random, line.parameters, line.memory);
+  const DensifyReport report =
+      densify_windows({.max_splats = 10, .growth = 0.4}, random, line.parameters, line.memory);
   EXPECT_EQ(report.split, 1u);
   ASSERT_EQ(line.parameters.count(), 4u);
-  // From (11, 0) to (10, 3): the first half ends at 0.6 of it, the second one begins at 0.4.
-  const glm::vec3 first_end = line.corner(1, 2), second_begin = line.corner(3, 1);
-  EXPECT_FLOAT_EQ(first_end.x, 10.4f);
-  EXPECT_FLOAT_EQ(first_end.y, 1.8f);
-  EXPECT_FLOAT_EQ(second_begin.x, 10.6f);
-  EXPECT_FLOAT_EQ(second_begin.y, 1.2f);
+  // From (11, 0) to (10, 3).
+  for (const glm::vec3& middle : {line.corner(1, 2), line.corner(3, 1)}) {
+    EXPECT_FLOAT_EQ(middle.x, 10.5f);
+    EXPECT_FLOAT_EQ(middle.y, 1.5f);
+  }
   for (const std::size_t i : {1u, 3u}) {
-    EXPECT_NEAR(line.area(i), 0.6 * 1.5, 1e-5);  // coordinates of 10 are rounded to 1e-6
+    EXPECT_NEAR(line.area(i), 0.5 * 1.5, 1e-5);  // coordinates of 10 are rounded to 1e-6
     EXPECT_EQ(line.parameters.trained(row::opacity)[i], 1);
     EXPECT_EQ(line.memory.lines_of(i)[0].values[i % SplatMemory::block], 0);
   }
   EXPECT_EQ(line.memory.lines_of(0)[0].values[0], 7);
-}
-
-TEST(WindowDensify, WithoutOverlapKeepsTheArea) {
-  Line line(1);
-  Random random(1);
-  densify_windows({.max_splats = 2, .growth = 1, .overlap = 0}, random, line.parameters,
-                  line.memory);
-  ASSERT_EQ(line.parameters.count(), 2u);
-  EXPECT_FLOAT_EQ(line.area(0) + line.area(1), 1.5f);
 }
 
 TEST(WindowDensify, RelocatesDeadWindowsAndKeepsTheLimit) {
@@ -234,8 +224,8 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   }
   RecordProperty("soft_db", std::to_string(soft));
   RecordProperty("opaque_db", std::to_string(opaque));
-  // 52.3 and 40.4 dB with this seed: a difference in a few pixels, where the order differs (by
-  // centre, and by the depth of each pixel). A black image has 10 dB.
+  // 38.4 and 34.6 dB with this seed, with errors at the edges: these photographs are not
+  // antialiased, but the trained triangles have ramps. A black image has 10 dB.
   EXPECT_GT(soft, 30);
   EXPECT_GT(opaque, 30);
 }

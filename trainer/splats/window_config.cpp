@@ -10,7 +10,6 @@ std::span<const WindowConfig::Field> splat_config_fields<WindowConfig>() {
   using namespace splat_range;
   // log_of_sigma() is finite, and at most max_log_sigma.
   static constexpr Range sigma{0.0101, 20, {}, "other values are outside of the trained range"};
-  static constexpr Range overlap{0, 0.5, {}, "the halves of a triangle are within it"};
   static const std::vector<WindowConfig::Field> fields = with_common_fields<WindowConfig>({
       {"first_size",
        &WindowConfig::first_size,
@@ -22,12 +21,6 @@ std::span<const WindowConfig::Field> splat_config_fields<WindowConfig>() {
       {"sampling", &WindowConfig::sampling, none, window_sampling_words,
        "Weight in the choice of triangles to divide; alternating is opacity and 1 / sigma in turn, "
        "as Triangle Splatting"},
-      {"overlap",
-       &WindowConfig::overlap,
-       overlap,
-       {},
-       "Overlap of the halves of a divided triangle at each side, as a fraction of its longest "
-       "edge"},
       {"opacity_weight", &WindowConfig::opacity_weight, weight, {}, "Weight of the mean opacity"},
       {"size_weight",
        &WindowConfig::size_weight,

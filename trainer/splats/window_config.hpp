@@ -27,7 +27,6 @@ struct WindowConfig : SplatConfig {
   float first_size = 0.4f;
   float first_sigma = 1.16f;
   WindowSampling sampling = WindowSampling::motion;
-  float overlap = 0.1f;            // WindowDensifyOptions
   float opacity_weight = 0.0055f;  // of the mean opacity
   float size_weight = 1e-8f;       // of the mean of 1 / area, in 1 / (layer unit)^2
   double size_until = 0.83;        // fraction of the steps; 25,000 of 30,000

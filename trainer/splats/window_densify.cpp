@@ -21,7 +21,7 @@ float weight_of(WindowSampling sampling, const WindowParameters& parameters,
   return 1 / parameters.drawn.row(splatting::window_row::sigma)[i];
 }
 
-void divide(float overlap, WindowParameters& parameters, std::size_t parent, std::size_t place) {
+void divide(WindowParameters& parameters, std::size_t parent, std::size_t place) {
   std::array<glm::vec3, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = parameters.corner(parent, k);
   std::size_t from = 0;
@@ -32,12 +32,11 @@ void divide(float overlap, WindowParameters& parameters, std::size_t parent, std
   }
   const std::size_t to = (from + 1) % 3;
   parameters.copy(parent, place);
-  const glm::vec3 end_of_first = glm::mix(corners[from], corners[to], 0.5f + overlap);
-  const glm::vec3 begin_of_second = glm::mix(corners[from], corners[to], 0.5f - overlap);
+  const glm::vec3 middle = glm::mix(corners[from], corners[to], 0.5f);
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t row = splatting::window_row::corners + std::size_t(axis);
-    parameters.trained(row + 3 * to)[parent] = end_of_first[axis];
-    parameters.trained(row + 3 * from)[place] = begin_of_second[axis];
+    parameters.trained(row + 3 * to)[parent] = middle[axis];
+    parameters.trained(row + 3 * from)[place] = middle[axis];
   }
 }
 
@@ -51,9 +50,7 @@ DensifyReport densify_windows(const WindowDensifyOptions& options, Random& rando
        .min_opacity = options.min_opacity},
       random, parameters, memory,
       [&](std::size_t i) { return weight_of(options.sampling, parameters, memory, i); },
-      [&](std::size_t parent, std::size_t place) {
-        divide(options.overlap, parameters, parent, place);
-      });
+      [&](std::size_t parent, std::size_t place) { divide(parameters, parent, place); });
 }
 
 }  // namespace tureen::trainer

@@ -23,7 +23,6 @@ struct WindowDensifyOptions {
   std::size_t max_splats;
   double growth = 0.15;        // DensifyLimits
   float min_opacity = 0.014f;  // below: dead; as in the code of Triangle Splatting
-  float overlap = 0.1f;        // of the halves, a fraction of the divided edge at each side
   WindowSampling sampling = WindowSampling::motion;  // alternating: opacity
 };
 

@@ -34,11 +34,8 @@ WindowStep WindowTraining::step_of(const WindowConfig& config, double, double do
 DensifyReport WindowTraining::densify(const WindowConfig& config, int step, int number,
                                       Random& random, WindowParameters& parameters,
                                       SplatMemory& memory) {
-  WindowDensifyOptions options{.max_splats = config.max_splats,
-                               .growth = config.growth,
-                               // Solid halves cover the whole without overlap.
-                               .overlap = config.overlap * (1 - parameters.solidity),
-                               .sampling = config.sampling};
+  WindowDensifyOptions options{
+      .max_splats = config.max_splats, .growth = config.growth, .sampling = config.sampling};
   if (config.opaque && step >= config.prune_from * config.steps)
     options.min_opacity = config.min_opacity_before_opaque;
   if (config.sampling == WindowSampling::alternating && number % 2 == 0)
