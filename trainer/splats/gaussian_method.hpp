@@ -28,6 +28,9 @@ struct GaussianTraining {
   static DensifyReport densify(const Config& config, int step, int number, Random& random,
                                Parameters& parameters, SplatMemory& memory);
 
+  /// A factor of the rate of positions.
+  static float position_rate(const Parameters&) { return 1; }
+
   /// Of VarianceLoss: the samples of a pixel that Gaussians cover are equal.
   static float variance_weight(const Config&, const Parameters&) { return 0; }
 

@@ -165,7 +165,7 @@ class SplatTrainer {
       const ParameterKind& kind = Method::kinds[k];
       step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
     }
-    step.rates[0] *= float(region_.half_side);
+    step.rates[0] *= float(region_.half_side) * Method::position_rate(parameters());
     std::vector<std::size_t> quarantined((count + splats_a_task - 1) / splats_a_task);
     pool_.run(quarantined.size(), [&](std::size_t task) {
       const std::size_t first = task * splats_a_task;
