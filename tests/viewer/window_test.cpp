@@ -529,7 +529,8 @@ TEST_F(Window, EveryFileOfALayerIsWatched) {
 constexpr glm::dvec2 pause_button{430, 416}, stop_button{510, 416}, stop_now_button{505, 453};
 
 /// A run of 1,000 steps in its 250th.
-void write_run(const fs::path& folder) {
+void write_run(const fs::path& folder,
+               trainer::PrimitiveKind kind = trainer::PrimitiveKind::triangles) {
   trainer::TrainingLog log = trainer::TrainingLog::create(folder / "run.jsonl");
   for (int step = 50; step <= 250; step += 50) {
     trainer::TrainingRecord record{.step = step,
@@ -537,7 +538,7 @@ void write_run(const fs::path& folder) {
                                    .seconds = step / 2.0,
                                    .loss = 5.0 / step,
                                    .train_psnr_db = 20 + step / 50.0,
-                                   .primitives = {trainer::PrimitiveKind::triangles, 7000},
+                                   .primitives = {kind, 7000},
                                    .it_per_second = 2};
     if (step % 100 == 0) record.test_psnr_db = 19 + step / 60.0;
     log.append(record);
@@ -569,6 +570,37 @@ TEST_F(Window, FollowsATraining) {
   stopping.click(stop_now_button).wait();
   EXPECT_EQ(replay(stopping, arguments).exit_code, 0);
   EXPECT_EQ(trainer::read_command(folder_ / "run.control"), trainer::RunCommand::finish);
+}
+
+/// `--method triangles --opaque` begins with splats, and ends with a soup.
+TEST_F(Window, FollowsATrainingWhoseSplatsBecomeASoup) {
+  write_run(folder_, trainer::PrimitiveKind::splats);
+  const float one = 1.7725f;              // a harmonic of degree 0 for a channel of 1
+  const std::size_t count_of_splats = 3;  // one would let 1 % of the background through
+  const Scene scene = scene_of(Splats{
+      .kernel =
+          Gaussians{.centers = std::vector<glm::vec3>(count_of_splats),
+                    .scales = std::vector<glm::vec3>(count_of_splats, glm::vec3(0.4f)),
+                    .rotations = std::vector<glm::quat>(count_of_splats, glm::quat(1, 0, 0, 0)),
+                    .opacity = std::vector<float>(count_of_splats, 1.0f)},
+      .color = {.degree = 0,
+                .coefficients =
+                    std::vector<glm::vec3>(count_of_splats, glm::vec3(one, -one, -one))},
+      .profile = *profile_named("3dgs")});
+  write_scene(scene, folder_ / "watched.glb");
+  write_square(folder_ / "square.off", "0 0 255");
+  ASSERT_EQ(Child({"convert", "square.off", "-o", "next.glb"}, folder_, TUREEN_HEADLESS_PROGRAM)
+                .wait()
+                .exit_code,
+            0);
+  Person person({720, 640});
+  person.wait().press(Key::digit_7).wait().look("splats");
+  person.replace("watched.glb", "next.glb").hold(Key::super, 4).look("soup");
+  const ChildResult result = replay(person, {"watched.glb", "--training", "run.jsonl"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(count(image("splats"), red), 100);
+  EXPECT_EQ(count(image("soup"), red), 0);
+  EXPECT_GT(count(image("soup"), blue), 1000);
 }
 
 TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
