@@ -31,8 +31,8 @@ struct WindowConfig : SplatConfig {
   float size_weight = 1e-8f;       // of the mean of 1 / area, in 1 / (layer unit)^2
   double size_until = 0.83;        // fraction of the steps; 25,000 of 30,000
   /// The windows become opaque triangles between opaque_from and opaque_until, fractions of the
-  /// steps. With photographs of lego at 400x400 that were held back from training, opaque_until 0.6,
-  /// 0.7, 0.8 and 0.9 give 29.9, 30.4, 30.7 and 30.9 dB with 4x4 samples.
+  /// steps. With photographs of lego at 400x400 that were held back from training, opaque_until
+  /// 0.6, 0.7, 0.8 and 0.9 give 29.9, 30.4, 30.7 and 30.9 dB with 4x4 samples.
   bool opaque = false;
   double opaque_from = 0.5, opaque_until = 0.9;
   /// From this fraction of the steps on, windows below this opacity are dead. The solidity soon
