@@ -13,9 +13,9 @@
 namespace tureen::trainer {
 
 /// The table, for harmonics of the highest degree. Rates are for runs of a few thousand steps,
-/// chosen on held-out training views (tests/bench/train_gaussians.cpp, held_out=1). They begin
-/// above those of 3DGS (arXiv 2308.04079), whose code takes 30,000 steps: log scale 5e-3, rotation
-/// 1e-3, opacity logit 5e-2, harmonics 2.5e-3 and 1.25e-4.
+/// chosen on photographs that were held back from training. They begin above those of 3DGS (arXiv
+/// 2308.04079), whose code takes 30,000 steps: log scale 5e-3, rotation 1e-3, opacity logit 5e-2,
+/// harmonics 2.5e-3 and 1.25e-4.
 extern const std::array<ParameterKind, 6> gaussian_parameter_kinds;
 
 /// Rows are gaussian_row's. Trained values are logarithms of scales, quaternions of any length, and

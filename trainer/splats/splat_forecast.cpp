@@ -12,7 +12,7 @@ namespace tureen::trainer {
 namespace {
 
 /// Estimates: pairs of a splat and a tile, and planes of floats for each pixel of the largest
-/// image. tests/bench/train_gaussians.cpp prints the number of pairs, which is larger at the start
+/// image. tests/bench/splat_steps.cpp prints the number of pairs, which is larger at the start
 /// and in large images.
 constexpr double pairs_a_splat = 12;
 constexpr double planes_a_pixel = 12;

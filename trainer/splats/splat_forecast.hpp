@@ -27,8 +27,8 @@ std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Window
                                                const Dataset& dataset);
 
 /// The work of a step on images with half the width and height, relative to one of full size: a
-/// quarter of the pixels, but all splats. An estimate; `train_gaussians .. half=1` and `half=0`
-/// (tests/bench/) print the times.
+/// quarter of the pixels, but all splats. An estimate; tests/bench/splat_steps.cpp prints the times
+/// with half_size_until 1 and 0.
 inline constexpr double half_size_work = 0.28;
 
 /// The work of all steps after the first `done`, in steps of full size.

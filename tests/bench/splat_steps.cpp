@@ -1,0 +1,93 @@
+// The stages of the steps of a training run of splats on one core, in milliseconds, and their sum
+// over the time of the image loss in the same run. Prints ten JSON lines: means over tenths of the
+// run. `tureen train` measures quality.
+//
+//   splat_steps gaussians|triangles DATASET SCALE [CONFIG.json]
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "formats/dataset/dataset.hpp"
+#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/splat_config.hpp"
+#include "trainer/splats/window_method.hpp"
+
+namespace tureen::test {
+namespace {
+
+using namespace trainer;
+
+template <class Trainer>
+void print_stages(Trainer& trainer) {
+  const SplatTimes times = std::exchange(trainer.times(), {});
+  const double steps = double(times.steps);
+  const auto ms = [&](double seconds) { return std::round(1e5 * seconds / steps) / 100; };
+  const nlohmann::ordered_json line = {
+      {"step", trainer.steps_done()},
+      {"splats", trainer.parameters().count()},
+      {"pairs", std::uint64_t(double(times.pairs) / steps)},  // of a splat and a tile
+      {"projection_ms", ms(times.projection)},
+      {"lists_ms", ms(times.lists)},
+      {"forward_ms", ms(times.forward)},
+      {"loss_ms", ms(times.loss)},
+      {"backward_ms", ms(times.backward)},
+      {"update_ms", ms(times.update)},
+      {"step_ms", ms(times.total())},
+      {"step_over_loss", std::round(100 * times.total() / times.loss) / 100}};
+  std::printf("%s\n", line.dump().c_str());
+  std::fflush(stdout);
+}
+
+template <class Method>
+void train(const typename Method::Config& config, const Dataset& dataset,
+           std::span<const TrainingView> views) {
+  SplatTrainer<Method> trainer(config, views, region_of_interest(dataset), 1);
+  while (!trainer.done()) {
+    const int tenth = trainer.steps_done() * 10 / config.steps;
+    trainer.step();
+    if (trainer.steps_done() * 10 / config.steps != tenth) print_stages(trainer);
+  }
+}
+
+template <class Config>
+Config config_of(int count, char** values) {
+  return count > 4 ? read_splat_config<Config>(std::filesystem::path(values[4])) : Config{};
+}
+
+void run(int count, char** values) {
+  if (count < 4 || count > 5) throw std::runtime_error("needs METHOD DATASET SCALE [CONFIG.json]");
+  const std::string method = values[1];
+  Dataset dataset = read_dataset(values[2], {.scale = std::atof(values[3])});
+  const auto views = [&](const SplatConfig& config) {
+    return take_training_views(dataset.train, std::span<const float, 3>(config.background));
+  };
+  if (method == "gaussians") {
+    const auto config = config_of<GaussianConfig>(count, values);
+    if (config.flat)
+      train<DiscTraining>(config, dataset, views(config));
+    else
+      train<GaussianTraining>(config, dataset, views(config));
+  } else if (method == "triangles") {
+    const auto config = config_of<WindowConfig>(count, values);
+    train<WindowTraining>(config, dataset, views(config));
+  } else {
+    throw std::runtime_error(method + ": no such method");
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test
+
+int main(int count, char** values) {
+  try {
+    tureen::test::run(count, values);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "splat_steps: %s\n", error.what());
+    return 1;
+  }
+}
