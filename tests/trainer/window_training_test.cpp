@@ -230,6 +230,20 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   EXPECT_GT(opaque, 30);
 }
 
+/// Shorter than the interval of the changes of solidity.
+TEST(WindowTraining, ShortRunsEndWithOpaqueTriangles) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  for (const int steps : {1, 15}) {
+    WindowConfig config = small_run(steps);
+    config.opaque = true;
+    WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+    while (!trainer.done()) trainer.step();
+    EXPECT_TRUE(std::holds_alternative<TriangleSoup>(
+        WindowTraining::primitives(config, trainer.parameters(), trainer.state().memory)))
+        << steps;
+  }
+}
+
 TEST(WindowTraining, BeginsAtPoints) {
   const std::vector<DatasetPoint> points = {{.position = {0.1, 0.2, 0.3}, .color = {255, 0, 51}},
                                             {.position = {0.1, 0.2, 0.3}, .color = {255, 0, 51}},

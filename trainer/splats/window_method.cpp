@@ -45,7 +45,8 @@ DensifyReport WindowTraining::densify(const WindowConfig& config, int step, int 
 
 void WindowTraining::limit(const WindowConfig& config, int step, WindowParameters& parameters) {
   const double done = double(step) / config.steps;
-  if (!config.opaque || done < config.opaque_from || step % steps_a_limit != 0) return;
+  if (!config.opaque || done < config.opaque_from) return;
+  if (step % steps_a_limit != 0 && step != config.steps) return;
   const double part = std::clamp(
       (done - config.opaque_from) / (config.opaque_until - config.opaque_from), 0.0, 1.0);
   // The ramp at the edges is linear. Before, sigma moves towards 1 by equal factors in equal times.
