@@ -3,6 +3,7 @@
 // number of threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -364,6 +365,33 @@ TYPED_TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
       EXPECT_NEAR(std::abs(parameters.trained(row::x)[i] - before.trained(row::x)[i]), 1e-3, 1e-6);
     }
   }
+}
+
+/// An infinite colour is drawn as a finite one: the pixels, and the other splats in them, stay finite.
+TYPED_TEST(SplatsGradient, HoldsBesideAnInfiniteColor) {
+  GaussianParameters parameters = random_parameters(31, 20, 1);
+  parameters.trained(row::harmonics)[7] = std::numeric_limits<float>::infinity();
+  parameters.activate(7);
+  ThreadPool pool(1);
+  typename TypeParam::Raster raster(pool);
+  std::vector<float> planes(3 * width * height);
+  raster.forward(parameters, camera(), 1, background, planes);
+  EXPECT_GT(*std::max_element(planes.begin(), planes.end()), 1000);
+  for (const float value : planes) ASSERT_TRUE(std::isfinite(value));
+  SplatMemory memory(parameters.rows(), parameters.count());
+  const GaussianStep step{.rates = {1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f},
+                          .min_log_scale = -20,
+                          .max_log_scale = 20};
+  const GaussianParameters before = parameters;
+  EXPECT_EQ(TypeParam::step(raster.backward(planes, random_gradient(31)), step, 0, 20, parameters,
+                            memory),
+            1u);
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_TRUE(i == 7 || parameters.is_finite(i)) << i;
+    moved += parameters.trained(row::x)[i] != before.trained(row::x)[i];
+  }
+  EXPECT_GT(moved, 10u);
 }
 
 }  // namespace splats_gradient_test

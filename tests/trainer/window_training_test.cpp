@@ -210,8 +210,7 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
     EXPECT_NEAR(parameters.drawn.row(row::sigma)[i], 1, 1e-5);
   }
   Scene scene;
-  scene.layers.push_back(
-      {.primitives = WindowTraining::primitives(config, parameters, trainer.state().memory)});
+  scene.layers.push_back({.primitives = trainer.primitives()});
   double soft = 0, opaque = 0;
   for (const TrainingView& view : views) {
     const std::vector<float> planes = trainer.render(view.camera);
@@ -230,17 +229,52 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   EXPECT_GT(opaque, 30);
 }
 
-/// Shorter than the interval of the changes of solidity.
+/// Shorter than the interval of the changes of solidity, and with a densification that so few steps
+/// follow that no triangle is known to be hidden.
 TEST(WindowTraining, ShortRunsEndWithOpaqueTriangles) {
   const std::vector<TrainingView> views = views_of_a_square();
-  for (const int steps : {1, 15}) {
+  for (const int steps : {1, 15, 81, 85}) {
     WindowConfig config = small_run(steps);
     config.opaque = true;
+    config.densify_until = 1;
     WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
     while (!trainer.done()) trainer.step();
-    EXPECT_TRUE(std::holds_alternative<TriangleSoup>(
-        WindowTraining::primitives(config, trainer.parameters(), trainer.state().memory)))
-        << steps;
+    const Primitives primitives = trainer.primitives();
+    ASSERT_TRUE(std::holds_alternative<TriangleSoup>(primitives)) << steps;
+    EXPECT_EQ(std::get<TriangleSoup>(primitives).triangles.size(), trainer.parameters().count());
+  }
+}
+
+TEST(WindowTraining, OmitsOpaqueTrianglesThatNoViewShows) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  WindowConfig config = small_run(40);
+  config.opaque = true;
+  WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+  while (!trainer.done()) trainer.step();
+  WindowState state = trainer.state();
+  for (std::size_t k = 0; k < 9; ++k)  // far beside all images
+    state.parameters.trained(row::corners + k)[3] += 1e4f;
+  state.step -= 16;
+  std::fill_n(state.memory.statistics.row(splat_statistic::evident), state.parameters.count(), 0.0f);
+  WindowTrainer again(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1, state);
+  while (!again.done()) again.step();
+  const Primitives primitives = again.primitives();
+  const auto kept = std::get<TriangleSoup>(primitives).triangles.size();
+  EXPECT_LT(kept, again.parameters().count());
+  EXPECT_GT(kept, again.parameters().count() / 2);
+}
+
+/// A run that ends early has the primitives that are nearer to what it draws.
+TEST(WindowTraining, EndsEarlyWithSoftOrOpaqueTriangles) {
+  const std::vector<TrainingView> views = views_of_a_square();
+  WindowConfig config = small_run(100);
+  config.opaque = true;
+  WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+  while (!trainer.done()) {
+    trainer.step();
+    const bool solid = trainer.parameters().solidity >= WindowTraining::solidity_of_triangles;
+    EXPECT_EQ(solid, trainer.steps_done() >= 70);  // between opaque_from 0.5 and opaque_until 0.9
+    EXPECT_EQ(std::holds_alternative<TriangleSoup>(trainer.primitives()), solid);
   }
 }
 

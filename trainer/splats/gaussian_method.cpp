@@ -58,12 +58,12 @@ void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& poi
 }
 
 Primitives GaussianTraining::primitives(const GaussianConfig& config,
-                                        const GaussianParameters& parameters, const SplatMemory&) {
+                                        const GaussianParameters& parameters, std::span<const float>) {
+  const float min_alpha = profile_named(config.flat ? "2dgs" : "3dgs")->min_alpha;
   GaussianParameters kept = parameters;
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t i = 0; i < parameters.count(); ++i)
-    if (parameters.is_finite(i) && parameters.opacity(i) >= profile_named("3dgs")->min_alpha)
-      drawn.push_back(i);
+    if (parameters.is_finite(i) && parameters.opacity(i) >= min_alpha) drawn.push_back(i);
   kept.reorder(drawn);
   return kept.splats(config.flat);
 }

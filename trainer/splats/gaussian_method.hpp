@@ -31,9 +31,6 @@ struct GaussianTraining {
   /// A factor of the rate of positions.
   static float position_rate(const Parameters&) { return 1; }
 
-  /// Of VarianceLoss: the samples of a pixel that Gaussians cover are equal.
-  static float variance_weight(const Config&, const Parameters&) { return 0; }
-
   /// After a step: nothing is to be limited.
   static void limit(const Config&, int, Parameters&) {}
 
@@ -50,7 +47,7 @@ struct GaussianTraining {
 
   /// The splats that a viewer can draw: finite, and not too transparent.
   static Primitives primitives(const Config& config, const Parameters& parameters,
-                               const SplatMemory& memory);
+                               std::span<const float> evident);
 };
 
 using GaussianTrainer = SplatTrainer<GaussianTraining>;

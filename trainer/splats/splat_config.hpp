@@ -51,6 +51,13 @@ inline int densify_interval(const SplatConfig& config) {
   return std::min(config.densify_every, std::max(config.steps / 25, 20));
 }
 
+/// Whether the run densifies after this number of steps. Not after the last one, when no step would
+/// train the new splats.
+inline bool densifies_after(const SplatConfig& config, int step) {
+  return step % densify_interval(config) == 0 && step < config.steps &&
+         step <= config.densify_until * config.steps;
+}
+
 /// All fields of the configuration C, in the order of its members. C is a SplatConfig with a type
 /// C::Field; each kernel specialises this function, and has an own_defect(C).
 template <class C>

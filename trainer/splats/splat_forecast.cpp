@@ -74,7 +74,7 @@ double step_seconds(typename Method::Config probe, std::span<const TrainingView>
   constexpr int max_steps = 20;
   constexpr double enough = 0.5;  // seconds
   probe.steps = state.step + max_steps + 1;
-  probe.densify_every = probe.steps + 1;
+  probe.densify_until = 0;
   probe.half_size_until = 0;
   SplatTrainer<Method> trainer(probe, views, region, threads, state);
   trainer.step();  // allocates
@@ -136,8 +136,7 @@ double growth_of_work(const SplatConfig& config, int done, std::size_t count) {
     const double part = remaining_work(config, step) - remaining_work(config, next);
     work += part;
     sum += part * now;
-    if (next <= config.densify_until * config.steps)
-      now = std::min(last, now * (1 + config.growth));
+    if (densifies_after(config, next)) now = std::min(last, now * (1 + config.growth));
     step = next;
   }
   return work > 0 ? sum / (work * first) : 1;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/scene.hpp"
 #include "trainer/common/cpu/image_loss.hpp"
 #include "trainer/common/region.hpp"
 #include "trainer/common/stopwatch.hpp"
@@ -79,7 +81,9 @@ class SplatTrainer {
     const int width = view.camera.width, height = view.camera.height;
     planes_.resize(3 * std::size_t(width) * std::size_t(height));
     gradient_.resize(planes_.size());
-    const VarianceLoss variance{Method::variance_weight(config_, parameters()), view.ignored};
+    VarianceLoss variance{.ignored = view.ignored};
+    if constexpr (Method::Raster::has_variance)
+      variance.weight = Method::variance_weight(config_, parameters());
     raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_,
                     variance.weight > 0);
     SplatStepReport report;
@@ -102,11 +106,10 @@ class SplatTrainer {
     report.quarantined += update(input);
     ++times().steps;
     ++state_.step;
-    const int every = densify_interval(config_);
-    if (state_.step % every == 0 && state_.step <= config_.densify_until * config_.steps) {
-      const DensifyReport densified =
-          Method::densify(config_, state_.step, state_.step / every, state_.random,
-                          state_.parameters, state_.memory);
+    if (densifies_after(config_, state_.step)) {
+      const DensifyReport densified = Method::densify(
+          config_, state_.step, state_.step / densify_interval(config_), state_.random,
+          state_.parameters, state_.memory);
       // No splat is left to split: the run begins again, at other places.
       if (densified.dead == parameters().count()) begin();
       sort_in_memory(region_, state_.parameters, state_.memory);
@@ -115,6 +118,14 @@ class SplatTrainer {
     }
     Method::limit(config_, state_.step, state_.parameters);
     return report;
+  }
+
+  /// The splats so far as a scene stores them.
+  Primitives primitives() const {
+    const float* evident = state_.memory.statistics.row(splat_statistic::evident);
+    return Method::primitives(config_, parameters(),
+                              knows_evident() ? std::span(evident, parameters().count())
+                                              : std::span<const float>());
   }
 
   /// mean_squared_error() of the last step. Needs a step().
@@ -137,6 +148,14 @@ class SplatTrainer {
   int degree_now() const {
     const int reached = int(state_.step / std::max(1.0, config_.degree_steps * config_.steps));
     return std::min(config_.degree, reached);
+  }
+
+  /// Whether all views were used since the last densification: a whole epoch is in so many steps.
+  bool knows_evident() const {
+    const int every = densify_interval(config_);
+    int last = state_.step / every * every;
+    while (last > 0 && !densifies_after(config_, last)) last -= every;
+    return state_.step - last >= 2 * int(views_.size()) - 1;
   }
 
   void begin() {
@@ -166,16 +185,12 @@ class SplatTrainer {
       step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
     }
     step.rates[0] *= float(region_.half_side) * Method::position_rate(parameters());
-    std::vector<std::size_t> quarantined((count + splats_a_task - 1) / splats_a_task);
-    pool_.run(quarantined.size(), [&](std::size_t task) {
-      const std::size_t first = task * splats_a_task;
-      quarantined[task] =
-          Method::step_splats(input, step, first, std::min(first + splats_a_task, count),
-                              state_.parameters, state_.memory);
+    std::atomic<std::size_t> quarantined = 0;
+    run_in_tasks(pool_, count, [&](std::size_t begin, std::size_t end) {
+      quarantined +=
+          Method::step_splats(input, step, begin, end, state_.parameters, state_.memory);
     });
-    std::size_t sum = 0;
-    for (const std::size_t each : quarantined) sum += each;
-    return sum;
+    return quarantined;
   }
 
   Config config_;

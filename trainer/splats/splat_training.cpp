@@ -67,13 +67,14 @@ class SplatRun final : public Trainable {
     double seconds = 0;
     SplatStepReport report;
     const double work = remaining_work(trainer_.config(), steps_done());
+    const auto splats = double(trainer_.parameters().count());
     {
       const Stopwatch watch(seconds);
       report = trainer_.step();
     }
     spent_ += overhead * seconds;
     recent_ += overhead * seconds;
-    recent_work_ += work - remaining_work(trainer_.config(), steps_done());
+    recent_work_ += splats * (work - remaining_work(trainer_.config(), steps_done()));
     non_finite_ += report.quarantined;
     return {.loss = report.loss,
             .l1 = report.l1,
@@ -99,8 +100,11 @@ class SplatRun final : public Trainable {
   void fit() {
     if (!(run_.config.minutes > 0) || fits_ >= int(fit_at.size()) || recent_work_ == 0) return;
     if (steps_done() < fit_at[std::size_t(fits_)] * steps()) return;
+    const std::size_t splats = trainer_.parameters().count();
+    const double step_seconds = recent_ / recent_work_ * double(splats) *
+                                growth_of_work(trainer_.config(), steps_done(), splats);
     trainer_.set_steps(fitted_steps(trainer_.config(), steps_done(),
-                                    60 * run_.config.minutes - spent_, recent_ / recent_work_));
+                                    60 * run_.config.minutes - spent_, step_seconds));
     ++fits_;
     recent_ = recent_work_ = 0;
   }
@@ -110,7 +114,7 @@ class SplatRun final : public Trainable {
   Checkpoint run_;          // without a state
   double spent_ = 0;        // seconds, over all sessions
   double recent_ = 0;       // seconds of the steps since the last fit
-  double recent_work_ = 0;  // their work, in steps of full size
+  double recent_work_ = 0;  // their work, in steps of full size with one splat
   std::uint64_t non_finite_ = 0;
   int fits_ = 0;
 };
@@ -143,12 +147,12 @@ SplatResult train_by(Dataset& dataset, Request request) {
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
   for (TrainingView& view : views) view.camera = moved(view.camera, region.centre);
   const Region local{.centre = glm::dvec3(0), .half_side = region.half_side};
+  if (request.checkpoint && run.config.minutes > 0)
+    run.config.steps = request.checkpoint->config.steps;
   const double step_seconds =
       overhead * measured_step_seconds(run.config, views, local, request.run.threads, run.state) *
       growth_of_work(run.config, run.state.step, run.state.parameters.count());
-  if (request.checkpoint && run.config.minutes > 0)
-    run.config.steps = request.checkpoint->config.steps;
-  else if (run.config.minutes > 0)
+  if (!request.checkpoint && run.config.minutes > 0)
     run.config.steps = fitted_steps(run.config, 0, 60 * run.config.minutes, step_seconds);
   SplatTrainer<Method> trainer(run.config, views, local, request.run.threads, run.state);
   forecast.steps = run.config.steps;
@@ -159,15 +163,11 @@ SplatResult train_by(Dataset& dataset, Request request) {
   request.run.session.seconds_before = run.seconds;
   request.run.session.non_finite_before = run.state.non_finite;
   SplatRun<Method> splat_run(trainer, region.centre, std::move(run));
-  const auto primitives = [&] {
-    const auto& state = trainer.state();
-    return Method::primitives(trainer.config(), state.parameters, state.memory);
-  };
   SplatResult result;
   result.run = run_to_the_end(splat_run, std::move(request.run), dataset,
-                              [&] { return scene_of(primitives(), region.centre); });
+                              [&] { return scene_of(trainer.primitives(), region.centre); });
   result.steps = trainer.steps_done();
-  result.primitives = count_of(primitives());
+  result.primitives = count_of(trainer.primitives());
   result.non_finite = splat_run.non_finite();
   return result;
 }

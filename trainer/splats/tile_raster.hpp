@@ -80,16 +80,19 @@ class TileRaster {
   using Projected = typename Method::Projected;
   using Moments = typename Method::Moments;
   using BackwardInput = typename Method::BackwardInput;
+  /// Whether the passes of the method sum what a VarianceLoss needs.
+  static constexpr bool has_variance = requires { requires Method::has_variance; };
 
   explicit TileRaster(ThreadPool& pool) : pool_(pool) {}
 
   /// Draws the splats by the method's profile, with harmonics up to `degree`, over an opaque
   /// background, 0..1. `planes`: red, green and blue, row 0 on top, not clamped. `keeps_squares`:
-  /// for a VarianceLoss; not of Gaussians.
+  /// for a VarianceLoss, if has_variance.
   void forward(const Parameters& parameters, const Camera& camera, int degree,
                std::span<const float, 3> background, std::span<float> planes,
                bool keeps_squares = false) {
     assert(planes.size() == 3 * std::size_t(camera.width) * std::size_t(camera.height));
+    assert(has_variance || !keeps_squares);
     view_ = splatting::image_view(camera, camera.eye(), near_plane, *profile_named(Method::profile),
                                   camera);
     if constexpr (requires { parameters.solidity; }) view_.solidity = parameters.solidity;

@@ -15,8 +15,9 @@ namespace {
 constexpr int steps_a_limit = 10;
 /// Opacity reaches it: the next float to 1 would make the derivative of its logit infinite.
 constexpr float last_solidity = 0.9999f;
-/// The lowest that WindowParameters represent.
+/// The range that WindowParameters represent.
 constexpr float lowest_sigma = 1.01f * sigma_floor;
+const float highest_sigma = sigma_floor + std::exp(max_log_sigma);
 
 }  // namespace
 
@@ -53,7 +54,7 @@ void WindowTraining::limit(const WindowConfig& config, int step, WindowParameter
   const auto limit_of_sigma = [&](float now) {
     return WindowParameters::log_of_sigma(float(std::pow(double(now), 1 - part)));
   };
-  const float low = limit_of_sigma(lowest_sigma), high = limit_of_sigma(config.first_sigma);
+  const float low = limit_of_sigma(lowest_sigma), high = limit_of_sigma(highest_sigma);
   const float solidity = std::max(float(part) * last_solidity, parameters.solidity);
   for (std::size_t i = 0; i < parameters.count(); ++i) {
     float& log_sigma = parameters.trained(window_row::sigma)[i];
@@ -88,12 +89,12 @@ void WindowTraining::put(const WindowConfig& config, const ColoredPoint& point, 
 
 Primitives WindowTraining::primitives(const WindowConfig& config,
                                       const WindowParameters& parameters,
-                                      const SplatMemory& memory) {
+                                      std::span<const float> evident) {
   Splats splats = parameters.splats();
-  const bool becomes_soup = config.opaque && parameters.solidity >= last_solidity;
+  const bool becomes_soup = config.opaque && parameters.solidity >= solidity_of_triangles;
   keep_windows(splats, [&](std::size_t i) {
     return parameters.is_finite(i) && parameters.opacity(i) >= splats.profile.min_alpha &&
-           (!becomes_soup || memory.statistics.row(splat_statistic::evident)[i] > 0);
+           (!becomes_soup || evident.empty() || evident[i] > 0);
   });
   if (!becomes_soup) return splats;
   return to_opaque(std::move(splats)).soup;

@@ -61,11 +61,15 @@ struct WindowTraining {
   static void put(const Config& config, const ColoredPoint& point, double size, Random& random,
                   std::size_t place, Parameters& parameters);
 
-  /// Windows that a viewer can draw: finite, and not too transparent. If they are opaque, triangles
-  /// with the same harmonics, of the windows that were evident in a step since the last
-  /// densification.
+  /// Windows that a viewer can draw: finite, and not too transparent. Of opaque training, opaque
+  /// triangles with the same harmonics if the solidity is at least solidity_of_triangles; without
+  /// those that no view shows. `evident`: splat_statistic::evident of all views, or empty if it is
+  /// not known.
   static Primitives primitives(const Config& config, const Parameters& parameters,
-                               const SplatMemory& memory);
+                               std::span<const float> evident);
+  /// Runs may end early, and their previews are scenes too. Below one half, the pyramids of soft
+  /// windows are nearer to what the run draws; above, opaque triangles are.
+  static constexpr float solidity_of_triangles = 0.5f;
 };
 
 using WindowTrainer = SplatTrainer<WindowTraining>;

@@ -46,6 +46,7 @@ struct WindowMethod {
   using BackwardInput = WindowBackwardInput;
   static constexpr std::string_view profile = "triangle-splatting";
   using Projected = ProjectedWindows;
+  static constexpr bool has_variance = true;
   static constexpr auto blend_recorded = &blend_windows_recorded;
   static constexpr auto blend_backward = &blend_windows_backward;
 };
