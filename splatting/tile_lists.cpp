@@ -34,16 +34,19 @@ std::pair<int, int> TileLists::rows_between(float low, float high) const {
   return tiles_between(low, high, rows());
 }
 
+std::pair<int, int> TileLists::columns_between(float low, float high) const {
+  return tiles_between(low, high, columns_);
+}
+
 void TileLists::add(int row, float low, float high, std::uint32_t splat) {
-  const auto [first, last] = tiles_between(low, high, columns_);
-  if (first >= last) return;
-  spans_[std::size_t(row)].push_back({splat, pairs_, std::uint16_t(first), std::uint16_t(last)});
-  pairs_ += std::uint32_t(last - first);
+  const auto [first, last] = columns_between(low, high);
+  add(row, first, last, splat);
 }
 
 void TileLists::add(const Box& box, std::uint32_t splat) {
   const auto [first, last] = rows_between(box.top, box.bottom);
-  for (int row = first; row < last; ++row) add(row, box.left, box.right, splat);
+  const auto [begin, end] = columns_between(box.left, box.right);
+  for (int row = first; row < last; ++row) add(row, begin, end, splat);
 }
 
 template <bool numbered>

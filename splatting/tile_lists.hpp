@@ -46,13 +46,21 @@ class TileLists {
   /// Rows of tiles with pixel centres between these y coordinates: the first, and the one after the
   /// last. NaN: none.
   std::pair<int, int> rows_between(float low, float high) const;
+  /// Columns likewise.
+  std::pair<int, int> columns_between(float low, float high) const;
   /// The y coordinates of the first and the last pixel centres of a row of tiles.
   static Band band(int row) {
     const auto top = float(row * tile_side);
     return {top + 0.5f, top + float(tile_side) - 0.5f};
   }
-  /// Adds a splat to the tiles of a row with pixel centres between these x coordinates. NaN: none.
-  /// Nearer splats must be added earlier.
+  /// Adds a splat to the tiles of a row from column `first` to `last` - 1. Nearer splats must be
+  /// added earlier.
+  void add(int row, int first, int last, std::uint32_t splat) {
+    if (first >= last) return;
+    spans_[std::size_t(row)].push_back({splat, pairs_, std::uint16_t(first), std::uint16_t(last)});
+    pairs_ += std::uint32_t(last - first);
+  }
+  /// To the tiles with pixel centres between these x coordinates. NaN: none.
   void add(int row, float low, float high, std::uint32_t splat);
 
   /// Adds a splat to all tiles with pixel centres in a box.

@@ -2,31 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace tureen::splatting {
 
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// The x coordinates of the part of a triangle in a band. Empty: low > high.
-Band columns_in(const WindowOutline& corners, const Band& band) {
-  Band result{infinite, -infinite};
-  const auto add = [&](float x) {
-    result.low = std::min(result.low, x);
-    result.high = std::max(result.high, x);
-  };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    const float ax = corners[2 * k], ay = corners[2 * k + 1];
-    const float bx = corners[2 * next], by = corners[2 * next + 1];
-    if (ay >= band.low && ay <= band.high) add(ax);
-    for (const float y : {band.low, band.high})
-      if ((ay < y) != (by < y)) add(ax + (bx - ax) * ((y - ay) / (by - ay)));
+/// A triangle as the columns it covers in bands of rows. Its longest side in y spans both others.
+class Columns {
+ public:
+  explicit Columns(const WindowOutline& outline) {
+    Corner a{outline[0], outline[1]}, b{outline[2], outline[3]}, c{outline[4], outline[5]};
+    if (b.y < a.y) std::swap(a, b);
+    if (c.y < b.y) std::swap(b, c);
+    if (b.y < a.y) std::swap(a, b);
+    top_ = a, middle_ = b, bottom_ = c;
+    across_ = slope(a, c), above_ = slope(a, b), below_ = slope(b, c);
   }
-  return result;
-}
+
+  /// The x coordinates of the part in a band that overlaps the triangle. Without branches: they are
+  /// hard to predict.
+  Band in(const Band& band) const {
+    const float first = std::max(band.low, top_.y), last = std::min(band.high, bottom_.y);
+    const float x[] = {across(first), across(last), around(first), around(last),
+                       middle_.y >= first && middle_.y <= last ? middle_.x : across(first)};
+    return {std::min(std::min(std::min(x[0], x[1]), std::min(x[2], x[3])), x[4]),
+            std::max(std::max(std::max(x[0], x[1]), std::max(x[2], x[3])), x[4])};
+  }
+
+ private:
+  struct Corner {
+    float x, y;
+  };
+  /// dx/dy. 0 for level sides: the other sides have both of their ends.
+  static float slope(const Corner& a, const Corner& b) {
+    return b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0.0f;
+  }
+  float across(float y) const { return top_.x + across_ * (y - top_.y); }
+  float around(float y) const {
+    const bool is_above = y < middle_.y;
+    return is_above ? top_.x + above_ * (y - top_.y) : middle_.x + below_ * (y - middle_.y);
+  }
+
+  Corner top_, middle_, bottom_;
+  float across_, above_, below_;
+};
 
 }  // namespace
 
@@ -50,14 +70,22 @@ void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entr
 
 void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& lists) {
   if (std::isnan(outline[0])) {  // may cover any pixel
-    for (int row = 0; row < lists.rows(); ++row) lists.add(row, 0, infinite, splat);
+    for (int row = 0; row < lists.rows(); ++row) lists.add(row, 0, lists.columns(), splat);
     return;
   }
-  const auto [low, high] = std::minmax({outline[1], outline[3], outline[5]});
-  const auto [first, last] = lists.rows_between(low, high);
+  const auto [left, right] = std::minmax({outline[0], outline[2], outline[4]});
+  const auto [top, bottom] = std::minmax({outline[1], outline[3], outline[5]});
+  const auto [first, last] = lists.rows_between(top, bottom);
+  const auto [begin, end] = lists.columns_between(left, right);
+  // Most triangles are small. The whole range of columns is at most a little too wide.
+  if (last - first <= 1 || end - begin <= 1) {
+    for (int row = first; row < last; ++row) lists.add(row, begin, end, splat);
+    return;
+  }
+  const Columns columns(outline);
   for (int row = first; row < last; ++row) {
-    const Band columns = columns_in(outline, TileLists::band(row));
-    if (columns.low <= columns.high) lists.add(row, columns.low, columns.high, splat);
+    const Band x = columns.in(TileLists::band(row));
+    lists.add(row, x.low, x.high, splat);
   }
 }
 

@@ -539,7 +539,7 @@ TEST(WindowGradient, ThatIsNotFiniteIsQuarantined) {
   const WindowBackwardInput input = raster.backward(planes, random_gradient(31));
   std::vector<WindowMoments> moments(input.moments.begin(), input.moments.end());
   ASSERT_LT(input.pairs[7].begin, input.pairs[7].end);
-  moments[input.pairs[7].begin].edges[1].y = std::numeric_limits<float>::quiet_NaN();
+  moments[input.pairs[7].begin].y.q[1] = std::numeric_limits<float>::quiet_NaN();
   const WindowParameters before = parameters;
   SplatMemory memory(parameters.rows(), parameters.count());
   const WindowStep step{.rates = {1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f}};

@@ -26,14 +26,11 @@ using namespace gaussians;
 HWY_INLINE void disc_gradient_of(const DiscBackwardInput& input,
                                  const GaussianParameters& parameters, std::size_t i,
                                  Gradient& gradient) {
-  const auto sums = shared::pair_sums(input.pairs, input.moments, i);
+  const auto sums = shared::sums_of_three(input.pairs, input.moments, i);
   gradient.drawn = sums.drawn;
   if (hn::AllFalse(d, sums.drawn)) return;
-  const auto& value = sums.values;
-  const Vector3 q{value[0], value[1], value[2]}, q_x{value[3], value[4], value[5]},
-      q_y{value[6], value[7], value[8]}, color{value[12], value[13], value[14]};
-  const Floats h = value[11];
-  gradient.evident = value[15];
+  const Vector3 &q = sums.one, &q_x = sums.x, &q_y = sums.y;
+  gradient.evident = sums.evident;
 
   const ImageView& view = input.view;
   const ParameterRows& drawn = parameters.drawn;
@@ -80,8 +77,8 @@ HWY_INLINE void disc_gradient_of(const DiscBackwardInput& input,
   // By the image of the centre, in pixels: through the filter on the screen, and the plane.
   const Floats by_variance =
       constant(view.screen_variance > 0 ? 1.0f / view.screen_variance : 0.0f);
-  const Floats screen_x = hn::Mul(hn::Mul(fx, by_variance), value[9]);
-  const Floats screen_y = hn::Mul(hn::Mul(fy, by_variance), value[10]);
+  const Floats screen_x = hn::Mul(hn::Mul(fx, by_variance), sums.others[0]);
+  const Floats screen_y = hn::Mul(hn::Mul(fy, by_variance), sums.others[1]);
   const Vector3 by_center{
       hn::MulAdd(screen_x, by_depth, row_x.z), hn::MulAdd(screen_y, by_depth, row_y.z),
       hn::NegMulAdd(hn::MulAdd(screen_x, slope_x, hn::Mul(screen_y, slope_y)), by_depth, row_z.z)};
@@ -89,13 +86,13 @@ HWY_INLINE void disc_gradient_of(const DiscBackwardInput& input,
   const Floats image_y = hn::Div(hn::Mul(by_center.y, center.z), fy);
   gradient.motion = hn::Sqrt(hn::MulAdd(image_x, image_x, hn::Mul(image_y, image_y)));
   gradient.color = shared::color_gradient_of(input.degree, drawn.row(row::harmonics),
-                                             drawn.stride(), i, offset, color);
+                                             drawn.stride(), i, offset, sums.color);
   const Vector3 by_offset =
       sum(transposed_product(view.view_from_layer, by_center), gradient.color.by_offset);
   gradient.values[row::x] = by_offset.x;
   gradient.values[row::y] = by_offset.y;
   gradient.values[row::z] = by_offset.z;
-  gradient.values[row::opacity] = hn::Mul(h, hn::Sub(one, load(row::opacity)));
+  gradient.values[row::opacity] = hn::Mul(sums.h, hn::Sub(one, load(row::opacity)));
 }
 
 void disc_gradients_on(const DiscBackwardInput& input, const GaussianParameters& parameters,

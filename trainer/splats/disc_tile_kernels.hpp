@@ -10,25 +10,14 @@
 
 namespace tureen::trainer {
 
-/// Sums of h = dL/d ln(alpha) and of the derivatives by the colour, over the pixels of one tile or
-/// of all. Pixels whose alpha is limited to the profile's largest have h = 0.
+/// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to the
+/// profile's largest.
 ///
 /// A ray meets the disc's plane at (u, v) = (p_u, p_v) / p_w, p = k x l, where k and l are the
 /// lines of splatting::DiscAt, and ln(alpha) = ln(opacity) - (u^2 + v^2) / 2. So q = dL/dp = -h /
-/// p_w (u, v, -u^2 - v^2).
-struct DiscMoments {
-  struct Sum {
-    float u, v, w;
-  };
-  /// Of q, and of q times the offset (x, y) of the pixel from DiscEntry's (x, y), over the pixels
-  /// whose alpha is that on the plane.
-  Sum one, x, y;
-  /// Of h times this offset, over the pixels whose alpha is that of the filter on the screen.
-  float screen_x, screen_y;
-  float h;  // of h
-  float red, green, blue;
-  float evident;  // > 0: evident_weight is reached
-};
+/// p_w (u, v, -u^2 - v^2) at the pixels whose alpha is that on the plane. At the others, alpha is
+/// that of the filter on the screen: `others` are the sums of h x and h y there.
+using DiscMoments = MomentsOfThree;
 
 /// splatting::blend_discs() for a tile without opaque surfaces, with its record.
 void blend_discs_recorded(const splatting::ImageView& view,

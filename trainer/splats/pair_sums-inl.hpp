@@ -10,6 +10,7 @@
 
 #include "splatting/vector_math-inl.hpp"
 #include "trainer/splats/splat_memory.hpp"
+#include "trainer/splats/tile_passes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
@@ -45,6 +46,21 @@ HWY_INLINE PairSums<Moments> pair_sums(std::span<const PairSpan> pairs,
   for (std::size_t k = 0; k < values; ++k) result.values[k] = hn::Load(d, sums[k]);
   result.drawn = hn::Gt(hn::Load(d, drawn), hn::Zero(d));
   return result;
+}
+
+/// MomentsOfThree of a vector of splats.
+struct SumsOfThree {
+  Vector3 one, x, y, color;  // of q, q x and q y
+  Floats h, others[2], evident;
+  Mask drawn;
+};
+
+HWY_INLINE SumsOfThree sums_of_three(std::span<const PairSpan> pairs,
+                                     std::span<const MomentsOfThree> moments, std::size_t i) {
+  const auto [values, drawn] = pair_sums(pairs, moments, i);
+  const auto& v = values;
+  return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}, {v[3], v[7], v[11]},
+          v[12],              {v[13], v[14]},     v[15],               drawn};
 }
 
 }  // namespace shared

@@ -1,5 +1,16 @@
-// The loops over the splats of a tile in training that windows and discs share. Included once for
-// each target of Highway.
+// The loops over the splats of a tile in training, for any kernel. Included once for each target of
+// Highway.
+//
+// A kernel is a struct with constants of the view, and
+//   Entry, Moments
+//   value_of(entry, x, y)     a value at pixels, -infinity where the entry cannot be
+//   threshold_of(entry)       the entry covers the pixels whose value reaches it
+//   alpha_of(entry, value)    alpha there, before it is limited to the largest
+//   values_a_pixel            2 or 4, and the sums over pixels that PixelValues<2> and <4> describe
+//   replay(entry, block, values, sums)    blends the entry again (blend_again()), and writes the
+//                             values of the block's pixels, and up to three sums without a factor
+//   moved(entry, line, x, y)  the moments about the entry's (x, y) from those about the middle of
+//                             the tile, `x` and `y` pixels after it.
 #if defined(TUREEN_TILE_LOOPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TUREEN_TILE_LOOPS_INL
 #undef TUREEN_TILE_LOOPS_INL
@@ -33,104 +44,239 @@ HWY_INLINE float square_of_color(const Entry& entry) {
   return entry.red * entry.red + entry.green * entry.green + entry.blue * entry.blue;
 }
 
-/// blend_entries() for a tile without opaque surfaces, with its record.
-template <class Entry, class AlphaOf>
-HWY_INLINE void blend_recorded(const ImageView& view, std::span<const Entry> entries,
-                               std::span<const std::uint32_t> tile, const AlphaOf& alpha_of,
-                               TilePixels& pixels, TileRecord& record) {
+/// Entries that are tested together for the pixels of a block.
+constexpr std::size_t tested_batch = 16;
+
+/// The entries of a batch that cover an open pixel of a block.
+struct Covering {
+  alignas(64) float values[tested_batch][block_pixels];
+  std::uint32_t place[tested_batch];  // in the tile's list
+  std::size_t count = 0;
+};
+
+/// Without branches: whether an entry covers a block is hard to predict.
+template <class Kernel>
+HWY_INLINE void find_covering(const Kernel& kernel, std::span<const typename Kernel::Entry> entries,
+                              std::span<const std::uint32_t> tile, std::size_t begin,
+                              const Block& block, Covering& covering) {
+  Mask open[parts];
+  for (std::size_t part = 0; part < parts; ++part)
+    open[part] = hn::Gt(block.transmittance[part], hn::Zero(d));
+  const Mask none = hn::Lt(hn::Zero(d), hn::Zero(d));
+  covering.count = 0;
+  const std::size_t end = std::min(begin + tested_batch, tile.size());
+  for (std::size_t k = begin; k < end; ++k) {
+    const auto& entry = entries[tile[k] & place_mask];
+    const Floats threshold = kernel.threshold_of(entry);
+    Mask covered = none;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const Floats value = kernel.value_of(entry, block.x[part], block.y[part]);
+      covered = hn::Or(covered, hn::And(open[part], hn::Ge(value, threshold)));
+      hn::Store(value, d, covering.values[covering.count] + part * lanes);
+    }
+    covering.place[covering.count] = std::uint32_t(k);
+    covering.count += !hn::AllFalse(d, covered);
+  }
+}
+
+/// Blends the entries front to back into a tile without opaque surfaces, with its record. `squares`:
+/// as TileRecord::keeps_squares.
+template <bool squares, class Kernel>
+HWY_INLINE void blend_recorded(const Kernel& kernel, const ImageView& view,
+                               std::span<const typename Kernel::Entry> entries,
+                               std::span<const std::uint32_t> tile, TilePixels& pixels,
+                               TileRecord& record) {
   const Floats max_alpha = constant(view.max_alpha), stop = constant(view.stop_transmittance);
-  const Floats evident = constant(evident_weight);
+  const Floats evident = constant(evident_weight), zero = hn::Zero(d);
   std::uint32_t* end = record.blended;
-  // Entries are far apart in memory: each would be a cache miss.
-  for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   for (int i = 0; i < blocks_a_tile; ++i) {
     Block block(pixels, i);
-    Floats squares[parts];
-    std::fill_n(squares, parts, hn::Zero(d));
-    if (block.has_open_pixels()) {
-      for (std::uint32_t k = 0; k < tile.size(); ++k) {
+    Floats square[parts];
+    std::fill_n(square, parts, zero);
+    Covering covering;
+    for (std::size_t begin = 0; begin < tile.size() && block.has_open_pixels();
+         begin += tested_batch) {
+      find_covering(kernel, entries, tile, begin, block, covering);
+      for (std::size_t e = 0; e < covering.count; ++e) {
+        const auto& entry = entries[tile[covering.place[e]] & place_mask];
+        const Floats threshold = kernel.threshold_of(entry);
+        Floats largest = zero;  // weight
+        for (std::size_t part = 0; part < parts; ++part) {
+          Floats& transmittance = block.transmittance[part];
+          const Floats value = hn::Load(d, covering.values[e] + part * lanes);
+          Mask blended = hn::And(hn::Ge(value, threshold), hn::Gt(transmittance, zero));
+          const Floats alpha = hn::Min(kernel.alpha_of(entry, value), max_alpha);
+          const Floats behind = hn::NegMulAdd(alpha, transmittance, transmittance);
+          const Mask ends = hn::And(blended, hn::Lt(behind, stop));
+          blended = hn::AndNot(ends, blended);
+          const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
+          block.red[part] = hn::MulAdd(weight, constant(entry.red), block.red[part]);
+          block.green[part] = hn::MulAdd(weight, constant(entry.green), block.green[part]);
+          block.blue[part] = hn::MulAdd(weight, constant(entry.blue), block.blue[part]);
+          if constexpr (squares)
+            square[part] = hn::MulAdd(weight, constant(square_of_color(entry)), square[part]);
+          transmittance = hn::IfThenElse(blended, behind, transmittance);
+          transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
+          largest = hn::Max(largest, weight);
+        }
         // An entry that only closes pixels is recorded, too: the backward pass repeats this.
-        bool changes = false;
-        std::uint32_t bit = 0;
-        const Entry& entry = entries[tile[k] & place_mask];
-        const auto seen = [&](std::size_t part, Floats weight) {
-          changes = true;
-          if (!hn::AllFalse(d, hn::Ge(weight, evident))) bit = TileRecord::evident_bit;
-          if (record.keeps_squares)
-            squares[part] = hn::MulAdd(weight, constant(square_of_color(entry)), squares[part]);
-        };
-        const bool closes = blend_entry(entry, alpha_of, max_alpha, stop, block, seen);
-        *end = k | bit;
-        end += changes;
-        if (closes && !block.has_open_pixels()) break;
+        *end++ = covering.place[e] |
+                 (hn::AllFalse(d, hn::Ge(largest, evident)) ? 0u : TileRecord::evident_bit);
       }
-      block.store(pixels, i);
     }
-    if (record.keeps_squares)
+    block.store(pixels, i);
+    if constexpr (squares)
       for (std::size_t part = 0; part < parts; ++part)
-        hn::Store(squares[part], d, record.squares + std::size_t(i) * block_pixels + part * lanes);
+        hn::Store(square[part], d, record.squares + std::size_t(i) * block_pixels + part * lanes);
     record.ends[i] = std::uint32_t(end - record.blended);
   }
 }
 
-/// Sums over the pixels of a block are products with a matrix. Pixel p has four values, stored
-/// together: three of the kernel, and the weight. Row p of the matrix is
+/// Sums over the pixels of a block are products with a matrix. The backward pass stores the values
+/// of a pixel together, and one broadcast of them serves all columns of the pixel's row.
+///
+/// Two values: the kernel's one, and the weight. The row is
+///   1, g.red, x, g.green, y, g.blue, x^2, 0, x y, 0, y^2, 0
+/// Four values: three of the kernel, and the weight. The row is
 ///   1, 1, 1, g.red, x, x, x, g.green, y, y, y, g.blue
-/// with x and y from the middle of the tile. One broadcast of the four values serves all columns.
-/// Four more columns hold sums that have no factor; the last one is that of the evident weight.
+/// with x and y from the middle of the tile. Four more columns hold sums that have no factor: three
+/// of the kernel, and the number of blocks with the evident weight.
 constexpr std::size_t columns = 12;
 constexpr std::size_t column_parts = (columns + lanes - 1) / lanes;
 constexpr std::size_t row_floats = 16;
-constexpr std::size_t h_column = 12, evident_column = 15;
+constexpr std::size_t factorless = 4, evident_column = 15;
 /// Entries whose sums are in registers at the same time.
 constexpr std::size_t batch = lanes == 16 ? 8 : 4;
 
-/// The four values in all lanes, as the columns of this part need them.
-HWY_INLINE Floats broadcast_four(const float* four, [[maybe_unused]] std::size_t part) {
-#if HWY_TARGET == HWY_SCALAR
-  return constant(four[part % 4]);
-#else
-  return hn::LoadDup128(d, four);
-#endif
-}
+// Highway's target without vectors has no groups of lanes.
+#define TUREEN_HAS_VECTORS (HWY_TARGET != HWY_SCALAR)
 
+template <std::size_t values_a_pixel>
+struct PixelValues;
+
+template <>
+struct PixelValues<2> {
+  static HWY_INLINE void write_row(float x, float y, float red, float green, float blue,
+                                   float* row) {
+    const float values[columns] = {1, red, x, green, y, blue, x * x, 0, x * y, 0, y * y, 0};
+    std::memcpy(row, values, sizeof values);
+  }
+
+  /// The pixel whose values store() puts at this place.
+  static constexpr std::size_t pixel_of(std::size_t place) {
+    if constexpr (lanes == 1) return place;
+    constexpr std::size_t half_lanes = lanes > 1 ? lanes / 2 : 1;
+    const std::size_t part = place / lanes, in_part = place % lanes;
+    const std::size_t half = in_part / half_lanes, in_half = in_part % half_lanes;
+    return part * lanes + 4 * (in_half / 2) + 2 * half + in_half % 2;
+  }
+
+  static HWY_INLINE void store(Floats first, Floats weight, float* values) {
+#if TUREEN_HAS_VECTORS
+    hn::Store(hn::InterleaveLower(d, first, weight), d, values);
+    hn::Store(hn::InterleaveUpper(d, first, weight), d, values + lanes);
+#else
+    hn::Store(first, d, values);
+    hn::Store(weight, d, values + 1);
+#endif
+  }
+
+  /// The values of a pixel in all lanes, as the columns of this part need them.
+  static HWY_INLINE Floats broadcast(const float* values, [[maybe_unused]] std::size_t part) {
+#if TUREEN_HAS_VECTORS
+    const hn::Repartition<std::uint64_t, FloatTag> du64;
+    std::uint64_t both;
+    std::memcpy(&both, values, sizeof both);
+    return hn::BitCast(d, hn::Set(du64, both));
+#else
+    return constant(values[part % 2]);
+#endif
+  }
+};
+
+template <>
+struct PixelValues<4> {
+  static HWY_INLINE void write_row(float x, float y, float red, float green, float blue,
+                                   float* row) {
+    const float values[columns] = {1, 1, 1, red, x, x, x, green, y, y, y, blue};
+    std::memcpy(row, values, sizeof values);
+  }
+
+  static constexpr std::size_t pixel_of(std::size_t place) { return place; }
+
+  static HWY_INLINE void store(Floats first, Floats second, Floats third, Floats weight,
+                               float* values) {
+    hn::StoreInterleaved4(first, second, third, weight, d, values);
+  }
+
+  static HWY_INLINE MomentsOfThree moved(const float* line, float x, float y) {
+    MomentsOfThree m;
+    const auto move = [&](const float* of, float by) -> MomentsOfThree::Sums {
+      return {{of[0] + by * line[0], of[1] + by * line[1], of[2] + by * line[2]}, of[3]};
+    };
+    m.one = move(line, 0);
+    m.x = move(line + 4, x);
+    m.y = move(line + 8, y);
+    std::memcpy(&m.h, line + columns, factorless * sizeof(float));
+    return m;
+  }
+
+  static HWY_INLINE Floats broadcast(const float* values, [[maybe_unused]] std::size_t part) {
+#if TUREEN_HAS_VECTORS
+    return hn::LoadDup128(d, values);
+#else
+    return constant(values[part % 4]);
+#endif
+  }
+};
+
+template <std::size_t values_a_pixel>
 struct alignas(64) Buffers {
-  float fours[batch][4 * block_pixels];
+  float values[batch][values_a_pixel * block_pixels];
+  float sums[batch][factorless];
   float matrix[block_pixels][row_floats];
 };
 
-HWY_INLINE void write_matrix(const TileGradient& gradient, int block, Buffers& buffers) {
+template <std::size_t values_a_pixel>
+HWY_INLINE void write_matrix(const TileGradient& gradient, int block,
+                             Buffers<values_a_pixel>& buffers) {
+  using Values = PixelValues<values_a_pixel>;
   constexpr int blocks_a_side = tile_side / block_side;
   const auto left = float(block_side * (block % blocks_a_side)) - 0.5f * float(tile_side - 1);
   const auto top = float(block_side * (block / blocks_a_side)) - 0.5f * float(tile_side - 1);
-  for (std::size_t pixel = 0; pixel < block_pixels; ++pixel) {
+  for (std::size_t place = 0; place < block_pixels; ++place) {
+    const std::size_t pixel = Values::pixel_of(place);
     const std::size_t at = std::size_t(block) * block_pixels + pixel;
-    const float x = left + float(pixel % block_side), y = top + float(pixel / block_side);
-    const float row[row_floats] = {1, 1, 1, gradient.red[at],  x, x, x, gradient.green[at],
-                                   y, y, y, gradient.blue[at], 0, 0, 0, 0};
-    std::memcpy(buffers.matrix[pixel], row, sizeof row);
+    Values::write_row(left + float(pixel % block_side), top + float(pixel / block_side),
+                      gradient.red[at], gradient.green[at], gradient.blue[at],
+                      buffers.matrix[place]);
   }
 }
 
 /// Adds the sums of the entries in the buffers to their lines.
-HWY_INLINE void add_sums(const Buffers& buffers, const std::uint32_t (&of)[batch],
+template <std::size_t values_a_pixel>
+HWY_INLINE void add_sums(const Buffers<values_a_pixel>& buffers, const std::uint32_t (&of)[batch],
                          std::size_t count, TileLine* lines) {
   Floats sums[batch][column_parts];
   for (std::size_t e = 0; e < batch; ++e)
     for (std::size_t part = 0; part < column_parts; ++part) sums[e][part] = hn::Zero(d);
-  for (std::size_t pixel = 0; pixel < block_pixels; ++pixel) {
+  for (std::size_t place = 0; place < block_pixels; ++place) {
     Floats row[column_parts];
     for (std::size_t part = 0; part < column_parts; ++part)
-      row[part] = hn::Load(d, buffers.matrix[pixel] + part * lanes);
-    for (std::size_t e = 0; e < batch; ++e)
+      row[part] = hn::Load(d, buffers.matrix[place] + part * lanes);
+    for (std::size_t e = 0; e < batch; ++e) {
+      const float* values = buffers.values[e] + values_a_pixel * place;
       for (std::size_t part = 0; part < column_parts; ++part)
-        sums[e][part] = hn::MulAdd(broadcast_four(buffers.fours[e] + 4 * pixel, part), row[part],
+        sums[e][part] = hn::MulAdd(PixelValues<values_a_pixel>::broadcast(values, part), row[part],
                                    sums[e][part]);
+    }
   }
   for (std::size_t e = 0; e < count; ++e) {
     float* line = lines[of[e]].values;
     for (std::size_t part = 0; part < column_parts; ++part)
       hn::Store(hn::Add(hn::Load(d, line + part * lanes), sums[e][part]), d, line + part * lanes);
+    // Later: a vector cannot be loaded at once from memory where single numbers were just stored.
+    for (std::size_t k = 0; k < factorless; ++k) line[columns + k] += buffers.sums[e][k];
   }
 }
 
@@ -188,21 +334,17 @@ HWY_INLINE Replayed blend_again(const ImageView& view, const Entry& entry, Mask 
   return result;
 }
 
-/// Blends the recorded splats of a tile again. `replay(entry, block, fours, line)` writes the four
-/// values of the block's pixels, and adds the sums that have no factor to the line.
-/// `moved(entry, line, x, y)` makes the moments of a line about the entry's (x, y) from those about
-/// the middle of the tile, `x` and `y` pixels after it.
-template <class Entry, class Moments, class Replay, class Moved>
-HWY_INLINE void blend_backward(std::span<const Entry> entries, std::span<const std::uint32_t> tile,
+/// Blends the recorded splats of a tile again, for their moments.
+template <class Kernel>
+HWY_INLINE void blend_backward(const Kernel& kernel, std::span<const typename Kernel::Entry> entries,
+                               std::span<const std::uint32_t> tile,
                                std::span<const std::uint32_t> numbers, const TileRecord& record,
-                               TileGradient& gradient, TileScratch& scratch,
-                               std::span<Moments> moments, const Replay& replay,
-                               const Moved& moved) {
+                               const TileGradient& gradient, TileScratch& scratch,
+                               std::span<typename Kernel::Moments> moments) {
   if (scratch.lines.size() < tile.size()) scratch.lines.resize(tile.size());
   TileLine* lines = scratch.lines.data();
-  for (const std::uint32_t splat : tile) hwy::Prefetch(&entries[splat & place_mask]);
   std::memset(lines, 0, tile.size() * sizeof *lines);
-  Buffers buffers{};
+  Buffers<Kernel::values_a_pixel> buffers{};
   for (int i = 0; i < blocks_a_tile; ++i) {
     const std::uint32_t begin = i == 0 ? 0 : record.ends[i - 1], end = record.ends[i];
     if (begin == end) continue;
@@ -214,9 +356,9 @@ HWY_INLINE void blend_backward(std::span<const Entry> entries, std::span<const s
       for (std::size_t e = 0; e < count; ++e) {
         const std::uint32_t blended = record.blended[first + e];
         of[e] = blended & ~TileRecord::evident_bit;
-        float* line = lines[of[e]].values;
-        if (blended & TileRecord::evident_bit) line[evident_column] = 1;
-        replay(entries[tile[of[e]] & place_mask], block, buffers.fours[e], line);
+        // Without a branch, which would be hard to predict.
+        buffers.sums[e][evident_column - columns] = float(blended >> 31);
+        kernel.replay(entries[tile[of[e]] & place_mask], block, buffers.values[e], buffers.sums[e]);
       }
       add_sums(buffers, of, count, lines);
     }
@@ -224,8 +366,8 @@ HWY_INLINE void blend_backward(std::span<const Entry> entries, std::span<const s
   const float middle_x = float(gradient.x) + 0.5f * tile_side;
   const float middle_y = float(gradient.y) + 0.5f * tile_side;
   for (std::size_t k = 0; k < tile.size(); ++k) {
-    const Entry& entry = entries[tile[k] & place_mask];
-    moments[numbers[k]] = moved(entry, lines[k].values, middle_x - entry.x, middle_y - entry.y);
+    const auto& entry = entries[tile[k] & place_mask];
+    moments[numbers[k]] = kernel.moved(entry, lines[k].values, middle_x - entry.x, middle_y - entry.y);
   }
 }
 

@@ -40,6 +40,19 @@ struct alignas(64) TileGradient {
   int x = 0, y = 0;                             // of the upper left pixel
 };
 
+/// Sums over pixels, of a splat with three values q in each pixel. (x, y): the pixel's offset from
+/// the entry's (x, y). The kernels say what q, h and `others` are.
+struct alignas(64) MomentsOfThree {
+  struct Sums {
+    float q[3];
+    float color;
+  };
+  Sums one, x, y;  // of q, q x and q y; of the derivatives by red, by green, and by blue
+  float h;
+  float others[2];
+  float evident;  // > 0: evident_weight is reached
+};
+
 /// Sums over a tile's pixels, of one splat.
 struct alignas(64) TileLine {
   float values[16];

@@ -21,6 +21,7 @@
 #include "trainer/common/cpu/thread_pool.hpp"
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/splats/splat_memory.hpp"
+#include "trainer/splats/tasks.hpp"
 #include "trainer/splats/tile_passes.hpp"
 
 namespace tureen::trainer {
@@ -48,18 +49,6 @@ void for_each_run(int x, int y, int width, int height, const Act& act) {
       act(std::size_t(block * block_pixels + row * block_side),
           std::size_t(top) * std::size_t(width) + std::size_t(left), std::size_t(pixels));
     }
-}
-
-/// Threads share splats in groups of this many, a multiple of splatting::row_alignment.
-inline constexpr std::size_t splats_a_task = 1024;
-
-/// Calls act(begin, end) for all groups of `count` splats.
-template <class Act>
-void run_in_tasks(ThreadPool& pool, std::size_t count, const Act& act) {
-  pool.run((count + splats_a_task - 1) / splats_a_task, [&](std::size_t task) {
-    const std::size_t begin = task * splats_a_task;
-    act(begin, std::min(begin + splats_a_task, count));
-  });
 }
 
 /// A loss of the variance of the colour within pixels: `weight` times the mean over pixels and
@@ -150,7 +139,8 @@ class TileRaster {
     pairs_.assign(count, {0, 0});
     for (std::size_t place = 0; place < keys_.size(); ++place) {
       // Neighbours in the order are far apart in memory.
-      if (place + 8 < keys_.size()) hwy::Prefetch(&projected_.entries()[keys_[place + 8].index]);
+      if (place + 8 < keys_.size())
+        hwy::Prefetch(static_cast<const char*>(projected_.listed(keys_[place + 8].index)));
       const std::uint32_t splat = keys_[place].index;
       const std::uint32_t begin = lists_.pairs();
       projected_.list(view_, splat, lists_);

@@ -20,6 +20,7 @@ namespace windows {
 using namespace splatting::HWY_NAMESPACE;
 using shared::AdamOfSplats;
 using shared::ColorGradient;
+using shared::SumsOfThree;
 using splatting::ImageView;
 using splatting::ParameterRows;
 namespace row = splatting::window_row;
@@ -29,28 +30,6 @@ HWY_INLINE Vector3 sum(const Vector3& a, const Vector3& b) {
 }
 HWY_INLINE Vector3 difference(const Vector3& a, const Vector3& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-/// WindowMoments of a vector of splats.
-struct Moments {
-  Vector3 edges[3];  // the sums with x, y and 1
-  Floats h, h_log_rho, evident;
-  Vector3 color;
-  Mask drawn;  // whether the splats have pairs
-};
-
-HWY_INLINE Moments moments_of(const WindowBackwardInput& input, std::size_t i) {
-  const auto sums = shared::pair_sums(input.pairs, input.moments, i);
-  const auto load = [&](std::size_t k) { return sums.values[k]; };
-  Moments result;
-  for (std::size_t k = 0; k < 3; ++k)
-    result.edges[k] = {load(3 * k + 1), load(3 * k + 2), load(3 * k)};
-  result.h = load(9);
-  result.h_log_rho = load(10);
-  result.color = {load(11), load(12), load(13)};
-  result.evident = load(14);
-  result.drawn = sums.drawn;
-  return result;
 }
 
 /// The derivatives of a vector of splats.
@@ -131,7 +110,7 @@ HWY_INLINE void inverse_area_gradient(const Vector3 (&corner)[3], Vector3 (&by_c
 
 HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& loss,
                             const WindowParameters& parameters, std::size_t i,
-                            const Moments& moments, Gradient& gradient) {
+                            const SumsOfThree& moments, Gradient& gradient) {
   const ImageView& view = input.view;
   const ParameterRows& drawn = parameters.drawn;
   const auto load = [&](std::size_t r) { return hn::Load(d, drawn.row(r) + i); };
@@ -144,7 +123,10 @@ HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& 
   const WindowPlane plane = plane_of(view, at);
   const Floats sigma = load(row::sigma), opacity = load(row::opacity);
   Vector3 by_edge[3], by_point[3];
-  for (std::size_t k = 0; k < 3; ++k) by_edge[k] = product(moments.edges[k], sigma);
+  const auto &one_sum = moments.one, &x = moments.x, &y = moments.y;
+  by_edge[0] = product({x.x, y.x, one_sum.x}, sigma);
+  by_edge[1] = product({x.y, y.y, one_sum.y}, sigma);
+  by_edge[2] = product({x.z, y.z, one_sum.z}, sigma);
   if (view.solidity > 0) through_ramp(SolidRamp(view, plane), plane, by_edge);
   corner_gradient(at, plane, by_edge, by_point);
   gradient.color = shared::color_gradient_of(input.degree, drawn.row(row::harmonics),
@@ -174,7 +156,7 @@ HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& 
   }
   // ln(alpha) = .. + sigma ln(rho), and d sigma = (sigma - floor) d(log).
   const Floats by_sigma =
-      hn::MulAdd(moments.h_log_rho, constant(0.693147181f), constant(loss.sigma));
+      hn::MulAdd(moments.others[0], constant(0.693147181f), constant(loss.sigma));
   gradient.values[row::sigma] = hn::Mul(by_sigma, hn::Sub(sigma, constant(sigma_floor)));
   // With o = s + (1 - s) sigmoid(logit): d o = (o - s) (1 - o) / (1 - s) d(logit).
   const float low = parameters.solidity;
@@ -202,7 +184,7 @@ void window_gradients_on(const WindowBackwardInput& input, const WindowLoss& los
                          const WindowParameters& parameters, std::size_t begin, std::size_t end,
                          ParameterRows& gradients) {
   for (std::size_t i = begin; i < end; i += lanes) {
-    const Moments moments = moments_of(input, i);
+    const SumsOfThree moments = shared::sums_of_three(input.pairs, input.moments, i);
     Gradient gradient;
     gradient_of(input, loss, parameters, i, moments, gradient);
     for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
@@ -258,7 +240,7 @@ std::size_t step_windows_on(const WindowBackwardInput& input, const WindowStep& 
     // More rows than the processor recognises as streams. Two blocks ahead.
     if (i + 3 * block <= parameters.drawn.stride() && i % block == 0)
       for (std::size_t r = 0; r < rows; ++r) hwy::Prefetch(parameters.trained(r) + i + 2 * block);
-    const Moments moments = moments_of(input, i);
+    const SumsOfThree moments = shared::sums_of_three(input.pairs, input.moments, i);
     if (hn::AllFalse(d, moments.drawn)) continue;
     Gradient gradient;
     gradient_of(input, step.loss, parameters, i, moments, gradient);

@@ -10,22 +10,13 @@
 
 namespace tureen::trainer {
 
-/// Sums of h = dL/d ln(alpha) and of the derivatives by the colour, over the pixels of one tile or
-/// of all. Pixels whose alpha is limited to the profile's largest have h = 0.
+/// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to the
+/// profile's largest. q_k is h / rho at the pixels whose nearest edge is k; others[0] is the sum of
+/// h log2(rho).
 ///
 /// rho = min_k e_k . (x, y, 1) at the offset (x, y) from WindowEntry's (x, y), and ln(alpha) =
 /// ln(opacity) + sigma ln(rho). Where edge k is the nearest, dL/d(e_k) = sigma h / rho (x, y, 1).
-struct WindowMoments {
-  struct Edge {
-    float one, x, y;  // of h / rho at the pixels whose nearest edge this is
-  };
-  Edge edges[3];
-  float h;          // of h
-  float h_log_rho;  // of h log2(rho)
-  float red, green, blue;
-  float evident;  // > 0: evident_weight is reached
-  float unused;   // 64 bytes
-};
+using WindowMoments = MomentsOfThree;
 
 /// Smallest rho in h / rho, so that no pixel on an edge outweighs all others (for sigma < 1 the
 /// derivative has no bound). A random pixel of a triangle is nearer with a probability of 2e-6.
