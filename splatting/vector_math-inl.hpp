@@ -79,6 +79,13 @@ HWY_INLINE Vector3 cross(const Vector3& a, const Vector3& b) {
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
+HWY_INLINE Vector3 sum(const Vector3& a, const Vector3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vector3 difference(const Vector3& a, const Vector3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
 /// A position in layer coordinates, relative to the eye.
 HWY_INLINE Vector3 from_eye(const ImageView& view, const Vector3& position) {
   const auto axis = [&](Floats value, int i) {
@@ -111,6 +118,13 @@ HWY_INLINE Vector3 product(const float* matrix, const Vector3& v) {
     return dot({constant(m[0]), constant(m[1]), constant(m[2])}, v);
   };
   return {row(matrix), row(matrix + 3), row(matrix + 6)};
+}
+/// Its transpose times a vector.
+HWY_INLINE Vector3 transposed_product(const float* matrix, const Vector3& v) {
+  const auto column = [&](const float* m) {
+    return dot({constant(m[0]), constant(m[3]), constant(m[6])}, v);
+  };
+  return {column(matrix), column(matrix + 1), column(matrix + 2)};
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE

@@ -23,12 +23,12 @@ using namespace gaussians;
 /// and that of dx dL/dk + dy dL/dl is M = H_y x Q_x - H_x x Q_y. The rows of the disc in view
 /// coordinates, (U, V, C), have the derivatives f_x K, f_y L and -M - f_x s_x K - f_y s_y L, where
 /// s_x and s_y are the slopes of the centre.
-HWY_INLINE void disc_gradient_of(const DiscBackwardInput& input,
-                                 const GaussianParameters& parameters, std::size_t i,
-                                 Gradient& gradient) {
+HWY_INLINE Gradient disc_gradient_of(const DiscBackwardInput& input,
+                                     const GaussianParameters& parameters, std::size_t i) {
+  Gradient gradient;
   const auto sums = shared::sums_of_three(input.pairs, input.moments, i);
   gradient.drawn = sums.drawn;
-  if (hn::AllFalse(d, sums.drawn)) return;
+  if (hn::AllFalse(d, sums.drawn)) return gradient;
   const Vector3 &q = sums.one, &q_x = sums.x, &q_y = sums.y;
   gradient.evident = sums.evident;
 
@@ -43,33 +43,27 @@ HWY_INLINE void disc_gradient_of(const DiscBackwardInput& input,
   const Floats by_depth = hn::Div(one, center.z);
   const Floats slope_x = hn::Mul(center.x, by_depth), slope_y = hn::Mul(center.y, by_depth);
   const Floats fx = constant(view.fx), fy = constant(view.fy);
-  const auto scaled = [](const Vector3& v, Floats factor) {
-    return Vector3{hn::Mul(v.x, factor), hn::Mul(v.y, factor), hn::Mul(v.z, factor)};
-  };
-  const auto difference = [](const Vector3& a, const Vector3& b) {
-    return Vector3{hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-  };
 
   Vector3 axes[2];  // with a length of one deviation
   for (std::size_t k = 0; k < 2; ++k)
-    axes[k] = scaled(product(view.view_from_layer, rotation.axes[k]), load(row::scale_x + k));
+    axes[k] = product(product(view.view_from_layer, rotation.axes[k]), load(row::scale_x + k));
   const auto& [u, v] = axes;
   const Vector3 h_x{hn::Mul(fx, hn::NegMulAdd(slope_x, u.z, u.x)),
                     hn::Mul(fx, hn::NegMulAdd(slope_x, v.z, v.x)), zero};
   const Vector3 h_y{hn::Mul(fy, hn::NegMulAdd(slope_y, u.z, u.y)),
                     hn::Mul(fy, hn::NegMulAdd(slope_y, v.z, v.y)), zero};
   const Vector3 h_w{u.z, v.z, center.z};
-  const Vector3 row_x = scaled(difference(cross(h_y, q), cross(h_w, q_y)), fx);
-  const Vector3 row_y = scaled(difference(cross(h_w, q_x), cross(h_x, q)), fy);
+  const Vector3 row_x = product(difference(cross(h_y, q), cross(h_w, q_y)), fx);
+  const Vector3 row_y = product(difference(cross(h_w, q_x), cross(h_x, q)), fy);
   const Vector3 moment = difference(cross(h_x, q_y), cross(h_y, q_x));
-  const Vector3 row_z = difference(moment, sum(scaled(row_x, slope_x), scaled(row_y, slope_y)));
+  const Vector3 row_z = difference(moment, sum(product(row_x, slope_x), product(row_y, slope_y)));
 
   const Vector3 by_axes[2] = {{row_x.x, row_y.x, row_z.x}, {row_x.y, row_y.y, row_z.y}};
   Vector3 by_rotation[3] = {{}, {}, {zero, zero, zero}};
   for (std::size_t k = 0; k < 2; ++k) {
     gradient.values[row::scale_x + k] = dot(by_axes[k], axes[k]);
     by_rotation[k] =
-        transposed_product(view.view_from_layer, scaled(by_axes[k], load(row::scale_x + k)));
+        transposed_product(view.view_from_layer, product(by_axes[k], load(row::scale_x + k)));
   }
   gradient.values[row::scale_z] = zero;
   rotation_gradient(by_rotation, parameters, i, gradient);
@@ -93,17 +87,22 @@ HWY_INLINE void disc_gradient_of(const DiscBackwardInput& input,
   gradient.values[row::y] = by_offset.y;
   gradient.values[row::z] = by_offset.z;
   gradient.values[row::opacity] = hn::Mul(sums.h, hn::Sub(one, load(row::opacity)));
+  return gradient;
 }
 
 void disc_gradients_on(const DiscBackwardInput& input, const GaussianParameters& parameters,
                        std::size_t begin, std::size_t end, ParameterRows& gradients) {
-  gradients_by(input, parameters, begin, end, gradients, disc_gradient_of);
+  shared::write_gradients(parameters, input.degree, begin, end, gradients,
+                          [&](std::size_t i) { return disc_gradient_of(input, parameters, i); });
 }
 
 std::size_t step_discs_on(const DiscBackwardInput& input, const GaussianStep& step,
                           std::size_t begin, std::size_t end, GaussianParameters& parameters,
                           SplatMemory& memory) {
-  return step_by(input, step, begin, end, parameters, memory, disc_gradient_of);
+  return shared::step_splats(
+      gaussian_parameter_kinds, step, input.degree, begin, end, parameters, memory,
+      [&](std::size_t i) { return disc_gradient_of(input, parameters, i); },
+      [&](std::size_t i) { activate(step, i, parameters); });
 }
 
 }  // namespace discs

@@ -10,8 +10,8 @@
 
 namespace tureen::trainer {
 
-/// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to the
-/// profile's largest.
+/// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to
+/// the profile's largest.
 ///
 /// A ray meets the disc's plane at (u, v) = (p_u, p_v) / p_w, p = k x l, where k and l are the
 /// lines of splatting::DiscAt, and ln(alpha) = ln(opacity) - (u^2 + v^2) / 2. So q = dL/dp = -h /

@@ -10,7 +10,8 @@ namespace row = splatting::gaussian_row;
 
 namespace {
 
-/// The third scale of a disc. GaussianStep::min_log_scale raises it to the smallest scale.
+/// The third scale of a disc: below any GaussianStep::min_log_scale, which the first step raises it
+/// to.
 constexpr float flat_log_scale = -30;
 
 }  // namespace
@@ -45,10 +46,9 @@ void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& poi
   parameters.trained(row::rotation_w)[place] = 1;
   if (config.flat) {
     const glm::dquat rotation(random.rotation());
-    for (int k = 0; k < 3; ++k)
-      parameters.trained(row::rotation_x + std::size_t(k))[place] = float(k == 0   ? rotation.x
-                                                                          : k == 1 ? rotation.y
-                                                                                   : rotation.z);
+    parameters.trained(row::rotation_x)[place] = float(rotation.x);
+    parameters.trained(row::rotation_y)[place] = float(rotation.y);
+    parameters.trained(row::rotation_z)[place] = float(rotation.z);
     parameters.trained(row::rotation_w)[place] = float(rotation.w);
     parameters.trained(row::scale_z)[place] = flat_log_scale;
   }
@@ -58,7 +58,8 @@ void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& poi
 }
 
 Primitives GaussianTraining::primitives(const GaussianConfig& config,
-                                        const GaussianParameters& parameters, std::span<const float>) {
+                                        const GaussianParameters& parameters,
+                                        std::span<const float>) {
   const float min_alpha = profile_named(config.flat ? "2dgs" : "3dgs")->min_alpha;
   GaussianParameters kept = parameters;
   std::vector<std::uint32_t> drawn;

@@ -27,7 +27,7 @@ class ProjectedGaussians {
             splatting::TileLists& lists) const {
     splatting::list_gaussian(entries_[splat], std::log2(view.min_alpha), splat, lists);
   }
-  /// What list() reads.
+  /// The memory that list() reads.
   const void* listed(std::size_t i) const { return &entries_[i]; }
 
  private:

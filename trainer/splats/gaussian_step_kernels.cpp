@@ -14,15 +14,15 @@ using namespace gaussians;
 
 /// Through the projection of splatting/gaussian_kernels.cpp. With the covariance S of the image and
 /// the moments about the centre, dL/d(centre) = S^-1 (x, y) and dL/dS = S^-1 M S^-1 / 2.
-HWY_INLINE void gradient_of(const GaussianBackwardInput& input,
-                            const GaussianParameters& parameters, std::size_t i,
-                            Gradient& gradient) {
+HWY_INLINE Gradient gradient_of(const GaussianBackwardInput& input,
+                                const GaussianParameters& parameters, std::size_t i) {
+  Gradient gradient;
   const auto sums = shared::pair_sums(input.pairs, input.moments, i);
   const auto& [one_sum, x_sum, y_sum, xx_sum, xy_sum, yy_sum, red, green, blue, evident] =
       sums.values;
   gradient.drawn = sums.drawn;
   gradient.evident = evident;
-  if (hn::AllFalse(d, sums.drawn)) return;
+  if (hn::AllFalse(d, sums.drawn)) return gradient;
   const ImageView& view = input.view;
   const ParameterRows& drawn = parameters.drawn;
   const auto load = [&](std::size_t r) { return hn::Load(d, drawn.row(r) + i); };
@@ -113,16 +113,21 @@ HWY_INLINE void gradient_of(const GaussianBackwardInput& input,
   gradient.values[row::y] = by_offset.y;
   gradient.values[row::z] = by_offset.z;
   gradient.values[row::opacity] = hn::Mul(one_sum, hn::Sub(one, load(row::opacity)));
+  return gradient;
 }
 
 void gradients_on(const GaussianBackwardInput& input, const GaussianParameters& parameters,
                   std::size_t begin, std::size_t end, ParameterRows& gradients) {
-  gradients_by(input, parameters, begin, end, gradients, gradient_of);
+  shared::write_gradients(parameters, input.degree, begin, end, gradients,
+                          [&](std::size_t i) { return gradient_of(input, parameters, i); });
 }
 
 std::size_t step_on(const GaussianBackwardInput& input, const GaussianStep& step, std::size_t begin,
                     std::size_t end, GaussianParameters& parameters, SplatMemory& memory) {
-  return step_by(input, step, begin, end, parameters, memory, gradient_of);
+  return shared::step_splats(
+      gaussian_parameter_kinds, step, input.degree, begin, end, parameters, memory,
+      [&](std::size_t i) { return gradient_of(input, parameters, i); },
+      [&](std::size_t i) { activate(step, i, parameters); });
 }
 
 }  // namespace tureen::trainer::HWY_NAMESPACE

@@ -59,8 +59,14 @@ HWY_INLINE SumsOfThree sums_of_three(std::span<const PairSpan> pairs,
                                      std::span<const MomentsOfThree> moments, std::size_t i) {
   const auto [values, drawn] = pair_sums(pairs, moments, i);
   const auto& v = values;
-  return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}, {v[3], v[7], v[11]},
-          v[12],              {v[13], v[14]},     v[15],               drawn};
+  return {{v[0], v[1], v[2]},
+          {v[4], v[5], v[6]},
+          {v[8], v[9], v[10]},
+          {v[3], v[7], v[11]},
+          v[12],
+          {v[13], v[14]},
+          v[15],
+          drawn};
 }
 
 }  // namespace shared

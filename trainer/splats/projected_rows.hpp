@@ -14,8 +14,8 @@
 
 namespace tureen::trainer {
 
-/// `Kernel` has the types Entry and Outline (what tells the tiles), the constants `rows` and `depth`
-/// (a row; NaN: not drawn), and the functions project, read and list of splatting/.
+/// `Kernel` has the types Entry and Outline (a bound of the pixels), the constants `rows` and
+/// `depth` (a row; NaN: not drawn), and the functions project, read and list of splatting/.
 template <class Kernel>
 class ProjectedRows {
  public:
@@ -42,7 +42,7 @@ class ProjectedRows {
   void list(const splatting::ImageView&, std::uint32_t splat, splatting::TileLists& lists) const {
     Kernel::list(outlines_[splat], splat, lists);
   }
-  /// What list() reads.
+  /// The memory that list() reads.
   const void* listed(std::size_t i) const { return &outlines_[i]; }
 
  private:

@@ -107,9 +107,9 @@ class SplatTrainer {
     ++times().steps;
     ++state_.step;
     if (densifies_after(config_, state_.step)) {
-      const DensifyReport densified = Method::densify(
-          config_, state_.step, state_.step / densify_interval(config_), state_.random,
-          state_.parameters, state_.memory);
+      const DensifyReport densified =
+          Method::densify(config_, state_.step, state_.step / densify_interval(config_),
+                          state_.random, state_.parameters, state_.memory);
       // No splat is left to split: the run begins again, at other places.
       if (densified.dead == parameters().count()) begin();
       sort_in_memory(region_, state_.parameters, state_.memory);
@@ -123,9 +123,9 @@ class SplatTrainer {
   /// The splats so far as a scene stores them.
   Primitives primitives() const {
     const float* evident = state_.memory.statistics.row(splat_statistic::evident);
-    return Method::primitives(config_, parameters(),
-                              knows_evident() ? std::span(evident, parameters().count())
-                                              : std::span<const float>());
+    return Method::primitives(
+        config_, parameters(),
+        knows_evident() ? std::span(evident, parameters().count()) : std::span<const float>());
   }
 
   /// mean_squared_error() of the last step. Needs a step().
@@ -150,7 +150,8 @@ class SplatTrainer {
     return std::min(config_.degree, reached);
   }
 
-  /// Whether all views were used since the last densification: a whole epoch is in so many steps.
+  /// Whether each view was used since the last densification. Two epochs less a step contain a
+  /// whole one.
   bool knows_evident() const {
     const int every = densify_interval(config_);
     int last = state_.step / every * every;
@@ -187,8 +188,7 @@ class SplatTrainer {
     step.rates[0] *= float(region_.half_side) * Method::position_rate(parameters());
     std::atomic<std::size_t> quarantined = 0;
     run_in_tasks(pool_, count, [&](std::size_t begin, std::size_t end) {
-      quarantined +=
-          Method::step_splats(input, step, begin, end, state_.parameters, state_.memory);
+      quarantined += Method::step_splats(input, step, begin, end, state_.parameters, state_.memory);
     });
     return quarantined;
   }

@@ -79,8 +79,8 @@ HWY_INLINE void find_covering(const Kernel& kernel, std::span<const typename Ker
   }
 }
 
-/// Blends the entries front to back into a tile without opaque surfaces, with its record. `squares`:
-/// as TileRecord::keeps_squares.
+/// Blends the entries front to back into a tile without opaque surfaces, with its record.
+/// `squares`: as TileRecord::keeps_squares.
 template <bool squares, class Kernel>
 HWY_INLINE void blend_recorded(const Kernel& kernel, const ImageView& view,
                                std::span<const typename Kernel::Entry> entries,
@@ -336,7 +336,8 @@ HWY_INLINE Replayed blend_again(const ImageView& view, const Entry& entry, Mask 
 
 /// Blends the recorded splats of a tile again, for their moments.
 template <class Kernel>
-HWY_INLINE void blend_backward(const Kernel& kernel, std::span<const typename Kernel::Entry> entries,
+HWY_INLINE void blend_backward(const Kernel& kernel,
+                               std::span<const typename Kernel::Entry> entries,
                                std::span<const std::uint32_t> tile,
                                std::span<const std::uint32_t> numbers, const TileRecord& record,
                                const TileGradient& gradient, TileScratch& scratch,
@@ -367,7 +368,8 @@ HWY_INLINE void blend_backward(const Kernel& kernel, std::span<const typename Ke
   const float middle_y = float(gradient.y) + 0.5f * tile_side;
   for (std::size_t k = 0; k < tile.size(); ++k) {
     const auto& entry = entries[tile[k] & place_mask];
-    moments[numbers[k]] = kernel.moved(entry, lines[k].values, middle_x - entry.x, middle_y - entry.y);
+    moments[numbers[k]] =
+        kernel.moved(entry, lines[k].values, middle_x - entry.x, middle_y - entry.y);
   }
 }
 

@@ -41,7 +41,7 @@ struct alignas(64) TileGradient {
 };
 
 /// Sums over pixels, of a splat with three values q in each pixel. (x, y): the pixel's offset from
-/// the entry's (x, y). The kernels say what q, h and `others` are.
+/// the entry's (x, y). WindowMoments and DiscMoments define q, h and `others`.
 struct alignas(64) MomentsOfThree {
   struct Sums {
     float q[3];

@@ -76,7 +76,7 @@ class TileRaster {
 
   /// Draws the splats by the method's profile, with harmonics up to `degree`, over an opaque
   /// background, 0..1. `planes`: red, green and blue, row 0 on top, not clamped. `keeps_squares`:
-  /// for a VarianceLoss, if has_variance.
+  /// keeps the sums that a VarianceLoss in backward() needs; only with has_variance.
   void forward(const Parameters& parameters, const Camera& camera, int degree,
                std::span<const float, 3> background, std::span<float> planes,
                bool keeps_squares = false) {

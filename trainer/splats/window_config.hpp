@@ -35,8 +35,8 @@ struct WindowConfig : SplatConfig {
   /// 0.6, 0.7, 0.8 and 0.9 give 29.9, 30.4, 30.7 and 30.9 dB with 4x4 samples.
   bool opaque = false;
   double opaque_from = 0.5, opaque_until = 0.9;
-  /// From this fraction of the steps on, windows below this opacity are dead. The solidity soon
-  /// exceeds it.
+  /// From this fraction of the steps on, windows below this opacity are dead; later the solidity
+  /// is above it.
   double prune_from = 0.4;
   float min_opacity_before_opaque = 0.2f;
   /// Of VarianceLoss, times the solidity. With photographs of lego at 200x200 that were held back

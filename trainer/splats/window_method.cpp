@@ -50,7 +50,7 @@ void WindowTraining::limit(const WindowConfig& config, int step, WindowParameter
   if (step % steps_a_limit != 0 && step != config.steps) return;
   const double part = std::clamp(
       (done - config.opaque_from) / (config.opaque_until - config.opaque_from), 0.0, 1.0);
-  // The ramp at the edges is linear. Before, sigma moves towards 1 by equal factors in equal times.
+  // A ramp is linear, with sigma 1. Its range narrows to 1 by equal factors in equal times.
   const auto limit_of_sigma = [&](float now) {
     return WindowParameters::log_of_sigma(float(std::pow(double(now), 1 - part)));
   };

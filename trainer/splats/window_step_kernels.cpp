@@ -1,43 +1,24 @@
 #include "trainer/splats/window_step_kernels.hpp"
 
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trainer/splats/window_step_kernels.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "splatting/window_plane-inl.hpp"
-#include "trainer/splats/color_gradient-inl.hpp"
 #include "trainer/splats/pair_sums-inl.hpp"
-#include "trainer/splats/splat_adam-inl.hpp"
+#include "trainer/splats/splat_step-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
 namespace windows {
 
 using namespace splatting::HWY_NAMESPACE;
-using shared::AdamOfSplats;
-using shared::ColorGradient;
-using shared::SumsOfThree;
 using splatting::ImageView;
 using splatting::ParameterRows;
 namespace row = splatting::window_row;
 
-HWY_INLINE Vector3 sum(const Vector3& a, const Vector3& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vector3 difference(const Vector3& a, const Vector3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-/// The derivatives of a vector of splats.
-struct Gradient {
-  Floats values[row::harmonics];
-  ColorGradient color;
-  Floats motion;
-};
+using Gradient = shared::SplatGradient<row::harmonics>;
 
 /// The derivatives by the lines of rho from those by the lines of rho_s (SolidRamp).
 HWY_INLINE void through_ramp(const SolidRamp& ramp, const WindowPlane& plane,
@@ -108,9 +89,13 @@ HWY_INLINE void inverse_area_gradient(const Vector3 (&corner)[3], Vector3 (&by_c
   for (std::size_t k = 0; k < 3; ++k) by_corner[k] = product(cross(normal, edges[k]), factor);
 }
 
-HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& loss,
-                            const WindowParameters& parameters, std::size_t i,
-                            const SumsOfThree& moments, Gradient& gradient) {
+HWY_INLINE Gradient gradient_of(const WindowBackwardInput& input, const WindowLoss& loss,
+                                const WindowParameters& parameters, std::size_t i) {
+  const shared::SumsOfThree moments = shared::sums_of_three(input.pairs, input.moments, i);
+  Gradient gradient;
+  gradient.drawn = moments.drawn;
+  gradient.evident = moments.evident;
+  if (hn::AllFalse(d, moments.drawn)) return gradient;
   const ImageView& view = input.view;
   const ParameterRows& drawn = parameters.drawn;
   const auto load = [&](std::size_t r) { return hn::Load(d, drawn.row(r) + i); };
@@ -140,11 +125,8 @@ HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& 
     gradient.motion = hn::MulAdd(
         hn::Abs(at.point[k].z), hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y))), gradient.motion);
     const Vector3 in_view{hn::Mul(p.x, constant(view.fx)), hn::Mul(p.y, constant(view.fy)), p.z};
-    const float* m = view.view_from_layer;
-    const auto column = [&](int c) {
-      return dot({constant(m[c]), constant(m[c + 3]), constant(m[c + 6])}, in_view);
-    };
-    Vector3 by_corner = product(sum({column(0), column(1), column(2)}, by_center), at.by_size);
+    Vector3 by_corner =
+        product(sum(transposed_product(view.view_from_layer, in_view), by_center), at.by_size);
     if (loss.inverse_area > 0) {
       const Floats squared = hn::Mul(at.by_size, at.by_size);
       const Floats factor = hn::Mul(constant(loss.inverse_area), hn::Mul(squared, at.by_size));
@@ -164,41 +146,7 @@ HWY_INLINE void gradient_of(const WindowBackwardInput& input, const WindowLoss& 
                                   constant(1 / (1 - low)));
   gradient.values[row::opacity] =
       hn::Mul(hn::Add(hn::Div(moments.h, opacity), constant(loss.opacity)), by_logit);
-}
-
-/// Calls act(row, derivative) for each row up to the drawn degree.
-template <class Act>
-HWY_INLINE void for_each_row(const Gradient& gradient, int degree, const Act& act) {
-  for (std::size_t r = 0; r < row::harmonics; ++r) act(r, gradient.values[r]);
-  const int count = (degree + 1) * (degree + 1);
-  const ColorGradient& color = gradient.color;
-  for (int k = 0; k < count; ++k) {
-    const std::size_t first = row::harmonics + 3 * std::size_t(k);
-    act(first, hn::Mul(color.basis[k], color.color.x));
-    act(first + 1, hn::Mul(color.basis[k], color.color.y));
-    act(first + 2, hn::Mul(color.basis[k], color.color.z));
-  }
-}
-
-void window_gradients_on(const WindowBackwardInput& input, const WindowLoss& loss,
-                         const WindowParameters& parameters, std::size_t begin, std::size_t end,
-                         ParameterRows& gradients) {
-  for (std::size_t i = begin; i < end; i += lanes) {
-    const SumsOfThree moments = shared::sums_of_three(input.pairs, input.moments, i);
-    Gradient gradient;
-    gradient_of(input, loss, parameters, i, moments, gradient);
-    for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
-      hn::Store(hn::IfThenElseZero(moments.drawn, value), d, gradients.row(r) + i);
-    });
-  }
-}
-
-HWY_INLINE Mask can_step(const Gradient& gradient) {
-  const Vector3& color = gradient.color.color;
-  Mask result = hn::And(shared::is_moderate(color.x),
-                        hn::And(shared::is_moderate(color.y), shared::is_moderate(color.z)));
-  for (const Floats& value : gradient.values) result = hn::And(result, shared::is_moderate(value));
-  return result;
+  return gradient;
 }
 
 /// Limits the trained values, and computes the drawn ones.
@@ -220,50 +168,20 @@ HWY_INLINE void activate(std::size_t i, WindowParameters& parameters) {
             parameters.drawn.row(row::opacity) + i);
 }
 
-/// The index in window_parameter_kinds.
-std::size_t kind_of(std::size_t r) {
-  std::size_t kind = 0;
-  while (r >= window_parameter_kinds[kind].first + window_parameter_kinds[kind].size) ++kind;
-  return kind;
+void window_gradients_on(const WindowBackwardInput& input, const WindowLoss& loss,
+                         const WindowParameters& parameters, std::size_t begin, std::size_t end,
+                         ParameterRows& gradients) {
+  shared::write_gradients(parameters, input.degree, begin, end, gradients,
+                          [&](std::size_t i) { return gradient_of(input, loss, parameters, i); });
 }
 
 std::size_t step_windows_on(const WindowBackwardInput& input, const WindowStep& step,
                             std::size_t begin, std::size_t end, WindowParameters& parameters,
                             SplatMemory& memory) {
-  namespace statistic = splat_statistic;
-  constexpr std::size_t block = SplatMemory::block;
-  const std::size_t rows = parameters.rows();
-  float rates[row::harmonics + 3 * 16];
-  for (std::size_t r = 0; r < rows; ++r) rates[r] = step.rates[kind_of(r)];
-  std::size_t quarantined = 0;
-  for (std::size_t i = begin; i < end; i += lanes) {
-    // More rows than the processor recognises as streams. Two blocks ahead.
-    if (i + 3 * block <= parameters.drawn.stride() && i % block == 0)
-      for (std::size_t r = 0; r < rows; ++r) hwy::Prefetch(parameters.trained(r) + i + 2 * block);
-    const SumsOfThree moments = shared::sums_of_three(input.pairs, input.moments, i);
-    if (hn::AllFalse(d, moments.drawn)) continue;
-    Gradient gradient;
-    gradient_of(input, step.loss, parameters, i, moments, gradient);
-    const Mask steps = hn::And(moments.drawn, can_step(gradient));
-    quarantined += hn::CountTrue(d, hn::AndNot(steps, moments.drawn));
-    const auto add = [&](std::size_t which, Floats value) {
-      float* at = memory.statistics.row(which) + i;
-      const Floats total = hn::Add(hn::Load(d, at), hn::IfThenElseZero(steps, value));
-      hn::Store(total, d, at);
-      return total;
-    };
-    const Floats one = constant(1.0f);
-    const Floats steps_done = hn::Max(add(statistic::steps, one), one);
-    add(statistic::motion, gradient.motion);
-    add(statistic::evident, moments.evident);
-    const AdamOfSplats adam(step.adam, steps_done, steps);
-    SplatMemory::Line* lines = memory.lines_of(i);
-    for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
-      adam(rates[r], value, parameters.trained(r) + i, lines[2 * r].values + i % block);
-    });
-    activate(i, parameters);
-  }
-  return quarantined;
+  return shared::step_splats(
+      window_parameter_kinds, step, input.degree, begin, end, parameters, memory,
+      [&](std::size_t i) { return gradient_of(input, step.loss, parameters, i); },
+      [&](std::size_t i) { activate(i, parameters); });
 }
 
 }  // namespace windows

@@ -10,9 +10,9 @@
 
 namespace tureen::trainer {
 
-/// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to the
-/// profile's largest. q_k is h / rho at the pixels whose nearest edge is k; others[0] is the sum of
-/// h log2(rho).
+/// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to
+/// the profile's largest. q_k is h / rho at the pixels whose nearest edge is k; others[0] is the
+/// sum of h log2(rho).
 ///
 /// rho = min_k e_k . (x, y, 1) at the offset (x, y) from WindowEntry's (x, y), and ln(alpha) =
 /// ln(opacity) + sigma ln(rho). Where edge k is the nearest, dL/d(e_k) = sigma h / rho (x, y, 1).
