@@ -47,7 +47,7 @@ struct DiscAt {
     u = hn::Mul(point.x, by_point), v = hn::Mul(point.y, by_point);
     depth = hn::MulAdd(u, constant(e.u_w), hn::MulAdd(v, constant(e.v_w), constant(e.c_w)));
     squared = hn::MulAdd(u, u, hn::Mul(v, v));
-    // False for a plane that contains the ray.
+    // False for a plane that contains the ray. Beyond 1e30 alpha is 0; u^2 + v^2 may be infinite.
     const Mask meets =
         hn::And(hn::Ge(depth, constant(constants.near)), hn::Lt(squared, constant(1e30f)));
     squared = hn::IfThenElse(meets, squared, constant(1e30f));

@@ -132,10 +132,10 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
   return result;
 }
 
-/// Half of the width of the ramp at the edges of solid windows, in px. Wide ramps let what is
-/// behind two neighbours through along their common edge; with narrow ones, few pixels move an
-/// edge. With photographs of lego at 200x200 that were held back from training, 0.5, 0.35, 0.25 and
-/// 0.15 give 27.4, 27.9, 28.1 and 27.9 dB with 4x4 samples.
+/// Half of the width of the ramp at the edges of solid windows, in px. Along the common edge of two
+/// triangles, wide ramps show what is behind both; with narrow ones, an edge has few pixels that
+/// move it. With photographs of lego at 200x200 that were held back from training, 0.5, 0.35, 0.25
+/// and 0.15 give 27.4, 27.9, 28.1 and 27.9 dB with 4x4 samples.
 inline constexpr float half_ramp = 0.25f;
 
 /// How windows become opaque triangles in training. rho at the solidity s, for an inradius r in px:

@@ -207,7 +207,7 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   const WindowParameters& parameters = trainer.parameters();
   for (std::size_t i = 0; i < parameters.count(); ++i) {
     EXPECT_GE(parameters.drawn.row(row::opacity)[i], 0.999f);
-    EXPECT_NEAR(parameters.drawn.row(row::sigma)[i], 1, 1e-5);
+    EXPECT_NEAR(parameters.drawn.row(row::sigma)[i], 1, 1e-5);  // through its logarithm
   }
   Scene scene;
   scene.layers.push_back({.primitives = trainer.primitives()});
@@ -255,7 +255,8 @@ TEST(WindowTraining, OmitsOpaqueTrianglesThatNoViewShows) {
   for (std::size_t k = 0; k < 9; ++k)  // far beside all images
     state.parameters.trained(row::corners + k)[3] += 1e4f;
   state.step -= 16;
-  std::fill_n(state.memory.statistics.row(splat_statistic::evident), state.parameters.count(), 0.0f);
+  std::fill_n(state.memory.statistics.row(splat_statistic::evident), state.parameters.count(),
+              0.0f);
   WindowTrainer again(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1, state);
   while (!again.done()) again.step();
   const Primitives primitives = again.primitives();
