@@ -33,9 +33,7 @@ class DiffsoupMethod final : public TrainingMethod {
     if (checkpoint_ && (dataset || !is_new))
       if (const auto reason = difference(config_, checkpoint_->config))
         throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
-    if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
-        options_.mesh().empty())
-      throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
+    if (!checkpoint_) require_scene(config_.initialisation, options_);
   }
 
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
@@ -53,9 +51,7 @@ class DiffsoupMethod final : public TrainingMethod {
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const std::string&)>& say) override {
     const bool preset_by_alpha = !checkpoint_ && !options_.preset && options_.file.empty();
-    if (checkpoint_)
-      if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
-        throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
+    if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     trainer::TrainingResult result = trainer::train(
         dataset, {.config = config_,
                   .mesh = start,
@@ -89,12 +85,6 @@ class DiffsoupMethod final : public TrainingMethod {
 };
 
 }  // namespace
-
-std::string describe_views(const Dataset& dataset) {
-  const Camera& first = dataset.train.front().camera;
-  return fmt::format("{} and {}, the first {} x {}", counted(dataset.train.size(), "training view"),
-                     counted(dataset.test.size(), "test view"), first.width, first.height);
-}
 
 std::unique_ptr<TrainingMethod> make_diffsoup_method(const TrainingOptions& options) {
   return std::make_unique<DiffsoupMethod>(options);

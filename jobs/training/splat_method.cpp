@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
@@ -47,9 +48,7 @@ class SplatMethod final : public TrainingMethod {
     if (checkpoint_ && (dataset || options_.file.empty()))
       if (const auto reason = splat_config_difference(config_, checkpoint_->config))
         throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
-    if (config_.initialisation == trainer::Initialisation::mesh && !checkpoint_ &&
-        options_.mesh().empty())
-      throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
+    if (!checkpoint_) require_scene(config_.initialisation, options_);
   }
 
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
@@ -59,16 +58,16 @@ class SplatMethod final : public TrainingMethod {
     return UnsuitableStart{
         fmt::format("the scene has {} ({}), but {} begin with {} or triangles",
                     counted(splat_count(start), "splat"), kernel_name(splats->kernel), own, own),
-        "--init random needs no scene"};
+        kernel_name(splats->kernel) == std::string_view("flat Gaussians")
+            ? "--flat trains flat Gaussians; --init random needs no scene"
+            : "--init random needs no scene"};
   }
 
   std::string constants() const override { return trainer::splat_config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const std::string&)>& say) override {
-    if (checkpoint_)
-      if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint_->views))
-        throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
+    if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     const std::string views = describe_views(dataset);
     trainer::SplatRequest<Config, Parameters> request{.config = config_,
                                                       .start = start,
