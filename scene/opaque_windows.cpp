@@ -2,7 +2,7 @@
 
 namespace tureen {
 
-double solidity(double opacity, double sigma) {
+double mean_coverage(double opacity, double sigma) {
   return opacity * 2.0 / ((sigma + 1.0) * (sigma + 2.0));
 }
 
@@ -10,11 +10,11 @@ OpaqueResult to_opaque(Splats splats, float minimum_opacity) {
   auto& windows = std::get<TriangleWindows>(splats.kernel);
   SplatColor& color = splats.color;
   const std::size_t count = windows.sigma.size();
-  double mean_solidity = 0, mean_opacity = 0;
+  double coverage = 0, mean_opacity = 0;
   const std::size_t kept = keep_windows(splats, [&](std::size_t t) {
     // Negated, so that a NaN opacity is dropped too.
     if (!(windows.opacity[t] >= minimum_opacity)) return false;
-    mean_solidity += solidity(windows.opacity[t], windows.sigma[t]);
+    coverage += mean_coverage(windows.opacity[t], windows.sigma[t]);
     mean_opacity += windows.opacity[t];
     return true;
   });
@@ -32,9 +32,8 @@ OpaqueResult to_opaque(Splats splats, float minimum_opacity) {
   if (count == 0) return result;
 
   if (kept > 0)
-    result.remarks.push_back(
-        {.kind = Remark::Kind::soft_triangles_opaque,
-         .values = {mean_solidity / double(kept), mean_opacity / double(kept)}});
+    result.remarks.push_back({.kind = Remark::Kind::soft_triangles_opaque,
+                              .values = {coverage / double(kept), mean_opacity / double(kept)}});
   if (kept > 0 && color.per_corner)
     result.remarks.push_back({Remark::Kind::screen_interpolation_dropped});
   if (kept < count)

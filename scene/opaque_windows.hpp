@@ -11,7 +11,7 @@ namespace tureen {
 
 /// Mean coverage of a triangle window: opacity * 2 / ((sigma+1)(sigma+2)). The factor after opacity
 /// is the mean of rho^sigma over the triangle.
-double solidity(double opacity, double sigma);
+double mean_coverage(double opacity, double sigma);
 
 struct OpaqueResult {
   TriangleSoup soup;
