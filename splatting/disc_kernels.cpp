@@ -11,36 +11,12 @@
 
 #include "splatting/blending-inl.hpp"
 #include "splatting/disc_alpha-inl.hpp"
+#include "splatting/disc_plane-inl.hpp"
 #include "splatting/harmonics-inl.hpp"
 #include "splatting/rotation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
-
-/// The map of a disc's plane into the image, as projected_disc_row: (u, v, 1) to homogeneous pixels
-/// from an origin.
-struct DiscPlane {
-  Floats x, y;  // the origin
-  Vector3 of_x, of_y, of_w;
-};
-
-/// Of the disc with this centre and axes of one deviation, in view coordinates.
-HWY_INLINE DiscPlane plane_of(const ImageView& view, const Vector3& center, const Vector3& u,
-                              const Vector3& v, Mask in_front) {
-  const Floats zero = hn::Zero(d), one = constant(1.0f);
-  const Floats fx = constant(view.fx), fy = constant(view.fy);
-  const Floats scale = hn::Div(one, hn::IfThenElse(in_front, center.z, one));
-  const Floats slope_x = hn::IfThenElseZero(in_front, hn::Mul(center.x, scale));
-  const Floats slope_y = hn::IfThenElseZero(in_front, hn::Mul(center.y, scale));
-  return {hn::MulAdd(fx, slope_x, constant(view.cx)), hn::MulAdd(fy, slope_y, constant(view.cy)),
-          Vector3{hn::Mul(fx, hn::NegMulAdd(slope_x, u.z, u.x)),
-                  hn::Mul(fx, hn::NegMulAdd(slope_x, v.z, v.x)),
-                  hn::IfThenElse(in_front, zero, hn::Mul(fx, center.x))},
-          Vector3{hn::Mul(fy, hn::NegMulAdd(slope_y, u.z, u.y)),
-                  hn::Mul(fy, hn::NegMulAdd(slope_y, v.z, v.y)),
-                  hn::IfThenElse(in_front, zero, hn::Mul(fy, center.y))},
-          Vector3{u.z, v.z, center.z}};
-}
 
 /// The range of one image coordinate of a disc up to `radius` deviations, and of its screen filter
 /// up to `screen` pixels. `along` is of_x or of_y of the plane, `origin` x or y. Discs that are not
@@ -76,9 +52,7 @@ void project_discs_on(const ImageView& view, const ParameterRows& discs, int deg
     const Rotation rotation = rotation_of(load(in::rotation_x), load(in::rotation_y),
                                           load(in::rotation_z), load(in::rotation_w));
     const auto scaled_axis = [&](std::size_t k) {
-      const Vector3 axis = product(view.view_from_layer, rotation.axes[k]);
-      const Floats size = load(in::scale_x + k);
-      return Vector3{hn::Mul(axis.x, size), hn::Mul(axis.y, size), hn::Mul(axis.z, size)};
+      return product(product(view.view_from_layer, rotation.axes[k]), load(in::scale_x + k));
     };
     const DiscPlane plane = plane_of(view, center, scaled_axis(0), scaled_axis(1), in_front);
 

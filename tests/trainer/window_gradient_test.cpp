@@ -10,6 +10,7 @@
 
 #include "oracle/oracle.hpp"
 #include "tests/support/random.hpp"
+#include "tests/trainer/gradient_views.hpp"
 #include "tests/trainer/window_reference.hpp"
 #include "trainer/splats/window_raster.hpp"
 
@@ -17,18 +18,14 @@ namespace tureen::trainer {
 namespace window_gradient_test {
 
 namespace row = splatting::window_row;
+using test::background;
+using test::camera;
 using test::Dual;
+using test::height;
+using test::random_gradient;
+using test::values_of;
+using test::width;
 using tureen::test::Random;
-
-constexpr int width = 22, height = 19;  // no multiples of a tile
-constexpr std::array<float, 3> background{0.2f, 0.5f, 0.9f};
-
-Camera camera() {
-  Camera result = look_at({0.3, -0.4, 4}, {0, 0, 0}, {0.1, 1, 0}, 0.7, width, height);
-  result.fx *= 1.1;
-  result.cx += 0.7;
-  return result;
-}
 
 /// Splats in the ball of radius 1 about the origin.
 WindowParameters random_parameters(std::uint64_t seed, std::size_t count, int degree,
@@ -48,24 +45,6 @@ WindowParameters random_parameters(std::uint64_t seed, std::size_t count, int de
     for (std::size_t r = row::harmonics; r < result.rows(); ++r) set(r, 0.25 * random.normal());
     result.activate(i);
   }
-  return result;
-}
-
-/// The trained values, splat after splat.
-template <class Real>
-std::vector<Real> values_of(const WindowParameters& parameters) {
-  std::vector<Real> result;
-  for (std::size_t i = 0; i < parameters.count(); ++i)
-    for (std::size_t r = 0; r < parameters.rows(); ++r)
-      result.emplace_back(double(parameters.trained(r)[i]));
-  return result;
-}
-
-/// The derivatives of a loss by the image: noise.
-std::vector<float> random_gradient(std::uint64_t seed) {
-  Random random(seed);
-  std::vector<float> result(3 * width * height);
-  for (float& value : result) value = float(random.normal());
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "splatting/disc_plane-inl.hpp"
 #include "trainer/splats/gaussian_step-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,12 +48,8 @@ HWY_INLINE Gradient disc_gradient_of(const DiscBackwardInput& input,
   Vector3 axes[2];  // with a length of one deviation
   for (std::size_t k = 0; k < 2; ++k)
     axes[k] = product(product(view.view_from_layer, rotation.axes[k]), load(row::scale_x + k));
-  const auto& [u, v] = axes;
-  const Vector3 h_x{hn::Mul(fx, hn::NegMulAdd(slope_x, u.z, u.x)),
-                    hn::Mul(fx, hn::NegMulAdd(slope_x, v.z, v.x)), zero};
-  const Vector3 h_y{hn::Mul(fy, hn::NegMulAdd(slope_y, u.z, u.y)),
-                    hn::Mul(fy, hn::NegMulAdd(slope_y, v.z, v.y)), zero};
-  const Vector3 h_w{u.z, v.z, center.z};
+  const DiscPlane plane = plane_of(view, center, axes[0], axes[1], gradient.drawn);
+  const Vector3 &h_x = plane.of_x, &h_y = plane.of_y, &h_w = plane.of_w;
   const Vector3 row_x = product(difference(cross(h_y, q), cross(h_w, q_y)), fx);
   const Vector3 row_y = product(difference(cross(h_w, q_x), cross(h_x, q)), fy);
   const Vector3 moment = difference(cross(h_x, q_y), cross(h_y, q_x));

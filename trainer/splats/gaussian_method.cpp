@@ -60,7 +60,8 @@ void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& poi
 Primitives GaussianTraining::primitives(const GaussianConfig& config,
                                         const GaussianParameters& parameters,
                                         std::span<const float>) {
-  const float min_alpha = profile_named(config.flat ? "2dgs" : "3dgs")->min_alpha;
+  const float min_alpha = with_training(
+      config, []<class Method>() { return profile_named(Method::Raster::profile)->min_alpha; });
   GaussianParameters kept = parameters;
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t i = 0; i < parameters.count(); ++i)

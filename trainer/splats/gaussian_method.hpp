@@ -59,4 +59,11 @@ struct DiscTraining : GaussianTraining {
   static constexpr auto step_splats = &step_discs;
 };
 
+/// Calls act<DiscTraining>() or act<GaussianTraining>(), by config.flat.
+template <class Act>
+decltype(auto) with_training(const GaussianConfig& config, const Act& act) {
+  return config.flat ? act.template operator()<DiscTraining>()
+                     : act.template operator()<GaussianTraining>();
+}
+
 }  // namespace tureen::trainer

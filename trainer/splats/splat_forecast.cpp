@@ -90,8 +90,7 @@ double step_seconds(typename Method::Config probe, std::span<const TrainingView>
 }  // namespace
 
 std::uint64_t splat_memory(const GaussianConfig& config, const Dataset& dataset) {
-  return config.flat ? memory_of<DiscTraining>(config, dataset)
-                     : memory_of<GaussianTraining>(config, dataset);
+  return with_training(config, [&]<class Method>() { return memory_of<Method>(config, dataset); });
 }
 
 std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset) {
@@ -100,8 +99,8 @@ std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset) {
 
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
                                                const Dataset& dataset) {
-  return config.flat ? splats_within<DiscTraining>(bytes, config, dataset)
-                     : splats_within<GaussianTraining>(bytes, config, dataset);
+  return with_training(
+      config, [&]<class Method>() { return splats_within<Method>(bytes, config, dataset); });
 }
 
 std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const WindowConfig& config,
@@ -111,8 +110,9 @@ std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Window
 
 double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
                              const Region& region, int threads, const GaussianState& state) {
-  return config.flat ? step_seconds<DiscTraining>(config, views, region, threads, state)
-                     : step_seconds<GaussianTraining>(config, views, region, threads, state);
+  return with_training(config, [&]<class Method>() {
+    return step_seconds<Method>(config, views, region, threads, state);
+  });
 }
 
 double measured_step_seconds(const WindowConfig& config, std::span<const TrainingView> views,

@@ -175,8 +175,9 @@ SplatResult train_by(Dataset& dataset, Request request) {
 }  // namespace
 
 SplatResult train_splats(Dataset& dataset, GaussianRequest request) {
-  if (request.config.flat) return train_by<DiscTraining>(dataset, std::move(request));
-  return train_by<GaussianTraining>(dataset, std::move(request));
+  return with_training(request.config, [&]<class Method>() {
+    return train_by<Method>(dataset, std::move(request));
+  });
 }
 
 SplatResult train_splats(Dataset& dataset, WindowRequest request) {

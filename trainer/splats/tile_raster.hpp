@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "base/radix_sort.hpp"
@@ -69,6 +70,7 @@ class TileRaster {
   using Projected = typename Method::Projected;
   using Moments = typename Method::Moments;
   using BackwardInput = typename Method::BackwardInput;
+  static constexpr std::string_view profile = Method::profile;
   /// Whether the passes of the method sum what a VarianceLoss needs.
   static constexpr bool has_variance = requires { requires Method::has_variance; };
 
@@ -82,8 +84,8 @@ class TileRaster {
                bool keeps_squares = false) {
     assert(planes.size() == 3 * std::size_t(camera.width) * std::size_t(camera.height));
     assert(has_variance || !keeps_squares);
-    view_ = splatting::image_view(camera, camera.eye(), near_plane, *profile_named(Method::profile),
-                                  camera);
+    view_ =
+        splatting::image_view(camera, camera.eye(), near_plane, *profile_named(profile), camera);
     if constexpr (requires { parameters.solidity; }) view_.solidity = parameters.solidity;
     keeps_squares_ = keeps_squares;
     std::copy(background.begin(), background.end(), background_);
