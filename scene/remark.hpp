@@ -28,7 +28,7 @@ struct Remark {
     small_faces_dropped,     // counts: faces with fewer than three corners
     corners_dropped,         // counts: corners. names: the primitive
     coordinates_rounded,     // from double to float
-    soft_triangles_opaque,   // values: mean solidity, mean opacity
+    soft_triangles_opaque,   // values: mean of mean_coverage(), mean opacity
     soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
     // Splats.
     splats_dropped,            // counts: dropped, all

@@ -40,13 +40,13 @@ std::pair<int, int> TileLists::columns_between(float low, float high) const {
 
 void TileLists::add(int row, float low, float high, std::uint32_t splat) {
   const auto [first, last] = columns_between(low, high);
-  add(row, first, last, splat);
+  add_columns(row, first, last, splat);
 }
 
 void TileLists::add(const Box& box, std::uint32_t splat) {
   const auto [first, last] = rows_between(box.top, box.bottom);
   const auto [begin, end] = columns_between(box.left, box.right);
-  for (int row = first; row < last; ++row) add(row, begin, end, splat);
+  for (int row = first; row < last; ++row) add_columns(row, begin, end, splat);
 }
 
 template <bool numbered>

@@ -55,12 +55,13 @@ class TileLists {
   }
   /// Adds a splat to the tiles of a row from column `first` to `last` - 1. Nearer splats must be
   /// added earlier.
-  void add(int row, int first, int last, std::uint32_t splat) {
+  void add_columns(int row, int first, int last, std::uint32_t splat) {
     if (first >= last) return;
     spans_[std::size_t(row)].push_back({splat, pairs_, std::uint16_t(first), std::uint16_t(last)});
     pairs_ += std::uint32_t(last - first);
   }
-  /// To the tiles with pixel centres between these x coordinates. NaN: none.
+  /// Adds a splat to the tiles of a row with pixel centres between these x coordinates, in pixels.
+  /// NaN: none.
   void add(int row, float low, float high, std::uint32_t splat);
 
   /// Adds a splat to all tiles with pixel centres in a box.

@@ -119,7 +119,7 @@ HWY_INLINE Vector3 product(const float* matrix, const Vector3& v) {
   };
   return {row(matrix), row(matrix + 3), row(matrix + 6)};
 }
-/// Its transpose times a vector.
+/// The transpose of a matrix, row by row, times a vector.
 HWY_INLINE Vector3 transposed_product(const float* matrix, const Vector3& v) {
   const auto column = [&](const float* m) {
     return dot({constant(m[0]), constant(m[3]), constant(m[6])}, v);

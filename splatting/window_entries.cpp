@@ -34,7 +34,8 @@ class Columns {
   struct Corner {
     float x, y;
   };
-  /// dx/dy. 0 for level sides: the other sides have both of their ends.
+  /// dx/dy. 0 for level sides, whose ends the other sides have. A triangle without height covers no
+  /// pixel centre.
   static float slope(const Corner& a, const Corner& b) {
     return b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0.0f;
   }
@@ -70,7 +71,7 @@ void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entr
 
 void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& lists) {
   if (std::isnan(outline[0])) {  // may cover any pixel
-    for (int row = 0; row < lists.rows(); ++row) lists.add(row, 0, lists.columns(), splat);
+    for (int row = 0; row < lists.rows(); ++row) lists.add_columns(row, 0, lists.columns(), splat);
     return;
   }
   const auto [left, right] = std::minmax({outline[0], outline[2], outline[4]});
@@ -79,7 +80,7 @@ void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& l
   const auto [begin, end] = lists.columns_between(left, right);
   // Most triangles are small. The whole range of columns is at most a little too wide.
   if (last - first <= 1 || end - begin <= 1) {
-    for (int row = first; row < last; ++row) lists.add(row, begin, end, splat);
+    for (int row = first; row < last; ++row) lists.add_columns(row, begin, end, splat);
     return;
   }
   const Columns columns(outline);

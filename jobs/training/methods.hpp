@@ -1,4 +1,4 @@
-// The methods of make_training_method().
+// The methods of make_training_method(), and the checks that they share.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
@@ -14,6 +13,17 @@
 namespace tureen {
 
 namespace {
+
+constexpr const char* random_start = "--init random needs no scene";
+
+std::string hint_for(const SplatKernel& kernel, const trainer::GaussianConfig& config) {
+  const auto* gaussians = std::get_if<Gaussians>(&kernel);
+  if (!gaussians || gaussians->flat == config.flat) return random_start;
+  return std::string(gaussians->flat ? "--flat trains flat Gaussians; "
+                                     : "without --flat, Gaussians have three scales; ") +
+         random_start;
+}
+std::string hint_for(const SplatKernel&, const trainer::WindowConfig&) { return random_start; }
 
 template <class Config, class Parameters>
 class SplatMethod final : public TrainingMethod {
@@ -58,9 +68,7 @@ class SplatMethod final : public TrainingMethod {
     return UnsuitableStart{
         fmt::format("the scene has {} ({}), but {} begin with {} or triangles",
                     counted(splat_count(start), "splat"), kernel_name(splats->kernel), own, own),
-        kernel_name(splats->kernel) == std::string_view("flat Gaussians")
-            ? "--flat trains flat Gaussians; --init random needs no scene"
-            : "--init random needs no scene"};
+        hint_for(splats->kernel, config_)};
   }
 
   std::string constants() const override { return trainer::splat_config_to_json(config_); }

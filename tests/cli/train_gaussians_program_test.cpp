@@ -118,6 +118,12 @@ TEST_F(TrainGaussians, FlatOnesAreDiscs) {
   const ChildResult round = gaussians("round.glb", {"--init", "discs.glb", "--steps", "20"});
   EXPECT_EQ(round.exit_code, 3);
   EXPECT_THAT(round.err, Names("flat Gaussians", "discs.glb"));
+  EXPECT_THAT(round.err, testing::HasSubstr("--flat trains"));
+  const ChildResult triangles = run({"train", "ball", "-o", "soft.glb", "--method", "triangles",
+                                     "--init", "discs.glb", "--steps", "20"});
+  EXPECT_EQ(triangles.exit_code, 3);
+  EXPECT_THAT(triangles.err, testing::Not(testing::HasSubstr("--flat")));
+  EXPECT_THAT(triangles.err, testing::HasSubstr("--init random"));
   EXPECT_THAT(run({"train", "ball", "-o", "x.glb", "--flat"}).err,
               Names("--flat", "--method gaussians"));
 }

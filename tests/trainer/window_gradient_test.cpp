@@ -55,7 +55,8 @@ std::vector<Real> image_of(const std::vector<Real>& values, const WindowParamete
                                       double(parameters.solidity));
 }
 
-/// A weight with which a pixel's variance has a derivative of about 2, like the noise above.
+/// Each channel's variance in a pixel then has a derivative of 1.6; random_gradient() has a
+/// deviation of 1.
 constexpr float variance_like_noise = 2000;
 
 /// The sum of image . by_image, and VarianceLoss.

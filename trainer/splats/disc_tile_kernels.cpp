@@ -83,7 +83,7 @@ void blend_discs_recorded_on(const ImageView& view, std::span<const DiscEntry> e
 void blend_discs_backward_on(const ImageView& view, std::span<const DiscEntry> entries,
                              std::span<const std::uint32_t> tile,
                              std::span<const std::uint32_t> numbers, const TileRecord& record,
-                             TileGradient& gradient, TileScratch& scratch,
+                             const TileGradient& gradient, TileScratch& scratch,
                              std::span<DiscMoments> moments) {
   blend_backward(Discs(view), entries, tile, numbers, record, gradient, scratch, moments);
 }
@@ -111,7 +111,7 @@ void blend_discs_backward(const splatting::ImageView& view,
                           std::span<const splatting::DiscEntry> entries,
                           std::span<const std::uint32_t> tile,
                           std::span<const std::uint32_t> numbers, const TileRecord& record,
-                          TileGradient& gradient, TileScratch& scratch,
+                          const TileGradient& gradient, TileScratch& scratch,
                           std::span<DiscMoments> moments) {
   HWY_DYNAMIC_DISPATCH(blend_discs_backward_on)
   (view, entries, tile, numbers, record, gradient, scratch, moments);

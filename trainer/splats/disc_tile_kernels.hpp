@@ -25,12 +25,12 @@ void blend_discs_recorded(const splatting::ImageView& view,
                           std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
                           TileRecord& record);
 
-/// Writes the moments of each entry of `tile` to moments[numbers[its index]]. Changes `gradient`.
+/// Writes the moments of each entry of `tile` to moments[numbers[its index]].
 void blend_discs_backward(const splatting::ImageView& view,
                           std::span<const splatting::DiscEntry> entries,
                           std::span<const std::uint32_t> tile,
                           std::span<const std::uint32_t> numbers, const TileRecord& record,
-                          TileGradient& gradient, TileScratch& scratch,
+                          const TileGradient& gradient, TileScratch& scratch,
                           std::span<DiscMoments> moments);
 
 }  // namespace tureen::trainer

@@ -10,8 +10,8 @@ namespace row = splatting::gaussian_row;
 
 namespace {
 
-/// The third scale of a disc: below any GaussianStep::min_log_scale, which the first step raises it
-/// to.
+/// The third scale of a disc: far below the smallest scale. The first step raises it to
+/// GaussianStep::min_log_scale.
 constexpr float flat_log_scale = -30;
 
 }  // namespace

@@ -5,6 +5,8 @@
 // are for the extraction of surfaces.
 #pragma once
 
+#include <span>
+
 #include "scene/scene.hpp"
 #include "trainer/splats/disc_raster.hpp"
 #include "trainer/splats/gaussian_densify.hpp"

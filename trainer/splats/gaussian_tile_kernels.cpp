@@ -74,7 +74,7 @@ void blend_recorded_on(const ImageView& view, std::span<const GaussianEntry> ent
 
 void blend_backward_on(const ImageView& view, std::span<const GaussianEntry> entries,
                        std::span<const std::uint32_t> tile, std::span<const std::uint32_t> numbers,
-                       const TileRecord& record, TileGradient& gradient, TileScratch& scratch,
+                       const TileRecord& record, const TileGradient& gradient, TileScratch& scratch,
                        std::span<GaussianMoments> moments) {
   blend_backward(Gaussians(view), entries, tile, numbers, record, gradient, scratch, moments);
 }
@@ -102,7 +102,7 @@ void blend_gaussians_backward(const splatting::ImageView& view,
                               std::span<const splatting::GaussianEntry> entries,
                               std::span<const std::uint32_t> tile,
                               std::span<const std::uint32_t> numbers, const TileRecord& record,
-                              TileGradient& gradient, TileScratch& scratch,
+                              const TileGradient& gradient, TileScratch& scratch,
                               std::span<GaussianMoments> moments) {
   HWY_DYNAMIC_DISPATCH(blend_backward_on)
   (view, entries, tile, numbers, record, gradient, scratch, moments);

@@ -10,10 +10,12 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "trainer/splats/color_gradient-inl.hpp"
 #include "trainer/splats/parameter_kinds.hpp"
 #include "trainer/splats/splat_adam-inl.hpp"
+#include "trainer/splats/splat_memory.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
@@ -81,8 +83,9 @@ HWY_INLINE std::size_t step_splats(const Kinds& kinds, const Step& step, int deg
                                    const Activate& activate) {
   namespace statistic = splat_statistic;
   constexpr std::size_t block = SplatMemory::block;
-  constexpr std::size_t max_rows = 64;
+  constexpr std::size_t max_rows = 64;  // triangle windows of degree 3 have 59
   const std::size_t rows = parameters.rows();
+  assert(rows <= max_rows);
   float rates[max_rows];
   for (std::size_t k = 0; k < kinds.size(); ++k)
     for (std::size_t r = kinds[k].first; r < std::min(kinds[k].first + kinds[k].size, rows); ++r)

@@ -18,7 +18,9 @@
 #include "trainer/common/training_views.hpp"
 #include "trainer/splats/splat_densify.hpp"
 #include "trainer/splats/splat_initialise.hpp"
+#include "trainer/splats/splat_memory.hpp"
 #include "trainer/splats/splat_state.hpp"
+#include "trainer/splats/tasks.hpp"
 #include "trainer/splats/tile_raster.hpp"
 
 namespace tureen::trainer {
@@ -122,10 +124,10 @@ class SplatTrainer {
 
   /// The splats so far as a scene stores them.
   Primitives primitives() const {
-    const float* evident = state_.memory.statistics.row(splat_statistic::evident);
-    return Method::primitives(
-        config_, parameters(),
-        knows_evident() ? std::span(evident, parameters().count()) : std::span<const float>());
+    std::span<const float> evident;
+    if (knows_evident())
+      evident = {state_.memory.statistics.row(splat_statistic::evident), parameters().count()};
+    return Method::primitives(config_, parameters(), evident);
   }
 
   /// mean_squared_error() of the last step. Needs a step().
@@ -150,8 +152,8 @@ class SplatTrainer {
     return std::min(config_.degree, reached);
   }
 
-  /// Whether each view was used since the last densification. Two epochs less a step contain a
-  /// whole one.
+  /// Whether each view was used since the last densification: 2 n - 1 steps contain a whole epoch
+  /// of n views. Exact if a densification followed the last set_steps().
   bool knows_evident() const {
     const int every = densify_interval(config_);
     int last = state_.step / every * every;

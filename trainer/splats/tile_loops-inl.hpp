@@ -3,10 +3,11 @@
 //
 // A kernel is a struct with constants of the view, and
 //   Entry, Moments
-//   value_of(entry, x, y)     a value at pixels, -infinity where the entry cannot be
-//   threshold_of(entry)       the entry covers the pixels whose value reaches it
-//   alpha_of(entry, value)    alpha there, before it is limited to the largest
-//   values_a_pixel            2 or 4, and the sums over pixels that PixelValues<2> and <4> describe
+//   value_of(entry, x, y)     a value at pixels, below the threshold where the entry is not drawn
+//   threshold_of(entry)       the entry covers the pixels whose value is at least this
+//   alpha_of(entry, value)    alpha before it is limited to the largest; anything below the
+//                             threshold, where it is not used
+//   values_a_pixel            2 or 4: the layout of PixelValues; for its sums see `columns`
 //   replay(entry, block, values, sums)    blends the entry again (blend_again()), and writes the
 //                             values of the block's pixels, and up to three sums without a factor
 //   moved(entry, line, x, y)  the moments about the entry's (x, y) from those about the middle of
@@ -217,7 +218,10 @@ struct PixelValues<4> {
     m.one = move(line, 0);
     m.x = move(line + 4, x);
     m.y = move(line + 8, y);
-    std::memcpy(&m.h, line + columns, factorless * sizeof(float));
+    m.h = line[columns];
+    m.others[0] = line[columns + 1];
+    m.others[1] = line[columns + 2];
+    m.evident = line[evident_column];
     return m;
   }
 
@@ -275,7 +279,8 @@ HWY_INLINE void add_sums(const Buffers<values_a_pixel>& buffers, const std::uint
     float* line = lines[of[e]].values;
     for (std::size_t part = 0; part < column_parts; ++part)
       hn::Store(hn::Add(hn::Load(d, line + part * lanes), sums[e][part]), d, line + part * lanes);
-    // Later: a vector cannot be loaded at once from memory where single numbers were just stored.
+    // After the vectors, not in replay(): a vector load right after scalar stores to its memory
+    // waits for them.
     for (std::size_t k = 0; k < factorless; ++k) line[columns + k] += buffers.sums[e][k];
   }
 }
@@ -358,7 +363,7 @@ HWY_INLINE void blend_backward(const Kernel& kernel,
         const std::uint32_t blended = record.blended[first + e];
         of[e] = blended & ~TileRecord::evident_bit;
         // Without a branch, which would be hard to predict.
-        buffers.sums[e][evident_column - columns] = float(blended >> 31);
+        buffers.sums[e][evident_column - columns] = blended & TileRecord::evident_bit ? 1.0f : 0.0f;
         kernel.replay(entries[tile[of[e]] & place_mask], block, buffers.values[e], buffers.sums[e]);
       }
       add_sums(buffers, of, count, lines);

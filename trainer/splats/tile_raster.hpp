@@ -175,7 +175,7 @@ class TileRaster {
     std::size_t listed = 0;
     for (int column = 0; column < lists_.columns(); ++column)
       listed += lists_.tile(column, row).size();
-    kept.blended.resize(listed * blocks_a_tile + 1);  // one place is written but not used
+    kept.blended.resize(listed * blocks_a_tile);
     std::uint32_t* blended = kept.blended.data();
     const std::size_t pixels_a_plane = planes.size() / 3;
     const float background_square = background_[0] * background_[0] +

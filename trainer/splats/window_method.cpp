@@ -92,9 +92,11 @@ Primitives WindowTraining::primitives(const WindowConfig& config,
                                       std::span<const float> evident) {
   Splats splats = parameters.splats();
   const bool becomes_soup = config.opaque && parameters.solidity >= solidity_of_triangles;
+  const bool some_shown =
+      std::any_of(evident.begin(), evident.end(), [](float e) { return e > 0; });
   keep_windows(splats, [&](std::size_t i) {
     return parameters.is_finite(i) && parameters.opacity(i) >= splats.profile.min_alpha &&
-           (!becomes_soup || evident.empty() || evident[i] > 0);
+           (!becomes_soup || !some_shown || evident[i] > 0);
   });
   if (!becomes_soup) return splats;
   return to_opaque(std::move(splats)).soup;

@@ -11,6 +11,8 @@
 // walls).
 #pragma once
 
+#include <span>
+
 #include "scene/scene.hpp"
 #include "trainer/splats/splat_trainer.hpp"
 #include "trainer/splats/window_densify.hpp"
@@ -61,14 +63,14 @@ struct WindowTraining {
   static void put(const Config& config, const ColoredPoint& point, double size, Random& random,
                   std::size_t place, Parameters& parameters);
 
-  /// Windows that a viewer can draw: finite, and not too transparent. Of opaque training, opaque
-  /// triangles with the same harmonics if the solidity is at least solidity_of_triangles; without
-  /// those that no view shows. `evident`: splat_statistic::evident of all views, or empty if it is
-  /// not known.
+  /// Windows that a viewer can draw: finite, and not too transparent. With WindowConfig::opaque and
+  /// a solidity of at least solidity_of_triangles: opaque triangles with the same harmonics,
+  /// without those that no view shows; if no view shows any, all. `evident`: the row
+  /// splat_statistic::evident if each view was used since the last densification; else empty.
   static Primitives primitives(const Config& config, const Parameters& parameters,
                                std::span<const float> evident);
-  /// Runs may end early, and their previews are scenes too. Below one half, the pyramids of soft
-  /// windows are nearer to what the run draws; above, opaque triangles are.
+  /// From this solidity on, a run that ends early and previews have opaque triangles. The middle of
+  /// the range; not measured.
   static constexpr float solidity_of_triangles = 0.5f;
 };
 

@@ -26,7 +26,7 @@ struct Windows {
   float by_square = 0;  // TileGradient's
 
   HWY_INLINE Floats value_of(const Entry& entry, Floats x, Floats y) const {
-    return before_eye(entry, WindowAt(entry, x, y));
+    return visible_rho(entry, WindowAt(entry, x, y));
   }
   HWY_INLINE Floats threshold_of(const Entry& entry) const { return constant(entry.min_rho); }
   HWY_INLINE Floats alpha_of(const Entry& entry, Floats value) const {
@@ -34,7 +34,7 @@ struct Windows {
   }
 
   /// rho, or -infinity nearer than the near plane and behind the eye.
-  HWY_INLINE Floats before_eye(const Entry& entry, const WindowAt& at) const {
+  HWY_INLINE Floats visible_rho(const Entry& entry, const WindowAt& at) const {
     if (!entry.reaches_near) return at.rho;
     const Floats inverse_depth = at.linear(entry.inverse_depth);
     const Mask seen = hn::And(hn::Gt(inverse_depth, hn::Zero(d)),
@@ -49,7 +49,7 @@ struct Windows {
     Floats h_sum = hn::Zero(d), log_sum = hn::Zero(d), weight_sum = hn::Zero(d);
     for (std::size_t part = 0; part < parts; ++part) {
       const WindowAt at(entry, block.x[part], block.y[part]);
-      const Mask covered = hn::Ge(before_eye(entry, at), threshold_of(entry));
+      const Mask covered = hn::Ge(visible_rho(entry, at), threshold_of(entry));
       const Floats log_rho = log_rho_of(at.rho);
       const Floats unlimited = window_alpha_of(entry, log_rho);
       const Floats alpha = hn::Min(unlimited, max_alpha);
@@ -101,7 +101,7 @@ void blend_windows_recorded_on(const ImageView& view, std::span<const WindowEntr
 void blend_windows_backward_on(const ImageView& view, std::span<const WindowEntry> entries,
                                std::span<const std::uint32_t> tile,
                                std::span<const std::uint32_t> numbers, const TileRecord& record,
-                               TileGradient& gradient, TileScratch& scratch,
+                               const TileGradient& gradient, TileScratch& scratch,
                                std::span<WindowMoments> moments) {
   blend_backward(Windows{view, gradient.by_square}, entries, tile, numbers, record, gradient,
                  scratch, moments);
@@ -130,7 +130,7 @@ void blend_windows_backward(const splatting::ImageView& view,
                             std::span<const splatting::WindowEntry> entries,
                             std::span<const std::uint32_t> tile,
                             std::span<const std::uint32_t> numbers, const TileRecord& record,
-                            TileGradient& gradient, TileScratch& scratch,
+                            const TileGradient& gradient, TileScratch& scratch,
                             std::span<WindowMoments> moments) {
   HWY_DYNAMIC_DISPATCH(blend_windows_backward_on)
   (view, entries, tile, numbers, record, gradient, scratch, moments);

@@ -11,8 +11,9 @@
 namespace tureen::trainer {
 
 /// Sums of h = dL/d ln(alpha) over the pixels of one tile or of all; 0 where alpha is limited to
-/// the profile's largest. q_k is h / rho at the pixels whose nearest edge is k; others[0] is the
-/// sum of h log2(rho).
+/// the profile's largest. q_k is h / rho at the pixels whose nearest edge is k. others[0] is the
+/// sum of h log2(rho), and others[1] that of the weights if TileGradient::by_square > 0; its part
+/// of the derivatives by the colour is in these.
 ///
 /// rho = min_k e_k . (x, y, 1) at the offset (x, y) from WindowEntry's (x, y), and ln(alpha) =
 /// ln(opacity) + sigma ln(rho). Where edge k is the nearest, dL/d(e_k) = sigma h / rho (x, y, 1).
@@ -28,12 +29,12 @@ void blend_windows_recorded(const splatting::ImageView& view,
                             std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
                             TileRecord& record);
 
-/// Writes the moments of each entry of `tile` to moments[numbers[its index]]. Changes `gradient`.
+/// Writes the moments of each entry of `tile` to moments[numbers[its index]].
 void blend_windows_backward(const splatting::ImageView& view,
                             std::span<const splatting::WindowEntry> entries,
                             std::span<const std::uint32_t> tile,
                             std::span<const std::uint32_t> numbers, const TileRecord& record,
-                            TileGradient& gradient, TileScratch& scratch,
+                            const TileGradient& gradient, TileScratch& scratch,
                             std::span<WindowMoments> moments);
 
 }  // namespace tureen::trainer
