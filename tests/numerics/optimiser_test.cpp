@@ -423,7 +423,7 @@ TEST(Numerics, O7_FlatImagesHaveNoNegativeVariance) {
       const std::vector<Real> colors(from.begin(), from.end());
       std::vector<Real> by_color(from.size());
       trainer::ImageLossScratch<Real> scratch;
-      trainer::ThreadPool pool(1);
+      ThreadPool pool(1);
       return 2 * trainer::image_loss(trainer::ImageLossView<Real>{.width = side,
                                                                   .height = side,
                                                                   .rendered = colors,

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/thread_pool.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
-#include "trainer/common/cpu/thread_pool.hpp"
 #include "trainer/splats/tasks.hpp"
 
 namespace tureen::trainer {

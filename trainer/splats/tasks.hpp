@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "trainer/common/cpu/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 
 namespace tureen::trainer {
 

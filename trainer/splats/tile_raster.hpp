@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "base/radix_sort.hpp"
+#include "base/thread_pool.hpp"
 #include "scene/camera.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
-#include "trainer/common/cpu/thread_pool.hpp"
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/splats/splat_memory.hpp"
 #include "trainer/splats/tasks.hpp"

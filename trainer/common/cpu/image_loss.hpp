@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "trainer/common/cpu/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 
 namespace tureen::trainer {
 

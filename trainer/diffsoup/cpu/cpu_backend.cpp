@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/thread_pool.hpp"
 #include "scene/triangle_soup.hpp"
 #include "trainer/common/cpu/image_loss.hpp"
-#include "trainer/common/cpu/thread_pool.hpp"
 #include "trainer/common/kernels/random.hpp"
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/diffsoup/backend.hpp"

@@ -1,4 +1,4 @@
-#include "trainer/common/cpu/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace tureen::trainer {
+namespace tureen {
 namespace thread_pool_test {
 
 TEST(ThreadPool, EveryTaskRunsOnce) {
@@ -83,4 +83,4 @@ TEST(ThreadPool, AnExceptionOfAnotherThreadLeavesThePoolUsable) {
 }
 
 }  // namespace thread_pool_test
-}  // namespace tureen::trainer
+}  // namespace tureen

@@ -1,5 +1,5 @@
 // Threads that run numbered tasks. A task's result must not depend on the thread that runs it or on
-// the time: then training gives the same bits with any number of threads.
+// the time: then results have the same bits with any number of threads.
 #pragma once
 
 #include <condition_variable>
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace tureen::trainer {
+namespace tureen {
 
 class ThreadPool {
  public:
@@ -40,4 +40,4 @@ class ThreadPool {
   std::vector<std::thread> workers_;
 };
 
-}  // namespace tureen::trainer
+}  // namespace tureen

@@ -1,9 +1,9 @@
-#include "trainer/common/cpu/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace tureen::trainer {
+namespace tureen {
 
 ThreadPool::ThreadPool(int threads) {
   if (threads <= 0) threads = int(std::max(1u, std::thread::hardware_concurrency()));
@@ -61,4 +61,4 @@ void ThreadPool::run(std::size_t tasks, const std::function<void(std::size_t)>& 
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-}  // namespace tureen::trainer
+}  // namespace tureen
