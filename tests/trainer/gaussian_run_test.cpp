@@ -253,19 +253,30 @@ TEST(GaussianTraining, LearnsTheDiscFarFromTheOrigin) {
 
 TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
   const Files files;
-  Dataset dataset = disc_dataset();
   constexpr double seconds = 4;
-  GaussianRequest asked = request(
-      files,
-      {{.max_splats = 300, .first_splats = 200, .background = {0, 0, 0}, .minutes = seconds / 60}});
   struct Stop {};
-  // A fit can lower the steps so that the next fit is due at once: the run stops when all are over.
-  int late = 0;
-  asked.run.session.progress = [&](const SessionStatus& now) {
-    late = now.step > 0.6 * now.steps ? late + 1 : 0;
-    if (late == 5) throw Stop();
-  };
-  EXPECT_THROW(train_splats(dataset, std::move(asked)), Stop);
+  bool stopped = false;
+  // If other programs take half of the first seconds, the fitted run ends before it can be stopped.
+  for (int attempt = 0; attempt < 4 && !stopped; ++attempt) {
+    Dataset dataset = disc_dataset();
+    GaussianRequest asked = request(files, {{.max_splats = 300,
+                                             .first_splats = 200,
+                                             .background = {0, 0, 0},
+                                             .minutes = seconds / 60}});
+    // A fit can lower the steps so that the next fit is due at once: the run stops when all are
+    // over.
+    int late = 0;
+    asked.run.session.progress = [&](const SessionStatus& now) {
+      late = now.step > 0.6 * now.steps ? late + 1 : 0;
+      if (late == 5) throw Stop();
+    };
+    try {
+      train_splats(dataset, std::move(asked));
+    } catch (const Stop&) {
+      stopped = true;
+    }
+  }
+  ASSERT_TRUE(stopped);
   GaussianCheckpoint stored =
       read_splat_checkpoint<GaussianCheckpoint>(files.folder / "disc.checkpoint");
   EXPECT_EQ(stored.state.fits, 3);

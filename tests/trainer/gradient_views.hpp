@@ -1,4 +1,4 @@
-// What the tests of the gradients of splats share: a small image, its camera, and noise as the
+// Shared by the tests of the gradients of splats: a small image, its camera, and noise as the
 // derivatives of a loss.
 #pragma once
 
