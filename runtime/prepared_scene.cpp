@@ -2,10 +2,33 @@
 
 #include <utility>
 
+#include "base/error.hpp"
 #include "runtime/layer_errors.hpp"
+#include "runtime/splats/tile_pass.hpp"
 #include "scene/middle_bounds.hpp"
 
 namespace tureen {
+
+namespace {
+
+/// The splats for TilePass if they are blended so; otherwise null.
+std::unique_ptr<splatting::Layer> tiled_splats(const Splats& splats, const SplatPlan& plan,
+                                               const DeviceLimits& limits,
+                                               const PlanPreferences& preferences) {
+  const SplatBlending blending = preferences.splat_blending;
+  if (blending == SplatBlending::raster ||
+      (blending == SplatBlending::automatic && !limits.software))
+    return nullptr;
+  if constexpr (has_tile_pass) {
+    if (!plan.as_published && splatting::has_layer_for(splats, plan.profile))
+      return splatting::make_layer(splats, plan.profile, plan.drawn, plan.harmonics_degree);
+  }
+  if (blending == SplatBlending::tiles)
+    throw UsageError("tiles cannot blend these splats: " + plan.kernel);
+  return nullptr;
+}
+
+}  // namespace
 
 std::vector<PlacedSoup> placed_soups(const Scene& scene) {
   return placed_soups(placed_layers(scene));
@@ -60,13 +83,15 @@ void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
     SplatPlan plan = make_splat_plan(*splats, {.specialise = preferences.specialise,
                                                .profile = preferences.splat_profile,
                                                .as_published = preferences.as_published});
+    std::unique_ptr<splatting::Layer> tiled = tiled_splats(*splats, plan, limits, preferences);
     prepared.layers.insert(prepared.layers.begin() + at,
                            {.name = layer.name,
                             .bounds = bounds(*splats),
                             .framed = framed_bounds(*splats),
                             .world_from_layer = layer.world_from_layer,
                             .visible = layer.visible,
-                            .splats = prepare_splats(*splats, plan, layout)});
+                            .splats = prepare_splats(*splats, plan, layout),
+                            .tiled_splats = std::move(tiled)});
     prepared.plan.layers.insert(prepared.plan.layers.begin() + at, std::move(plan));
   }
 }

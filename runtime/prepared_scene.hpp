@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "runtime/render_options.hpp"
 #include "runtime/splats/splat_source.hpp"
 #include "scene/scene.hpp"
+#include "splatting/layer.hpp"
 
 namespace tureen {
 
@@ -38,6 +40,8 @@ struct PreparedLayer {
   /// hold the soup on the device (the baseline).
   std::optional<PreparedSoup> soup = {};
   std::optional<SplatSource> splats = {};
+  /// If `splats` are set: for TilePass. Empty if the device blends them.
+  std::unique_ptr<splatting::Layer> tiled_splats = {};
 };
 
 /// The inputs of a function that makes passes.
@@ -96,7 +100,7 @@ PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const D
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan);
 /// Completes a scene that was prepared from the soups of `layers`. Of `preferences`, those of
-/// splats are used.
+/// splats are used. Throws UsageError for SplatBlending::tiles if these cannot blend some splats.
 void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
                 const DeviceLimits& limits, const PlanPreferences& preferences);
 

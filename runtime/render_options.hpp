@@ -9,7 +9,7 @@
 namespace tureen {
 
 /// The texture in which splats are blended.
-enum class SplatTarget {
+enum class SplatFormat {
   automatic,  // rgba32f where the device blends it, otherwise rgba16f
   rgba32f,
   rgba16f,  // about 52 dB: near an alpha of 1 its step is 1/2048, and faint splats vanish
@@ -19,7 +19,7 @@ struct RenderOptions {
   PlanPreferences plan = {};
   /// Display-referred colour and alpha (0: transparent) of pixels without a face.
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
-  SplatTarget splat_target = SplatTarget::automatic;
+  SplatFormat splat_format = SplatFormat::automatic;
   /// Limits that replace those of the device (tests, forecasts).
   std::optional<DeviceLimits> limits = {};
 };

@@ -14,6 +14,7 @@
 #include "runtime/passes/targets.hpp"
 #include "runtime/splats/splat_measures.hpp"
 #include "runtime/splats/splat_pass.hpp"
+#include "runtime/splats/tile_pass.hpp"
 #include "scene/clip_range.hpp"
 
 namespace tureen {
@@ -22,7 +23,7 @@ struct Renderer::State {
   State(const gl::Context& context, PreparedScene& prepared, const RenderOptions& options)
       : plan(std::move(prepared.plan)),
         background(options.background),
-        splat_target(options.splat_target),
+        splat_format(options.splat_format),
         device(context.capabilities()) {
     gl::use_plain_pixel_transfer();
     upload(prepared.layers, plan.layers);
@@ -40,6 +41,8 @@ struct Renderer::State {
   void upload(std::vector<PreparedLayer>& layers, std::span<const LayerPlan> plans);
   bool has_splats() const;
   void arrange();
+  void make_splat_pass();
+  void drop_splat_pass();
   void remove(std::size_t layer);
   template <class Add>
   void add_or_undo(const Add& add);
@@ -76,22 +79,24 @@ struct Renderer::State {
   RenderPlan plan;  // soups and passes refer to it
   std::vector<Place> places;
   glm::vec4 background;
-  SplatTarget splat_target;
+  SplatFormat splat_format;
   gl::Capabilities device;
   FrameTarget target{{}};
   // One for each layer; null for layers of the other kind.
   std::vector<std::unique_ptr<DeviceSoup>> soups;
   std::vector<std::unique_ptr<DeviceSplats>> splats;
-  bool layered = false;                 // the passes are those of several soups
-  bool draws_layers = true;             // otherwise `passes` are all passes
-  std::vector<SoupPasses> soup_passes;  // one for each layer, if they are drawn
+  std::vector<std::unique_ptr<TiledSplats>> tiled_splats;  // null, too, if the device blends them
+  bool layered = false;                                    // the passes are those of several soups
+  bool draws_layers = true;                                // otherwise `passes` are all passes
+  std::vector<SoupPasses> soup_passes;                     // one for each layer, if they are drawn
   std::unique_ptr<SplatSorter> splat_sorter;
-  std::unique_ptr<SplatPass> splat_pass;  // of all layers of splats
-  Passes passes;                          // from outside
-  std::optional<FilterPass> filter;       // for other than one sample a pixel
-  glm::ivec2 size{0};                     // of the last image; 0 before the first
-  Frame frame;                            // the last one
-  Camera camera;                          // of the last frame, at the image's size
+  std::unique_ptr<SplatBlendingPass> splat_pass;  // of all layers of splats
+  OrderedSplats* ordered_splats = nullptr;        // of the pass, if the device blends
+  Passes passes;                                  // from outside
+  std::optional<FilterPass> filter;               // for other than one sample a pixel
+  glm::ivec2 size{0};                             // of the last image; 0 before the first
+  Frame frame;                                    // the last one
+  Camera camera;                                  // of the last frame, at the image's size
   gl::PassTimer* timer = nullptr;
   std::optional<DepthProbe> probe;
   std::vector<PlacedBounds> visible_boxes;  // for set_frame()
@@ -104,6 +109,7 @@ void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const
     PreparedLayer& layer = layers[i];
     std::unique_ptr<DeviceSoup> soup;
     std::unique_ptr<DeviceSplats> of_splats;
+    std::unique_ptr<TiledSplats> tiled;
     with_layer_in_errors(places.size() + layers.size() - i > 1 ? layer.name : "", [&] {
       if (layer.soup)
         soup = std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
@@ -111,9 +117,13 @@ void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const
       if (layer.splats)
         of_splats = std::make_unique<DeviceSplats>(device, std::move(*layer.splats),
                                                    std::get<SplatPlan>(plans[i]));
+      if (layer.tiled_splats)
+        tiled = std::make_unique<TiledSplats>(
+            TiledSplats{std::move(layer.tiled_splats), std::get<SplatPlan>(plans[i]).profile});
     });
     soups.push_back(std::move(soup));
     splats.push_back(std::move(of_splats));
+    tiled_splats.push_back(std::move(tiled));
     places.push_back({{layer.bounds, layer.world_from_layer}, layer.visible});
   }
 }
@@ -132,9 +142,10 @@ void Renderer::State::add_or_undo(const Add& add) {
     arrange();
   } catch (...) {
     if (soup_passes.size() > before) soup_passes.resize(before);  // they refer to the soups
-    splat_pass.reset();
+    drop_splat_pass();
     soups.resize(before);
     splats.resize(before);
+    tiled_splats.resize(before);
     places.resize(before);
     plan.layers.resize(before);
     arrange();
@@ -156,19 +167,14 @@ void Renderer::State::arrange() {
   std::uint32_t first_slot = 0;
   for (std::size_t i = 0; i < soups.size(); ++i) {
     if (splats[i]) splats[i]->set_layer(i);
+    if (tiled_splats[i]) tiled_splats[i]->layer = i;
     if (!soups[i]) continue;
     soups[i]->set_place(plan.soup(i), {i, first_slot, layered});
     first_slot += static_cast<std::uint32_t>(plan.soup(i).faces.size());
   }
-  splat_pass.reset();
+  drop_splat_pass();
   if (draws_layers && has_splats()) {
-    splat_pass = std::make_unique<SplatPass>(
-        device, splats,
-        splat_target == SplatTarget::rgba16f ||
-                (splat_target == SplatTarget::automatic && !device.float_blending)
-            ? SplatPass::Precision::half
-            : SplatPass::Precision::single);
-    splat_pass->splats().sort_with(splat_sorter.get());
+    make_splat_pass();
     size = glm::ivec2(0);  // the next frame calls its resize()
   }
   const bool all_made = !draws_layers || soup_passes.size() == soups.size();
@@ -183,12 +189,42 @@ void Renderer::State::arrange() {
   size = glm::ivec2(0);  // the next frame calls resize() of all passes
 }
 
+void Renderer::State::drop_splat_pass() {
+  splat_pass.reset();
+  ordered_splats = nullptr;
+}
+
+/// Tiles blend if they can blend all layers.
+void Renderer::State::make_splat_pass() {
+  if constexpr (has_tile_pass) {
+    std::vector<const TiledSplats*> tiled;
+    for (const std::unique_ptr<TiledSplats>& each : tiled_splats)
+      if (each) tiled.push_back(each.get());
+    const auto count = std::count_if(splats.begin(), splats.end(),
+                                     [](const auto& each) { return each != nullptr; });
+    if (tiled.size() == std::size_t(count)) {
+      splat_pass = std::make_unique<TilePass>(device, std::move(tiled));
+      return;
+    }
+  }
+  auto raster = std::make_unique<SplatPass>(
+      device, splats,
+      splat_format == SplatFormat::rgba16f ||
+              (splat_format == SplatFormat::automatic && !device.float_blending)
+          ? SplatPass::Precision::half
+          : SplatPass::Precision::single);
+  ordered_splats = &raster->splats();
+  ordered_splats->sort_with(splat_sorter.get());
+  splat_pass = std::move(raster);
+}
+
 void Renderer::State::remove(std::size_t layer) {
   const auto at = static_cast<std::ptrdiff_t>(layer);
   if (draws_layers) soup_passes.erase(soup_passes.begin() + at);
-  splat_pass.reset();
+  drop_splat_pass();
   soups.erase(soups.begin() + at);
   splats.erase(splats.begin() + at);
+  tiled_splats.erase(tiled_splats.begin() + at);
   places.erase(places.begin() + at);
   plan.layers.erase(plan.layers.begin() + at);
 }
@@ -286,11 +322,12 @@ void Renderer::add_layers(Renderer other) {
   assert(from.plan.reversed_depth == state.plan.reversed_depth);
   assert(state.places.size() + from.places.size() <= max_layers);
   from.soup_passes.clear();  // they refer to the soups
-  from.splat_pass.reset();
+  from.drop_splat_pass();
   state.add_or_undo([&] {
     for (std::size_t i = 0; i < from.soups.size(); ++i) {
       state.soups.push_back(std::move(from.soups[i]));
       state.splats.push_back(std::move(from.splats[i]));
+      state.tiled_splats.push_back(std::move(from.tiled_splats[i]));
       state.places.push_back(from.places[i]);
       state.plan.layers.push_back(std::move(from.plan.layers[i]));
     }
@@ -308,6 +345,7 @@ void Renderer::swap_layers(std::size_t a, std::size_t b) {
   assert((state.draws_layers || state.passes.empty()) && a < layer_count() && b < layer_count());
   std::swap(state.soups[a], state.soups[b]);
   std::swap(state.splats[a], state.splats[b]);
+  std::swap(state.tiled_splats[a], state.tiled_splats[b]);
   std::swap(state.places[a], state.places[b]);
   std::swap(state.plan.layers[a], state.plan.layers[b]);
   if (state.draws_layers) std::swap(state.soup_passes[a], state.soup_passes[b]);
@@ -323,7 +361,7 @@ void Renderer::set_passes(Passes passes) {
   state_->passes = std::move(passes);
   state_->draws_layers = false;
   state_->soup_passes.clear();
-  state_->splat_pass.reset();
+  state_->drop_splat_pass();
   state_->size = glm::ivec2(0);
 }
 
@@ -355,12 +393,12 @@ void Renderer::draw(const FrameInput& input, SplatOrdering order) {
 }
 
 void Renderer::sort_splats_with(std::unique_ptr<SplatSorter> sorter) {
-  if (state_->splat_pass) state_->splat_pass->splats().sort_with(sorter.get());
+  if (state_->ordered_splats) state_->ordered_splats->sort_with(sorter.get());
   state_->splat_sorter = std::move(sorter);
 }
 
 bool Renderer::splats_in_order() const {
-  return !state_->splat_pass || state_->splat_pass->splats().in_order();
+  return !state_->ordered_splats || state_->ordered_splats->in_order();
 }
 
 void Renderer::finish() const {

@@ -33,10 +33,14 @@ class Layer {
                      TilePixels& pixels) const = 0;
 };
 
-/// The splats with these indices, with harmonics up to `degree`. Copies them. Null for splats that
-/// this module does not support yet: neural densities, colours of corners, windows whose centre may
-/// lie behind the eye (a profile without min_center_depth), and more than 2^24 splats.
-std::unique_ptr<Layer> make_layer(const Splats& splats, std::span<const std::uint32_t> which,
-                                  int degree);
+/// Whether make_layer() supports the splats, drawn by this profile. It does not support neural
+/// densities, colours of corners, windows whose centre may lie behind the eye (a profile without
+/// min_center_depth), and more than 2^24 splats.
+bool has_layer_for(const Splats& splats, const SplatProfile& profile);
+
+/// The splats with these indices, with harmonics up to `degree`, for views of this profile. Copies
+/// them. Needs has_layer_for().
+std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& profile,
+                                  std::span<const std::uint32_t> which, int degree);
 
 }  // namespace tureen::splatting

@@ -63,6 +63,14 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       "shader of the shading pass, for scenes that have one: fragment (default) or compute",
       {{"measured", "use fragment, the default, or compute"}})
       .value_name("NAME");
+  add_choice<SplatBlending>(
+      command, "--blend", options.plan.splat_blending,
+      {{"auto", SplatBlending::automatic},
+       {"raster", SplatBlending::raster},
+       {"tiles", SplatBlending::tiles}},
+      "what blends splats: raster (the device), tiles (the processor), or auto (default: tiles on "
+      "software OpenGL, where the splats allow it)")
+      .value_name("NAME");
   command
       .add_option("--supersample", options.supersampling,
                   "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "
@@ -101,6 +109,8 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
   say_if_ignored(!preferences.specialise, "--no-specialise");
   if (preferences.as_published && splat_count(scene) == 0)
     say("--as-published has no effect: the scene has no splats");
+  if (preferences.splat_blending != SplatBlending::automatic && splat_count(scene) == 0)
+    say("--blend has no effect: the scene has no splats");
   preferences.quality = scene.quality;
   // Each option replaces the scene's complete quality setting; they exclude each other.
   if (options.supersampling) preferences.quality = {.supersampling = *options.supersampling};

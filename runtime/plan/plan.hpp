@@ -56,7 +56,8 @@ struct PlanPreferences {
   std::uint64_t max_alpha_cell_bytes = ~std::uint64_t(0);
   Quality quality = {};
   std::optional<SplatProfile> splat_profile = {};  // of all splats; default: their own
-  bool as_published = false;                       // SplatPlan::as_published
+  SplatBlending splat_blending = SplatBlending::automatic;
+  bool as_published = false;  // SplatPlan::as_published
 };
 
 /// The layout of lattice texels on the device.

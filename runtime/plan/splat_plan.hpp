@@ -19,6 +19,13 @@ enum class SplatShaders {
   neural_density,  // NeuralDensities
 };
 
+/// The way to blend splats.
+enum class SplatBlending {
+  automatic,  // tiles on software OpenGL, where the splats allow it; otherwise raster
+  raster,     // the device's rasteriser
+  tiles,      // the processor's vectors, tile by tile (splatting/)
+};
+
 inline constexpr std::size_t splats_per_chunk = 65'536;
 
 /// The method of drawing one layer of splats.

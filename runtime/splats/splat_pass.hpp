@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "runtime/gl/context.hpp"
-#include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/pass.hpp"
-#include "runtime/passes/targets.hpp"
 #include "runtime/splats/ordered_splats.hpp"
+#include "runtime/splats/splat_target.hpp"
 
 namespace tureen {
 
-class SplatPass final : public Pass {
+class SplatPass final : public SplatBlendingPass {
  public:
   /// Of the floats in which colours are blended.
   enum class Precision { single, half };
@@ -28,31 +27,18 @@ class SplatPass final : public Pass {
   /// For sort_with() and in_order().
   OrderedSplats& splats() { return splats_; }
 
-  const char* name() const override { return "splats"; }
   void resize(const FrameTarget& target) override;
   void draw(const Frame& frame, FrameTarget& target) override;
   std::size_t device_bytes() const override { return splats_.device_bytes(); }
   std::size_t target_bytes() const override;
   void leave_context() override;
 
-  /// The blended splats of the last frame, premultiplied RGBA, row 0 on top; colours may exceed 1.
-  /// Waits for the device.
-  std::vector<glm::vec4> read_blended() const;
+  std::vector<glm::vec4> read_blended() const override;
 
  private:
-  void blend(const Frame& frame, FrameTarget& target);
-  void resolve(FrameTarget& target);
-
-  const TargetFormat& blended_format() const;
-
-  Precision precision_;
   OrderedSplats splats_;
-  gl::Program resolve_;
-  FullScreen full_screen_;
-  glm::ivec2 size_{0};
-  gl::Texture blended_, behind_;
-  SplatFramebuffers blended_framebuffers_;
-  gl::Framebuffer behind_framebuffer_;
+  SplatTarget blended_;
+  SplatFramebuffers framebuffers_;
 };
 
 }  // namespace tureen

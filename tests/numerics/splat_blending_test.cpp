@@ -34,14 +34,14 @@ TEST(Numerics, B1_ThousandsOfFaintLayersAddUp) {
     profile.low_pass = SplatProfile::LowPass::none;
     const Scene scene = layers_of(layers, 1 / 250.0f, profile, false);
     const double expected = -std::expm1(layers * std::log1p(-double(1 / 250.0f)));
-    const auto error = [&](SplatTarget target) {
-      const auto blended = blended_by_device(scene, camera, {.splat_target = target});
+    const auto error = [&](SplatFormat target) {
+      const auto blended = blended_by_device(scene, camera, {.splat_format = target});
       return std::abs(double(blended[40].a) - expected);
     };
     // A rounding of half an epsilon to one epsilon for each layer, and those of an alpha.
     recorder.add({.at = double(layers),
-                  .naive = error(SplatTarget::rgba16f),
-                  .ours = error(SplatTarget::rgba32f),
+                  .naive = error(SplatFormat::rgba16f),
+                  .ours = error(SplatFormat::rgba32f),
                   .tolerance = (layers + 4) * epsilon});
   }
 }

@@ -124,8 +124,8 @@ TEST(Numerics, E7_ColoursBeyondHalfFloatsAreWhite) {
       return worst;
     };
     double ours = error(blended_by_tiles(scene, camera));
-    for (const SplatTarget target : {SplatTarget::rgba32f, SplatTarget::rgba16f})
-      ours = worse(ours, error(blended_by_device(scene, camera, {.splat_target = target})));
+    for (const SplatFormat target : {SplatFormat::rgba32f, SplatFormat::rgba16f})
+      ours = worse(ours, error(blended_by_device(scene, camera, {.splat_format = target})));
     const float red = 0.5f + (0.28209479f + 0.48860251f + 0.63078313f) * coefficient;
     // Halves have eleven digits, and each of three splats rounds the sum.
     recorder.add({.at = double(coefficient),

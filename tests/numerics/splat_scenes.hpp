@@ -21,9 +21,12 @@ inline Splats white_splats(SplatKernel kernel, const SplatProfile& profile) {
   return splats;
 }
 
-/// The blended splats: premultiplied RGBA, row 0 on top.
+/// The blended splats: premultiplied RGBA, row 0 on top. Rasterised, unless the options say
+/// otherwise.
 inline std::vector<glm::vec4> blended_by_device(const Scene& scene, const Camera& camera,
-                                                const RenderOptions& options = {}) {
+                                                RenderOptions options = {}) {
+  if (options.plan.splat_blending == SplatBlending::automatic)
+    options.plan.splat_blending = SplatBlending::raster;
   gl::Context& context = shared_context();
   Renderer renderer(context, prepare_scene(scene, device_limits(context.capabilities()), options),
                     options);

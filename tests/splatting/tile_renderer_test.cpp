@@ -30,7 +30,7 @@ void in_threads(std::size_t count, const std::function<void(std::size_t)>& body)
 std::unique_ptr<splatting::Layer> layer_of(const Splats& splats) {
   std::vector<std::uint32_t> all(count(splats));
   std::iota(all.begin(), all.end(), 0u);
-  return splatting::make_layer(splats, all, splats.color.degree);
+  return splatting::make_layer(splats, splats.profile, all, splats.color.degree);
 }
 
 /// RGBA of the splats of a scene whose layers lie at the origin.
@@ -119,7 +119,8 @@ TEST_P(TilesOfKind, BehindAnOpaqueSurfaceAreHidden) {
 TEST(Tiles, OfOtherSplatsAreNotSupported) {
   for (const SplatKind& kind : splat_kinds) {
     const std::string name = kind.name;
-    EXPECT_EQ(layer_of(random_splats(kind, 1, 0.1, 1)) == nullptr,
+    const Splats splats = random_splats(kind, 1, 0.1, 1);
+    EXPECT_EQ(!splatting::has_layer_for(splats, splats.profile),
               name == "neural" || name == "windows_per_corner")
         << name;
   }

@@ -116,7 +116,8 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  auto& [name, bounds, framed, world_from_layer, visible, soup, splats] = value;
+  // Pages do not blend in tiles.
+  auto& [name, bounds, framed, world_from_layer, visible, soup, splats, tiled_splats] = value;
   archive(name, bounds, framed, world_from_layer, visible);
   bool of_splats = splats.has_value();
   archive(of_splats);

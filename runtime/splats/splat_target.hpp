@@ -1,0 +1,54 @@
+// The texture with a frame's blended splats, which is composited over the frame's colours.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "runtime/gl/context.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/passes/frame_target.hpp"
+#include "runtime/passes/full_screen.hpp"
+#include "runtime/passes/pass.hpp"
+#include "runtime/passes/targets.hpp"
+
+namespace tureen {
+
+class SplatTarget {
+ public:
+  /// `format`: RGBA floats.
+  SplatTarget(gl::Api api, const TargetFormat& format);
+
+  /// Creates the textures; their contents are undefined. Throws DeviceLimitError.
+  void resize(glm::ivec2 size);
+  glm::ivec2 size() const { return size_; }
+  /// Premultiplied colours and alpha, row 0 at the bottom.
+  GLuint texture() const { return blended_.id(); }
+
+  /// Composites the texture over the colours of the frame.
+  void composite_over(FrameTarget& target);
+
+  /// Bytes of the textures, by their formats.
+  std::size_t bytes() const;
+  /// See Renderer::leave_context(). resize() must follow.
+  void leave_context();
+
+ private:
+  const TargetFormat& format_;
+  gl::Program resolve_;
+  FullScreen full_screen_;
+  glm::ivec2 size_{0};
+  gl::Texture blended_, behind_;
+  gl::Framebuffer behind_framebuffer_;
+};
+
+/// A pass that blends the splats of all layers, in a SplatTarget.
+class SplatBlendingPass : public Pass {
+ public:
+  const char* name() const override { return "splats"; }
+  /// The blended splats of the last frame, premultiplied RGBA, row 0 on top; colours may exceed 1.
+  /// Waits for the device.
+  virtual std::vector<glm::vec4> read_blended() const = 0;
+};
+
+}  // namespace tureen

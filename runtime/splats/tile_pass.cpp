@@ -1,0 +1,107 @@
+#include "runtime/splats/tile_pass.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "runtime/gl/state.hpp"
+#include "runtime/passes/shader_source.hpp"
+
+namespace tureen {
+
+TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers)
+    : layers_(std::move(layers)),
+      renderer_([this](std::size_t count, const std::function<void(std::size_t)>& body) {
+        pool_.run(count, body);
+      }),
+      blended_(device.api, target_formats::rgba32f),
+      depth_bits_(assemble({.file = "full_screen.vert"}, device.api),
+                  assemble({.file = "depth_bits.frag"}, device.api)) {}
+
+void TilePass::resize(const FrameTarget& target) {
+  const glm::ivec2 size = target.size();
+  blended_.resize(size);
+  rgba_.resize(4 * std::size_t(size.x) * std::size_t(size.y));
+  upside_down_.resize(rgba_.size());
+  bits_ = {};
+  bits_framebuffer_ = {};
+}
+
+void TilePass::draw(const Frame& frame, FrameTarget& target) {
+  std::vector<splatting::LayerInView> views;
+  for (const TiledSplats* each : layers_) {
+    const FrameCamera& camera = frame.layers[each->layer];
+    if (!camera.visible) continue;
+    views.push_back(
+        {each->splats.get(),
+         splatting::image_view(camera.camera, camera.eye, camera.range.near, each->profile,
+                               frame.input.whole.value_or(frame.input.camera)),
+         camera.scale});
+  }
+  if (views.empty()) {
+    std::fill(rgba_.begin(), rgba_.end(), 0.0f);
+    return;
+  }
+  read_depths(frame, target);
+  renderer_.draw(views, depths_, rgba_);
+  upload();
+  blended_.composite_over(target);
+}
+
+/// OpenGL ES can read back only colours, so a shader writes the depths as bits.
+void TilePass::read_depths(const Frame& frame, const FrameTarget& target) {
+  depths_.clear();
+  if (!target.has_depth()) return;
+  const glm::ivec2 size = target.size();
+  if (!bits_) {
+    bits_ = make_target(target_formats::r32ui, size.x, size.y);
+    bits_framebuffer_ = make_framebuffer({bits_.id()});
+  }
+  glDisable(GL_DEPTH_TEST);
+  glBindFramebuffer(GL_FRAMEBUFFER, bits_framebuffer_.id());
+  depth_bits_.use();
+  depth_bits_.set_texture("depth", 0, target.depth_texture());
+  full_screen_.draw(depth_bits_);
+  const std::vector<std::uint32_t> bits = read_visible_slots(bits_framebuffer_.id(), size);
+  const DepthStorage storage =
+      target.reversed_depth() ? DepthStorage::reversed_float : DepthStorage::fixed_24;
+  depths_.resize(bits.size());
+  constexpr std::size_t pixels_a_task = 1 << 14;
+  pool_.run((bits.size() + pixels_a_task - 1) / pixels_a_task, [&](std::size_t task) {
+    const std::size_t end = std::min((task + 1) * pixels_a_task, bits.size());
+    for (std::size_t i = task * pixels_a_task; i < end; ++i)
+      depths_[i] = float(distance_of(double(std::bit_cast<float>(bits[i])), frame.range, storage)
+                             .value_or(std::numeric_limits<double>::infinity()));
+  });
+}
+
+void TilePass::upload() {
+  const glm::ivec2 size = blended_.size();
+  const auto row_floats = 4 * std::size_t(size.x);
+  pool_.run(std::size_t(size.y), [&](std::size_t row) {
+    std::copy_n(rgba_.data() + row * row_floats, row_floats,
+                upside_down_.data() + (std::size_t(size.y) - 1 - row) * row_floats);
+  });
+  gl::use_plain_pixel_transfer();
+  glBindTexture(GL_TEXTURE_2D, blended_.texture());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, upside_down_.data());
+}
+
+std::vector<glm::vec4> TilePass::read_blended() const {
+  std::vector<glm::vec4> result(rgba_.size() / 4);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = {rgba_[4 * i], rgba_[4 * i + 1], rgba_[4 * i + 2], rgba_[4 * i + 3]};
+  return result;
+}
+
+std::size_t TilePass::target_bytes() const { return blended_.bytes(); }
+
+void TilePass::leave_context() {
+  blended_.leave_context();
+  full_screen_.leave_context();
+  bits_ = {};
+  bits_framebuffer_ = {};
+}
+
+}  // namespace tureen

@@ -1,0 +1,62 @@
+// Blends the splats of all layers over the frame's soups on the processor (splatting/), and
+// composites them over the frame's colours. On software OpenGL this takes a fraction of the time of
+// SplatPass (docs/benchmarks.md), and has the same picture.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/thread_pool.hpp"
+#include "runtime/gl/context.hpp"
+#include "runtime/passes/pass.hpp"
+#include "runtime/splats/splat_target.hpp"
+#include "splatting/tile_renderer.hpp"
+
+namespace tureen {
+
+/// A layer of splats for TilePass.
+struct TiledSplats {
+  std::unique_ptr<splatting::Layer> splats;
+  SplatProfile profile;
+  std::size_t layer = 0;  // index in Frame::layers
+};
+
+/// Whether this build has TilePass. Pages do not have it yet.
+#ifdef __EMSCRIPTEN__
+inline constexpr bool has_tile_pass = false;
+#else
+inline constexpr bool has_tile_pass = true;
+#endif
+
+class TilePass final : public SplatBlendingPass {
+ public:
+  /// `layers` outlive the pass; at most 255.
+  TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers);
+
+  void resize(const FrameTarget& target) override;
+  void draw(const Frame& frame, FrameTarget& target) override;
+  std::size_t target_bytes() const override;
+  void leave_context() override;
+
+  std::vector<glm::vec4> read_blended() const override;
+
+ private:
+  void read_depths(const Frame& frame, const FrameTarget& target);
+  void upload();
+
+  std::vector<const TiledSplats*> layers_;
+  ThreadPool pool_;
+  splatting::TileRenderer renderer_;
+  SplatTarget blended_;
+  gl::Program depth_bits_;
+  FullScreen full_screen_;
+  gl::Texture bits_;  // made when soups are drawn
+  gl::Framebuffer bits_framebuffer_;
+  // Row 0 on top.
+  std::vector<float> depths_;  // in world units, infinity where no soup is; empty: no soup anywhere
+  std::vector<float> rgba_;
+  std::vector<float> upside_down_;  // as OpenGL's textures
+};
+
+}  // namespace tureen
