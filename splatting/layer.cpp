@@ -1,6 +1,10 @@
 #include "splatting/layer.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "splatting/disc_layer.hpp"
 #include "splatting/gaussian_layer.hpp"
@@ -15,9 +19,37 @@ bool has_layer_for(const Splats& splats, const SplatProfile& profile) {
   return !std::holds_alternative<TriangleWindows>(splats.kernel) || profile.min_center_depth > 0;
 }
 
+namespace {
+
+template <class Vector>
+bool any_nan(const Vector& v) {
+  for (int i = 0; i < v.length(); ++i)
+    if (std::isnan(v[i])) return true;
+  return false;
+}
+
+bool has_nan(const Splats& splats, std::size_t i) {
+  const std::size_t per_splat = coefficients_per_splat(splats.color);
+  for (std::size_t k = 0; k < per_splat; ++k)
+    if (any_nan(splats.color.coefficients[per_splat * i + k])) return true;
+  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
+    return any_nan(windows->corners[3 * i]) || any_nan(windows->corners[3 * i + 1]) ||
+           any_nan(windows->corners[3 * i + 2]) || std::isnan(windows->sigma[i]) ||
+           std::isnan(windows->opacity[i]);
+  const auto& gaussians = std::get<Gaussians>(splats.kernel);
+  return any_nan(gaussians.centers[i]) || any_nan(gaussians.scales[i]) ||
+         any_nan(gaussians.rotations[i]) || std::isnan(gaussians.opacity[i]);
+}
+
+}  // namespace
+
 std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& profile,
                                   std::span<const std::uint32_t> which, int degree) {
   assert(has_layer_for(splats, profile));
+  std::vector<std::uint32_t> without_nan;
+  std::copy_if(which.begin(), which.end(), std::back_inserter(without_nan),
+               [&](std::uint32_t i) { return !has_nan(splats, i); });
+  which = without_nan;
   if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
     return std::make_unique<WindowLayer>(*windows, splats.color, which, degree);
   const auto& gaussians = std::get<Gaussians>(splats.kernel);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "splatting/layer.hpp"
 #include "tests/numerics/splat_scenes.hpp"
+#include "tests/numerics/splat_tiles.hpp"
 
 namespace tureen::test {
 namespace splat_blending_test {
@@ -132,7 +134,8 @@ TEST(Numerics, B3_ValuesThatAreNotFinitePoisonNoPixel) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Camera camera = straight_camera(8, 6, 8);
   const Scene behind = layers_of(1, 0.5f, *profile_named("3dgs"), false);
-  const std::vector<glm::vec4> clean = blended_by_device(behind, camera);
+  const std::vector<glm::vec4> cleans[] = {blended_by_device(behind, camera),
+                                           blended_by_tiles(behind, camera)};
   std::size_t kernel = 0;
   for (const NamedSplat& named : one_splat_of_each_kernel()) {
     Recorder recorder({.stressed = std::string("a number of a splat is not finite: ") + named.name,
@@ -145,18 +148,24 @@ TEST(Numerics, B3_ValuesThatAreNotFinitePoisonNoPixel) {
       for (std::size_t i = 0; i < named.numbers.size(); ++i) {
         NamedSplat bad = std::move(one_splat_of_each_kernel()[kernel]);
         *bad.numbers[i] = value;
+        const bool in_tiles = splatting::has_layer_for(bad.splats, bad.splats.profile);
         Scene scene = behind;
         scene.layers.push_back({.primitives = std::move(bad.splats)});
         gl::Context& context = shared_context();
-        const RenderOptions options{.plan = {.specialise = false}};
-        Renderer renderer(
-            context, prepare_scene(scene, device_limits(context.capabilities()), options), options);
-        renderer.draw({camera});
-        ours += std::isnan(value) ? double(renderer.read_splats() != clean)
-                                  : poisoned(renderer.read_splats());
-        renderer.show_layer(1, false);
-        renderer.draw({camera});
-        ours += double(renderer.read_splats() != clean);
+        for (const SplatBlending blending : {SplatBlending::raster, SplatBlending::tiles}) {
+          if (blending == SplatBlending::tiles && !in_tiles) continue;
+          const std::vector<glm::vec4>& clean = cleans[blending == SplatBlending::tiles];
+          const RenderOptions options{.plan = {.specialise = false, .splat_blending = blending}};
+          Renderer renderer(context,
+                            prepare_scene(scene, device_limits(context.capabilities()), options),
+                            options);
+          renderer.draw({camera});
+          ours += std::isnan(value) ? double(renderer.read_splats() != clean)
+                                    : poisoned(renderer.read_splats());
+          renderer.show_layer(1, false);
+          renderer.draw({camera});
+          ours += double(renderer.read_splats() != clean);
+        }
       }
       // A Gaussian with a rotation or a scale that is not finite.
       double naive = 0;

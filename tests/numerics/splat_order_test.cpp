@@ -139,7 +139,9 @@ TEST(Numerics, Z5_TheOrderAtRestIsThatOfTheView) {
                    24);
   };
   gl::Context& context = shared_context();
-  Renderer renderer(context, prepare_scene(scene, device_limits(context.capabilities()), {}), {});
+  const RenderOptions options{.plan = {.splat_blending = SplatBlending::raster}};
+  Renderer renderer(context, prepare_scene(scene, device_limits(context.capabilities()), options),
+                    options);
   for (const double turn : {1.0, 90.0, 180.0}) {
     const auto error = [&](std::unique_ptr<SplatSorter> sorter, bool until_at_rest,
                            const std::vector<glm::vec4>& expected) {
