@@ -24,7 +24,8 @@ std::unique_ptr<splatting::Layer> tiled_splats(const Splats& splats, const Splat
       return splatting::make_layer(splats, plan.profile, plan.drawn, plan.harmonics_degree);
   }
   if (blending == SplatBlending::tiles)
-    throw UsageError("tiles cannot blend these splats: " + plan.kernel);
+    throw UsageError("tiles cannot blend these splats: " + plan.kernel,
+                     "--blend raster can, and auto chooses it");
   return nullptr;
 }
 

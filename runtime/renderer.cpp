@@ -194,7 +194,7 @@ void Renderer::State::drop_splat_pass() {
   ordered_splats = nullptr;
 }
 
-/// Tiles blend if they can blend all layers.
+/// Tiles blend if they can blend all layers, otherwise the device does.
 void Renderer::State::make_splat_pass() {
   if constexpr (has_tile_pass) {
     std::vector<const TiledSplats*> tiled;
@@ -202,7 +202,7 @@ void Renderer::State::make_splat_pass() {
       if (each) tiled.push_back(each.get());
     const auto count = std::count_if(splats.begin(), splats.end(),
                                      [](const auto& each) { return each != nullptr; });
-    if (tiled.size() == std::size_t(count)) {
+    if (tiled.size() == std::size_t(count) && tiled.size() <= TilePass::max_layers) {
       splat_pass = std::make_unique<TilePass>(device, std::move(tiled));
       return;
     }

@@ -38,8 +38,8 @@ class Layer {
 /// min_center_depth), and more than 2^24 splats.
 bool has_layer_for(const Splats& splats, const SplatProfile& profile);
 
-/// The splats with these indices, with harmonics up to `degree`, for views of this profile; those
-/// with a NaN are left out. Copies them. Needs has_layer_for().
+/// A copy of the splats with these indices that have no NaN, with harmonics up to `degree`, for
+/// views of this profile. The splats fulfil has_layer_for().
 std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& profile,
                                   std::span<const std::uint32_t> which, int degree);
 

@@ -17,7 +17,7 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
       }),
       blended_(device.api, target_formats::rgba32f),
       depth_bits_(assemble({.file = "full_screen.vert"}, device.api),
-                  assemble({.file = "depth_bits.frag"}, device.api)) {}
+                  assemble({.file = "depth_probe.frag"}, device.api)) {}
 
 void TilePass::resize(const FrameTarget& target) {
   const glm::ivec2 size = target.size();
@@ -62,6 +62,7 @@ void TilePass::read_depths(const Frame& frame, const FrameTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, bits_framebuffer_.id());
   depth_bits_.use();
   depth_bits_.set_texture("depth", 0, target.depth_texture());
+  depth_bits_.set("pixel", glm::ivec2(0));
   full_screen_.draw(depth_bits_);
   const std::vector<std::uint32_t> bits = read_visible_slots(bits_framebuffer_.id(), size);
   const DepthStorage storage =
@@ -95,7 +96,9 @@ std::vector<glm::vec4> TilePass::read_blended() const {
   return result;
 }
 
-std::size_t TilePass::target_bytes() const { return blended_.bytes(); }
+std::size_t TilePass::target_bytes() const {
+  return blended_.bytes() + (bits_ ? bytes_of(target_formats::r32ui, blended_.size()) : 0);
+}
 
 void TilePass::leave_context() {
   blended_.leave_context();

@@ -31,7 +31,10 @@ inline constexpr bool has_tile_pass = true;
 
 class TilePass final : public SplatBlendingPass {
  public:
-  /// `layers` outlive the pass; at most 255.
+  /// Of splatting::TileRenderer.
+  static constexpr std::size_t max_layers = 255;
+
+  /// `layers` outlive the pass; at most max_layers.
   TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers);
 
   void resize(const FrameTarget& target) override;

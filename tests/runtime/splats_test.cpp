@@ -212,7 +212,6 @@ TEST_P(SplatsOfKind, AreBlendedInTilesOnSoftwareDevices) {
     renderer.draw({camera_of_ball(2.5, 120, 90)});
     return renderer.read_splats();
   };
-  if (!context.capabilities().software) GTEST_SKIP() << "a GPU";
   const std::vector<glm::vec4> raster = image(SplatBlending::raster);
   const std::vector<glm::vec4> automatic = image(SplatBlending::automatic);
   if (blendings_of(scene).size() == 1) {
@@ -220,11 +219,12 @@ TEST_P(SplatsOfKind, AreBlendedInTilesOnSoftwareDevices) {
     EXPECT_THROW(image(SplatBlending::tiles), UsageError);
     return;
   }
-  EXPECT_EQ(automatic, image(SplatBlending::tiles));
+  const std::vector<glm::vec4> tiles = image(SplatBlending::tiles);
+  EXPECT_EQ(automatic, context.capabilities().software ? tiles : raster);
   std::vector<double> errors;
   for (std::size_t i = 0; i < raster.size(); ++i)
     for (int channel = 0; channel < 4; ++channel)
-      errors.push_back(std::abs(double(raster[i][channel]) - double(automatic[i][channel])));
+      errors.push_back(std::abs(double(raster[i][channel]) - double(tiles[i][channel])));
   // 55 dB and half a step are asked for. Tiles follow the authors' stop at T < 1e-4, raster does
   // not, as in expect_agreement().
   const Difference difference = difference_of(errors);
