@@ -45,12 +45,7 @@ struct Discs {
     Floats h_sum = hn::Zero(d), screen_x = hn::Zero(d), screen_y = hn::Zero(d);
     for (std::size_t part = 0; part < parts; ++part) {
       const DiscAt at(entry, constants, block.x[part], block.y[part]);
-      const Floats log_alpha = at.log_alpha(entry);
-      const Mask covered = hn::Ge(log_alpha, min_log_alpha);
-      const Floats unlimited = alpha_of(entry, log_alpha);
-      const Floats alpha = hn::Min(unlimited, constant(view.max_alpha));
-      const Floats ratio = hn::Div(alpha, hn::Sub(constant(1.0f), alpha));
-      const auto [weight, h] = blend_again(view, entry, covered, unlimited, ratio, block, part);
+      const auto [weight, h] = blend_again(*this, entry, at.log_alpha(entry), block, part);
       h_sum = hn::Add(h_sum, h);
       const Floats filtered = hn::IfThenElseZero(at.filtered, h);
       screen_x = hn::MulAdd(filtered, at.dx, screen_x);

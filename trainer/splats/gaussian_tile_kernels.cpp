@@ -41,11 +41,7 @@ struct Gaussians {
   HWY_INLINE void replay(const Entry& entry, BlockGradient& block, float* values, float*) const {
     for (std::size_t part = 0; part < parts; ++part) {
       const Floats value = value_of(entry, block.x[part], block.y[part]);
-      const Mask covered = hn::Ge(value, min_log_alpha);
-      const Floats unlimited = alpha_of(entry, value);
-      const Floats alpha = hn::Min(unlimited, constant(view.max_alpha));
-      const Floats ratio = hn::Div(alpha, hn::Sub(constant(1.0f), alpha));
-      const auto [weight, h] = blend_again(view, entry, covered, unlimited, ratio, block, part);
+      const auto [weight, h] = blend_again(*this, entry, value, block, part);
       PixelValues<2>::store(h, weight, values + 2 * part * lanes);
     }
   }

@@ -1,7 +1,7 @@
 // The loops over the splats of a tile in training, for any kernel. Included once for each target of
 // Highway.
 //
-// A kernel is a struct with constants of the view, and
+// A kernel is a struct with constants of the view, `view` itself, and
 //   Entry, Moments
 //   value_of(entry, x, y)     a value at pixels, below the threshold where the entry is not drawn
 //   threshold_of(entry)       the entry covers the pixels whose value is at least this
@@ -337,6 +337,17 @@ HWY_INLINE Replayed blend_again(const ImageView& view, const Entry& entry, Mask 
   transmittance = hn::IfThenElse(blended, after, transmittance);
   transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
   return result;
+}
+
+/// The same for an entry with this value at the pixels.
+template <class Kernel>
+HWY_INLINE Replayed blend_again(const Kernel& kernel, const typename Kernel::Entry& entry,
+                                Floats value, BlockGradient& block, std::size_t part) {
+  const Mask covered = hn::Ge(value, kernel.threshold_of(entry));
+  const Floats unlimited = kernel.alpha_of(entry, value);
+  const Floats alpha = hn::Min(unlimited, constant(kernel.view.max_alpha));
+  const Floats ratio = hn::Div(alpha, hn::Sub(constant(1.0f), alpha));
+  return blend_again(kernel.view, entry, covered, unlimited, ratio, block, part);
 }
 
 /// Blends the recorded splats of a tile again, for their moments.
