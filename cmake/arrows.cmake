@@ -22,7 +22,7 @@ set(arrows
   "trainer/common: base image scene"
   "trainer/diffsoup: base image scene trainer/common"
   "trainer/splats: base image scene splatting trainer/common"
-  "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes"
+  "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"

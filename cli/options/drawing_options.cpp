@@ -38,7 +38,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       {{"auto", PipelineKind::tureen},
        {"baseline", PipelineKind::baseline},
        {"published", PipelineKind::baseline}},
-      "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
+      "pipeline: auto (default, Tureen's own) or baseline (soups as in DiffSoup's viewer, "
+      "splats as instanced quads)")
       .value_name("NAME");
   const Option no_specialise = command.add_flag(
       "--no-specialise", [&options] { options.plan.specialise = false; },
@@ -92,7 +93,7 @@ void add_drawing_scale(Command& command, DrawingOptions& options) {
 }
 
 void apply_opaque(Scene& scene, const DrawingOptions& options) {
-  if (options.opaque || options.pipeline == PipelineKind::baseline) make_opaque(scene);
+  if (options.opaque) make_opaque(scene);
 }
 
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options) {

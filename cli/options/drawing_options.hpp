@@ -27,11 +27,11 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
 /// --context. `backend` must live until the arguments are parsed.
 void add_context_option(Command& command, gl::Backend& backend);
 
-/// Applies --opaque, which the baseline implies: it draws no splats. Throws as make_opaque.
+/// Applies --opaque. Throws as make_opaque.
 void apply_opaque(Scene& scene, const DrawingOptions& options);
 
-/// --context, --pipeline, --no-specialise, --keep, --shading, --supersample and --opaque. `options`
-/// must live until the arguments are parsed.
+/// --context, --pipeline, --no-specialise, --keep, --shading, --blend, --supersample and --opaque.
+/// `options` must live until the arguments are parsed.
 void add_drawing_options(Command& command, DrawingOptions& options);
 
 /// --scale, after add_drawing_options. Commands whose --scale resizes photographs cannot have it.

@@ -1,11 +1,19 @@
-// The baseline: our reimplementation of the pipeline in DiffSoup's viewer (arXiv 2603.27151), the
-// reference of all claims about speed. And the choice between the baseline and our own pipeline,
-// for programs that offer both.
+// The baselines, the references of all claims about speed. And the choice between them and our own
+// pipeline, for programs that offer both.
 //
-// The baseline has the viewer's shortcomings too. It draws only lattice textures with a color
-// MLP, and all faces must have the same lattice level. The texels are in lookup textures, which
-// must fit within the device's limit for 2D textures. It has no specialisations.
-// Renderer::read_faces() returns nothing, because its passes store no face indices.
+// Of soups: our reimplementation of the pipeline in DiffSoup's viewer (arXiv 2603.27151). It has
+// the viewer's shortcomings too. It draws only lattice textures with a color MLP, and all faces
+// must have the same lattice level. The texels are in lookup textures, which must fit within the
+// device's limit for 2D textures. Renderer::read_faces() returns nothing, because its passes store
+// no face indices.
+//
+// Of splats: the plain way that WebGL viewers of Gaussians use (splat_baseline_pass.hpp). It draws
+// Gaussians by EWA splatting as the ellipse within sqrt(8) standard deviations, and triangle
+// windows as their boxes; windows with a corner behind the near plane are not drawn. It is less
+// exact than ours: alpha is not limited, a Gaussian ends where its alpha is still e^-4 of the
+// opacity, and each splat is rounded to 8 bits. Renderer::read_splats() returns nothing.
+//
+// Neither has specialisations.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,7 +22,7 @@
 #include "runtime/plan/plan.hpp"
 #include "runtime/render_options.hpp"
 #include "runtime/renderer.hpp"
-#include "scene/triangle_soup.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -30,16 +38,35 @@ enum class PipelineKind {
 /// and for a quality with a defect().
 RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences = {});
 
+/// The same for splats. Throws UsageError for discs, neural densities, colours of corners and
+/// PlanPreferences::as_published.
+RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& preferences = {});
+RenderPlan make_baseline_plan(const Primitives& primitives,
+                              const PlanPreferences& preferences = {});
+
 /// The soup with the baseline's passes. The plan is from make_baseline_plan for this soup, which
 /// must not move until a Renderer was made. The Renderer throws DeviceLimitError if the lookup
 /// textures exceed `limits`.
 PreparedScene prepare_baseline(const PlacedSoup& layer, const DeviceLimits& limits,
                                RenderPlan plan);
 
+/// Splats with their place.
+struct PlacedSplats {
+  const Splats& splats;
+  glm::dmat4 world_from_layer{1.0};
+  std::string name = {};
+  bool visible = true;
+};
+/// The same for splats, and for either.
+PreparedScene prepare_baseline(const PlacedSplats& layer, const DeviceLimits& limits,
+                               RenderPlan plan);
+PreparedScene prepare_baseline(const PlacedLayer& layer, const DeviceLimits& limits,
+                               RenderPlan plan);
+
 /// Plans and uploads for this pipeline. Throws as prepare_scene, make_baseline_plan and Renderer.
 Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                        PipelineKind kind, const RenderOptions& options = {});
-/// The same for a scene of soups. Throws as only_layer for the baseline, which draws one layer.
+/// The same for a scene. Throws as only_layer for the baseline, which draws one layer.
 Renderer make_renderer(const gl::Context& context, const Scene& scene, PipelineKind kind,
                        const RenderOptions& options = {});
 

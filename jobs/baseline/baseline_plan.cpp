@@ -1,4 +1,4 @@
-// The plan of the baseline, and its English.
+// The plans of the baselines, and their English.
 #include "base/error.hpp"
 #include "jobs/baseline/baseline.hpp"
 #include "runtime/plan/face_alpha.hpp"
@@ -48,6 +48,37 @@ RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& p
   plan.specialise = preferences.specialise;
   plan.description = description_of(preferences);
   return plan;
+}
+
+RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& preferences) {
+  if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
+  SplatPlan layer =
+      make_splat_plan(splats, {.specialise = false, .profile = preferences.splat_profile});
+  if (layer.shaders != SplatShaders::windows && layer.shaders != SplatShaders::gaussians)
+    throw UsageError(
+        "the baseline supports triangle windows, and Gaussians by EWA splatting; this scene has " +
+        layer.kernel);
+  if (splats.color.per_corner)
+    throw UsageError("the baseline supports only one colour a window, not one a corner");
+  if (preferences.as_published) throw UsageError("the baseline does not support --as-published");
+  RenderPlan plan;
+  plan.quality = preferences.quality;
+  plan.specialise = preferences.specialise;
+  plan.description = {
+      "baseline: an instanced quad a splat (" + layer.kernel +
+      "), everything of a splat computed at its four vertices, blended from far to near in 8 bits, "
+      "in the order of 16-bit depths"};
+  for (std::string& sentence : describe_sampling(preferences.quality))
+    plan.description.push_back(std::move(sentence));
+  if (preferences.splat_blending != SplatBlending::automatic)
+    plan.description.emplace_back("--blend has no effect: the baseline blends in its own way");
+  plan.layers.emplace_back(std::move(layer));
+  return plan;
+}
+
+RenderPlan make_baseline_plan(const Primitives& primitives, const PlanPreferences& preferences) {
+  return std::visit([&](const auto& each) { return make_baseline_plan(each, preferences); },
+                    primitives);
 }
 
 }  // namespace tureen

@@ -16,14 +16,16 @@ namespace {
 
 constexpr const char* ours = "tureen";
 constexpr const char* generic = "generic";
+constexpr const char* by_raster = "raster";
+constexpr const char* in_tiles = "tiles";
 constexpr const char* in_fragments = "tureen-fragment";
 constexpr const char* as_compute = "tureen-compute";
 /// The name in result files. It equals that of earlier versions, so that --against can compare.
 constexpr const char* baseline = "published";
 constexpr const char* triangles = "triangles";
 constexpr const char* copy = "copy";
-const std::vector<std::string> all_names{ours,       in_fragments, as_compute, generic,
-                                         "baseline", baseline,     triangles,  copy};
+const std::vector<std::string> all_names{ours,    in_fragments, as_compute, by_raster, in_tiles,
+                                         generic, "baseline",   baseline,   triangles, copy};
 
 constexpr double bytes_per_mib = 1 << 20;
 
@@ -37,7 +39,7 @@ class RendererCase final : public BenchCase {
  public:
   RendererCase(const std::string& name, const gl::Context& context, const Scene& scene,
                PipelineKind pipeline, const PlanPreferences& preferences)
-      : context_(context), scene_(scene) {
+      : context_(context), scene_(scene), pipeline_(pipeline) {
     configuration.name = name;
     const DeviceLimits limits = device_limits(context.capabilities());
     auto start = std::chrono::steady_clock::now();
@@ -46,18 +48,18 @@ class RendererCase final : public BenchCase {
       start = std::chrono::steady_clock::now();
     };
     PreparedScene prepared;
-    if (splat_count(scene) > 0) {
+    if (pipeline == PipelineKind::baseline) {
+      RenderPlan plan = make_baseline_plan(only_layer(scene).primitives, preferences);
+      planned();
+      prepared = prepare_baseline(placed_layers(scene).front(), limits, std::move(plan));
+    } else if (splat_count(scene) > 0) {
       prepared = prepare_scene(scene, limits, {.plan = preferences});
       planned();
+      tiles_ = prepared.layers.front().tiled_splats != nullptr;
     } else {
-      const auto& soup = only_soup(scene);
-      const bool is_baseline = pipeline == PipelineKind::baseline;
-      RenderPlan plan = is_baseline ? make_baseline_plan(soup, preferences)
-                                    : make_plan(soup, limits, preferences);
+      RenderPlan plan = make_plan(only_soup(scene), limits, preferences);
       planned();
-      prepared = is_baseline
-                     ? prepare_baseline(placed_soups(scene).front(), limits, std::move(plan))
-                     : prepare_scene(placed_soups(scene), limits, std::move(plan));
+      prepared = prepare_scene(placed_soups(scene), limits, std::move(plan));
     }
     const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     renderer_ = std::make_unique<Renderer>(context, std::move(prepared), options);
@@ -77,12 +79,15 @@ class RendererCase final : public BenchCase {
   }
   std::optional<double> order_ms(std::span<const Camera> cameras,
                                  const std::function<double()>& clock) const override {
-    return tureen::order_ms(scene_, cameras, clock);
+    return tureen::order_ms(scene_, pipeline_, cameras, clock);
   }
+  bool blends_in_tiles() const override { return tiles_; }
 
  private:
   const gl::Context& context_;
   const Scene& scene_;
+  PipelineKind pipeline_;
+  bool tiles_ = false;
   std::unique_ptr<Renderer> renderer_;
 };
 
@@ -142,11 +147,15 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
   }
   if (name == in_fragments) plan.shading_stage = ShadingStage::fragment;
   if (name == as_compute) plan.shading_stage = ShadingStage::compute;
+  if (name == by_raster) plan.splat_blending = SplatBlending::raster;
+  if (name == in_tiles) plan.splat_blending = SplatBlending::tiles;
   std::vector<std::string> options;
+  if (plan.splat_blending == SplatBlending::raster) options = {"--blend", "raster"};
+  if (plan.splat_blending == SplatBlending::tiles) options = {"--blend", "tiles"};
   if (plan.shading_stage == ShadingStage::compute)
-    options = {"--shading", "compute"};
+    options.insert(options.end(), {"--shading", "compute"});
   else if (name == in_fragments)
-    options = {"--shading", "fragment"};
+    options.insert(options.end(), {"--shading", "fragment"});
   if (name == triangles) {
     plan.site = ShadingSite::nowhere;
     plan.shading_stage = ShadingStage::fragment;  // nothing is shaded
@@ -167,10 +176,11 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
 std::unique_ptr<BenchCase> make_case(const std::string& name, const BenchCaseOptions& options,
                                      const gl::Context& context, const Scene& scene) {
   if (name == copy) return std::make_unique<CopyCase>(context);
-  if (splat_count(scene) > 0 && name != ours)
-    throw UsageError(
-        "splats have no specialisations and no second shading stage, and the baseline and the "
-        "ceiling 'triangles' draw only triangles");
+  const bool has_splats = splat_count(scene) > 0;
+  if (has_splats && (name == in_fragments || name == as_compute || name == triangles))
+    throw UsageError("the case '" + name + "' is only of triangles; this scene has splats");
+  if (!has_splats && (name == by_raster || name == in_tiles))
+    throw UsageError("the case '" + name + "' is only of splats; this scene has triangles");
   const Setting setting = setting_of(name, options.plan);
   auto bench_case =
       std::make_unique<RendererCase>(name, context, scene, setting.pipeline, setting.plan);
@@ -202,6 +212,9 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
     };
     try {
       result.list.push_back(make_case(name, options, context, scene));
+      // The other way to blend, for comparison.
+      if (options.only.empty() && name == ours && result.list.back()->blends_in_tiles())
+        result.list.push_back(make_case(by_raster, options, context, scene));
     } catch (const UsageError& error) {
       skip(error);
     } catch (const DeviceLimitError& error) {

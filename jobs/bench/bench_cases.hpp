@@ -1,6 +1,7 @@
-// The cases of `tureen bench`: the plan, optionally with either shading stage; the same pipeline
-// without specialisations; the baseline; and two upper limits of the speed (ceilings): the
-// triangles with an empty fragment shader, and a copy of the same number of pixels.
+// The cases of `tureen bench`: the plan, optionally with either shading stage, or with either way
+// to blend splats; the same pipeline without specialisations; the baseline; and two upper limits of
+// the speed (ceilings): the triangles with an empty fragment shader, and a copy of the same number
+// of pixels.
 #pragma once
 
 #include <functional>
@@ -44,6 +45,8 @@ class BenchCase {
                                          const std::function<double()>& /*clock*/) const {
     return std::nullopt;
   }
+  /// Whether TilePass blends the scene's splats.
+  virtual bool blends_in_tiles() const { return false; }
 
   BenchConfiguration configuration;  // its description in the result
 
@@ -64,12 +67,13 @@ struct BenchCases {
 };
 
 /// Plans and uploads each case of a scene with one layer; the times are in
-/// BenchCase::configuration. The scene must outlive the cases. By default: the plan,
-/// the same without specialisations, and the baseline. With --no-specialise or --pipeline baseline
-/// only that case is made, plus the ceilings if requested. A case that fails with UsageError or
-/// DeviceLimitError is skipped. The error is rethrown if options.only names cases; the first error
-/// is rethrown if no case is left. Splats have only the plan and the copy: other cases throw
-/// UsageError.
+/// BenchCase::configuration. The scene must outlive the cases. By default: the plan, the same by
+/// raster if the plan blends splats in tiles, the same without specialisations, and the baseline.
+/// With --no-specialise or --pipeline baseline only that case is made, plus the ceilings if
+/// requested. A case that fails with UsageError or DeviceLimitError is skipped. The error is
+/// rethrown if options.only names cases; the first error is rethrown if no case is left. The
+/// shading stages and the ceiling of triangles are only of soups, and the ways to blend only of
+/// splats: other scenes throw UsageError.
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene);
 

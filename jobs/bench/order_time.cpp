@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "jobs/baseline/splat_baseline_order.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/splats/ordered_splats.hpp"
 
@@ -19,7 +20,8 @@ double steady_seconds() {
 
 }  // namespace
 
-std::optional<double> order_ms(const Scene& scene, std::span<const Camera> cameras,
+std::optional<double> order_ms(const Scene& scene, PipelineKind pipeline,
+                               std::span<const Camera> cameras,
                                const std::function<double()>& clock) {
   assert(!cameras.empty());
   struct Centers {
@@ -36,15 +38,22 @@ std::optional<double> order_ms(const Scene& scene, std::span<const Camera> camer
   if (layers.empty()) return std::nullopt;
   const auto now = [&] { return clock ? clock() : steady_seconds(); };
   SplatOrder order;
+  SplatBaselineOrder baseline;
   double seconds = 0;
   for (const Camera& camera : cameras) {
+    std::vector<FrameCamera> in_layers;
     std::vector<SplatsInView> views;
-    for (const Centers& layer : layers)
-      views.push_back(in_view(layer.centers, camera_in_layer(camera, layer.world_from_layer, {})));
+    for (const Centers& layer : layers) {
+      in_layers.push_back(camera_in_layer(camera, layer.world_from_layer, {}));
+      views.push_back(in_view(layer.centers, in_layers.back()));
+    }
     double best = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < 3; ++repeat) {
       const double start = now();
-      order.sort(views);
+      if (pipeline == PipelineKind::tureen)
+        order.sort(views);
+      else
+        baseline.sort(layers.front().centers, in_layers.front());
       best = std::min(best, now() - start);
     }
     seconds += best;

@@ -6,15 +6,17 @@
 #include <optional>
 #include <span>
 
+#include "jobs/baseline/baseline.hpp"
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
 
-/// Milliseconds a view for sorting all splats by SplatOrder: the mean over the cameras of the best
-/// of three times. Empty without splats. `clock` is in seconds; null: the steady clock. Asserts
-/// cameras.
-std::optional<double> order_ms(const Scene& scene, std::span<const Camera> cameras,
+/// Milliseconds a view for sorting all splats, by SplatOrder or by the baseline's order: the mean
+/// over the cameras of the best of three times. Empty without splats. `clock` is in seconds; null:
+/// the steady clock. Asserts cameras.
+std::optional<double> order_ms(const Scene& scene, PipelineKind pipeline,
+                               std::span<const Camera> cameras,
                                const std::function<double()>& clock = nullptr);
 
 }  // namespace tureen
