@@ -8,13 +8,6 @@
 
 namespace tureen {
 
-/// The texture in which splats are blended.
-enum class SplatFormat {
-  automatic,  // rgba32f where the device blends it, otherwise rgba16f
-  rgba32f,
-  rgba16f,  // about 52 dB: near an alpha of 1 its step is 1/2048, and faint splats vanish
-};
-
 struct RenderOptions {
   PlanPreferences plan = {};
   /// Display-referred colour and alpha (0: transparent) of pixels without a face.

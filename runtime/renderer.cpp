@@ -207,12 +207,7 @@ void Renderer::State::make_splat_pass() {
       return;
     }
   }
-  auto raster = std::make_unique<SplatPass>(
-      device, splats,
-      splat_format == SplatFormat::rgba16f ||
-              (splat_format == SplatFormat::automatic && !device.float_blending)
-          ? SplatPass::Precision::half
-          : SplatPass::Precision::single);
+  auto raster = std::make_unique<SplatPass>(device, splats, splat_format);
   ordered_splats = &raster->splats();
   ordered_splats->sort_with(splat_sorter.get());
   splat_pass = std::move(raster);

@@ -69,7 +69,7 @@ void SplatBaselinePass::draw(const Frame& frame, FrameTarget& target) {
   const glm::vec4& background = frame.background;
   const bool opaque = background.a == 1.0f;
   if (!opaque && !transparent_) {
-    transparent_.emplace(device_.api, target_formats::rgba8);
+    transparent_.emplace(device_.api, BlendFormat{target_formats::rgba8});
     transparent_->resize(size_);
     transparent_framebuffer_ = make_framebuffer({transparent_->texture()});
   }

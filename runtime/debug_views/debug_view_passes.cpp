@@ -170,10 +170,8 @@ std::vector<T*> present(std::span<const std::unique_ptr<T>> layers) {
 /// The final colours of the splats, or of some of them.
 std::unique_ptr<Pass> splat_color_pass(std::span<const std::unique_ptr<DeviceSplats>> splats,
                                        float fraction) {
-  const gl::Capabilities& device = present(splats).front()->device();
-  return std::make_unique<SplatPass>(
-      device, splats,
-      device.float_blending ? SplatPass::Precision::single : SplatPass::Precision::half, fraction);
+  return std::make_unique<SplatPass>(present(splats).front()->device(), splats,
+                                     SplatFormat::automatic, fraction);
 }
 
 /// Measures the splats, if there are any, and the soups. `counts` as MeasurePass::Inputs.

@@ -95,6 +95,16 @@ bool has_float_blending(Api api) {
 #endif
 }
 
+bool has_norm16_targets(Api api) {
+#ifdef __EMSCRIPTEN__
+  (void)api;
+  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
+                                           "EXT_texture_norm16");
+#else
+  return api == Api::desktop || has_extension("GL_EXT_texture_norm16");
+#endif
+}
+
 bool has_clip_control(Api api, int version) {
 #ifdef __EMSCRIPTEN__
   (void)api, (void)version;
@@ -160,6 +170,7 @@ Capabilities query_capabilities(Api api) {
   result.compute_shaders = has_compute_shaders(api, version);
   result.float_targets = has_float_targets(api);
   result.float_blending = result.float_targets && has_float_blending(api);
+  result.norm16_targets = has_norm16_targets(api);
   return result;
 }
 

@@ -39,6 +39,7 @@ struct Capabilities {
   bool compute_shaders = false;  // with writable images: OpenGL 4.3, ES 3.1
   bool float_targets = false;    // draws into textures of 32-bit and 16-bit floats
   bool float_blending = false;   // also blends in those of 32 bits
+  bool norm16_targets = false;   // draws into textures of 16-bit fractions
 };
 
 /// Whether this GL_RENDERER is a software renderer: llvmpipe, SwiftShader and similar.

@@ -1,6 +1,7 @@
 #include "runtime/passes/targets.hpp"
 
 #include <algorithm>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/vec4.hpp>
 #include <string>
 
@@ -98,6 +99,15 @@ Image8 read_pixels(GLuint framebuffer, int width, int height) {
 std::vector<glm::vec4> read_float_pixels(GLuint framebuffer, glm::ivec2 size) {
   std::vector<glm::vec4> pixels;
   read_to(pixels, framebuffer, size, GL_RGBA, GL_FLOAT);
+  return pixels;
+}
+
+std::vector<glm::vec4> read_fraction_pixels(GLuint framebuffer, glm::ivec2 size) {
+  std::vector<glm::u16vec4> stored;
+  read_to(stored, framebuffer, size, GL_RGBA, GL_UNSIGNED_SHORT);
+  std::vector<glm::vec4> pixels;
+  pixels.reserve(stored.size());
+  for (const glm::u16vec4& pixel : stored) pixels.push_back(glm::vec4(pixel) / 65535.0f);
   return pixels;
 }
 

@@ -21,6 +21,9 @@ struct TargetFormat {
 
 namespace target_formats {
 inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+/// Fractions of 16 bits: GL_RGBA16, and in ES GL_RGBA16_EXT, with Capabilities::norm16_targets.
+inline constexpr TargetFormat rgba16{0x805B, GL_RGBA, GL_UNSIGNED_SHORT, 8};
+inline constexpr TargetFormat r8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr TargetFormat rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 inline constexpr TargetFormat r32ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
@@ -64,6 +67,8 @@ Image8 read_pixels(GLuint framebuffer, int width, int height);
 
 /// The same for floats.
 std::vector<glm::vec4> read_float_pixels(GLuint framebuffer, glm::ivec2 size);
+/// The same for fractions of 16 bits, which ES does not convert to floats.
+std::vector<glm::vec4> read_fraction_pixels(GLuint framebuffer, glm::ivec2 size);
 
 /// The slots that shaders/visibility.frag wrote to a framebuffer, row 0 on top; no_face for the
 /// background. Waits for the device.

@@ -1,9 +1,13 @@
 #include "runtime/plan/splat_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
 #include <span>
 
 #include "base/error.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
@@ -14,6 +18,29 @@ SplatShaders shaders_of(const SplatKernel& kernel, const SplatProfile& profile) 
   if (std::holds_alternative<NeuralDensities>(kernel)) return SplatShaders::neural_density;
   return profile.projection == SplatProfile::Projection::plane ? SplatShaders::discs
                                                                : SplatShaders::gaussians;
+}
+
+/// SplatPlan::largest_color. The squares of the functions of band l add up to (2 l + 1) / (4 pi) in
+/// every direction, which bounds the band by Cauchy's inequality.
+float largest_color(const SplatColor& color, std::span<const std::uint32_t> drawn, int degree) {
+  const auto per_color = std::size_t(harmonics::count(color.degree));
+  const std::size_t colors = coefficients_per_splat(color) / per_color;
+  float largest = 1;
+  for (const std::uint32_t splat : drawn) {
+    for (std::size_t i = colors * splat; i < colors * (splat + 1); ++i) {
+      const glm::vec3* coefficient = &color.coefficients[per_color * i];
+      glm::vec3 bound(0.5f + float(harmonics::y00) * coefficient[0]);
+      for (int band = 1; band <= degree; ++band) {
+        glm::vec3 squares(0.0f);
+        for (int k = harmonics::count(band - 1); k < harmonics::count(band); ++k)
+          squares += coefficient[k] * coefficient[k];
+        bound += glm::sqrt(float(2 * band + 1) / (4 * glm::pi<float>()) * squares);
+      }
+      const float of_splat = std::max(bound.x, std::max(bound.y, bound.z));
+      if (of_splat > largest) largest = of_splat;
+    }
+  }
+  return largest;
 }
 
 }  // namespace
@@ -38,6 +65,7 @@ SplatPlan make_splat_plan(const Splats& splats, const SplatPreferences& preferen
   for (std::size_t i = 0; i < plan.splats; ++i)
     if (!opacity || (*opacity)[i] >= plan.profile.min_alpha) plan.drawn.push_back(std::uint32_t(i));
   const std::span<const std::uint32_t> drawn(plan.drawn);
+  plan.largest_color = largest_color(splats.color, drawn, plan.harmonics_degree);
   for (std::size_t i = 0; i < drawn.size(); i += splats_per_chunk)
     plan.chunks.push_back(bounds(
         splats, drawn.subspan(i, std::min(splats_per_chunk, drawn.size() - i)), plan.profile));

@@ -26,6 +26,14 @@ enum class SplatBlending {
   tiles,      // the processor's vectors, tile by tile (splatting/)
 };
 
+/// The texture in which splats are blended by raster.
+enum class SplatFormat {
+  automatic,  // rgba16 if device and colours allow it; otherwise rgba32f if the device blends it
+  rgba32f,
+  rgba16,   // fractions of the largest colour: 57 dB and more
+  rgba16f,  // about 52 dB: near an alpha of 1 its step is 1/2048, and faint splats vanish
+};
+
 inline constexpr std::size_t splats_per_chunk = 65'536;
 
 /// The method of drawing one layer of splats.
@@ -38,6 +46,8 @@ struct SplatPlan {
   /// Of the highest band with a coefficient other than 0, up to the scene's degree.
   int harmonics_degree = 0;
   int colors_per_splat = 1;  // or 3, with SplatColor::per_corner
+  /// No drawn splat has a larger colour, seen from any direction. At least 1.
+  float largest_color = 1;
   /// Drawn splats, in the scene's order: those whose opacity reaches the profile's min_alpha.
   std::vector<std::uint32_t> drawn;
   /// bounds() of each chunk of `drawn`: splats_per_chunk splats, the last one fewer. Readers sort

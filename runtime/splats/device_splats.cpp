@@ -104,6 +104,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
       as_published_(plan.as_published),
       harmonics_degree_(plan.harmonics_degree),
       colors_per_splat_(plan.colors_per_splat),
+      largest_color_(plan.largest_color),
       centers_(std::move(source.centers)),
       chunks_(plan.chunks),
       layout_(source.layout),
@@ -141,11 +142,13 @@ gl::Program DeviceSplats::make_program(SplatOutput output) const {
                                                 "OUTPUT_DEPTH_FOUND", "OUTPUT_COUNTS"};
   for (std::size_t i = 0; i < splat_outputs; ++i) with_output[names[i]] = std::to_string(i);
   with_output["OUTPUT"] = std::to_string(std::size_t(output));
+  with_output["HIDDEN_TILE_SIDE"] = std::to_string(HiddenTiles::side);
+  with_output["HIDDEN_LEVELS"] = std::to_string(HiddenTiles::levels);
   return gl::Program(assemble({.file = files.vertex, .constants = with_output}, device_.api),
                      assemble({.file = files.fragment, .constants = with_output}, device_.api));
 }
 
-void DeviceSplats::project(const Frame& frame) {
+void DeviceSplats::project(const Frame& frame, float color_unit) {
   if (centers_.empty()) return;
   if (!projected_framebuffer_) {
     std::vector<GLuint> targets;
@@ -159,6 +162,7 @@ void DeviceSplats::project(const Frame& frame) {
   projection_.set_texture("kernel", 0, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
   projection_.set_texture("coefficients", 1, coefficients_.texture(), GL_TEXTURE_2D_ARRAY);
   projection_.set("projected_count", static_cast<int>(projected_texels()));
+  projection_.set("color_unit", color_unit);
   set_view(projection_, frame);
   full_screen_.draw(projection_);
 }
@@ -179,14 +183,14 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }
 
-void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target,
-                              const Drawing& drawing) {
+void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLuint order,
+                              const SplatDrawing& drawing) {
   const FrameCamera& in_layer = frame.layers[layer_];
   std::optional<gl::Program>& made = drawings_[std::size_t(drawing.output)];
   if (!made) made = make_program(drawing.output);
   const gl::Program& program = *made;
   program.use();
-  program.set_texture("order", 0, drawing.order);
+  program.set_texture("order", 0, order);
   program.set_texture("kernel", 1, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
   program.set_texture("colors", 2, projected_[0].id());
   int unit = 3;
@@ -195,7 +199,9 @@ void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target,
     ++unit;
   }
   if (tests_depth()) program.set_texture("depth_texture", unit++, target.depth_texture());
-  if (drawing.bounds) program.set_texture("bounds", unit, drawing.bounds);
+  if (drawing.bounds) program.set_texture("bounds", unit++, drawing.bounds);
+  program.set("leaves_out_hidden", drawing.hidden ? 1 : 0);
+  if (drawing.hidden) program.set_texture("hidden", unit, drawing.hidden->texture());
   set_view(program, frame);
   set_rays(program, in_layer.camera);
   const glm::dmat4 clip_from_view = target.clip_from_view(in_layer.camera, in_layer.range);

@@ -16,6 +16,7 @@
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/plan/splat_plan.hpp"
+#include "runtime/splats/hidden_tiles.hpp"
 #include "runtime/splats/splat_source.hpp"
 
 namespace tureen {
@@ -33,14 +34,20 @@ enum class SplatOutput {
 };
 inline constexpr std::size_t splat_outputs = 5;
 
+struct SplatDrawing {
+  SplatOutput output = SplatOutput::color;
+  GLuint bounds = 0;                    // texture of a search (splat_measures.hpp)
+  const HiddenTiles* hidden = nullptr;  // where splats are left out; only with SplatOutput::color
+};
+
 class DeviceSplats {
  public:
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
   static constexpr int order_columns = 2048;
 
   /// Uploads; of the plan, only `shaders`, `profile`, `as_published`, `harmonics_degree`,
-  /// `colors_per_splat`, `chunks` and the number of drawn splats are used. The source's texels are
-  /// not needed afterwards. Throws DeviceLimitError.
+  /// `colors_per_splat`, `largest_color`, `chunks` and the number of drawn splats are used. The
+  /// source's texels are not needed afterwards. Throws DeviceLimitError.
   DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
 
   /// The layer's index in Frame::layers.
@@ -48,23 +55,21 @@ class DeviceSplats {
   std::size_t layer() const { return layer_; }
 
   const gl::Capabilities& device() const { return device_; }
+  const SplatProfile& profile() const { return profile_; }
+  float largest_color() const { return largest_color_; }  // SplatPlan::largest_color
 
   /// Centres of the drawn splats, in layer coordinates.
   std::span<const glm::vec3> centers() const { return centers_; }
   /// SplatPlan::chunks.
   std::span<const Bounds> chunks() const { return chunks_; }
 
-  /// Computes colours, and for Gaussians their places in the image, for later draw_run() of this
-  /// frame. Changes the framebuffer and the viewport.
-  void project(const Frame& frame);
-  struct Drawing {
-    GLuint order = 0;  // texture: indices of splats, row by row
-    SplatOutput output = SplatOutput::color;
-    GLuint bounds = 0;  // texture of a search (splat_measures.hpp), for some outputs
-  };
-  /// Prepares draw_run(): program, textures and uniforms. The first drawing with an output compiles
-  /// its program.
-  void begin_runs(const Frame& frame, const FrameTarget& target, const Drawing& drawing);
+  /// Computes colours, with this value for colour 1, and for Gaussians their places in the image,
+  /// for later draw_run() of this frame. Changes the framebuffer and the viewport.
+  void project(const Frame& frame, float color_unit = 1);
+  /// Prepares draw_run(): program, textures and uniforms. `order` is a texture with the indices of
+  /// splats, row by row. The first drawing with an output compiles its program.
+  void begin_runs(const Frame& frame, const FrameTarget& target, GLuint order,
+                  const SplatDrawing& drawing);
   /// Draws `count` splats of the order from `first` on, as three vertices each.
   void draw_run(std::uint32_t first, std::uint32_t count);
 
@@ -91,6 +96,7 @@ class DeviceSplats {
   SplatProfile profile_;
   bool as_published_;
   int harmonics_degree_, colors_per_splat_;
+  float largest_color_;
   std::size_t layer_ = 0;
   std::vector<glm::vec3> centers_;
   std::vector<Bounds> chunks_;

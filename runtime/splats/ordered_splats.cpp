@@ -66,13 +66,17 @@ SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
   return {make_framebuffer(colors, target.depth_attachment()), make_framebuffer(colors)};
 }
 
-void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
-                  const glm::vec4& value) {
+void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers) {
   gl::use_plain_rasterisation(target.size().x, target.size().y);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffers.with_depth.id());
   target.use_depth();
-  glClearBufferfv(GL_COLOR, 0, &value[0]);
   glDepthMask(GL_FALSE);
+}
+
+void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
+                  const glm::vec4& value) {
+  begin_splats(target, framebuffers);
+  glClearBufferfv(GL_COLOR, 0, &value[0]);
 }
 
 OrderedSplats::OrderedSplats(std::span<const std::unique_ptr<DeviceSplats>> layers, float fraction)
@@ -93,11 +97,11 @@ void OrderedSplats::stop_sorting() {
   sorting_.reset();
 }
 
-void OrderedSplats::prepare(const Frame& frame) {
+void OrderedSplats::prepare(const Frame& frame, float color_unit) {
   std::vector<SplatsInView> views;
   for (DeviceSplats* layer : layers_) {
     const FrameCamera& camera = frame.layers[layer->layer()];
-    if (camera.visible) layer->project(frame);
+    if (camera.visible) layer->project(frame, color_unit);
     views.push_back(camera.visible ? in_view(*layer, camera, fraction_) : SplatsInView{});
   }
   in_order_ = order_texture_ && serves(ordered_, views);
@@ -157,20 +161,35 @@ void OrderedSplats::upload_order() {
 }
 
 void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
-                         const SplatFramebuffers& framebuffers, SplatOutput output, GLuint bounds) {
+                         const SplatFramebuffers& framebuffers, const SplatDrawing& drawing,
+                         Range range) {
   const DeviceSplats* begun = nullptr;
   for (const SplatRun& run : order_.runs()) {
+    const std::uint32_t begin = std::max(run.first, range.begin);
+    const std::uint32_t end = std::min(run.first + run.count, range.end);
+    if (begin >= end) continue;
     DeviceSplats& layer = *layers_[run.layer];
     if (begun != &layer) {
       const gl::Framebuffer& framebuffer =
           layer.tests_depth() ? framebuffers.without_depth : framebuffers.with_depth;
       glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-      layer.begin_runs(frame, target,
-                       {.order = order_texture_.id(), .output = output, .bounds = bounds});
+      layer.begin_runs(frame, target, order_texture_.id(), drawing);
     }
     begun = &layer;
-    layer.draw_run(run.first, run.count);
+    layer.draw_run(begin, end - begin);
   }
+}
+
+float OrderedSplats::largest_color() const {
+  float largest = 1;
+  for (const DeviceSplats* layer : layers_) largest = std::max(largest, layer->largest_color());
+  return largest;
+}
+
+float OrderedSplats::min_alpha() const {
+  float least = 1;
+  for (const DeviceSplats* layer : layers_) least = std::min(least, layer->profile().min_alpha);
+  return least;
 }
 
 std::size_t OrderedSplats::device_bytes() const {

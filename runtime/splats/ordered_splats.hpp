@@ -42,10 +42,25 @@ class OrderedSplats {
   bool in_order() const { return in_order_; }
 
   /// Projects and orders the splats of the visible layers for the next draw() of this frame.
-  void prepare(const Frame& frame);
+  /// `color_unit` is the value of colour 1.
+  void prepare(const Frame& frame, float color_unit = 1);
+  /// Places in the order.
+  struct Range {
+    std::uint32_t begin, end;
+  };
   /// Draws with the current blending, after begin_splats().
   void draw(const Frame& frame, FrameTarget& target, const SplatFramebuffers& framebuffers,
-            SplatOutput output = SplatOutput::color, GLuint bounds = 0);
+            const SplatDrawing& drawing, Range range);
+  /// Draws all splats.
+  void draw(const Frame& frame, FrameTarget& target, const SplatFramebuffers& framebuffers,
+            const SplatDrawing& drawing) {
+    draw(frame, target, framebuffers, drawing, {0, count()});
+  }
+
+  /// No splat has a larger colour.
+  float largest_color() const;
+  /// The smallest of the layers' SplatProfile::min_alpha.
+  float min_alpha() const;
 
   /// Number of ordered splats.
   std::uint32_t count() const { return static_cast<std::uint32_t>(order_.splats().size()); }
@@ -69,8 +84,9 @@ class OrderedSplats {
   int order_rows_ = 0;
 };
 
-/// Sets plain rasterisation with depth tested but not written, and clears the first colours of
-/// `framebuffers` to `value`.
+/// Binds framebuffers.with_depth and sets plain rasterisation with depth tested but not written.
+void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers);
+/// The same, and clears the first colours to `value`.
 void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
                   const glm::vec4& value);
 

@@ -70,7 +70,7 @@ void SplatMeasures::measure_sums(const Frame& frame, FrameTarget& target) {
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-  splats_.draw(frame, target, result_framebuffers_, SplatOutput::sums);
+  splats_.draw(frame, target, result_framebuffers_, {.output = SplatOutput::sums});
 }
 
 /// Leaves the ranges in bounds_[0]. They end with the splat at which the transmittance falls to
@@ -84,8 +84,8 @@ void SplatMeasures::search(const Frame& frame, FrameTarget& target, float thresh
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ZERO, GL_ONE_MINUS_SRC_COLOR);
-    splats_.draw(frame, target, transmittance_framebuffers_, SplatOutput::prefixes,
-                 bounds_[0].id());
+    splats_.draw(frame, target, transmittance_framebuffers_,
+                 {.output = SplatOutput::prefixes, .bounds = bounds_[0].id()});
     gl::use_plain_rasterisation(size_.x, size_.y);
     glDisable(GL_DEPTH_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, bounds_framebuffers_[1].id());
@@ -102,7 +102,8 @@ void SplatMeasures::search(const Frame& frame, FrameTarget& target, float thresh
 void SplatMeasures::measure_median_depth(const Frame& frame, FrameTarget& target) {
   search(frame, target, 0.5f);
   begin_splats(target, result_framebuffers_, glm::vec4(0.0f));
-  splats_.draw(frame, target, result_framebuffers_, SplatOutput::depth_found, bounds_[0].id());
+  splats_.draw(frame, target, result_framebuffers_,
+               {.output = SplatOutput::depth_found, .bounds = bounds_[0].id()});
 }
 
 void SplatMeasures::count(const Frame& frame, FrameTarget& target) {
@@ -111,7 +112,8 @@ void SplatMeasures::count(const Frame& frame, FrameTarget& target) {
   glEnable(GL_BLEND);
   glBlendEquationSeparate(GL_FUNC_ADD, GL_MIN);
   glBlendFunc(GL_ONE, GL_ONE);
-  splats_.draw(frame, target, result_framebuffers_, SplatOutput::counts, bounds_[0].id());
+  splats_.draw(frame, target, result_framebuffers_,
+               {.output = SplatOutput::counts, .bounds = bounds_[0].id()});
 }
 
 std::size_t SplatMeasures::target_bytes() const {

@@ -5,38 +5,70 @@
 
 namespace tureen {
 
+namespace {
+
+/// On software devices, leaving out hidden splats pays for the search of hidden tiles. On hardware
+/// this is not measured.
+constexpr std::uint32_t software_chunks = 8;
+/// With fewer splats, the search takes longer than it saves.
+constexpr std::uint32_t least_splats_in_chunks = 10'000;
+
+}  // namespace
+
 SplatPass::SplatPass(const gl::Capabilities& device,
-                     std::span<const std::unique_ptr<DeviceSplats>> layers, Precision precision,
+                     std::span<const std::unique_ptr<DeviceSplats>> layers, SplatFormat format,
                      float fraction)
     : splats_(layers, fraction),
-      blended_(device.api, precision == Precision::single ? target_formats::rgba32f
-                                                          : target_formats::rgba16f) {}
+      format_(blend_format(format, device, splats_.min_alpha(), splats_.largest_color())),
+      blended_(device.api, format_) {
+  if (device.software) hidden_.emplace(device.api, splats_.largest_color());
+}
 
 void SplatPass::resize(const FrameTarget& target) {
   blended_.resize(target.size());
   framebuffers_ = make_splat_framebuffers({blended_.texture()}, target);
+  if (hidden_) hidden_->resize(target.size());
 }
 
 void SplatPass::draw(const Frame& frame, FrameTarget& target) {
-  splats_.prepare(frame);
+  splats_.prepare(frame, format_.color_unit);
   begin_splats(target, framebuffers_, glm::vec4(0.0f));
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-  splats_.draw(frame, target, framebuffers_);
+  const std::uint32_t count = splats_.count();
+  const std::uint32_t chunks = hidden_ && count >= least_splats_in_chunks ? software_chunks : 1;
+  for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+    if (chunk > 0) {
+      hidden_->find(blended_.texture());
+      begin_splats(target, framebuffers_);
+    }
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    const auto place = [&](std::uint32_t i) {
+      return std::uint32_t(std::uint64_t(count) * i / chunks);
+    };
+    splats_.draw(frame, target, framebuffers_, {.hidden = chunk > 0 ? &*hidden_ : nullptr},
+                 {place(chunk), place(chunk + 1)});
+  }
   glDisable(GL_BLEND);
   blended_.composite_over(target);
 }
 
 std::vector<glm::vec4> SplatPass::read_blended() const {
-  return read_float_pixels(framebuffers_.with_depth.id(), blended_.size());
+  const auto read =
+      format_.texture.type == GL_UNSIGNED_SHORT ? read_fraction_pixels : read_float_pixels;
+  std::vector<glm::vec4> pixels = read(framebuffers_.with_depth.id(), blended_.size());
+  for (glm::vec4& pixel : pixels) pixel = {glm::vec3(pixel) / format_.color_unit, pixel.a};
+  return pixels;
 }
 
-std::size_t SplatPass::target_bytes() const { return blended_.bytes(); }
+std::size_t SplatPass::target_bytes() const {
+  return blended_.bytes() + (hidden_ ? hidden_->bytes() : 0);
+}
 
 void SplatPass::leave_context() {
   blended_.leave_context();
   framebuffers_ = {};
+  if (hidden_) hidden_->leave_context();
 }
 
 }  // namespace tureen

@@ -1,14 +1,16 @@
 // Blends the splats of all layers over the frame's soups: projects them, orders them, blends them
-// front to back into a float target under the soups' depth, and composites that target over the
-// frame's colours.
+// front to back under the soups' depth, and composites the result over the frame's colours. They
+// are blended in chunks: each leaves out the splats that earlier chunks hide.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "runtime/gl/context.hpp"
 #include "runtime/passes/pass.hpp"
+#include "runtime/splats/hidden_tiles.hpp"
 #include "runtime/splats/ordered_splats.hpp"
 #include "runtime/splats/splat_target.hpp"
 
@@ -16,13 +18,10 @@ namespace tureen {
 
 class SplatPass final : public SplatBlendingPass {
  public:
-  /// Of the floats in which colours are blended.
-  enum class Precision { single, half };
-
-  /// `layers` outlive the pass; null for layers without splats. `fraction`: of the splats that are
-  /// drawn.
+  /// `layers` outlive the pass; null for layers without splats, but not for all. `fraction`: of the
+  /// splats that are drawn.
   SplatPass(const gl::Capabilities& device, std::span<const std::unique_ptr<DeviceSplats>> layers,
-            Precision precision, float fraction = 1);
+            SplatFormat format, float fraction = 1);
 
   /// For sort_with() and in_order().
   OrderedSplats& splats() { return splats_; }
@@ -37,8 +36,10 @@ class SplatPass final : public SplatBlendingPass {
 
  private:
   OrderedSplats splats_;
+  BlendFormat format_;
   SplatTarget blended_;
   SplatFramebuffers framebuffers_;
+  std::optional<HiddenTiles> hidden_;  // if the device draws in chunks
 };
 
 }  // namespace tureen

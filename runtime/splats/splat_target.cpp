@@ -1,17 +1,33 @@
 #include "runtime/splats/splat_target.hpp"
 
+#include <algorithm>
+
 #include "runtime/passes/shader_source.hpp"
 
 namespace tureen {
 
-SplatTarget::SplatTarget(gl::Api api, const TargetFormat& format)
+BlendFormat blend_format(SplatFormat requested, const gl::Capabilities& device, float min_alpha,
+                         float largest_color) {
+  // With fractions of 16 bits, splats vanish where alpha times transmittance is below half a step.
+  // From alpha 1/255 on, the colour loses at most half an 8-bit step. Each blending rounds colours
+  // to 1/65536 of the largest: 200 times add up to an eighth of an 8-bit step if it is 8.
+  constexpr float smallest_alpha = 1.0f / 255, largest = 8;
+  const bool fits = device.norm16_targets && largest_color <= largest;
+  if (fits && (requested == SplatFormat::rgba16 ||
+               (requested == SplatFormat::automatic && min_alpha >= smallest_alpha)))
+    return {target_formats::rgba16, 1 / std::max(1.0f, largest_color)};
+  if (requested != SplatFormat::rgba16f && device.float_blending) return {target_formats::rgba32f};
+  return {target_formats::rgba16f};
+}
+
+SplatTarget::SplatTarget(gl::Api api, const BlendFormat& format)
     : format_(format),
       resolve_(assemble({.file = "full_screen.vert"}, api),
                assemble({.file = "splat_resolve.frag"}, api)) {}
 
 void SplatTarget::resize(glm::ivec2 size) {
   size_ = size;
-  blended_ = make_target(format_, size.x, size.y);
+  blended_ = make_target(format_.texture, size.x, size.y);
   behind_ = make_target(target_formats::rgba8, size.x, size.y);
   behind_framebuffer_ = make_framebuffer({behind_.id()});
 }
@@ -23,11 +39,12 @@ void SplatTarget::composite_over(FrameTarget& target) {
   resolve_.use();
   resolve_.set_texture("splats", 0, blended_.id());
   resolve_.set_texture("behind", 1, behind_.id());
+  resolve_.set("color_unit", format_.color_unit);
   full_screen_.draw(resolve_);
 }
 
 std::size_t SplatTarget::bytes() const {
-  return bytes_of(format_, size_) + bytes_of(target_formats::rgba8, size_);
+  return bytes_of(format_.texture, size_) + bytes_of(target_formats::rgba8, size_);
 }
 
 void SplatTarget::leave_context() {

@@ -11,18 +11,31 @@
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/passes/targets.hpp"
+#include "runtime/plan/splat_plan.hpp"
 
 namespace tureen {
 
+/// How colours are stored while they are blended.
+struct BlendFormat {
+  TargetFormat texture;  // RGBA
+  /// The stored value of colour 1. Less than 1 if the format stores only values up to 1.
+  float color_unit = 1;
+};
+
+/// The format for splats whose alpha is at least `min_alpha` where they are blended, and whose
+/// colours are at most `largest_color`. A format that the device or the colours do not allow is
+/// replaced by the next better one, or by rgba16f.
+BlendFormat blend_format(SplatFormat requested, const gl::Capabilities& device, float min_alpha,
+                         float largest_color);
+
 class SplatTarget {
  public:
-  /// `format`: RGBA floats.
-  SplatTarget(gl::Api api, const TargetFormat& format);
+  SplatTarget(gl::Api api, const BlendFormat& format);
 
   /// Creates the textures; their contents are undefined. Throws DeviceLimitError.
   void resize(glm::ivec2 size);
   glm::ivec2 size() const { return size_; }
-  /// Premultiplied colours and alpha, row 0 at the bottom.
+  /// Premultiplied colours in the format's unit, and alpha, row 0 at the bottom.
   GLuint texture() const { return blended_.id(); }
 
   /// Composites the texture over the colours of the frame.
@@ -34,7 +47,7 @@ class SplatTarget {
   void leave_context();
 
  private:
-  const TargetFormat& format_;
+  BlendFormat format_;
   gl::Program resolve_;
   FullScreen full_screen_;
   glm::ivec2 size_{0};

@@ -15,7 +15,7 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
       renderer_([this](std::size_t count, const std::function<void(std::size_t)>& body) {
         pool_.run(count, body);
       }),
-      blended_(device.api, target_formats::rgba32f),
+      blended_(device.api, {target_formats::rgba32f}),
       depth_bits_(assemble({.file = "full_screen.vert"}, device.api),
                   assemble({.file = "depth_probe.frag"}, device.api)) {}
 

@@ -1,4 +1,6 @@
 // Triangles that cover a splat in the image.
+#include "splat_hidden.glsl"
+#include "splat_order.glsl"
 
 // The range of one image coordinate of the quadric {H x + H_c : |x| <= 1}, relative to the centre.
 // `along` are the coordinates of H's columns and `w` their depths; `center_w` is the depth of the
@@ -13,8 +15,10 @@ vec2 range_of(vec3 along, vec3 w, float center_w) {
   return vec2(b + root, b - root) / a;
 }
 
-// A right-angled triangle around the rectangle.
-vec2 corner_around(vec2 low, vec2 high, int corner) {
+// The position of a corner of a right-angled triangle around the rectangle, in pixels; or `nowhere`.
+vec4 corner_around(vec2 low, vec2 high, int corner, vec2 half_size) {
+  if (is_hidden(low, high, half_size)) return nowhere;
   vec2 size = 2.0 * (high - low);
-  return low + vec2(corner == 1 ? size.x : 0.0, corner == 2 ? size.y : 0.0);
+  vec2 pixel = low + vec2(corner == 1 ? size.x : 0.0, corner == 2 ? size.y : 0.0);
+  return vec4(pixel / half_size - 1.0, 0.0, 1.0);
 }

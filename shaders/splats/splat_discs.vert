@@ -3,7 +3,6 @@
 #include "splat_cover.glsl"
 #include "splat_kernel_texels.glsl"
 #include "splat_measured_vertex.glsl"
-#include "splat_order.glsl"
 #include "splat_projected.glsl"
 
 uniform sampler2D colors, planes_xy, planes_w, places;
@@ -68,5 +67,5 @@ void main() {
     high = origin.xy + vec2(x.y, y.y) + margin;
 #endif
   }
-  gl_Position = vec4(corner_around(low, high, splat_corner()) / half_size - 1.0, 0.0, 1.0);
+  gl_Position = corner_around(low, high, splat_corner(), half_size);
 }

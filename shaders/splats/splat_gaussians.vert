@@ -1,6 +1,7 @@
 // A Gaussian in the image as the smallest regular triangle around the circle, in standard
 // deviations, outside of which alpha is below MIN_ALPHA.
 #include "eye.glsl"
+#include "splat_hidden.glsl"
 #include "splat_kernel_texels.glsl"
 #include "splat_measured_vertex.glsl"
 #include "splat_order.glsl"
@@ -60,7 +61,8 @@ void main() {
   // thousandth and a pixel more, for rounding.
   vec2 reach = 1.001 * center.w * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + 1.0;
   bool is_drawn =
-      center.w > 0.0 && all(lessThanEqual(abs(center.xy - half_size), half_size + reach));
+      center.w > 0.0 && all(lessThanEqual(abs(center.xy - half_size), half_size + reach)) &&
+                  !is_hidden(center.xy - reach, center.xy + reach, half_size);
   gl_Position = is_drawn ? vec4(pixel / half_size - 1.0,
                                 (depth_of_z.x * center.z + depth_of_z.y) / -center.z, 1.0)
                          : nowhere;

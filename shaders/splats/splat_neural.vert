@@ -3,7 +3,6 @@
 #include "splat_cover.glsl"
 #include "splat_kernel_texels.glsl"
 #include "splat_measured_vertex.glsl"
-#include "splat_order.glsl"
 #include "splat_projected.glsl"
 
 uniform sampler2D colors;
@@ -47,5 +46,5 @@ void main() {
     low = at + vec2(x.x, y.x) - 1.0;
     high = at + vec2(x.y, y.y) + 1.0;
   }
-  gl_Position = vec4(corner_around(low, high, splat_corner()) / half_size - 1.0, 0.0, 1.0);
+  gl_Position = corner_around(low, high, splat_corner(), half_size);
 }

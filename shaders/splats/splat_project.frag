@@ -6,9 +6,10 @@
 
 uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels a splat or corner
 uniform int projected_count;
+uniform float color_unit;  // the result for colour 1
 uniform mat3 view_from_layer;  // rotation, perhaps a mirror
 
-layout(location = 0) out vec4 color;  // rgb from 0 to 65504, and opacity
+layout(location = 0) out vec4 color;  // rgb from 0 to 65504 times color_unit, and opacity
 
 // SplatProfile::min_center_depth
 bool is_center_drawn(float depth) { return MIN_CENTER_DEPTH == 0.0 || depth > MIN_CENTER_DEPTH; }
@@ -34,5 +35,5 @@ void main() {
   if (element >= projected_count) discard;
   vec3 from_eye;
   float opacity = project(uint(element), from_eye);
-  color = vec4(color_of(uint(element), from_eye), opacity);
+  color = vec4(color_unit * color_of(uint(element), from_eye), opacity);
 }

@@ -1,5 +1,6 @@
 // Blended splats over the colours behind them.
 uniform sampler2D splats;  // premultiplied
+uniform float color_unit;  // the value of colour 1 in `splats`
 uniform sampler2D behind;  // not premultiplied
 
 layout(location = 0) out vec4 color;
@@ -7,6 +8,7 @@ layout(location = 0) out vec4 color;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 front = texelFetch(splats, pixel, 0), back = texelFetch(behind, pixel, 0);
+  front.rgb /= color_unit;
   float through = 1.0 - front.a;
   float alpha = front.a + through * back.a;
   // Where nothing is visible, the colour behind stays, as for soups.

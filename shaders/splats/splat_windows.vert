@@ -8,6 +8,7 @@
 // qualifier: rgb and 1, both times w, are interpolated with perspective and divided. A corner behind the
 // eye has weight 0; otherwise colours would grow without limit near the eye's plane.
 #include "eye.glsl"
+#include "splat_hidden.glsl"
 #include "splat_kernel_texels.glsl"
 #include "splat_measured_vertex.glsl"
 #include "splat_order.glsl"
@@ -29,6 +30,15 @@ out vec4 weighted_color;
 #if OUTPUT != OUTPUT_COLOR
 out float weight;  // of the corners, together
 #endif
+
+// Whether earlier splats hide a triangle with these corners. None if a corner is not in front.
+bool is_triangle_hidden(vec4 clip[3]) {
+  if (!(min(clip[0].w, min(clip[1].w, clip[2].w)) > 0.0)) return false;
+  vec2 a = clip[0].xy / clip[0].w, b = clip[1].xy / clip[1].w, c = clip[2].xy / clip[2].w;
+  // One pixel more, for rounding.
+  return is_hidden(half_size * (1.0 + min(a, min(b, c))) - 1.0,
+                   half_size * (1.0 + max(a, max(b, c))) + 1.0, half_size);
+}
 
 // Vertices are rounded to a grid of 1/256 of a pixel, or 1/16 at worst, which moves the edges. The
 // triangle is therefore enlarged by this many pixels, so that the distances alone decide where alpha
@@ -109,11 +119,14 @@ void main() {
 #if AS_PUBLISHED
   visible = visible && is_published(corners, clip);
 #endif
+  visible = visible && !is_triangle_hidden(clip);
 
   // The lines N_k + margin |N_k.xy| z meet in sums of the corners with these weights, also where
-  // corners are behind the eye. The limit keeps needles short.
+  // corners are behind the eye. The limit keeps needles short. Where rho is below `least_rho`, alpha
+  // is below MIN_ALPHA: the triangle is that much smaller.
   float longest = max(lengths.x, max(lengths.y, lengths.z));
-  float shift = min(margin / determinant, 1.0 / (largest_w * longest));
+  float least_rho = exp2(min(log2(MIN_ALPHA / color.a) / sigma, 0.0));
+  float shift = min(margin / determinant, 1.0 / (largest_w * longest)) - least_rho / total;
   vec3 weights = -shift * clip[corner].w * lengths;
   weights[corner] += 1.0 + shift * total;
   gl_Position = visible ? weights.x * clip[0] + weights.y * clip[1] + weights.z * clip[2] : nowhere;
