@@ -163,8 +163,9 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
   Command command = program.add_command("bench", "Measure frame times");
   command.footer(
       R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
-with the baseline if it supports the scene. Splats are drawn only with the plan, and sorted for
-each view; the table lists the time of sorting. Warm-up frames run until the times are stable.
+with the baseline if it supports the scene. If the plan blends splats in tiles (--blend), the
+case "raster" has the other way. Every frame of splats includes projection and sorting; the
+table lists the time of sorting. Warm-up frames run until the times are stable.
 A frame ends when the device has finished. First, the first case is compared with itself (A/A).
 "best ms" is the smallest of the rounds' medians; ratios use it. Two times are "equal" if
 they differ by at most twice the spread. The spread is the larger of the A/A spread and the
@@ -182,6 +183,7 @@ Examples:
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute
                                                           fragment against compute shaders
+  tureen bench splats.ply --only raster,baseline          splats by the device alone
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 the scene does not fit on the device, or

@@ -16,9 +16,9 @@ void add_case_options(Command& command, BenchCaseArguments& options) {
       .add_option(
           "--only", options.only,
           "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
-          "tureen-compute (the plan with --shading), generic (no specialisation), baseline, "
-          "triangles and copy (upper limits of the speed, see --ceilings); ratios are relative to "
-          "the first case")
+          "tureen-compute (triangles: the plan with --shading), raster and tiles (splats: the plan "
+          "with --blend), generic (no specialisation), baseline, triangles and copy (upper limits "
+          "of the speed, see --ceilings); ratios are relative to the first case")
       .split_at_commas()
       .single_argument()
       .value_name("NAME,..");
@@ -33,8 +33,8 @@ void check(const BenchCaseArguments& options) {
     const std::string& name = options.only[i];
     if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
       throw UsageError(
-          "--only takes tureen, tureen-fragment, tureen-compute, generic, baseline, triangles and "
-          "copy, not '" +
+          "--only takes tureen, tureen-fragment, tureen-compute, raster, tiles, generic, baseline, "
+          "triangles and copy, not '" +
               name + "'",
           did_you_mean(name, all_names));
     if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=

@@ -99,31 +99,66 @@ TEST_F(BenchOfSplats, TimesThePlanAndItsOrder) {
     write_splats(kind);
     const ChildResult result = bench_splats({"-o", "timed"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.err,
-                Names("3,000 splats: read", "generic is skipped", "published is skipped"));
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["scene"]["splats"], count);
     EXPECT_EQ(json["scene"]["triangles"], 0);
-    ASSERT_EQ(all(json["configurations"], "name"), std::vector<std::string>{"tureen"});
-    const auto& measured = json["measurements"][0];
-    EXPECT_EQ(measured["frames_per_sample"], 1);
-    EXPECT_GT(measured["order_ms"], 0);
-    EXPECT_LT(measured["order_ms"], measured["frame_ms"]["mean"]);
-    ASSERT_EQ(run({"render", "splats.glb", "--context", "osmesa", "--orbit", "2", "--size", "64x48",
-                   "-o", "drawn_%d.png"})
-                  .exit_code,
-              0);
-    EXPECT_EQ(read_png(measured["picture"]).pixels, read_png("drawn_1.png").pixels);
+    // Neither tiles nor the baseline draw neural densities and colours of corners; the baseline
+    // draws no discs.
+    const std::string profile = kind.profile;
+    const bool tiles = profile != "splatnet" && !kind.per_corner;
+    const bool baseline = tiles && profile != "2dgs" && profile != "redisplats";
+    std::vector<std::string> cases{"tureen"};
+    if (tiles) cases.emplace_back("raster");
+    cases.emplace_back("generic");
+    if (baseline) cases.emplace_back("published");
+    EXPECT_EQ(all(json["configurations"], "name"), cases);
+    EXPECT_THAT(result.err, Names("3,000 splats: read"));
+    EXPECT_EQ(result.err.find("published is skipped: the baseline supports") == std::string::npos,
+              baseline);
+    for (const auto& measured : json["measurements"]) {
+      EXPECT_EQ(measured["frames_per_sample"], 1);
+      EXPECT_GT(measured["order_ms"], 0);
+      EXPECT_LT(measured["order_ms"], measured["frame_ms"]["mean"]);
+    }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      std::vector<std::string> render{"render",  "splats.glb",  "--context", "osmesa",
+                                      "--orbit", "2",           "--size",    "64x48",
+                                      "-o",      "drawn_%d.png"};
+      const std::vector<std::string> options = json["configurations"][i]["options"];
+      render.insert(render.end(), options.begin(), options.end());
+      ASSERT_EQ(run(render).exit_code, 0);
+      EXPECT_EQ(read_png(json["measurements"][i]["picture"]).pixels, read_png("drawn_1.png").pixels)
+          << cases[i];
+    }
   }
+}
+
+TEST_F(BenchOfSplats, TheWayToBlendCanBeChosen) {
+  write_splats(test::splat_kinds[0]);
+  const auto configurations = [&](const std::vector<std::string>& more) {
+    const ChildResult result = bench_splats(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["configurations"];
+  };
+  const nlohmann::json raster = configurations({"--blend", "raster"});
+  EXPECT_THAT(all(raster, "name"), ElementsAre("tureen", "generic", "published"));
+  EXPECT_THAT(raster[0]["options"], ElementsAre("--blend", "raster"));
+  EXPECT_THAT(raster[1]["options"], ElementsAre("--blend", "raster", "--no-specialise"));
+  const nlohmann::json both = configurations({"--only", "raster,tiles"});
+  EXPECT_THAT(both[0]["options"], ElementsAre("--blend", "raster"));
+  EXPECT_THAT(both[1]["options"], ElementsAre("--blend", "tiles"));
+  EXPECT_THAT(all(configurations({"--no-specialise"}), "name"), ElementsAre("generic"));
+  EXPECT_THAT(all(configurations({"--pipeline", "baseline"}), "name"), ElementsAre("published"));
 }
 
 TEST_F(BenchOfSplats, WhatNeedsTrianglesIsRefused) {
   write_splats(test::splat_kinds[0]);
-  for (const char* name : {"generic", "baseline", "triangles", "tureen-compute"})
+  for (const char* name : {"triangles", "tureen-fragment", "tureen-compute"})
     EXPECT_EQ(bench_splats({"--only", name}).exit_code, 2) << name;
-  EXPECT_EQ(bench_splats({"--no-specialise"}).exit_code, 2);
   EXPECT_EQ(bench_splats({"--cameras", "adversarial"}).exit_code, 2);
   EXPECT_EQ(bench_splats({"--only", "tureen,copy"}).exit_code, 0);
+  for (const char* name : {"raster", "tiles"})
+    EXPECT_EQ(bench({"--only", name}).exit_code, 2) << name << " of triangles";
 }
 
 TEST_F(BenchOfSplats, WindowsAreTrianglesIfOpaque) {
