@@ -107,7 +107,6 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
   };
   say_if_ignored(preferences.shading_stage != PlanPreferences{}.shading_stage, "--shading");
   say_if_ignored(!(preferences.specialisations == SpecialisationSet::all()), "--keep");
-  say_if_ignored(!preferences.specialise, "--no-specialise");
   if (preferences.as_published && splat_count(scene) == 0)
     say("--as-published has no effect: the scene has no splats");
   if (preferences.splat_blending != SplatBlending::automatic && splat_count(scene) == 0)

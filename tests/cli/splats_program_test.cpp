@@ -78,10 +78,6 @@ TEST_F(SplatsProgram, OptionsWithoutEffectAreReported) {
   EXPECT_THAT(result.err, HasSubstr("--shading has no effect"));
   EXPECT_THAT(result.err, HasSubstr("--keep has no effect"));
   EXPECT_THAT(
-      run({"render", "gaussians.glb", "--size", "8x8", "--context", "osmesa", "--no-specialise"})
-          .err,
-      HasSubstr("--no-specialise has no effect"));
-  EXPECT_THAT(
       run({"render", "scene.off", "--size", "8x8", "--context", "osmesa", "--as-published"}).err,
       HasSubstr("--as-published has no effect"));
   EXPECT_THAT(run({"render", "gaussians.glb", "--size", "8x8", "--context", "osmesa"}).err,
