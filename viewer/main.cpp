@@ -61,8 +61,10 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->check(CLI::IsMember({"gl", "es"}))
       ->option_text("NAME");
   program
-      .add_option("--pipeline", arguments.pipeline,
-                  "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
+      .add_option(
+          "--pipeline", arguments.pipeline,
+          "pipeline: auto (default, Tureen's own) or baseline (soups as in DiffSoup's viewer, "
+          "splats as instanced quads)")
       ->check(CLI::IsMember({"auto", "baseline", "published"}))
       ->option_text("NAME");
   program

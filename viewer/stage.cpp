@@ -326,16 +326,16 @@ Renderer prepare_renderer(const StageSource& source, const StageRequest& request
     renderer.sort_splats_with(std::make_unique<ThreadSplatSorter>());
     return renderer;
   }
-  const std::vector<PlacedSoup> layers = placed_soups(source);
+  const std::vector<PlacedLayer> layers = placed_layers(source);
   if (layers.size() > 1)
     throw UsageError("the baseline draws scenes of one layer; this scene has " +
                      std::to_string(layers.size()));
-  const PlacedSoup& layer = layers.front();
-  Renderer renderer =
-      make_renderer(request.context, layer.soup, glm::dvec3(0.0), request.choice.pipeline, options);
-  renderer.place_layer(0, layer.world_from_layer);
-  renderer.show_layer(0, layer.visible);
-  return renderer;
+  const PlacedLayer& layer = layers.front();
+  RenderPlan plan = make_baseline_plan(layer.primitives, options.plan);
+  return Renderer(
+      request.context,
+      prepare_baseline(layer, device_limits(request.context.capabilities()), std::move(plan)),
+      options);
 }
 
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {

@@ -108,7 +108,7 @@ void drawing_panel(State& state) {
     choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
     changed = true;
   }
-  tip("A reimplementation of the published DiffSoup viewer");
+  tip("Soups by a reimplementation of the published DiffSoup viewer, splats as plain quads");
   if (stage.debug_views) {
     aside("Debug views are drawn without these choices.");
   } else if (!baseline) {
