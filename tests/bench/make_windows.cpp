@@ -1,10 +1,10 @@
 // make_windows SPLATS OUT: writes triangle windows at the centres of a scene of Gaussians, for
-// measurements of drawing, as no trained scene of windows can be distributed. The file also has
-// three cameras, at which the object takes 1/3, 2/3 and twice the image's height.
+// measurements of drawing. The file also has three cameras, at which the object takes 1/3, 2/3 and
+// twice the image's height; they serve the Gaussians, too.
 //
 // A window is an equilateral triangle of random orientation; its corners are 2.2 times the mean
 // distance to three neighbours away from its centre, as at the beginning of a training. sigma =
-// 0.01 + exp N(0.15, 0.8) and opacity = sigmoid N(1, 2) resemble those of trained windows.
+// 0.01 + exp N(0.15, 0.8) and opacity = sigmoid N(1, 2): hard and soft, faint and opaque ones.
 // Harmonics are of degree 3: the Gaussian's constant and N(0, 0.05) for the others.
 #include <CLI/CLI.hpp>
 #include <algorithm>
