@@ -204,7 +204,9 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
   BenchCases result;
   result.sort = splat_count(scene) > 0;
   std::exception_ptr first;
-  for (const std::string& name : names_of(options)) {
+  std::vector<std::string> names = names_of(options);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = names[i];
     const auto skip = [&](const Error& error) {
       if (!options.only.empty()) throw;  // the case was requested by name
       if (!first) first = std::current_exception();
@@ -214,7 +216,7 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
       result.list.push_back(make_case(name, options, context, scene));
       // The other way to blend, for comparison.
       if (options.only.empty() && name == ours && result.list.back()->blends_in_tiles())
-        result.list.push_back(make_case(by_raster, options, context, scene));
+        names.insert(names.begin() + std::ptrdiff_t(i) + 1, by_raster);
     } catch (const UsageError& error) {
       skip(error);
     } catch (const DeviceLimitError& error) {

@@ -102,6 +102,7 @@ TEST_F(BenchOfSplats, TimesThePlanAndItsOrder) {
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["scene"]["splats"], count);
     EXPECT_EQ(json["scene"]["triangles"], 0);
+    EXPECT_GT(json["load"]["peak_mib"], 0);
     // Neither tiles nor the baseline draw neural densities and colours of corners; the baseline
     // draws no discs.
     const std::string profile = kind.profile;
