@@ -462,12 +462,13 @@ std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {
   State& state = *state_;
   const glm::dvec2 part = place / glm::dvec2(state.size);
   if (!(part.x >= 0 && part.x < 1 && part.y >= 0 && part.y < 1)) return {};
-  if (!state.target.has_depth()) return {};
   const glm::dvec2 samples(sample_size());
   const glm::ivec2 sample =
       glm::min(glm::ivec2(part.x * samples.x, (1 - part.y) * samples.y), sample_size() - 1);
   if (!state.probe) state.probe.emplace(state.device.api);
-  const float stored = state.probe->read(state.target.depth_texture(), sample);
+  const float stored = state.target.has_depth()
+                           ? state.probe->read(state.target.depth_texture(), sample)
+                           : state.target.far_depth();
   std::optional<double> depth =
       distance_of(double(stored), state.frame.range, state.depth_storage());
   if (state.has_splats())

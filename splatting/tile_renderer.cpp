@@ -70,6 +70,13 @@ void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const flo
 void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<const float> depths,
                              int column, int row, std::span<float> rgba) const {
   const ImageView& image = layers.front().view;
+  if (lists_.tile(column, row).empty()) {
+    const int x = column * tile_side, width = std::min(tile_side, image.width - x);
+    for (int y = row * tile_side; y < std::min((row + 1) * tile_side, image.height); ++y)
+      std::fill_n(&rgba[4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x))],
+                  4 * width, 0.0f);
+    return;
+  }
   TilePixels pixels{};
   pixels.x = column * tile_side;
   pixels.y = row * tile_side;

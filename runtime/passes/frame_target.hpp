@@ -66,6 +66,10 @@ class FrameTarget {
   /// its depth range.
   glm::dmat4 clip_from_view(const Camera& camera, const ClipRange& range) const;
 
+  /// The colour of samples that no pass has drawn.
+  const glm::vec4& background() const { return background_; }
+  /// Whether a pass has drawn colours in this frame.
+  bool has_color() const { return color_drawn_; }
   /// Whether the last frame stored visible fragments, or depth.
   bool has_visibility() const { return visibility_drawn_; }
   bool has_depth() const { return depth_drawn_; }

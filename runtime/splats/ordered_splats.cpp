@@ -66,19 +66,6 @@ SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
   return {make_framebuffer(colors, target.depth_attachment()), make_framebuffer(colors)};
 }
 
-void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers) {
-  gl::use_plain_rasterisation(target.size().x, target.size().y);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffers.with_depth.id());
-  target.use_depth();
-  glDepthMask(GL_FALSE);
-}
-
-void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
-                  const glm::vec4& value) {
-  begin_splats(target, framebuffers);
-  glClearBufferfv(GL_COLOR, 0, &value[0]);
-}
-
 OrderedSplats::OrderedSplats(std::span<const std::unique_ptr<DeviceSplats>> layers, float fraction)
     : fraction_(fraction) {
   for (const std::unique_ptr<DeviceSplats>& layer : layers)
@@ -160,6 +147,26 @@ void OrderedSplats::upload_order() {
   upload(full_rows, rest, 1);
 }
 
+void OrderedSplats::begin(FrameTarget& target, const SplatFramebuffers& framebuffers) const {
+  gl::use_plain_rasterisation(target.size().x, target.size().y);
+  const bool tests_depth =
+      target.has_depth() || std::any_of(layers_.begin(), layers_.end(),
+                                        [](DeviceSplats* layer) { return layer->tests_depth(); });
+  glBindFramebuffer(GL_FRAMEBUFFER,
+                    (tests_depth ? framebuffers.with_depth : framebuffers.without_depth).id());
+  if (tests_depth)
+    target.use_depth();
+  else
+    glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+}
+
+void OrderedSplats::begin(FrameTarget& target, const SplatFramebuffers& framebuffers,
+                          const glm::vec4& value) const {
+  begin(target, framebuffers);
+  glClearBufferfv(GL_COLOR, 0, &value[0]);
+}
+
 void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
                          const SplatFramebuffers& framebuffers, const SplatDrawing& drawing,
                          Range range) {
@@ -171,7 +178,8 @@ void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
     DeviceSplats& layer = *layers_[run.layer];
     if (begun != &layer) {
       const gl::Framebuffer& framebuffer =
-          layer.tests_depth() ? framebuffers.without_depth : framebuffers.with_depth;
+          layer.tests_depth() || !target.has_depth() ? framebuffers.without_depth
+                                                  : framebuffers.with_depth;
       glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
       layer.begin_runs(frame, target, order_texture_.id(), drawing);
     }

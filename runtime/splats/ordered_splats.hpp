@@ -48,7 +48,13 @@ class OrderedSplats {
   struct Range {
     std::uint32_t begin, end;
   };
-  /// Draws with the current blending, after begin_splats().
+  /// Sets plain rasterisation without writing depth, which is tested if the frame has any. Then
+  /// binds a framebuffer.
+  void begin(FrameTarget& target, const SplatFramebuffers& framebuffers) const;
+  /// The same, and clears the first colours to `value`.
+  void begin(FrameTarget& target, const SplatFramebuffers& framebuffers,
+             const glm::vec4& value) const;
+  /// Draws with the current blending, after begin().
   void draw(const Frame& frame, FrameTarget& target, const SplatFramebuffers& framebuffers,
             const SplatDrawing& drawing, Range range);
   /// Draws all splats.
@@ -83,11 +89,5 @@ class OrderedSplats {
   gl::Texture order_texture_;
   int order_rows_ = 0;
 };
-
-/// Binds framebuffers.with_depth and sets plain rasterisation with depth tested but not written.
-void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers);
-/// The same, and clears the first colours to `value`.
-void begin_splats(FrameTarget& target, const SplatFramebuffers& framebuffers,
-                  const glm::vec4& value);
 
 }  // namespace tureen

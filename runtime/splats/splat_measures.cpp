@@ -65,7 +65,7 @@ void SplatMeasures::draw(const Frame& frame, FrameTarget& target) {
 
 void SplatMeasures::measure_sums(const Frame& frame, FrameTarget& target) {
   constexpr GLfloat nothing[4] = {0, 0, 0, 0};
-  begin_splats(target, result_framebuffers_, glm::vec4(0.0f));
+  splats_.begin(target, result_framebuffers_, glm::vec4(0.0f));
   glClearBufferfv(GL_COLOR, 1, nothing);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
@@ -80,7 +80,7 @@ void SplatMeasures::search(const Frame& frame, FrameTarget& target, float thresh
   glBindFramebuffer(GL_FRAMEBUFFER, bounds_framebuffers_[0].id());
   glClearBufferuiv(GL_COLOR, 0, all);
   for (std::uint32_t range = all[1]; range > 1; range = (range + parts - 1) / parts) {
-    begin_splats(target, transmittance_framebuffers_, glm::vec4(1.0f));
+    splats_.begin(target, transmittance_framebuffers_, glm::vec4(1.0f));
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ZERO, GL_ONE_MINUS_SRC_COLOR);
@@ -101,14 +101,14 @@ void SplatMeasures::search(const Frame& frame, FrameTarget& target, float thresh
 
 void SplatMeasures::measure_median_depth(const Frame& frame, FrameTarget& target) {
   search(frame, target, 0.5f);
-  begin_splats(target, result_framebuffers_, glm::vec4(0.0f));
+  splats_.begin(target, result_framebuffers_, glm::vec4(0.0f));
   splats_.draw(frame, target, result_framebuffers_,
                {.output = SplatOutput::depth_found, .bounds = bounds_[0].id()});
 }
 
 void SplatMeasures::count(const Frame& frame, FrameTarget& target) {
   search(frame, target, closed_transmittance);
-  begin_splats(target, result_framebuffers_, glm::vec4(0, 0, 0, 1e30f));
+  splats_.begin(target, result_framebuffers_, glm::vec4(0, 0, 0, 1e30f));
   glEnable(GL_BLEND);
   glBlendEquationSeparate(GL_FUNC_ADD, GL_MIN);
   glBlendFunc(GL_ONE, GL_ONE);

@@ -21,34 +21,46 @@ BlendFormat blend_format(SplatFormat requested, const gl::Capabilities& device, 
 }
 
 SplatTarget::SplatTarget(gl::Api api, const BlendFormat& format)
-    : format_(format),
-      resolve_(assemble({.file = "full_screen.vert"}, api),
-               assemble({.file = "splat_resolve.frag"}, api)) {}
+    : api_(api), format_(format) {}
 
 void SplatTarget::resize(glm::ivec2 size) {
   size_ = size;
   blended_ = make_target(format_.texture, size.x, size.y);
-  behind_ = make_target(target_formats::rgba8, size.x, size.y);
-  behind_framebuffer_ = make_framebuffer({behind_.id()});
+  behind_ = {};
+  behind_framebuffer_ = {};
 }
 
 void SplatTarget::composite_over(FrameTarget& target) {
-  target.draw_color();  // clears the colours if no pass has drawn any
-  blit_color(target.color_framebuffer(), behind_framebuffer_.id(), size_);
+  const bool has_color = target.has_color();
+  if (has_color && !behind_) {
+    behind_ = make_target(target_formats::rgba8, size_.x, size_.y);
+    behind_framebuffer_ = make_framebuffer({behind_.id()});
+  }
+  if (has_color) blit_color(target.color_framebuffer(), behind_framebuffer_.id(), size_);
   target.overwrite_color();
-  resolve_.use();
-  resolve_.set_texture("splats", 0, blended_.id());
-  resolve_.set_texture("behind", 1, behind_.id());
-  resolve_.set("color_unit", format_.color_unit);
-  full_screen_.draw(resolve_);
+  std::optional<gl::Program>& resolve = has_color ? over_colors_ : over_background_;
+  if (!resolve)
+    resolve = gl::Program(assemble({.file = "full_screen.vert"}, api_),
+                          assemble({.file = "splat_resolve.frag",
+                                    .constants = {{"OVER_COLORS", has_color ? "1" : "0"}}},
+                                   api_));
+  resolve->use();
+  resolve->set_texture("splats", 0, blended_.id());
+  resolve->set("color_unit", format_.color_unit);
+  if (has_color)
+    resolve->set_texture("behind", 1, behind_.id());
+  else
+    resolve->set("background", target.background());
+  full_screen_.draw(*resolve);
 }
 
 std::size_t SplatTarget::bytes() const {
-  return bytes_of(format_.texture, size_) + bytes_of(target_formats::rgba8, size_);
+  return bytes_of(format_.texture, size_) + (behind_ ? bytes_of(target_formats::rgba8, size_) : 0);
 }
 
 void SplatTarget::leave_context() {
   full_screen_.leave_context();
+  behind_ = {};
   behind_framebuffer_ = {};
 }
 

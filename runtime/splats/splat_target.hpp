@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "runtime/gl/context.hpp"
@@ -38,7 +39,7 @@ class SplatTarget {
   /// Premultiplied colours in the format's unit, and alpha, row 0 at the bottom.
   GLuint texture() const { return blended_.id(); }
 
-  /// Composites the texture over the colours of the frame.
+  /// Composites the texture over the colours of the frame, or over its background.
   void composite_over(FrameTarget& target);
 
   /// Bytes of the textures, by their formats.
@@ -47,8 +48,9 @@ class SplatTarget {
   void leave_context();
 
  private:
+  gl::Api api_;
   BlendFormat format_;
-  gl::Program resolve_;
+  std::optional<gl::Program> over_colors_, over_background_;  // made for the first such frame
   FullScreen full_screen_;
   glm::ivec2 size_{0};
   gl::Texture blended_, behind_;

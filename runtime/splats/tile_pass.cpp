@@ -10,6 +10,33 @@
 
 namespace tureen {
 
+namespace {
+
+std::uint8_t byte_of(float value) {
+  return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+/// As shaders/splats/splat_resolve.frag: premultiplied colours over a background that is not.
+void composite(std::span<const float> rgba, const glm::vec4& background, std::uint8_t* bytes) {
+  const glm::vec4 behind(background.a * glm::vec3(background), background.a);
+  if (background.a == 1) {
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+      const float through = 1 - rgba[i + 3];
+      for (int k = 0; k < 4; ++k)
+        bytes[i + std::size_t(k)] = byte_of(rgba[i + std::size_t(k)] + through * behind[k]);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    const float through = 1 - rgba[i + 3];
+    const glm::vec4 sum = glm::vec4(rgba[i], rgba[i + 1], rgba[i + 2], rgba[i + 3]) + through * behind;
+    const glm::vec4 color = sum.a > 0 ? glm::vec4(glm::vec3(sum) / sum.a, sum.a) : background;
+    for (int k = 0; k < 4; ++k) bytes[i + std::size_t(k)] = byte_of(color[k]);
+  }
+}
+
+}  // namespace
+
 TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers)
     : layers_(std::move(layers)),
       renderer_([this](std::size_t count, const std::function<void(std::size_t)>& body) {
@@ -20,10 +47,9 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
                   assemble({.file = "depth_probe.frag"}, device.api)) {}
 
 void TilePass::resize(const FrameTarget& target) {
-  const glm::ivec2 size = target.size();
-  blended_.resize(size);
-  rgba_.resize(4 * std::size_t(size.x) * std::size_t(size.y));
-  upside_down_.resize(rgba_.size());
+  size_ = target.size();
+  has_texture_ = false;
+  rgba_.resize(4 * std::size_t(size_.x) * std::size_t(size_.y));
   bits_ = {};
   bits_framebuffer_ = {};
 }
@@ -45,8 +71,12 @@ void TilePass::draw(const Frame& frame, FrameTarget& target) {
   }
   read_depths(frame, target);
   renderer_.draw(views, depths_, rgba_);
-  upload();
-  blended_.composite_over(target);
+  if (target.has_color()) {
+    upload();
+    blended_.composite_over(target);
+  } else {
+    upload_over_background(target);
+  }
 }
 
 /// OpenGL ES can read back only colours, so a shader writes the depths as bits.
@@ -78,15 +108,33 @@ void TilePass::read_depths(const Frame& frame, const FrameTarget& target) {
 }
 
 void TilePass::upload() {
-  const glm::ivec2 size = blended_.size();
-  const auto row_floats = 4 * std::size_t(size.x);
-  pool_.run(std::size_t(size.y), [&](std::size_t row) {
+  if (!has_texture_) blended_.resize(size_);
+  has_texture_ = true;
+  blended_upside_down_.resize(rgba_.size());
+  const auto row_floats = 4 * std::size_t(size_.x);
+  pool_.run(std::size_t(size_.y), [&](std::size_t row) {
     std::copy_n(rgba_.data() + row * row_floats, row_floats,
-                upside_down_.data() + (std::size_t(size.y) - 1 - row) * row_floats);
+                blended_upside_down_.data() + (std::size_t(size_.y) - 1 - row) * row_floats);
   });
   gl::use_plain_pixel_transfer();
   glBindTexture(GL_TEXTURE_2D, blended_.texture());
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, upside_down_.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT,
+                  blended_upside_down_.data());
+}
+
+/// Composites on the processor: on software devices, that takes a fraction of the time of drawing.
+void TilePass::upload_over_background(FrameTarget& target) {
+  colors_upside_down_.resize(rgba_.size());
+  const auto row_values = 4 * std::size_t(size_.x);
+  pool_.run(std::size_t(size_.y), [&](std::size_t row) {
+    composite(std::span(rgba_).subspan(row * row_values, row_values), target.background(),
+              &colors_upside_down_[(std::size_t(size_.y) - 1 - row) * row_values]);
+  });
+  target.overwrite_color();
+  gl::use_plain_pixel_transfer();
+  glBindTexture(GL_TEXTURE_2D, target.color_texture());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_UNSIGNED_BYTE,
+                  colors_upside_down_.data());
 }
 
 std::vector<glm::vec4> TilePass::read_blended() const {
@@ -97,11 +145,13 @@ std::vector<glm::vec4> TilePass::read_blended() const {
 }
 
 std::size_t TilePass::target_bytes() const {
-  return blended_.bytes() + (bits_ ? bytes_of(target_formats::r32ui, blended_.size()) : 0);
+  return (has_texture_ ? blended_.bytes() : 0) +
+         (bits_ ? bytes_of(target_formats::r32ui, size_) : 0);
 }
 
 void TilePass::leave_context() {
   blended_.leave_context();
+  has_texture_ = false;
   full_screen_.leave_context();
   bits_ = {};
   bits_framebuffer_ = {};

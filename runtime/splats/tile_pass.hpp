@@ -3,6 +3,7 @@
 // SplatPass (docs/benchmarks.md), and has the same picture.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -47,11 +48,14 @@ class TilePass final : public SplatBlendingPass {
  private:
   void read_depths(const Frame& frame, const FrameTarget& target);
   void upload();
+  void upload_over_background(FrameTarget& target);
 
   std::vector<const TiledSplats*> layers_;
   ThreadPool pool_;
   splatting::TileRenderer renderer_;
+  glm::ivec2 size_{0};
   SplatTarget blended_;
+  bool has_texture_ = false;  // whether blended_ has this size
   gl::Program depth_bits_;
   FullScreen full_screen_;
   gl::Texture bits_;  // made when soups are drawn
@@ -59,7 +63,9 @@ class TilePass final : public SplatBlendingPass {
   // Row 0 on top.
   std::vector<float> depths_;  // in world units, infinity where no soup is; empty: no soup anywhere
   std::vector<float> rgba_;
-  std::vector<float> upside_down_;  // as OpenGL's textures
+  // The same upside down, as OpenGL's textures: blended splats, or the frame's colours.
+  std::vector<float> blended_upside_down_;
+  std::vector<std::uint8_t> colors_upside_down_;
 };
 
 }  // namespace tureen
