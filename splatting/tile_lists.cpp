@@ -49,6 +49,10 @@ void TileLists::add(const Box& box, std::uint32_t splat) {
   for (int row = first; row < last; ++row) add_columns(row, begin, end, splat);
 }
 
+void TileLists::add_everywhere(std::uint32_t splat) {
+  for (int row = 0; row < rows(); ++row) add_columns(row, 0, columns_, splat);
+}
+
 template <bool numbered>
 void TileLists::finish_row(int row, std::span<const std::uint32_t> shifts) {
   const std::vector<Span>& spans = spans_[std::size_t(row)];

@@ -66,6 +66,8 @@ class TileLists {
 
   /// Adds a splat to all tiles with pixel centres in a box.
   void add(const Box& box, std::uint32_t splat);
+  /// Adds a splat that may cover any pixel to all tiles.
+  void add_everywhere(std::uint32_t splat);
 
   /// Pairs of a splat and a tile so far. Pairs are numbered as they are added.
   std::uint32_t pairs() const { return pairs_; }

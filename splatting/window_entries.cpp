@@ -70,8 +70,8 @@ void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entr
 }
 
 void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& lists) {
-  if (std::isnan(outline[0])) {  // may cover any pixel
-    for (int row = 0; row < lists.rows(); ++row) lists.add_columns(row, 0, lists.columns(), splat);
+  if (std::isnan(outline[0])) {
+    lists.add_everywhere(splat);
     return;
   }
   const auto [left, right] = std::minmax({outline[0], outline[2], outline[4]});
