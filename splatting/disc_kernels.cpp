@@ -93,7 +93,7 @@ void project_discs_on(const ImageView& view, const ParameterRows& discs, int deg
     store(out::log_opacity, log_opacity);
     store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
     const Vector3 color =
-        harmonics_color(degree, unit(offset), discs.row(in::harmonics), discs.stride(), i);
+        harmonics_color(degree, offset, discs.row(in::harmonics), discs.stride(), i);
     store(out::red, color.x);
     store(out::green, color.y);
     store(out::blue, color.z);

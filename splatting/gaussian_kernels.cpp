@@ -136,7 +136,7 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     store(out::half_height, hn::Mul(radius, root_y));
 
     const Vector3 color =
-        harmonics_color(degree, unit(offset), gaussians.row(in::harmonics), gaussians.stride(), i);
+        harmonics_color(degree, offset, gaussians.row(in::harmonics), gaussians.stride(), i);
     store(out::red, color.x);
     store(out::green, color.y);
     store(out::blue, color.z);

@@ -99,9 +99,13 @@ HWY_INLINE Vector3 harmonics_slope(int degree, const Vector3& at, const Floats (
 }
 
 /// max(0, 1/2 + sum_i Y_i c_i) for the splats from `i` on, but at most 65504, as on the device: no
-/// product with it is infinite. `coefficients` is the row of the first red one.
-HWY_INLINE Vector3 harmonics_color(int degree, const Vector3& direction, const float* coefficients,
+/// product with it is infinite. `from_eye` points to the splat; at the eye, the direction is that
+/// of z. `coefficients` is the row of the first red one.
+HWY_INLINE Vector3 harmonics_color(int degree, const Vector3& from_eye, const float* coefficients,
                                    std::size_t stride, std::size_t i) {
+  Vector3 direction = unit(from_eye);
+  const Mask at_eye = hn::Eq(dot(direction, direction), hn::Zero(d));
+  direction.z = hn::IfThenElse(at_eye, constant(1.0f), direction.z);
   Floats basis[25];
   harmonics_basis(degree, direction, basis);
   Vector3 sum{constant(0.5f), constant(0.5f), constant(0.5f)};

@@ -12,11 +12,11 @@
 
 namespace tureen::splatting {
 
-bool has_layer_for(const Splats& splats, const SplatProfile& profile) {
+bool has_layer_for(const Splats& splats, const SplatProfile&) {
   if (std::holds_alternative<NeuralDensities>(splats.kernel) || splats.color.per_corner ||
       count(splats) > place_mask)
     return false;
-  return !std::holds_alternative<TriangleWindows>(splats.kernel) || profile.min_center_depth > 0;
+  return true;
 }
 
 namespace {

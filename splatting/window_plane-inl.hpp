@@ -33,10 +33,13 @@ struct WindowCorners {
   Vector3 center;         // from the eye, scaled
   Floats relative_depth;  // of the centre, scaled
   Floats size, by_size;   // the unit, and one over it
-  Floats x, y;            // the image of the centre, in pixels from the principal point
+  // A reference in the image, in pixels from the principal point: the image of the centre. With a
+  // profile without min_center_depth, the point of the image nearest to that; the principal point's
+  // nearest if the centre is behind the eye.
+  Floats x, y;
 };
 
-/// `corner` in layer coordinates. Where the centre is behind the eye, (x, y) has no meaning.
+/// `corner` in layer coordinates.
 HWY_INLINE WindowCorners corners_of(const ImageView& view, const Vector3 (&corner)[3]) {
   const Floats zero = hn::Zero(d), one = constant(1.0f);
   WindowCorners at;
@@ -61,6 +64,15 @@ HWY_INLINE WindowCorners corners_of(const ImageView& view, const Vector3 (&corne
   const Floats scale = hn::Div(one, hn::IfThenElse(in_front, at.relative_depth, one));
   at.x = hn::Mul(mean(at.point[0].x, at.point[1].x, at.point[2].x), scale);
   at.y = hn::Mul(mean(at.point[0].y, at.point[1].y, at.point[2].y), scale);
+  if (view.min_center_depth == 0) {
+    // Far from the image, linear functions around the reference would cancel in the image.
+    const auto in_image = [&](Floats at_center, float first, int length) {
+      return hn::Clamp(hn::IfThenElseZero(in_front, at_center), constant(-first),
+                       constant(float(length) - first));
+    };
+    at.x = in_image(at.x, view.cx, view.width);
+    at.y = in_image(at.y, view.cy, view.height);
+  }
   return at;
 }
 
@@ -69,10 +81,10 @@ struct WindowPlane {
   Floats edges[9], inverse_depth[3];
   Mask exists;  // in front of the eye, and with an area in the image
   // N_k.x, N_k.y, N_k . (x, y, 1), |N_k.xy|, W and det, in the unit of the corners.
-  Floats normal_x[3], normal_y[3], at_center[3], length[3], weight, determinant;
+  Floats normal_x[3], normal_y[3], at_reference[3], length[3], weight, determinant;
 };
 
-/// The functions are around the image of the centre.
+/// The functions are around the reference (x, y) of WindowCorners.
 ///
 /// The homogeneous rule (docs/numerics.md, W14): with N_k = Q_i x Q_j and W = sum_k w_k |N_k.xy|,
 /// the distance from edge k over the inradius at the image point p is W (N_k . p) /
@@ -83,8 +95,8 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
   WindowPlane result;
   Floats distance[3];  // squared, from the eye
   for (std::size_t k = 0; k < 3; ++k) distance[k] = dot(offset[k], offset[k]);
-  auto& [edges, inverse_depth, exists, normal_x, normal_y, at_center, length, weight, determinant] =
-      result;
+  auto& [edges, inverse_depth, exists, normal_x, normal_y, at_reference, length, weight,
+         determinant] = result;
   exists = hn::Eq(zero, zero);
   weight = zero;
   Floats normal_sum_x = zero, normal_sum_y = zero;
@@ -104,7 +116,7 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
     // N_k . (x, y, 1), with both points relative to (x, y) first: this cancels less.
     const Floats ax = hn::NegMulAdd(x, start.z, start.x), ay = hn::NegMulAdd(y, start.z, start.y);
     const Floats bx = hn::NegMulAdd(x, edge.z, edge.x), by = hn::NegMulAdd(y, edge.z, edge.y);
-    at_center[k] = hn::MulSub(ax, by, hn::Mul(ay, bx));
+    at_reference[k] = hn::MulSub(ax, by, hn::Mul(ay, bx));
     length[k] = hn::Sqrt(hn::MulAdd(normal_x[k], normal_x[k], hn::Mul(normal_y[k], normal_y[k])));
     weight = hn::MulAdd(point[k].z, length[k], weight);
     exists = hn::And(exists, hn::Gt(length[k], zero));
@@ -112,10 +124,20 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
     normal_sum_y = hn::Add(normal_sum_y, normal_y[k]);
   }
   // Three times N_k . centre, for any k; the edge opposite the farthest corner rounds least.
-  const Floats opposite_farthest =
-      hn::IfThenElse(hn::Gt(distance[0], hn::Max(distance[1], distance[2])), at_center[0],
-                     hn::IfThenElse(hn::Gt(distance[1], distance[2]), at_center[1], at_center[2]));
-  determinant = hn::Mul(hn::Add(hn::Add(point[0].z, point[1].z), point[2].z), opposite_farthest);
+  const auto opposite_farthest = [&](const Floats(&of_edge)[3]) {
+    return hn::IfThenElse(hn::Gt(distance[0], hn::Max(distance[1], distance[2])), of_edge[0],
+                          hn::IfThenElse(hn::Gt(distance[1], distance[2]), of_edge[1], of_edge[2]));
+  };
+  const Floats depth_sum = hn::Add(hn::Add(point[0].z, point[1].z), point[2].z);
+  determinant = hn::Mul(depth_sum, opposite_farthest(at_reference));
+  if (view.min_center_depth == 0) {  // the reference may not be the image of the centre
+    const Floats from_x =
+        hn::NegMulAdd(x, depth_sum, hn::Add(hn::Add(point[0].x, point[1].x), point[2].x));
+    const Floats from_y =
+        hn::NegMulAdd(y, depth_sum, hn::Add(hn::Add(point[0].y, point[1].y), point[2].y));
+    determinant = hn::MulAdd(opposite_farthest(normal_x), from_x,
+                             hn::MulAdd(opposite_farthest(normal_y), from_y, determinant));
+  }
   exists = hn::And(exists, hn::Gt(weight, zero));
   exists = hn::And(exists, hn::Gt(hn::Abs(determinant), zero));
 
@@ -124,11 +146,12 @@ HWY_INLINE WindowPlane plane_of(const ImageView& view, const WindowCorners& at) 
     const Floats factor = hn::Div(hn::Mul(weight, inverse), length[k]);
     edges[3 * k] = hn::Mul(normal_x[k], factor);
     edges[3 * k + 1] = hn::Mul(normal_y[k], factor);
-    edges[3 * k + 2] = hn::Mul(at_center[k], factor);
+    edges[3 * k + 2] = hn::Mul(at_reference[k], factor);
   }
   inverse_depth[0] = hn::Mul(normal_sum_x, inverse);
   inverse_depth[1] = hn::Mul(normal_sum_y, inverse);
-  inverse_depth[2] = hn::Mul(hn::Add(hn::Add(at_center[0], at_center[1]), at_center[2]), inverse);
+  inverse_depth[2] =
+      hn::Mul(hn::Add(hn::Add(at_reference[0], at_reference[1]), at_reference[2]), inverse);
   return result;
 }
 

@@ -64,7 +64,8 @@ HWY_INLINE void corner_gradient(const WindowCorners& at, const WindowPlane& plan
     by_normal[k].y = hn::MulAdd(along, plane.normal_y[k], by_normal[k].y);
     point[k] = {hn::NegMulAdd(at.x, at.point[k].z, at.point[k].x),
                 hn::NegMulAdd(at.y, at.point[k].z, at.point[k].y), at.point[k].z};
-    by_point[k] = product({plane.normal_x[k], plane.normal_y[k], plane.at_center[k]}, total_by_det);
+    by_point[k] =
+        product({plane.normal_x[k], plane.normal_y[k], plane.at_reference[k]}, total_by_det);
     by_point[k].z = hn::MulAdd(total_by_weight, plane.length[k], by_point[k].z);
   }
   for (std::size_t k = 0; k < 3; ++k) {
