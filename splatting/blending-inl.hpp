@@ -70,12 +70,19 @@ struct Block {
   }
 };
 
-/// Blends one entry into the open pixels of a block. Returns whether it closes any. `alpha_of` as
-/// in blend_entries(). `seen(part, weight)` is called with the entry's weights in a vector of
-/// pixels that it may change: 0 where it does not.
-template <class Entry, class AlphaOf, class Seen>
-HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, Floats max_alpha,
-                            Floats stop, Block& block, const Seen& seen) {
+/// `color_of` of blend_entries(), for entries of one colour.
+struct OneColor {
+  template <class Entry>
+  HWY_INLINE Vector3 operator()(const Entry& entry, Floats, Floats) const {
+    return {constant(entry.red), constant(entry.green), constant(entry.blue)};
+  }
+};
+
+/// Blends one entry into the open pixels of a block. Returns whether it closes any. `alpha_of` and
+/// `color_of` as in blend_entries().
+template <class Entry, class AlphaOf, class ColorOf>
+HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, const ColorOf& color_of,
+                            Floats max_alpha, Floats stop, Block& block) {
   bool closes = false;
   for (std::size_t part = 0; part < parts; ++part) {
     Floats& transmittance = block.transmittance[part];
@@ -88,10 +95,10 @@ HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, Floats 
     const Mask ends = hn::And(blended, hn::Lt(behind, stop));
     blended = hn::AndNot(ends, blended);
     const Floats weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
-    seen(part, weight);
-    block.red[part] = hn::MulAdd(weight, constant(entry.red), block.red[part]);
-    block.green[part] = hn::MulAdd(weight, constant(entry.green), block.green[part]);
-    block.blue[part] = hn::MulAdd(weight, constant(entry.blue), block.blue[part]);
+    const Vector3 color = color_of(entry, block.x[part], block.y[part]);
+    block.red[part] = hn::MulAdd(weight, color.x, block.red[part]);
+    block.green[part] = hn::MulAdd(weight, color.y, block.green[part]);
+    block.blue[part] = hn::MulAdd(weight, color.z, block.blue[part]);
     transmittance = hn::IfThenElse(blended, behind, transmittance);
     if (hn::AllFalse(d, ends)) continue;
     transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
@@ -102,19 +109,19 @@ HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, Floats 
 
 /// Blends the entries at these places front to back into the pixels, which may hold earlier splats.
 /// `alpha_of(entry, x, y, inverse_behind, alpha)` returns the pixels that the entry covers, and
-/// sets their alpha before its largest value is applied. A splat that would lower a pixel's
-/// transmittance below the profile's stop closes the pixel.
-template <class Entry, class AlphaOf>
+/// sets their alpha before its largest value is applied. `color_of(entry, x, y)` returns the colour
+/// of a covered pixel; elsewhere, a finite one. A splat that would lower a pixel's transmittance
+/// below the profile's stop closes the pixel.
+template <class Entry, class AlphaOf, class ColorOf = OneColor>
 HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entries,
                               std::span<const std::uint32_t> tile, const AlphaOf& alpha_of,
-                              TilePixels& pixels) {
+                              TilePixels& pixels, const ColorOf& color_of = {}) {
   const Floats max_alpha = constant(view.max_alpha), stop = constant(view.stop_transmittance);
   for (int i = 0; i < blocks_a_tile; ++i) {
     Block block(pixels, i);
     if (!block.has_open_pixels()) continue;
     for (const std::uint32_t splat : tile)
-      if (blend_entry(entries[splat & place_mask], alpha_of, max_alpha, stop, block,
-                      [](std::size_t, Floats) {}) &&
+      if (blend_entry(entries[splat & place_mask], alpha_of, color_of, max_alpha, stop, block) &&
           !block.has_open_pixels())
         break;
     block.store(pixels, i);

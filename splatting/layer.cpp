@@ -13,10 +13,7 @@
 namespace tureen::splatting {
 
 bool has_layer_for(const Splats& splats, const SplatProfile&) {
-  if (std::holds_alternative<NeuralDensities>(splats.kernel) || splats.color.per_corner ||
-      count(splats) > place_mask)
-    return false;
-  return true;
+  return !std::holds_alternative<NeuralDensities>(splats.kernel) && count(splats) <= place_mask;
 }
 
 namespace {
@@ -50,8 +47,12 @@ std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& prof
   std::copy_if(which.begin(), which.end(), std::back_inserter(without_nan),
                [&](std::uint32_t i) { return !has_nan(splats, i); });
   which = without_nan;
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
-    return std::make_unique<WindowLayer>(*windows, splats.color, which, degree);
+  const SplatColor& color = splats.color;
+  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
+    if (color.per_corner)
+      return std::make_unique<WindowLayer<CornerColorWindows>>(*windows, color, which, degree);
+    return std::make_unique<WindowLayer<OneColorWindows>>(*windows, color, which, degree);
+  }
   const auto& gaussians = std::get<Gaussians>(splats.kernel);
   if (profile.projection == SplatProfile::Projection::plane)
     return std::make_unique<DiscLayer>(gaussians, splats.color, which, degree);

@@ -34,7 +34,7 @@ class Layer {
 };
 
 /// Whether make_layer() supports the splats, drawn by this profile. It does not support neural
-/// densities, colours of corners, and more than 2^24 splats.
+/// densities and more than 2^24 splats.
 bool has_layer_for(const Splats& splats, const SplatProfile& profile);
 
 /// A copy of the splats with these indices that have no NaN, with harmonics up to `degree`, for

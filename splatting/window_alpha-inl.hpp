@@ -16,7 +16,7 @@ namespace tureen::splatting::HWY_NAMESPACE {
 struct WindowAt {
   Floats distance[3], rho, dx, dy;  // dx, dy: from the image of the centre
 
-  HWY_INLINE WindowAt(const WindowEntry& entry, Floats x, Floats y)
+  HWY_INLINE WindowAt(const WindowShape& entry, Floats x, Floats y)
       : dx(hn::Sub(x, constant(entry.x))), dy(hn::Sub(y, constant(entry.y))) {
     for (std::size_t k = 0; k < 3; ++k) distance[k] = linear(entry.edges + 3 * k);
     rho = hn::Min(hn::Min(distance[0], distance[1]), distance[2]);
@@ -35,7 +35,7 @@ HWY_INLINE Floats log_rho_of(Floats rho) {
 }
 
 /// alpha before it is limited to the largest. -126 is the smallest argument of exp2_of().
-HWY_INLINE Floats window_alpha_of(const WindowEntry& entry, Floats log_rho) {
+HWY_INLINE Floats window_alpha_of(const WindowShape& entry, Floats log_rho) {
   const Floats log_alpha = hn::MulAdd(constant(entry.sigma), log_rho, constant(entry.log_opacity));
   return exp2_of(hn::Max(log_alpha, constant(-126.0f)));
 }
@@ -45,7 +45,7 @@ struct WindowAlpha {
   Floats inverse_near;
 
   /// Returns the pixels where alpha reaches the smallest value, and sets `alpha` there.
-  HWY_INLINE Mask operator()(const WindowEntry& entry, Floats x, Floats y, Floats inverse_behind,
+  HWY_INLINE Mask operator()(const WindowShape& entry, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const WindowAt at(entry, x, y);
     Mask covered = hn::Ge(at.rho, constant(entry.min_rho));

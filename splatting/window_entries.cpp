@@ -49,9 +49,7 @@ class Columns {
   float across_, above_, below_;
 };
 
-}  // namespace
-
-void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entry,
+void read_shape(const ParameterRows& projected, std::size_t i, WindowShape& entry,
                 WindowOutline& outline) {
   namespace row = projected_window_row;
   const auto value = [&](std::size_t which) { return projected.row(which)[i]; };
@@ -62,11 +60,33 @@ void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entr
   entry.sigma = value(row::sigma);
   entry.log_opacity = value(row::log_opacity);
   entry.min_rho = value(row::min_rho);
+  for (std::size_t k = 0; k < 6; ++k) outline[k] = value(row::outline + k);
+}
+
+}  // namespace
+
+void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entry,
+                WindowOutline& outline) {
+  namespace row = projected_window_row;
+  const auto value = [&](std::size_t which) { return projected.row(which)[i]; };
+  read_shape(projected, i, entry, outline);
   entry.red = value(row::red);
   entry.green = value(row::green);
   entry.blue = value(row::blue);
-  for (std::size_t k = 0; k < 6; ++k) outline[k] = value(row::outline + k);
   entry.reaches_near = std::isnan(outline[0]);
+}
+
+void read_corner_entry(const ParameterRows& projected, std::size_t i, CornerWindowEntry& entry,
+                       WindowOutline& outline) {
+  namespace row = projected_corner_row;
+  read_shape(projected, i, entry, outline);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto value = [&](std::size_t which) { return projected.row(which + k)[i]; };
+    entry.weights[k] = value(row::weights);
+    entry.red[k] = value(row::red);
+    entry.green[k] = value(row::green);
+    entry.blue[k] = value(row::blue);
+  }
 }
 
 void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& lists) {

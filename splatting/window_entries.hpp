@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "splatting/corner_window_kernels.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
 #include "splatting/window_kernels.hpp"
@@ -17,6 +18,9 @@ using WindowOutline = std::array<float, 6>;
 /// Reads splat `i`, which is drawn, from the rows of projected_window_row.
 void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entry,
                 WindowOutline& outline);
+/// The same from rows of projected_corner_row.
+void read_corner_entry(const ParameterRows& projected, std::size_t i, CornerWindowEntry& entry,
+                       WindowOutline& outline);
 
 /// Adds `splat` to all tiles where rho reaches WindowEntry::min_rho at a pixel centre, and to few
 /// others.

@@ -12,7 +12,8 @@
 
 namespace tureen::splatting {
 
-/// Rows of windows. Harmonics follow: red, green and blue of each coefficient.
+/// Rows of windows. Harmonics follow: red, green and blue of each coefficient; with colours of
+/// corners, those of the first corner, the second and the third.
 namespace window_row {
 enum : std::size_t {
   corners,  // x, y, z of each of the three, in layer coordinates
@@ -44,9 +45,14 @@ enum : std::size_t {
 };
 }
 
+/// What the alpha of a projected window depends on, as projected_window_row.
+struct WindowShape {
+  float x, y, edges[9], inverse_depth[3], sigma, log_opacity, min_rho;
+};
+
 /// A projected window, as the compositing loop reads it.
-struct alignas(16) WindowEntry {
-  float x, y, edges[9], inverse_depth[3], sigma, log_opacity, min_rho, red, green, blue;
+struct alignas(16) WindowEntry : WindowShape {
+  float red, green, blue;
   bool reaches_near;  // some part may be nearer than the near plane
 };
 

@@ -4,11 +4,12 @@
 
 namespace tureen::splatting {
 
-WindowLayer::WindowLayer(const TriangleWindows& windows, const SplatColor& color,
-                         std::span<const std::uint32_t> which, int degree)
+template <class Kernel>
+WindowLayer<Kernel>::WindowLayer(const TriangleWindows& windows, const SplatColor& color,
+                                 std::span<const std::uint32_t> which, int degree)
     : degree_(degree),
-      rows_(window_row::harmonics + harmonics_rows(degree), which.size()),
-      projected_(projected_window_row::count, which.size()) {
+      rows_(window_row::harmonics + Kernel::colors * harmonics_rows(degree), which.size()),
+      projected_(Kernel::rows, which.size()) {
   for (std::size_t i = 0; i < which.size(); ++i) {
     for (std::size_t k = 0; k < 9; ++k)
       rows_.row(window_row::corners + k)[i] = windows.corners[3 * which[i] + k / 3][int(k % 3)];
@@ -18,27 +19,34 @@ WindowLayer::WindowLayer(const TriangleWindows& windows, const SplatColor& color
   write_harmonics(color, which, degree, rows_, window_row::harmonics);
 }
 
-std::span<const float> WindowLayer::project(const ImageView& view) {
-  project_windows(view, rows_, degree_, 0, count(), projected_);
+template <class Kernel>
+std::span<const float> WindowLayer<Kernel>::project(const ImageView& view) {
+  Kernel::project(view, rows_, degree_, 0, count(), projected_);
   return {projected_.row(projected_window_row::depth), count()};
 }
 
-void WindowLayer::set_order(std::span<const std::uint32_t> splats) {
+template <class Kernel>
+void WindowLayer<Kernel>::set_order(std::span<const std::uint32_t> splats) {
   entries_.resize(splats.size());
   outlines_.resize(splats.size());
   for (std::size_t place = 0; place < splats.size(); ++place)
-    read_entry(projected_, splats[place], entries_[place], outlines_[place]);
+    Kernel::read(projected_, splats[place], entries_[place], outlines_[place]);
 }
 
-void WindowLayer::list(const ImageView&, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
-                       TileLists& lists) const {
+template <class Kernel>
+void WindowLayer<Kernel>::list(const ImageView&, std::uint32_t begin, std::uint32_t end,
+                               std::uint32_t tag, TileLists& lists) const {
   for (std::uint32_t place = begin; place < end; ++place)
     list_window(outlines_[place], tag | place, lists);
 }
 
-void WindowLayer::blend(const ImageView& view, std::span<const std::uint32_t> splats,
-                        TilePixels& pixels) const {
-  blend_windows(view, entries_, splats, pixels);
+template <class Kernel>
+void WindowLayer<Kernel>::blend(const ImageView& view, std::span<const std::uint32_t> splats,
+                                TilePixels& pixels) const {
+  Kernel::blend(view, entries_, splats, pixels);
 }
+
+template class WindowLayer<OneColorWindows>;
+template class WindowLayer<CornerColorWindows>;
 
 }  // namespace tureen::splatting

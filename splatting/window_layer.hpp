@@ -8,6 +8,28 @@
 
 namespace tureen::splatting {
 
+/// Windows of one colour, for WindowLayer.
+struct OneColorWindows {
+  using Entry = WindowEntry;
+  static constexpr std::size_t colors = 1;
+  static constexpr std::size_t rows = projected_window_row::count;
+  static constexpr auto project = &project_windows;
+  static constexpr auto read = &read_entry;
+  static constexpr auto blend = &blend_windows;
+};
+
+/// Windows with colours of their corners.
+struct CornerColorWindows {
+  using Entry = CornerWindowEntry;
+  static constexpr std::size_t colors = 3;
+  static constexpr std::size_t rows = projected_corner_row::count;
+  static constexpr auto project = &project_corner_windows;
+  static constexpr auto read = &read_corner_entry;
+  static constexpr auto blend = &blend_corner_windows;
+};
+
+/// `Kernel` is OneColorWindows or CornerColorWindows, as the colour says.
+template <class Kernel>
 class WindowLayer final : public Layer {
  public:
   WindowLayer(const TriangleWindows& windows, const SplatColor& color,
@@ -24,8 +46,11 @@ class WindowLayer final : public Layer {
  private:
   int degree_;
   ParameterRows rows_, projected_;
-  std::vector<WindowEntry> entries_;  // in the order of blending
+  std::vector<typename Kernel::Entry> entries_;  // in the order of blending
   std::vector<WindowOutline> outlines_;
 };
+
+extern template class WindowLayer<OneColorWindows>;
+extern template class WindowLayer<CornerColorWindows>;
 
 }  // namespace tureen::splatting

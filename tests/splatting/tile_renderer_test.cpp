@@ -121,14 +121,15 @@ TEST(Tiles, OfOtherSplatsAreNotSupported) {
     const std::string name = kind.name;
     const Splats splats = random_splats(kind, 1, 0.1, 1);
     EXPECT_EQ(!splatting::has_layer_for(splats, splats.profile),
-              name == "neural" || name == "windows_per_corner")
+              name == "neural")
         << name;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(, TilesOfKind,
                          testing::Values(splat_kinds[0], splat_kinds[1], splat_kinds[2],
-                                         splat_kinds[3], splat_kinds[4], splat_kinds[5]),
+                                         splat_kinds[3], splat_kinds[4], splat_kinds[5],
+                                         splat_kinds[7]),
                          [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace tile_renderer_test
