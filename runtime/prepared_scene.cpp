@@ -20,11 +20,12 @@ std::unique_ptr<splatting::Layer> tiled_splats(const Splats& splats, const Splat
       (blending == SplatBlending::automatic && !limits.software))
     return nullptr;
   if constexpr (has_tile_pass) {
-    if (!plan.as_published && splatting::has_layer_for(splats, plan.profile))
+    if (!plan.as_published && splatting::has_layer_for(splats))
       return splatting::make_layer(splats, plan.profile, plan.drawn, plan.harmonics_degree);
   }
   if (blending == SplatBlending::tiles)
-    throw UsageError("tiles cannot blend these splats: " + plan.kernel,
+    throw UsageError(plan.as_published ? "tiles do not have the culls of published rasterisers"
+                                       : "tiles cannot blend so many splats",
                      "--blend raster can, and auto chooses it");
   return nullptr;
 }

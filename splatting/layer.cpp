@@ -8,13 +8,12 @@
 
 #include "splatting/disc_layer.hpp"
 #include "splatting/gaussian_layer.hpp"
+#include "splatting/neural_layer.hpp"
 #include "splatting/window_layer.hpp"
 
 namespace tureen::splatting {
 
-bool has_layer_for(const Splats& splats, const SplatProfile&) {
-  return !std::holds_alternative<NeuralDensities>(splats.kernel) && count(splats) <= place_mask;
-}
+bool has_layer_for(const Splats& splats) { return count(splats) <= place_mask; }
 
 namespace {
 
@@ -33,6 +32,13 @@ bool has_nan(const Splats& splats, std::size_t i) {
     return any_nan(windows->corners[3 * i]) || any_nan(windows->corners[3 * i + 1]) ||
            any_nan(windows->corners[3 * i + 2]) || std::isnan(windows->sigma[i]) ||
            std::isnan(windows->opacity[i]);
+  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel)) {
+    const float* network = &densities->networks[NeuralDensities::parameters * i];
+    return any_nan(densities->centers[i]) || any_nan(densities->semi_axes[i]) ||
+           any_nan(densities->rotations[i]) ||
+           std::any_of(network, network + NeuralDensities::parameters,
+                       [](float value) { return std::isnan(value); });
+  }
   const auto& gaussians = std::get<Gaussians>(splats.kernel);
   return any_nan(gaussians.centers[i]) || any_nan(gaussians.scales[i]) ||
          any_nan(gaussians.rotations[i]) || std::isnan(gaussians.opacity[i]);
@@ -42,7 +48,7 @@ bool has_nan(const Splats& splats, std::size_t i) {
 
 std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& profile,
                                   std::span<const std::uint32_t> which, int degree) {
-  assert(has_layer_for(splats, profile));
+  assert(has_layer_for(splats));
   std::vector<std::uint32_t> without_nan;
   std::copy_if(which.begin(), which.end(), std::back_inserter(without_nan),
                [&](std::uint32_t i) { return !has_nan(splats, i); });
@@ -53,10 +59,12 @@ std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& prof
       return std::make_unique<WindowLayer<CornerColorWindows>>(*windows, color, which, degree);
     return std::make_unique<WindowLayer<OneColorWindows>>(*windows, color, which, degree);
   }
+  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
+    return std::make_unique<NeuralLayer>(*densities, color, which, degree);
   const auto& gaussians = std::get<Gaussians>(splats.kernel);
   if (profile.projection == SplatProfile::Projection::plane)
-    return std::make_unique<DiscLayer>(gaussians, splats.color, which, degree);
-  return std::make_unique<GaussianLayer>(gaussians, splats.color, which, degree);
+    return std::make_unique<DiscLayer>(gaussians, color, which, degree);
+  return std::make_unique<GaussianLayer>(gaussians, color, which, degree);
 }
 
 }  // namespace tureen::splatting

@@ -33,9 +33,8 @@ class Layer {
                      TilePixels& pixels) const = 0;
 };
 
-/// Whether make_layer() supports the splats, drawn by this profile. It does not support neural
-/// densities and more than 2^24 splats.
-bool has_layer_for(const Splats& splats, const SplatProfile& profile);
+/// Whether make_layer() supports the splats: at most place_mask.
+bool has_layer_for(const Splats& splats);
 
 /// A copy of the splats with these indices that have no NaN, with harmonics up to `degree`, for
 /// views of this profile. The splats fulfil has_layer_for().

@@ -62,6 +62,55 @@ HWY_INLINE Floats log2_of(Floats x) {
   return hn::MulAdd(y, t, hn::ConvertTo(d, exponent));
 }
 
+/// sin(x - shift pi) by turns of half a circle: `half_turns` is x / pi - shift, rounded. For |x| up
+/// to 1e5 to 2e-7 + 6e-8 |x|, the rounding of x itself; near 0 to 2e-7 of the value. Beyond 1e7
+/// the result has no meaning and may be large. The constants sum to pi, and products of the first
+/// with multiples of 1/2 up to 2^15 are exact. Polynomial of r^2: interpolation of sin(r) / r in
+/// Chebyshev's nodes on [-pi/2, pi/2].
+HWY_INLINE Floats sine_of(Floats x, Floats half_turns, float shift) {
+  const Floats zeros = hn::Add(half_turns, constant(shift));
+  Floats r = hn::NegMulAdd(zeros, constant(3.140625f), x);
+  r = hn::NegMulAdd(zeros, constant(9.67653589793e-4f), r);
+  const Floats rr = hn::Mul(r, r);
+  Floats y = hn::MulAdd(constant(2.60510764e-6f), rr, constant(-1.98090174e-4f));
+  y = hn::MulAdd(y, rr, constant(0.00833305017f));
+  y = hn::MulAdd(y, rr, constant(-0.166666579f));
+  y = hn::Mul(hn::MulAdd(y, rr, constant(0.999999996f)), r);
+  // Odd numbers of half turns change the sign.
+  const hn::RebindToSigned<FloatTag> di;
+  const auto sign = hn::ShiftLeft<31>(hn::ConvertTo(di, half_turns));
+  return hn::Xor(y, hn::BitCast(d, sign));
+}
+inline constexpr float inverse_pi = 0.318309886f;
+/// With the errors of sine_of().
+HWY_INLINE Floats sin_of(Floats x) {
+  return sine_of(x, hn::Round(hn::Mul(x, constant(inverse_pi))), 0.0f);
+}
+/// cos(x) = sin(x + pi / 2).
+HWY_INLINE Floats cos_of(Floats x) {
+  return sine_of(x, hn::Round(hn::MulAdd(x, constant(inverse_pi), constant(0.5f))), -0.5f);
+}
+
+/// sin(x) / x, to 2e-7 for |x| up to 1e5.
+HWY_INLINE Floats sinc_of(Floats x) {
+  // Up to 2^-12, 1 is exact to 1e-8.
+  const Mask large = hn::Gt(hn::Abs(x), constant(0x1p-12f));
+  return hn::IfThenElse(large, hn::Div(sin_of(x), x), constant(1.0f));
+}
+
+/// 1 - exp(-x) for x >= 0, to 5e-6 of the value. Below 1/16 by the series, exact to 2e-9 there:
+/// the difference would cancel.
+HWY_INLINE Floats one_minus_exp_of(Floats x) {
+  const Floats one = constant(1.0f);
+  Floats series = hn::NegMulAdd(x, constant(0.2f), one);
+  series = hn::NegMulAdd(hn::Mul(x, constant(0.25f)), series, one);
+  series = hn::NegMulAdd(hn::Mul(x, constant(1.0f / 3.0f)), series, one);
+  series = hn::NegMulAdd(hn::Mul(x, constant(0.5f)), series, one);
+  const Floats exponent = hn::Max(hn::Mul(x, constant(-1.44269504f)), constant(-126.0f));
+  return hn::IfThenElse(hn::Lt(x, constant(0.0625f)), hn::Mul(x, series),
+                        hn::Sub(one, exp2_of(exponent)));
+}
+
 /// The largest power of 2 up to x; 0 for x below the smallest normal number.
 HWY_INLINE Floats power_of_2_in(Floats x) {
   const hn::RebindToSigned<FloatTag> di;

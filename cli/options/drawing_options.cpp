@@ -70,7 +70,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
        {"raster", SplatBlending::raster},
        {"tiles", SplatBlending::tiles}},
       "what blends splats: raster (the device), tiles (the processor), or auto (default: tiles on "
-      "software OpenGL, where the splats allow it)")
+      "software OpenGL, but not with --as-published)")
       .value_name("NAME");
   command
       .add_option("--supersample", options.supersampling,

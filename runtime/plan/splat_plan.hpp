@@ -21,7 +21,7 @@ enum class SplatShaders {
 
 /// The way to blend splats.
 enum class SplatBlending {
-  automatic,  // tiles on software OpenGL, where the splats allow it; otherwise raster
+  automatic,  // tiles on software OpenGL, where they can; otherwise raster
   raster,     // the device's rasteriser
   tiles,      // the processor's vectors, tile by tile (splatting/)
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "splatting/layer.hpp"
 #include "tests/numerics/splat_scenes.hpp"
 #include "tests/numerics/splat_tiles.hpp"
 
@@ -148,12 +147,10 @@ TEST(Numerics, B3_ValuesThatAreNotFinitePoisonNoPixel) {
       for (std::size_t i = 0; i < named.numbers.size(); ++i) {
         NamedSplat bad = std::move(one_splat_of_each_kernel()[kernel]);
         *bad.numbers[i] = value;
-        const bool in_tiles = splatting::has_layer_for(bad.splats, bad.splats.profile);
         Scene scene = behind;
         scene.layers.push_back({.primitives = std::move(bad.splats)});
         gl::Context& context = shared_context();
         for (const SplatBlending blending : {SplatBlending::raster, SplatBlending::tiles}) {
-          if (blending == SplatBlending::tiles && !in_tiles) continue;
           const std::vector<glm::vec4>& clean = cleans[blending == SplatBlending::tiles];
           const RenderOptions options{.plan = {.specialise = false, .splat_blending = blending}};
           Renderer renderer(context,

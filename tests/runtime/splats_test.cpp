@@ -20,7 +20,6 @@
 #include "runtime/splats/splat_order.hpp"
 #include "runtime/splats/splat_sorter.hpp"
 #include "scene/clip_range.hpp"
-#include "splatting/layer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/golden_scenes.hpp"
@@ -39,14 +38,7 @@ Renderer renderer_of_scene(const gl::Context& context, const Scene& scene,
                   options);
 }
 
-/// The ways to blend the splats of a scene.
-std::vector<SplatBlending> blendings_of(const Scene& scene) {
-  std::vector<SplatBlending> result{SplatBlending::raster, SplatBlending::tiles};
-  for (const Layer& layer : scene.layers)
-    if (const auto* splats = std::get_if<Splats>(&layer.primitives))
-      if (!splatting::has_layer_for(*splats, splats->profile)) result.resize(1);
-  return result;
-}
+constexpr SplatBlending every_blending[] = {SplatBlending::raster, SplatBlending::tiles};
 
 /// Differences of two images over the channels of the pixels with splats.
 struct Difference {
@@ -126,15 +118,18 @@ TEST_P(SplatsOfKind, WithCentresNearTheEyeAreSkippedAsByTheOracle) {
   }
   Scene scene = scene_of(std::move(splats));
   scene.layers[0].world_from_layer = glm::scale(glm::dmat4(1), glm::dvec3(0.5));
-  Renderer renderer = renderer_of_scene(context, scene);
-  expect_agreement(renderer, oracle_image(scene, camera), camera);
-
-  // The rule matters here.
-  const std::vector<glm::vec4> with = renderer.read_splats();
-  std::get<Splats>(scene.layers[0].primitives).profile.min_center_depth = 0;
-  Renderer without = renderer_of_scene(context, scene);
-  without.draw({camera});
-  EXPECT_NE(with, without.read_splats());
+  Scene anywhere = scene;
+  std::get<Splats>(anywhere.layers[0].primitives).profile.min_center_depth = 0;
+  const OracleImage expected = oracle_image(scene, camera);
+  for (const SplatBlending blending : every_blending) {
+    const RenderOptions options{.plan = {.splat_blending = blending}};
+    Renderer renderer = renderer_of_scene(context, scene, options);
+    expect_agreement(renderer, expected, camera);
+    // The rule matters here.
+    Renderer without = renderer_of_scene(context, anywhere, options);
+    without.draw({camera});
+    EXPECT_NE(renderer.read_splats(), without.read_splats());
+  }
 }
 
 TEST_P(SplatsOfKind, AgreeWithTheOracleInHalfFloats) {
@@ -151,6 +146,10 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleInHalfFloats) {
 TEST_P(SplatsOfKind, AsPublishedAgreeWithTheOracle) {
   const Scene scene = scene_of(random_splats(kind, 3000, 0.08, 9));
   Renderer renderer = renderer_of_scene(context, scene, {.plan = {.as_published = true}});
+  EXPECT_THROW(
+      renderer_of_scene(context, scene,
+                        {.plan = {.splat_blending = SplatBlending::tiles, .as_published = true}}),
+      UsageError);
   Renderer without = renderer_of_scene(context, scene);
   for (const double distance : {3.0, 0.7}) {
     SCOPED_TRACE("distance " + std::to_string(distance));
@@ -175,7 +174,7 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleAmongOtherLayers) {
   for (const double distance : {3.0, 0.7}) {
     const Camera camera = camera_of_ball(distance, 160, 120);
     const OracleImage expected = oracle_image(scene, camera);
-    for (const SplatBlending blending : blendings_of(scene)) {
+    for (const SplatBlending blending : every_blending) {
       SCOPED_TRACE("distance " + std::to_string(distance) +
                    (blending == SplatBlending::tiles ? ", tiles" : ""));
       Renderer renderer = renderer_of_scene(context, scene, {.plan = {.splat_blending = blending}});
@@ -188,7 +187,7 @@ TEST_P(SplatsOfKind, AreTheSameInEveryFrame) {
   // Equal depths: the second layer repeats the first.
   Scene scene = scene_of(random_splats(kind, 50, 0.3, 5));
   scene.layers.push_back(scene.layers.front());
-  for (const SplatBlending blending : blendings_of(scene)) {
+  for (const SplatBlending blending : every_blending) {
     Renderer renderer = renderer_of_scene(context, scene, {.plan = {.splat_blending = blending}});
     const Camera camera = camera_of_ball(2.5, 64, 48);
     renderer.draw({camera});
@@ -201,8 +200,8 @@ TEST_P(SplatsOfKind, AreTheSameInEveryFrame) {
   }
 }
 
-/// On software OpenGL, splats are blended in tiles where they can be; their image has at most half
-/// an 8-bit step of difference almost everywhere.
+/// On software OpenGL, splats are blended in tiles; their image has at most half an 8-bit step of
+/// difference almost everywhere.
 TEST_P(SplatsOfKind, AreBlendedInTilesOnSoftwareDevices) {
   const Scene scene = scene_of(random_splats(kind, 3000, 0.1, 6));
   const auto image = [&](SplatBlending blending) {
@@ -214,11 +213,6 @@ TEST_P(SplatsOfKind, AreBlendedInTilesOnSoftwareDevices) {
   };
   const std::vector<glm::vec4> raster = image(SplatBlending::raster);
   const std::vector<glm::vec4> automatic = image(SplatBlending::automatic);
-  if (blendings_of(scene).size() == 1) {
-    EXPECT_EQ(automatic, raster);
-    EXPECT_THROW(image(SplatBlending::tiles), UsageError);
-    return;
-  }
   const std::vector<glm::vec4> tiles = image(SplatBlending::tiles);
   EXPECT_EQ(automatic, context.capabilities().software ? tiles : raster);
   std::vector<double> errors;
@@ -317,8 +311,12 @@ TEST_P(SplatScenes, AgreeWithTheOracle) {
     for (const NamedContext& named : every_context) {
       SCOPED_TRACE(named.name);
       const gl::Context context = gl::Context::create(named.request);
-      Renderer renderer = renderer_of_scene(context, scene);
-      expect_agreement(renderer, expected, camera);
+      for (const SplatBlending blending : every_blending) {
+        SCOPED_TRACE(blending == SplatBlending::tiles ? "tiles" : "raster");
+        Renderer renderer =
+            renderer_of_scene(context, scene, {.plan = {.splat_blending = blending}});
+        expect_agreement(renderer, expected, camera);
+      }
     }
   }
 }
@@ -438,7 +436,7 @@ TEST_P(SplatsIn, EnormousSplatsFillTheImage) {
     Scene scene = one_gaussian(0.5f, glm::vec3(1));
     std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel).scales[0] =
         glm::vec3(scale);
-    for (const SplatBlending blending : blendings_of(scene)) {
+    for (const SplatBlending blending : every_blending) {
       Renderer renderer = renderer_of_scene(context, scene, {.plan = {.splat_blending = blending}});
       renderer.draw({look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.5, 64, 48)});
       for (const glm::vec4& pixel : renderer.read_splats())
@@ -502,10 +500,15 @@ TEST_P(SplatsIn, SmallWindowsVanishAsPublished) {
 
 /// In sums and products of values near the limits of floats, infinity and NaN appear easily.
 TEST_P(SplatsIn, ValuesAtTheirLimitsGiveFiniteImages) {
+  const RenderOptions targets[] = {
+      {.splat_format = SplatFormat::rgba32f},
+      {.splat_format = SplatFormat::rgba16f},
+      {.plan = {.splat_blending = SplatBlending::tiles}},
+  };
   for (const SplatKind& kind : splat_kinds)
-    for (const SplatFormat target : {SplatFormat::rgba32f, SplatFormat::rgba16f}) {
+    for (const RenderOptions& target : targets) {
       const Scene scene = scene_of(hostile_splats(kind));
-      Renderer renderer = renderer_of_scene(context, scene, {.splat_format = target});
+      Renderer renderer = renderer_of_scene(context, scene, target);
       for (const double distance : {3.0, 0.1}) {
         renderer.draw({camera_of_ball(distance, 32, 24)});
         std::size_t bad = 0;
@@ -533,7 +536,7 @@ TEST_P(SplatsIn, LayersAreHiddenMovedAndRemoved) {
   Scene scene = one_gaussian(0.5f, glm::vec3(1));
   scene.layers.push_back({.world_from_layer = at_origin({0, 0, -5}),  // behind
                           .primitives = random_soup(4, {.faces = 60})});
-  for (const SplatBlending blending : blendings_of(scene)) {
+  for (const SplatBlending blending : every_blending) {
     Renderer renderer = renderer_of_scene(context, scene, {.plan = {.splat_blending = blending}});
     const Camera camera = look_at({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.1, 9, 9);
     const auto mean_alpha = [&] {

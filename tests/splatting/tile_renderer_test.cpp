@@ -85,6 +85,14 @@ TEST_P(TilesOfKind, AgreeWithTheOracle) {
   }
 }
 
+/// Near the middle of the ball, where the eye's plane cuts a tenth of the splats.
+TEST_P(TilesOfKind, WithCentresAnywhereAgreeWithTheOracle) {
+  Scene scene = over_black(scene_of(random_splats(GetParam(), 20000, 0.07, 1)));
+  std::get<Splats>(scene.layers[0].primitives).profile.min_center_depth = 0;
+  const Camera camera = camera_of_ball(0.1, 123, 93);
+  EXPECT_GE(psnr(drawn(scene, camera), render_oracle(scene, {camera}, {})), 75);
+}
+
 TEST_P(TilesOfKind, AreTheSameWithMoreThreads) {
   const Scene scene = scene_of(random_splats(GetParam(), 2000, 0.1, 2));
   const Camera camera = camera_of_ball(2, 64, 48);
@@ -105,10 +113,13 @@ TEST_P(TilesOfKind, BehindAnOpaqueSurfaceAreHidden) {
   const std::vector<float> wall(64 * 48, 3.0f), far_wall(64 * 48, 100.0f);
   const std::vector<float> hidden = drawn(scene, camera, in_order, wall);
   EXPECT_EQ(drawn(scene, camera, in_order, far_wall), drawn(scene, camera));
+  // Neural densities may be negative behind the wall, and their alpha is that of the whole chord.
+  const bool is_monotonic = GetParam().kernel != SplatKind::Kernel::neural;
   double with = 0, without = 0;
   const std::vector<float> all = drawn(scene, camera);
   for (std::size_t i = 3; i < all.size(); i += 4) {
-    EXPECT_LE(hidden[i], all[i] + 1e-6f);  // rounding of the product of transmittances
+    // 1e-6: rounding of the product of transmittances.
+    EXPECT_TRUE(!is_monotonic || hidden[i] <= all[i] + 1e-6f) << hidden[i] << ' ' << all[i];
     with += double(hidden[i]);
     without += double(all[i]);
   }
@@ -116,20 +127,7 @@ TEST_P(TilesOfKind, BehindAnOpaqueSurfaceAreHidden) {
   EXPECT_LT(with, 0.95 * without);
 }
 
-TEST(Tiles, OfOtherSplatsAreNotSupported) {
-  for (const SplatKind& kind : splat_kinds) {
-    const std::string name = kind.name;
-    const Splats splats = random_splats(kind, 1, 0.1, 1);
-    EXPECT_EQ(!splatting::has_layer_for(splats, splats.profile),
-              name == "neural")
-        << name;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(, TilesOfKind,
-                         testing::Values(splat_kinds[0], splat_kinds[1], splat_kinds[2],
-                                         splat_kinds[3], splat_kinds[4], splat_kinds[5],
-                                         splat_kinds[7]),
+INSTANTIATE_TEST_SUITE_P(, TilesOfKind, testing::ValuesIn(splat_kinds),
                          [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace tile_renderer_test
