@@ -204,7 +204,7 @@ bool is_range_right(double unit) {
 TEST(Numerics, E8_AnyUnitOfLength) {
   Recorder recorder({.stressed =
                          "sixty splats of each kernel and profile in another unit of length, "
-                         "device and, where they support the kernel, tiles",
+                         "device and tiles",
                      .parameter = "size of the scene / units",
                      .unit = "alpha",
                      .naive = "borders of images by squares of squares of lengths"});
@@ -219,9 +219,7 @@ TEST(Numerics, E8_AnyUnitOfLength) {
           look_at(unit * glm::dvec3(1, 2, -2), glm::dvec3(0), {0, 1, 0}, 0.8, 24, 18);
       const std::vector<double> expected = alpha_of_oracle(scene, camera);
       EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.9) << kind.name;
-      const bool in_tiles = kind.kernel != SplatKind::Kernel::neural && !kind.per_corner;
-      ours = worse(ours, in_tiles ? alpha_error_of_both(scene, camera, expected)
-                                  : alpha_error(scene, camera, expected));
+      ours = worse(ours, alpha_error_of_both(scene, camera, expected));
     }
     // By rounding, a splat may be blended or not where its alpha is min_alpha.
     recorder.add({.at = unit,

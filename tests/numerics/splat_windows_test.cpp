@@ -51,7 +51,7 @@ TEST(Numerics, W14_WindowsCrossTheNearPlane) {
   const Camera camera = straight_camera(width, height, width);
   for (const int behind : {1, 2}) {
     Recorder recorder({.stressed = "windows with " + std::to_string(behind) +
-                                   " corners at or behind the eye's plane",
+                                   " corners at or behind the eye's plane, device and tiles",
                        .parameter = "their distance behind the eye's plane / units",
                        .unit = "alpha",
                        .naive = "divide every corner by its w",
@@ -83,13 +83,14 @@ TEST(Numerics, W14_WindowsCrossTheNearPlane) {
       // A value just below min_alpha may be blended, or not; beside that, roundings of vertices,
       // of the clipper and of the interpolation, relative to windows of tens of pixels.
       const double tolerance = 1e-4;
-      const std::vector<glm::vec4> blended = blended_by_device(scene, camera);
       double ours = 0;
-      for (std::size_t i = 0; i < expected.size(); ++i) {
-        const double off = std::abs(double(blended[i].a) - expected[i]);
-        const double larger = std::max(double(blended[i].a), expected[i]);
-        if (std::abs(larger - 1 / 255.0) > tolerance) ours = worse(ours, off);
-      }
+      for (const auto& blended :
+           {blended_by_device(scene, camera), blended_by_tiles(scene, camera)})
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          const double off = std::abs(double(blended[i].a) - expected[i]);
+          const double larger = std::max(double(blended[i].a), expected[i]);
+          if (std::abs(larger - 1 / 255.0) > tolerance) ours = worse(ours, off);
+        }
       recorder.add({.at = beyond, .naive = naive, .ours = ours, .tolerance = tolerance});
     }
   }
@@ -97,7 +98,7 @@ TEST(Numerics, W14_WindowsCrossTheNearPlane) {
 
 TEST(Numerics, W16_RoundedVerticesDoNotDecideCoverage) {
   Recorder recorder({.stressed = "edges of windows that pass very near to a pixel's centre, sigma "
-                                 "0.01",
+                                 "0.01, device and tiles",
                      .parameter = "distance of the edge from the centre / pixels",
                      .unit = "alpha",
                      .naive = "rasterise the window itself, with vertices rounded to 1/256 pixel"});
@@ -127,12 +128,14 @@ TEST(Numerics, W16_RoundedVerticesDoNotDecideCoverage) {
       }
     const Scene scene = scene_of(white_splats(windows, window_profile()));
     const std::vector<double> expected = alpha_of_oracle(scene, camera);
-    const std::vector<glm::vec4> blended = blended_by_device(scene, camera);
+    const std::vector<glm::vec4> device = blended_by_device(scene, camera),
+                                 tiles = blended_by_tiles(scene, camera);
     double naive = 0, ours = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const std::size_t at = std::size_t(pixels[i].y * width + pixels[i].x);
       EXPECT_GT(expected[at], 0.5);
-      ours = worse(ours, std::abs(double(blended[at].a) - expected[at]));
+      for (const auto* blended : {&device, &tiles})
+        ours = worse(ours, std::abs(double((*blended)[at].a) - expected[at]));
       std::array<glm::vec2, 3> snapped;
       for (std::size_t k = 0; k < 3; ++k)
         snapped[k] = glm::vec2(glm::round(corners[i][k] * 256.0) / 256.0);
@@ -147,8 +150,9 @@ TEST(Numerics, W16_RoundedVerticesDoNotDecideCoverage) {
 }
 
 TEST(Numerics, W15_LargeSigmasAreExact) {
-  Recorder recorder(
-      {.stressed = "windows with a large sigma", .parameter = "sigma", .unit = "alpha"});
+  Recorder recorder({.stressed = "windows with a large sigma, device and tiles",
+                     .parameter = "sigma",
+                     .unit = "alpha"});
   const Camera camera = straight_camera(width, height, width);
   for (const float sigma : {1.0f, 10.0f, 100.0f, 1000.0f}) {
     const TriangleWindows windows{
@@ -163,7 +167,7 @@ TEST(Numerics, W15_LargeSigmasAreExact) {
     EXPECT_EQ(visible, sigma < 1000);
     // d alpha = sigma d rho, and rho has about ten roundings. 1e-5 for pow.
     recorder.add({.at = sigma,
-                  .ours = alpha_error(scene, camera, expected),
+                  .ours = alpha_error_of_both(scene, camera, expected),
                   .tolerance = 10 * epsilon * double(sigma) + 1e-5});
   }
 }
@@ -175,7 +179,7 @@ TriangleWindows middle_window(float sigma, float opacity) {
           .opacity = {opacity}};
 }
 
-/// A profile whose windows the tiles support.
+/// Only with the centre well before the eye.
 SplatProfile published_profile() { return *profile_named("triangle-splatting"); }
 
 TEST(Numerics, W1_TheSmallestSigmasAreSteps) {
