@@ -177,9 +177,9 @@ void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
     if (begin >= end) continue;
     DeviceSplats& layer = *layers_[run.layer];
     if (begun != &layer) {
-      const gl::Framebuffer& framebuffer =
-          layer.tests_depth() || !target.has_depth() ? framebuffers.without_depth
-                                                  : framebuffers.with_depth;
+      const gl::Framebuffer& framebuffer = layer.tests_depth() || !target.has_depth()
+                                               ? framebuffers.without_depth
+                                               : framebuffers.with_depth;
       glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
       layer.begin_runs(frame, target, order_texture_.id(), drawing);
     }

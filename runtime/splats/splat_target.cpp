@@ -20,8 +20,7 @@ BlendFormat blend_format(SplatFormat requested, const gl::Capabilities& device, 
   return {target_formats::rgba16f};
 }
 
-SplatTarget::SplatTarget(gl::Api api, const BlendFormat& format)
-    : api_(api), format_(format) {}
+SplatTarget::SplatTarget(gl::Api api, const BlendFormat& format) : api_(api), format_(format) {}
 
 void SplatTarget::resize(glm::ivec2 size) {
   size_ = size;

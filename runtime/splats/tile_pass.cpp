@@ -29,7 +29,8 @@ void composite(std::span<const float> rgba, const glm::vec4& background, std::ui
   }
   for (std::size_t i = 0; i < rgba.size(); i += 4) {
     const float through = 1 - rgba[i + 3];
-    const glm::vec4 sum = glm::vec4(rgba[i], rgba[i + 1], rgba[i + 2], rgba[i + 3]) + through * behind;
+    const glm::vec4 sum =
+        glm::vec4(rgba[i], rgba[i + 1], rgba[i + 2], rgba[i + 3]) + through * behind;
     const glm::vec4 color = sum.a > 0 ? glm::vec4(glm::vec3(sum) / sum.a, sum.a) : background;
     for (int k = 0; k < 4; ++k) bytes[i + std::size_t(k)] = byte_of(color[k]);
   }
