@@ -7,36 +7,9 @@
 
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/shader_source.hpp"
+#include "splatting/composite.hpp"
 
 namespace tureen {
-
-namespace {
-
-std::uint8_t byte_of(float value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
-
-/// As shaders/splats/splat_resolve.frag: premultiplied colours over a background that is not.
-void composite(std::span<const float> rgba, const glm::vec4& background, std::uint8_t* bytes) {
-  const glm::vec4 behind(background.a * glm::vec3(background), background.a);
-  if (background.a == 1) {
-    for (std::size_t i = 0; i < rgba.size(); i += 4) {
-      const float through = 1 - rgba[i + 3];
-      for (int k = 0; k < 4; ++k)
-        bytes[i + std::size_t(k)] = byte_of(rgba[i + std::size_t(k)] + through * behind[k]);
-    }
-    return;
-  }
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    const float through = 1 - rgba[i + 3];
-    const glm::vec4 sum =
-        glm::vec4(rgba[i], rgba[i + 1], rgba[i + 2], rgba[i + 3]) + through * behind;
-    const glm::vec4 color = sum.a > 0 ? glm::vec4(glm::vec3(sum) / sum.a, sum.a) : background;
-    for (int k = 0; k < 4; ++k) bytes[i + std::size_t(k)] = byte_of(color[k]);
-  }
-}
-
-}  // namespace
 
 TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers)
     : layers_(std::move(layers)),
@@ -125,11 +98,11 @@ void TilePass::upload() {
 
 /// Composites on the processor: on software devices, that takes a fraction of the time of drawing.
 void TilePass::upload_over_background(FrameTarget& target) {
-  colors_upside_down_.resize(rgba_.size());
-  const auto row_values = 4 * std::size_t(size_.x);
-  pool_.run(std::size_t(size_.y), [&](std::size_t row) {
-    composite(std::span(rgba_).subspan(row * row_values, row_values), target.background(),
-              &colors_upside_down_[(std::size_t(size_.y) - 1 - row) * row_values]);
+  const auto width = std::size_t(size_.x), height = std::size_t(size_.y);
+  colors_upside_down_.resize(width * height);
+  pool_.run(height, [&](std::size_t row) {
+    splatting::composite(std::span(rgba_).subspan(row * 4 * width, 4 * width), target.background(),
+                         std::span(colors_upside_down_).subspan((height - 1 - row) * width, width));
   });
   target.overwrite_color();
   gl::use_plain_pixel_transfer();

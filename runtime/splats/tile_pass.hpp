@@ -65,7 +65,7 @@ class TilePass final : public SplatBlendingPass {
   std::vector<float> rgba_;
   // The same upside down, as OpenGL's textures: blended splats, or the frame's colours.
   std::vector<float> blended_upside_down_;
-  std::vector<std::uint8_t> colors_upside_down_;
+  std::vector<std::uint32_t> colors_upside_down_;
 };
 
 }  // namespace tureen
