@@ -101,7 +101,8 @@ class Renderer {
   /// samples, exceeds Capabilities::max_image_side.
   ///
   /// Splats are blended in the order of their depths in this view. With `order` `earlier` and a
-  /// sorter, many splats may have the order of an earlier view, so that no frame waits for sorting.
+  /// sorter, many splats may have the order of an earlier view that looks in a direction less than
+  /// 2 degrees away, so that no frame of a moving camera waits for sorting.
   enum class SplatOrdering { exact, earlier };
   void draw(const FrameInput& input, SplatOrdering order = SplatOrdering::exact);
 

@@ -96,8 +96,8 @@ void OrderedSplats::prepare(const Frame& frame, float color_unit) {
   const bool may_be_earlier = sorter_ && frame.may_use_earlier_order && has_many(views);
   if (may_be_earlier) take_order(views);
   if (in_order_) return;
-  // The camera may have turned to splats that were behind it when the sort began.
-  if (may_be_earlier && has_visible_splats_of(ordered_, views))
+  // The camera may have turned to splats that were behind it when the sort began, or too far.
+  if (may_be_earlier && has_visible_splats_of(ordered_, views) && lags_little(ordered_, views))
     continue_sorting(std::move(views));
   else
     sort_now(std::move(views));

@@ -51,6 +51,16 @@ bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> 
                     });
 }
 
+bool lags_little(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views) {
+  return std::equal(sorted.begin(), sorted.end(), views.begin(), views.end(),
+                    [](const SplatsInView& a, const SplatsInView& b) {
+                      return glm::length(glm::cross(a.axis, b.axis)) <= std::sin(max_order_lag) *
+                                                                            glm::length(a.axis) *
+                                                                            glm::length(b.axis) &&
+                             glm::dot(a.axis, b.axis) >= 0;
+                    });
+}
+
 void SplatOrder::make_runs(std::span<const SplatsInView> layers) {
   std::vector<std::uint32_t> ends;  // of the layers' places
   std::uint32_t end = 0;

@@ -605,7 +605,11 @@ Scene many_gaussians() { return scene_of(random_splats(splat_kinds[1], 100'000, 
 TEST_P(SplatsIn, FramesDoNotWaitForTheSorter) {
   const Scene scene = many_gaussians();
   Renderer renderer = renderer_of_scene(context, scene);
-  const Camera first = camera_of_ball(3, 64, 48), other = camera_of_ball(-3, 64, 48);
+  const auto turned = [](double degrees) {
+    const double angle = glm::radians(degrees);
+    return look_at({3 * std::sin(angle), 0, 3 * std::cos(angle)}, {}, {0, 1, 0}, 0.8, 64, 48);
+  };
+  const Camera first = turned(0), other = turned(1.9);
   renderer.draw({other});
   const Image8 expected = renderer.read_color();
   bool may_finish = false;
@@ -631,31 +635,36 @@ TEST_P(SplatsIn, FramesDoNotWaitForTheSorter) {
   EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
   may_finish = true;
   EXPECT_EQ(draw(other), expected.pixels);
+  // An order of a direction that is farther away is not drawn.
+  may_finish = false;
+  draw(first);
+  draw(turned(3.95));  // 2.05 from `other`
+  EXPECT_TRUE(renderer.splats_in_order());
 }
 
 TEST_P(SplatsIn, AnOrderWithoutTheSplatsOfTheViewIsNotDrawn) {
   Scene scene = many_gaussians();
   auto& gaussians = std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel);
-  // Two chunks, one on either side of the eye.
+  // Two chunks, one before the eye at 0 and one behind it.
   for (std::size_t i = 0; i < gaussians.centers.size(); ++i)
-    gaussians.centers[i].x += i < splats_per_chunk ? -10.0f : 10.0f;
+    gaussians.centers[i].z += i < splats_per_chunk ? -10.0f : 10.0f;
   Renderer renderer = renderer_of_scene(context, scene);
-  const auto towards = [](const glm::dvec3& target) {
-    return look_at({0, 0, 0}, target, {0, 1, 0}, 0.5, 32, 24);
+  const auto from = [](const glm::dvec3& eye) {
+    return look_at(eye, eye + glm::dvec3(0, 0, -1), {0, 1, 0}, 0.5, 32, 24);
   };
-  renderer.draw({towards({1, 0, 0})});
+  renderer.draw({from({0, 0, 20})});
   const Image8 expected = renderer.read_color();
   bool may_finish = false;
   renderer.sort_splats_with(std::make_unique<HeldSorter>(may_finish));
-  renderer.draw({towards({0, 0, -1})});  // neither chunk is behind the eye
-  renderer.draw({towards({-1, 0, 0})}, Renderer::SplatOrdering::earlier);
-  EXPECT_FALSE(renderer.splats_in_order());
-  may_finish = true;
-  renderer.draw({towards({1, 0, 0})}, Renderer::SplatOrdering::earlier);
+  renderer.draw({camera_of_ball(3, 32, 24)});  // has all splats in another order
+  renderer.draw({from({0, 0, 0})});
+  renderer.draw({from({0, 0, 20})}, Renderer::SplatOrdering::earlier);
+  EXPECT_TRUE(renderer.splats_in_order());
   EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
   // No frame waits for a chunk that is no longer behind the eye, but still outside the image.
-  may_finish = false;
-  renderer.draw({towards({0.1, 0, -1})}, Renderer::SplatOrdering::earlier);
+  renderer.draw({camera_of_ball(3, 32, 24)});  // has all splats in another order
+  renderer.draw({from({0, 0, 0})});
+  renderer.draw({from({30, 0, 11.5})}, Renderer::SplatOrdering::earlier);
   EXPECT_FALSE(renderer.splats_in_order());
 }
 
