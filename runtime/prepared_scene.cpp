@@ -83,9 +83,14 @@ void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
     if (!splats) continue;
     const auto at = static_cast<std::ptrdiff_t>(i);
     SplatPlan plan = make_splat_plan(*splats, {.specialise = preferences.specialise,
+                                               .specialisations = preferences.specialisations,
                                                .profile = preferences.splat_profile,
                                                .as_published = preferences.as_published});
     std::unique_ptr<splatting::Layer> tiled = tiled_splats(*splats, plan, limits, preferences);
+    // On hardware, the gain is not measured.
+    if (!tiled && limits.software && preferences.specialise &&
+        preferences.specialisations.has(Specialisation::hidden_splats))
+      plan.applied.push_back({Specialisation::hidden_splats, 0, 0, 0.5});
     prepared.layers.insert(prepared.layers.begin() + at,
                            {.name = layer.name,
                             .bounds = bounds(*splats),

@@ -101,12 +101,8 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
   const bool has_soup = std::any_of(
       scene.layers.begin(), scene.layers.end(),
       [](const Layer& layer) { return std::holds_alternative<TriangleSoup>(layer.primitives); });
-  const auto say_if_ignored = [&](bool is_given, const char* option) {
-    if (is_given && !has_soup)
-      say(std::string(option) + " has no effect: the scene has only splats");
-  };
-  say_if_ignored(preferences.shading_stage != PlanPreferences{}.shading_stage, "--shading");
-  say_if_ignored(!(preferences.specialisations == SpecialisationSet::all()), "--keep");
+  if (preferences.shading_stage != PlanPreferences{}.shading_stage && !has_soup)
+    say("--shading has no effect: the scene has only splats");
   if (preferences.as_published && splat_count(scene) == 0)
     say("--as-published has no effect: the scene has no splats");
   if (preferences.splat_blending != SplatBlending::automatic && splat_count(scene) == 0)

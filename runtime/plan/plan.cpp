@@ -47,8 +47,9 @@ bool RenderPlan::applies(Specialisation what) const {
 std::vector<AppliedSpecialisation> RenderPlan::applied() const {
   std::vector<AppliedSpecialisation> all;
   for (const LayerPlan& layer : layers)
-    if (const auto* soup = std::get_if<SoupPlan>(&layer))
-      all.insert(all.end(), soup->applied.begin(), soup->applied.end());
+    std::visit(
+        [&](const auto& plan) { all.insert(all.end(), plan.applied.begin(), plan.applied.end()); },
+        layer);
   return all;
 }
 

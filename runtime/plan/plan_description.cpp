@@ -57,6 +57,10 @@ std::string effect_of(const AppliedSpecialisation& applied) {
       return "every face has one colour and no lattice";
     case Specialisation::affine_texels:
       return counted("faces are affine and keep only their corner texels");
+    case Specialisation::transparent_splats:
+      return counted("splats never reach the smallest blended alpha and are not drawn");
+    case Specialisation::hidden_splats:
+      return "splats behind closed pixels are found in each frame and not drawn";
   }
   assert(!"a specialisation without a description");
   return {};
@@ -79,12 +83,7 @@ template <class Add>
 void add_splats(const SplatPlan& plan, const Add& add) {
   add("draws " + part_of(plan.drawn.size(), plan.splats) + "splats (" + plan.kernel +
       "), blended from near to far");
-  if (plan.drawn.size() < plan.splats)
-    add(std::to_string(plan.splats - plan.drawn.size()) +
-        " splats never reach the smallest blended alpha and are not drawn (exact)");
-  if (plan.harmonics_degree < plan.stored_degree)
-    add("harmonics above degree " + std::to_string(plan.harmonics_degree) +
-        " are 0 and not evaluated (exact)");
+  for (const AppliedSpecialisation& each : plan.applied) add(describe(each));
 }
 
 }  // namespace

@@ -23,6 +23,8 @@ constexpr SpecialisationName specialisations[] = {
     {Specialisation::latent_features, "latent-features", "no constant latent features"},
     {Specialisation::constant_lattices, "constant-lattices", "no lattices of one colour"},
     {Specialisation::affine_texels, "affine-texels", "affine faces by their corners"},
+    {Specialisation::transparent_splats, "transparent-splats", "no fully transparent splats"},
+    {Specialisation::hidden_splats, "hidden-splats", "no splats behind closed pixels"},
 };
 
 }  // namespace

@@ -12,28 +12,30 @@
 namespace tureen {
 
 enum class Specialisation : std::uint8_t {
-  alpha_test,         // no alpha test for fully opaque faces
-  transparent_faces,  // fully transparent faces are not drawn
-  coincident_faces,   // faces behind an opaque one with the same corners are not drawn
-  small_triangles,    // each frame skips faces that cover no pixel centre
-  shading_pass,       // inexpensive colours are computed in the only pass
-  background,         // pixels without a face are not shaded
-  interpolation,      // three equal vertex colours become one colour a face
-  harmonics_bands,    // bands that change no colour are not evaluated
-  color_mlp,          // a network that is never blended in is not evaluated
-  view_direction,     // a network ignores a direction that changes no colour
-  weight_uniforms,    // weights are constants of the shader
-  dead_neurons,       // neurons that never fire, and weights of zero, are not computed
-  latent_features,    // features 4 and above that are constant or have no weight are not read
-  constant_lattices,  // lattices with one colour become one colour a face
-  affine_texels,      // affine faces keep only their corner texels
+  alpha_test,          // no alpha test for fully opaque faces
+  transparent_faces,   // fully transparent faces are not drawn
+  coincident_faces,    // faces behind an opaque one with the same corners are not drawn
+  small_triangles,     // each frame skips faces that cover no pixel centre
+  shading_pass,        // inexpensive colours are computed in the only pass
+  background,          // pixels without a face are not shaded
+  interpolation,       // three equal vertex colours become one colour a face
+  harmonics_bands,     // bands that change no colour are not evaluated
+  color_mlp,           // a network that is never blended in is not evaluated
+  view_direction,      // a network ignores a direction that changes no colour
+  weight_uniforms,     // weights are constants of the shader
+  dead_neurons,        // neurons that never fire, and weights of zero, are not computed
+  latent_features,     // features 4 and above that are constant or have no weight are not read
+  constant_lattices,   // lattices with one colour become one colour a face
+  affine_texels,       // affine faces keep only their corner texels
+  transparent_splats,  // splats that are too transparent everywhere are not drawn
+  hidden_splats,       // splats behind closed pixels are not drawn
 };
 
 /// One specialisation, as a plan applied it.
 struct AppliedSpecialisation {
   Specialisation what = {};
-  /// `count`: faces, bands or hidden neurons to which this specialisation applies. `total`: all
-  /// faces, bands or neurons that it examined. Both are 0 if this specialisation counts nothing.
+  /// `count`: faces, splats, bands or hidden neurons to which this specialisation applies. `total`:
+  /// all that it examined. Both are 0 if this specialisation counts nothing.
   std::size_t count = 0, total = 0;
   /// Largest change of a colour, in steps of 8 bits: 0 (exact up to rounding) to 0.5.
   double margin = 0;

@@ -45,8 +45,15 @@ float largest_color(const SplatColor& color, std::span<const std::uint32_t> draw
 
 }  // namespace
 
+bool SplatPlan::applies(Specialisation what) const {
+  return std::any_of(applied.begin(), applied.end(),
+                     [&](const AppliedSpecialisation& each) { return each.what == what; });
+}
+
 SplatPlan make_splat_plan(const Splats& splats, const SplatPreferences& preferences) {
-  const bool specialise = preferences.specialise;
+  const auto may = [&](Specialisation what) {
+    return preferences.specialise && preferences.specialisations.has(what);
+  };
   SplatPlan plan;
   plan.profile = preferences.profile.value_or(splats.profile);
   if (const auto reason = profile_defect(splats.kernel, plan.profile))
@@ -57,13 +64,21 @@ SplatPlan make_splat_plan(const Splats& splats, const SplatPreferences& preferen
                 std::string(profile_name(splats.kernel, plan.profile)) +
                 (plan.as_published ? " with its authors' culls" : "");
   plan.splats = count(splats);
-  plan.stored_degree = splats.color.degree;
-  plan.harmonics_degree = specialise ? degree_in_use(splats.color) : splats.color.degree;
+  plan.harmonics_degree = splats.color.degree;
+  if (may(Specialisation::harmonics_bands)) plan.harmonics_degree = degree_in_use(splats.color);
+  if (plan.harmonics_degree < splats.color.degree)
+    plan.applied.push_back({Specialisation::harmonics_bands,
+                            std::size_t(splats.color.degree - plan.harmonics_degree),
+                            std::size_t(splats.color.degree)});
   plan.colors_per_splat = splats.color.per_corner ? 3 : 1;
-  const std::vector<float>* opacity = specialise ? opacity_of(splats.kernel) : nullptr;
+  const std::vector<float>* opacity =
+      may(Specialisation::transparent_splats) ? opacity_of(splats.kernel) : nullptr;
   plan.drawn.reserve(plan.splats);
   for (std::size_t i = 0; i < plan.splats; ++i)
     if (!opacity || (*opacity)[i] >= plan.profile.min_alpha) plan.drawn.push_back(std::uint32_t(i));
+  if (plan.drawn.size() < plan.splats)
+    plan.applied.push_back(
+        {Specialisation::transparent_splats, plan.splats - plan.drawn.size(), plan.splats});
   const std::span<const std::uint32_t> drawn(plan.drawn);
   plan.largest_color = largest_color(splats.color, drawn, plan.harmonics_degree);
   for (std::size_t i = 0; i < drawn.size(); i += splats_per_chunk)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/plan/specialisation.hpp"
 #include "scene/splats.hpp"
 
 namespace tureen {
@@ -54,15 +55,20 @@ struct SplatPlan {
   /// splats along the Morton curve, so chunks are small in space.
   std::vector<Bounds> chunks;
 
+  /// transparent_splats, harmonics_bands, hidden_splats.
+  std::vector<AppliedSpecialisation> applied;
+
   // Facts about the splats, for messages.
 
   std::string kernel;      // kernel_name() and the name of the profile
   std::size_t splats = 0;  // all
-  int stored_degree = 0;   // of the scene's harmonics
+
+  bool applies(Specialisation what) const;
 };
 
 struct SplatPreferences {
-  bool specialise = true;                    // if false, every splat is drawn with all bands
+  bool specialise = true;  // if false, every splat is drawn with all bands
+  SpecialisationSet specialisations = SpecialisationSet::all();
   std::optional<SplatProfile> profile = {};  // default: the splats' own
   bool as_published = false;                 // SplatPlan::as_published
 };

@@ -46,8 +46,8 @@ class DeviceSplats {
   static constexpr int order_columns = 2048;
 
   /// Uploads; of the plan, only `shaders`, `profile`, `as_published`, `harmonics_degree`,
-  /// `colors_per_splat`, `largest_color`, `chunks` and the number of drawn splats are used. The
-  /// source's texels are not needed afterwards. Throws DeviceLimitError.
+  /// `colors_per_splat`, `largest_color`, `applied`, `chunks` and the number of drawn splats are
+  /// used. The source's texels are not needed afterwards. Throws DeviceLimitError.
   DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
 
   /// The layer's index in Frame::layers.
@@ -57,6 +57,8 @@ class DeviceSplats {
   const gl::Capabilities& device() const { return device_; }
   const SplatProfile& profile() const { return profile_; }
   float largest_color() const { return largest_color_; }  // SplatPlan::largest_color
+  /// Specialisation::hidden_splats
+  bool may_leave_out_hidden() const { return may_leave_out_hidden_; }
 
   /// Centres of the drawn splats, in layer coordinates.
   std::span<const glm::vec3> centers() const { return centers_; }
@@ -97,6 +99,7 @@ class DeviceSplats {
   bool as_published_;
   int harmonics_degree_, colors_per_splat_;
   float largest_color_;
+  bool may_leave_out_hidden_;
   std::size_t layer_ = 0;
   std::vector<glm::vec3> centers_;
   std::vector<Bounds> chunks_;

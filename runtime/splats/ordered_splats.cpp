@@ -188,6 +188,11 @@ void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
   }
 }
 
+bool OrderedSplats::may_leave_out_hidden() const {
+  return std::all_of(layers_.begin(), layers_.end(),
+                     [](DeviceSplats* layer) { return layer->may_leave_out_hidden(); });
+}
+
 float OrderedSplats::largest_color() const {
   float largest = 1;
   for (const DeviceSplats* layer : layers_) largest = std::max(largest, layer->largest_color());

@@ -63,6 +63,8 @@ class OrderedSplats {
     draw(frame, target, framebuffers, drawing, {0, count()});
   }
 
+  /// Whether Specialisation::hidden_splats applies to all layers.
+  bool may_leave_out_hidden() const;
   /// No splat has a larger colour.
   float largest_color() const;
   /// The smallest of the layers' SplatProfile::min_alpha.

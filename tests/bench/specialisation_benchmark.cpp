@@ -112,7 +112,7 @@ void measure_traits(const gl::Context& context, const Settings& settings) {
                                    .coverage = CloudCoverage::all,
                                    .width = settings.width,
                                    .height = settings.height});
-  for (const SpecialisationName& row : specialisation_names()) {
+  for (const SpecialisationName& row : specialisations_of_soups()) {
     const Scene& base = is_of_the_network(row.what) ? wall : cloud;
     compare(context, settings, row.name, "made for it", large_soup(row.what, base), base.cameras,
             {.specialisations = SpecialisationSet::all().without(row.what)});
@@ -137,7 +137,7 @@ void measure_scene(const gl::Context& context, const Settings& settings,
   }
   const std::string name = path.stem().string();
   const RenderPlan plan = make_plan(soup, device_limits(context.capabilities()));
-  for (const SpecialisationName& row : specialisation_names())
+  for (const SpecialisationName& row : specialisations_of_soups())
     if (plan.applies(row.what))
       compare(context, settings, row.name, name, soup, cameras,
               {.specialisations = SpecialisationSet::all().without(row.what)});

@@ -99,7 +99,7 @@ TEST_P(Omission, DoesNotHappenWhereTheSceneLacksTheTrait) {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const SpecialisationName& known : specialisation_names())
+  for (const SpecialisationName& known : specialisations_of_soups())
     for (const std::uint64_t seed : {1, 2}) all.push_back({known.what, seed});
   return all;
 }

@@ -183,9 +183,9 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleAmongOtherLayers) {
   }
 }
 
-/// Raster leaves out those that earlier chunks hide; tiles do not.
+/// Raster leaves out those that earlier chunks hide, here in the second of two; tiles do not.
 TEST_P(SplatsOfKind, ThatAreHiddenMayBeLeftOut) {
-  Splats splats = random_splats(kind, 20'000, 0.08, 8);
+  Splats splats = random_splats(kind, 35'000, 0.08, 8);
   // Opaque enough to hide what is behind them.
   if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
     std::fill(windows->opacity.begin(), windows->opacity.end(), 0.9f);

@@ -80,6 +80,16 @@ std::uint8_t face_value(std::size_t face, int channel) {
 
 }  // namespace
 
+std::vector<SpecialisationName> specialisations_of_soups() {
+  std::vector<SpecialisationName> names(specialisation_names().begin(),
+                                        specialisation_names().end());
+  std::erase_if(names, [](const SpecialisationName& each) {
+    return each.what == Specialisation::transparent_splats ||
+           each.what == Specialisation::hidden_splats;
+  });
+  return names;
+}
+
 Kind kind_of_trait(Specialisation what) {
   switch (what) {
     case Specialisation::coincident_faces:
@@ -176,6 +186,9 @@ void give_trait(Specialisation what, TriangleSoup& soup) {
     case Specialisation::background:
     case Specialisation::weight_uniforms:
       return;  // every soup of this kind has the trait
+    case Specialisation::transparent_splats:
+    case Specialisation::hidden_splats:
+      break;
   }
   assert(!"a trait without a soup");
 }

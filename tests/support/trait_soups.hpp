@@ -1,13 +1,18 @@
-// Soups with or clearly without the traits that specialisations need: one trait for each entry of
-// runtime/plan/specialisation.hpp. Tests prove with them that a specialisation changes no image,
+// Soups with or clearly without the traits that specialisations of soups need: one trait for each
+// (runtime/plan/specialisation.hpp). Tests prove with them that a specialisation changes no image,
 // and benchmarks measure its gain.
 #pragma once
+
+#include <vector>
 
 #include "runtime/plan/specialisation.hpp"
 #include "scene/triangle_soup.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
+
+/// Those that soups can have.
+std::vector<SpecialisationName> specialisations_of_soups();
 
 /// The appearance that a soup needs for this trait.
 Kind kind_of_trait(Specialisation what);

@@ -45,11 +45,11 @@ void archive_profile(Archive& archive, Value& value) {
 template <class Archive, class Value>
 void archive_splat_plan(Archive& archive, Value& value) {
   auto& [shaders, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
-         chunks, kernel, splats, stored_degree] = value;
+         chunks, applied, kernel, splats] = value;
   archive(shaders);
   archive_profile(archive, profile);
-  archive(as_published, harmonics_degree, colors_per_splat, largest_color, drawn, chunks, kernel,
-          splats, stored_degree);
+  archive(as_published, harmonics_degree, colors_per_splat, largest_color, drawn, chunks, applied,
+          kernel, splats);
 }
 
 template <class Archive, class Value>

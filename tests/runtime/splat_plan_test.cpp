@@ -1,17 +1,49 @@
-// The largest colour of splats, and the formats in which they are blended.
+// The plan of splats: what is left out, the largest colour, and the formats in which they are
+// blended.
+#include "runtime/plan/splat_plan.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "runtime/plan/splat_plan.hpp"
+#include "runtime/prepared_scene.hpp"
 #include "runtime/splats/splat_target.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "tests/support/random_splats.hpp"
 
 namespace tureen::test {
-namespace splat_formats_test {
+namespace splat_plan_test {
+
+TEST(SplatPlan, NamesWhatIsLeftOut) {
+  Splats splats = random_splats(splat_kinds[1], 10, 0.1, 1);
+  std::get<Gaussians>(splats.kernel).opacity[3] = 0.5f * splats.profile.min_alpha;
+  for (std::size_t i = 0; i < splats.color.coefficients.size(); ++i)
+    if (i % 9 >= 4) splats.color.coefficients[i] = glm::vec3(0);  // of degree 2
+  Scene scene;
+  scene.layers.push_back({.primitives = splats});
+  const auto applied = [&](const PlanPreferences& preferences, bool software = true) {
+    const DeviceLimits limits{
+        .max_texture_size = 2048, .max_array_layers = 256, .software = software};
+    return prepare_scene(scene, limits, {.plan = preferences}).plan.applied();
+  };
+  const AppliedSpecialisation bands{Specialisation::harmonics_bands, 1, 2};
+  const AppliedSpecialisation transparent{Specialisation::transparent_splats, 1, 10};
+  const AppliedSpecialisation hidden{Specialisation::hidden_splats, 0, 0, 0.5};
+  using List = std::vector<AppliedSpecialisation>;
+  EXPECT_EQ(applied({.splat_blending = SplatBlending::raster}), (List{bands, transparent, hidden}));
+  EXPECT_EQ(applied({.splat_blending = SplatBlending::raster}, false), (List{bands, transparent}));
+  EXPECT_EQ(applied({.splat_blending = SplatBlending::tiles}), (List{bands, transparent}));
+  EXPECT_EQ(applied({.specialise = false, .splat_blending = SplatBlending::raster}), List{});
+  for (const AppliedSpecialisation& each : List{bands, transparent, hidden}) {
+    List others = {bands, transparent, hidden};
+    std::erase(others, each);
+    EXPECT_EQ(applied({.specialisations = SpecialisationSet::all().without(each.what),
+                       .splat_blending = SplatBlending::raster}),
+              others);
+  }
+}
 
 TEST(SplatPlan, BoundsTheColoursOfEveryDirection) {
   std::mt19937 random(1);
@@ -60,5 +92,5 @@ TEST(SplatTarget, HasFractionsWhereTheyAreExactEnough) {
   EXPECT_EQ(format(SplatFormat::automatic, min_alpha, 2), GL_RGBA16F);
 }
 
-}  // namespace splat_formats_test
+}  // namespace splat_plan_test
 }  // namespace tureen::test
