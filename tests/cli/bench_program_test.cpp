@@ -103,14 +103,11 @@ TEST_F(BenchOfSplats, TimesThePlanAndItsOrder) {
     EXPECT_EQ(json["scene"]["splats"], count);
     EXPECT_EQ(json["scene"]["triangles"], 0);
     EXPECT_GT(json["load"]["peak_mib"], 0);
-    // Neither tiles nor the baseline draw neural densities and colours of corners; the baseline
-    // draws no discs.
+    // The baseline draws neither neural densities nor colours of corners nor discs.
     const std::string profile = kind.profile;
-    const bool tiles = profile != "splatnet" && !kind.per_corner;
-    const bool baseline = tiles && profile != "2dgs" && profile != "redisplats";
-    std::vector<std::string> cases{"tureen"};
-    if (tiles) cases.emplace_back("raster");
-    cases.emplace_back("generic");
+    const bool baseline =
+        profile != "splatnet" && profile != "2dgs" && profile != "redisplats" && !kind.per_corner;
+    std::vector<std::string> cases{"tureen", "raster", "generic"};
     if (baseline) cases.emplace_back("published");
     EXPECT_EQ(all(json["configurations"], "name"), cases);
     EXPECT_THAT(result.err, Names("3,000 splats: read"));
