@@ -202,7 +202,8 @@ void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLu
   if (tests_depth()) program.set_texture("depth_texture", unit++, target.depth_texture());
   if (drawing.bounds) program.set_texture("bounds", unit++, drawing.bounds);
   program.set("leaves_out_hidden", drawing.hidden ? 1 : 0);
-  if (drawing.hidden) program.set_texture("hidden", unit, drawing.hidden->texture());
+  // Also without tiles: samplers of different types may not share a unit.
+  program.set_texture("hidden", unit, drawing.hidden ? drawing.hidden->texture() : 0);
   set_view(program, frame);
   set_rays(program, in_layer.camera);
   const glm::dmat4 clip_from_view = target.clip_from_view(in_layer.camera, in_layer.range);

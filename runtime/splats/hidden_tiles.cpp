@@ -50,6 +50,10 @@ void HiddenTiles::resize(glm::ivec2 size) {
 }
 
 void HiddenTiles::find(GLuint blended) {
+  // A level that is drawn may not be one that is read; in WebGL, it must be in the range of levels.
+  // So the range has both, and without mipmaps only its first level is read.
+  glBindTexture(GL_TEXTURE_2D, tiles_.id());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   for (int level = 0; level < levels; ++level) {
     const gl::Program& program = level == 0 ? from_pixels_ : from_tiles_;
     gl::use_plain_rasterisation(size_of(level).x, size_of(level).y);
@@ -57,13 +61,13 @@ void HiddenTiles::find(GLuint blended) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[std::size_t(level)].id());
     program.use();
     program.set_texture("finer", 0, level == 0 ? blended : tiles_.id());
-    // The level that is drawn must not be one that is read.
-    if (level > 0) read_levels(level - 1, level - 1);
+    if (level > 0) read_levels(level - 1, level);
     program.set("finer_size", level == 0 ? size_ : size_of(level - 1));
     program.set("min_alpha", min_alpha_);
     full_screen_.draw(program);
   }
   glBindTexture(GL_TEXTURE_2D, tiles_.id());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   read_levels(0, levels - 1);
 }
 
