@@ -10,8 +10,10 @@ namespace tureen::splatting {
 
 class DiscLayer final : public Layer {
  public:
-  explicit DiscLayer(LayerData data);
+  DiscLayer(const Gaussians& discs, const SplatColor& color, std::span<const std::uint32_t> which,
+            int degree);
 
+  std::size_t count() const override { return rows_.count(); }
   std::span<const float> project(const ImageView& view) override;
   void set_order(std::span<const std::uint32_t> splats) override;
   void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
@@ -20,7 +22,8 @@ class DiscLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  ParameterRows projected_;
+  int degree_;
+  ParameterRows rows_, projected_;
   std::vector<DiscEntry> entries_;  // in the order of blending
   std::vector<Box> boxes_;          // of the entries
 };

@@ -8,14 +8,12 @@
 
 namespace tureen::splatting {
 
-/// The rows of neural_row, for the densities with these indices and harmonics up to `degree`.
-ParameterRows rows_of(const NeuralDensities& densities, const SplatColor& color,
-                      std::span<const std::uint32_t> which, int degree);
-
 class NeuralLayer final : public Layer {
  public:
-  explicit NeuralLayer(LayerData data);
+  NeuralLayer(const NeuralDensities& densities, const SplatColor& color,
+              std::span<const std::uint32_t> which, int degree);
 
+  std::size_t count() const override { return rows_.count(); }
   std::span<const float> project(const ImageView& view) override;
   void set_order(std::span<const std::uint32_t> splats) override;
   void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
@@ -24,7 +22,8 @@ class NeuralLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  ParameterRows projected_;
+  int degree_;
+  ParameterRows rows_, projected_;
   std::vector<NeuralEntry> entries_;  // in the order of blending
   std::vector<Ellipse> outlines_;     // of the entries
 };

@@ -52,9 +52,7 @@ PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const Dev
                                   const RenderOptions& options) {
   const DeviceLimits limits = options.limits.value_or(device);
   PreparedScene prepared = prepare_debug_soups(placed_soups(layers), limits, options);
-  PlanPreferences preferences = options.plan;
-  preferences.splat_blending = SplatBlending::raster;  // debug views measure splats on the device
-  add_splats(prepared, layers, limits, preferences);
+  add_splats(prepared, layers, limits, options.plan);
   return prepared;
 }
 
