@@ -37,7 +37,7 @@ inline constexpr std::size_t splat_outputs = 5;
 struct SplatDrawing {
   SplatOutput output = SplatOutput::color;
   GLuint bounds = 0;                    // texture of a search (splat_measures.hpp)
-  const HiddenTiles* hidden = nullptr;  // where splats are left out; only with SplatOutput::color
+  const HiddenTiles* hidden = nullptr;  // where splats are skipped; only with SplatOutput::color
 };
 
 class DeviceSplats {

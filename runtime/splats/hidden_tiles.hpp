@@ -1,6 +1,6 @@
 // The tiles of the image in which the splats blended so far hide all later ones: where every
 // pixel's transmittance has fallen so far that nothing behind changes its colour by half an 8-bit
-// step. Vertex shaders leave out the splats whose box has only hidden tiles (splat_hidden.glsl).
+// step. Vertex shaders skip the splats whose box has only hidden tiles (splat_hidden.glsl).
 #pragma once
 
 #include <glm/vec2.hpp>

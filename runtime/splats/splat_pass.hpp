@@ -1,6 +1,6 @@
 // Blends the splats of all layers over the frame's soups: projects them, orders them, blends them
 // front to back under the soups' depth, and composites the result over the frame's colours. They
-// are blended in chunks: each leaves out the splats that earlier chunks hide.
+// are blended in chunks: each skips the splats that earlier chunks hide.
 #pragma once
 
 #include <memory>

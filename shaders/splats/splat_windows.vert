@@ -122,11 +122,11 @@ void main() {
   visible = visible && !is_triangle_hidden(clip);
 
   // The lines N_k + margin |N_k.xy| z meet in sums of the corners with these weights, also where
-  // corners are behind the eye. The limit keeps needles short. Where rho is below `least_rho`, alpha
+  // corners are behind the eye. The limit keeps needles short. Where rho is below `min_rho`, alpha
   // is below MIN_ALPHA: the triangle is that much smaller.
   float longest = max(lengths.x, max(lengths.y, lengths.z));
-  float least_rho = exp2(min(log2(MIN_ALPHA / color.a) / sigma, 0.0));
-  float shift = min(margin / determinant, 1.0 / (largest_w * longest)) - least_rho / total;
+  float min_rho = exp2(min(log2(MIN_ALPHA / color.a) / sigma, 0.0));
+  float shift = min(margin / determinant, 1.0 / (largest_w * longest)) - min_rho / total;
   vec3 weights = -shift * clip[corner].w * lengths;
   weights[corner] += 1.0 + shift * total;
   gl_Position = visible ? weights.x * clip[0] + weights.y * clip[1] + weights.z * clip[2] : nowhere;

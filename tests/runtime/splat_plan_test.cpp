@@ -1,4 +1,4 @@
-// The plan of splats: what is left out, the largest colour, and the formats in which they are
+// The plan of splats: what is skipped, the largest colour, and the formats in which they are
 // blended.
 #include "runtime/plan/splat_plan.hpp"
 

@@ -183,7 +183,7 @@ TEST_P(SplatsOfKind, AgreeWithTheOracleAmongOtherLayers) {
   }
 }
 
-/// Raster leaves out those that earlier chunks hide, here in the second of two; tiles do not.
+/// Raster skips those that earlier chunks hide, here in the second of two; tiles do not.
 TEST_P(SplatsOfKind, ThatAreHiddenMayBeLeftOut) {
   Splats splats = random_splats(kind, 35'000, 0.08, 8);
   // Opaque enough to hide what is behind them.
@@ -203,7 +203,7 @@ TEST_P(SplatsOfKind, ThatAreHiddenMayBeLeftOut) {
   for (std::size_t i = 0; i < images[0].size(); ++i)
     for (int channel = 0; channel < 4; ++channel)
       errors.push_back(double(std::abs(images[0][i][channel] - images[1][i][channel])));
-  // What is left out adds at most half an 8-bit step, 54 dB, and in most pixels far less.
+  // What is skipped adds at most half an 8-bit step, 54 dB, and in most pixels far less.
   EXPECT_GE(difference_of(errors).psnr, 66);
   EXPECT_LE(*std::max_element(errors.begin(), errors.end()), 2.0 / 255);
 }
