@@ -21,12 +21,13 @@ inline Splats white_splats(SplatKernel kernel, const SplatProfile& profile) {
   return splats;
 }
 
-/// The blended splats: premultiplied RGBA, row 0 on top. Rasterised, unless the options say
-/// otherwise.
+/// The blended splats: premultiplied RGBA, row 0 on top. Rasterised in 32-bit floats, unless the
+/// options say otherwise: the steps of coarser formats would hide what is measured.
 inline std::vector<glm::vec4> blended_by_device(const Scene& scene, const Camera& camera,
                                                 RenderOptions options = {}) {
   if (options.plan.splat_blending == SplatBlending::automatic)
     options.plan.splat_blending = SplatBlending::raster;
+  if (options.splat_format == SplatFormat::automatic) options.splat_format = SplatFormat::rgba32f;
   gl::Context& context = shared_context();
   Renderer renderer(context, prepare_scene(scene, device_limits(context.capabilities()), options),
                     options);
