@@ -26,22 +26,22 @@ const { visit } = await stage({ routes: {
   '/many.ply': (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene),
 } });
 
-/** Shows the ball from behind, where the order of the view before it is the reverse. Returns the numbers of channels
+/** Turns by 1.9 degrees, where the order of the view before may still be drawn. Returns the numbers of channels
  *  that differ from an exact image: in the first frame, and in that after the next change of the order. */
 const differences = (page) => page.evaluate(async () => {
-  const size = { width: 64, height: 48 }, pose = (z) => ({ eye: [0, 0, z], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 });
+  const size = { width: 64, height: 48 }, pose = (turn) => ({ eye: [4 * Math.sin(turn), 0, 4 * Math.cos(turn)], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 });
   const pixelsOf = (image) => {
     const canvas = new OffscreenCanvas(size.width, size.height), context = canvas.getContext('2d');
     context.drawImage(image, 0, 0);
     return context.getImageData(0, 0, size.width, size.height).data;
   };
-  const exact = async (z) => {
-    viewer.setView(pose(z));
+  const exact = async (turn) => {
+    viewer.setView(pose(turn));
     return pixelsOf(await createImageBitmap(await viewer.screenshot(size)));
   };
-  const expected = await exact(-4);
-  await exact(4);
-  viewer.setView(pose(-4));
+  const expected = await exact(0.033);
+  await exact(0);
+  viewer.setView(pose(0.033));
   const different = () => pixelsOf(viewer.canvas).reduce((sum, value, at) => sum + (value !== expected[at]), 0);
   viewer.draw();
   const first = different();
@@ -54,7 +54,7 @@ test('many splats are sorted in a worker until the order is that of the view', (
   await page.evaluate(() => viewer.load({ url: '/many.ply' }));
   const { first, second } = await differences(page);
   assert.equal(page.workers().length, 1);
-  assert.ok(first > 1000, `the first frame has the earlier order: ${first} channels differ`);
+  assert.ok(first > 0, `the first frame has the earlier order: ${first} channels differ`);
   assert.equal(second, 0, 'the frame after it has the order of the view');
 }));
 
