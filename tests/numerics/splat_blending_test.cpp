@@ -152,7 +152,8 @@ TEST(Numerics, B3_ValuesThatAreNotFinitePoisonNoPixel) {
         gl::Context& context = shared_context();
         for (const SplatBlending blending : {SplatBlending::raster, SplatBlending::tiles}) {
           const std::vector<glm::vec4>& clean = cleans[blending == SplatBlending::tiles];
-          const RenderOptions options{.plan = {.specialise = false, .splat_blending = blending}};
+          const RenderOptions options{.plan = {.specialise = false, .splat_blending = blending},
+                                      .splat_format = SplatFormat::rgba32f};
           Renderer renderer(context,
                             prepare_scene(scene, device_limits(context.capabilities()), options),
                             options);
