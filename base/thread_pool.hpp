@@ -2,16 +2,27 @@
 // the time: then results have the same bits with any number of threads.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
-#include <exception>
 #include <functional>
+#ifndef __EMSCRIPTEN__
+#include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
+#endif
 
 namespace tureen {
 
+#ifdef __EMSCRIPTEN__
+/// Pages have one thread.
+class ThreadPool {
+ public:
+  void run(std::size_t tasks, const std::function<void(std::size_t)>& body) {
+    for (std::size_t i = 0; i < tasks; ++i) body(i);
+  }
+};
+#else
 class ThreadPool {
  public:
   /// `threads`: number of threads, including the caller of run(); 0 means all cores.
@@ -39,5 +50,6 @@ class ThreadPool {
   bool stop_ = false;
   std::vector<std::thread> workers_;
 };
+#endif
 
 }  // namespace tureen

@@ -32,7 +32,7 @@ set(arrows
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
   "jobs/results: base scene runtime/plan jobs/bench jobs/eval jobs/timing jobs/tradeoff"
   "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views trainer/common jobs/baseline jobs/timing"
-  "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing")
+  "web: base image scene splatting camera formats runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing")
 
 set(modules "")
 set(folders "")

@@ -4,33 +4,9 @@
 
 #include "base/error.hpp"
 #include "runtime/layer_errors.hpp"
-#include "runtime/splats/tile_pass.hpp"
 #include "scene/middle_bounds.hpp"
 
 namespace tureen {
-
-namespace {
-
-/// The splats for TilePass if they are blended so; otherwise null.
-std::unique_ptr<splatting::Layer> tiled_splats(const Splats& splats, const SplatPlan& plan,
-                                               const DeviceLimits& limits,
-                                               const PlanPreferences& preferences) {
-  const SplatBlending blending = preferences.splat_blending;
-  if (blending == SplatBlending::raster ||
-      (blending == SplatBlending::automatic && !limits.software))
-    return nullptr;
-  if constexpr (has_tile_pass) {
-    if (!plan.as_published && splatting::has_layer_for(splats))
-      return splatting::make_layer(splats, plan.profile, plan.drawn, plan.harmonics_degree);
-  }
-  if (blending == SplatBlending::tiles)
-    throw UsageError(plan.as_published ? "tiles do not have the culls of published rasterisers"
-                                       : "tiles cannot blend so many splats",
-                     "--blend raster can, and auto chooses it");
-  return nullptr;
-}
-
-}  // namespace
 
 std::vector<PlacedSoup> placed_soups(const Scene& scene) {
   return placed_soups(placed_layers(scene));
@@ -74,6 +50,20 @@ PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLim
   return prepared;
 }
 
+bool uses_tiles(const Splats& splats, const SplatPlan& plan, const DeviceLimits& limits,
+                const PlanPreferences& preferences) {
+  const SplatBlending blending = preferences.splat_blending;
+  if (blending == SplatBlending::raster ||
+      (blending == SplatBlending::automatic && !limits.software))
+    return false;
+  if (!plan.as_published && splatting::has_layer_for(splats)) return true;
+  if (blending == SplatBlending::tiles)
+    throw UsageError(plan.as_published ? "tiles do not have the culls of published rasterisers"
+                                       : "tiles cannot blend so many splats",
+                     "--blend raster can, and auto chooses it");
+  return false;
+}
+
 void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
                 const DeviceLimits& limits, const PlanPreferences& preferences) {
   const TexelLayout layout = TexelLayout::of(limits);
@@ -86,19 +76,22 @@ void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
                                                .specialisations = preferences.specialisations,
                                                .profile = preferences.splat_profile,
                                                .as_published = preferences.as_published});
-    std::unique_ptr<splatting::Layer> tiled = tiled_splats(*splats, plan, limits, preferences);
-    // On hardware, the gain is not measured.
-    if (!tiled && limits.software && preferences.specialise &&
-        preferences.specialisations.has(Specialisation::hidden_splats))
-      plan.applied.push_back({Specialisation::hidden_splats, 0, 0, 0.5});
-    prepared.layers.insert(prepared.layers.begin() + at,
-                           {.name = layer.name,
-                            .bounds = bounds(*splats),
-                            .framed = framed_bounds(*splats),
-                            .world_from_layer = layer.world_from_layer,
-                            .visible = layer.visible,
-                            .splats = prepare_splats(*splats, plan, layout),
-                            .tiled_splats = std::move(tiled)});
+    PreparedLayer prepared_layer{.name = layer.name,
+                                 .bounds = bounds(*splats),
+                                 .framed = framed_bounds(*splats),
+                                 .world_from_layer = layer.world_from_layer,
+                                 .visible = layer.visible};
+    if (uses_tiles(*splats, plan, limits, preferences)) {
+      prepared_layer.tiled_splats =
+          splatting::layer_data(*splats, plan.profile, plan.drawn, plan.harmonics_degree);
+    } else {
+      // On hardware, the gain is not measured.
+      if (limits.software && preferences.specialise &&
+          preferences.specialisations.has(Specialisation::hidden_splats))
+        plan.applied.push_back({Specialisation::hidden_splats, 0, 0, 0.5});
+      prepared_layer.splats = prepare_splats(*splats, plan, layout);
+    }
+    prepared.layers.insert(prepared.layers.begin() + at, std::move(prepared_layer));
     prepared.plan.layers.insert(prepared.plan.layers.begin() + at, std::move(plan));
   }
 }

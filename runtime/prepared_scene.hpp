@@ -36,12 +36,11 @@ struct PreparedLayer {
   Bounds framed = {};  // framed_bounds()
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  /// Either `soup` or `splats` is set. Both are empty if the passes from PreparedScene::make_passes
-  /// hold the soup on the device (the baseline).
+  /// One of the three is set: `splats` for the device, `tiled_splats` for TilePass. None is if the
+  /// passes from PreparedScene::make_passes hold the soup on the device (the baseline).
   std::optional<PreparedSoup> soup = {};
   std::optional<SplatSource> splats = {};
-  /// If `splats` are set: for TilePass. Empty if the device blends them.
-  std::unique_ptr<splatting::Layer> tiled_splats = {};
+  std::optional<splatting::LayerData> tiled_splats = {};
 };
 
 /// The inputs of a function that makes passes.
@@ -99,8 +98,12 @@ PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const D
 /// The same with a plan from make_plan for these soups and limits.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan);
+/// Whether TilePass blends the splats, so the device does not hold them. Throws UsageError for
+/// SplatBlending::tiles if they cannot be blended so.
+bool uses_tiles(const Splats& splats, const SplatPlan& plan, const DeviceLimits& limits,
+                const PlanPreferences& preferences);
 /// Completes a scene that was prepared from the soups of `layers`. Of `preferences`, those of
-/// splats are used. Throws UsageError for SplatBlending::tiles if these cannot blend some splats.
+/// splats are used. Throws UsageError as uses_tiles() does.
 void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
                 const DeviceLimits& limits, const PlanPreferences& preferences);
 

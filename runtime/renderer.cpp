@@ -43,6 +43,7 @@ struct Renderer::State {
   void arrange();
   void make_splat_pass();
   void drop_splat_pass();
+  void upload_tiled_splats();
   void remove(std::size_t layer);
   template <class Add>
   void add_or_undo(const Add& add);
@@ -82,10 +83,11 @@ struct Renderer::State {
   SplatFormat splat_format;
   gl::Capabilities device;
   FrameTarget target{{}};
-  // One for each layer; null for layers of the other kind.
+  // One for each layer; null for layers of the other kind. Splats are in one of the lists, or in
+  // both after upload_tiled_splats().
   std::vector<std::unique_ptr<DeviceSoup>> soups;
   std::vector<std::unique_ptr<DeviceSplats>> splats;
-  std::vector<std::unique_ptr<TiledSplats>> tiled_splats;  // null, too, if the device blends them
+  std::vector<std::unique_ptr<TiledSplats>> tiled_splats;
   bool layered = false;                                    // the passes are those of several soups
   bool draws_layers = true;                                // otherwise `passes` are all passes
   std::vector<SoupPasses> soup_passes;                     // one for each layer, if they are drawn
@@ -119,7 +121,8 @@ void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const
                                                    std::get<SplatPlan>(plans[i]));
       if (layer.tiled_splats)
         tiled = std::make_unique<TiledSplats>(
-            TiledSplats{std::move(layer.tiled_splats), std::get<SplatPlan>(plans[i]).profile});
+            TiledSplats{splatting::make_layer(std::move(*layer.tiled_splats)),
+                        std::get<SplatPlan>(plans[i]).profile});
     });
     soups.push_back(std::move(soup));
     splats.push_back(std::move(of_splats));
@@ -129,8 +132,21 @@ void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const
 }
 
 bool Renderer::State::has_splats() const {
-  return std::any_of(splats.begin(), splats.end(),
-                     [](const auto& each) { return each != nullptr; });
+  const auto exists = [](const auto& each) { return each != nullptr; };
+  return std::any_of(splats.begin(), splats.end(), exists) ||
+         std::any_of(tiled_splats.begin(), tiled_splats.end(), exists);
+}
+
+/// Uploads the splats that only tiles have needed so far.
+void Renderer::State::upload_tiled_splats() {
+  const TexelLayout layout = TexelLayout::of(device_limits(device));
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (splats[i] || !tiled_splats[i]) continue;
+    const SplatPlan& layer_plan = std::get<SplatPlan>(plan.layers[i]);
+    SplatSource source = prepare_splats(tiled_splats[i]->splats->data(), layout);
+    splats[i] = std::make_unique<DeviceSplats>(device, std::move(source), layer_plan);
+    splats[i]->set_layer(i);
+  }
 }
 
 /// Calls add(), which appends layers, and arranges them. If that throws, the layers are as before.
@@ -196,17 +212,17 @@ void Renderer::State::drop_splat_pass() {
 
 /// Tiles blend if they can blend all layers, otherwise the device does.
 void Renderer::State::make_splat_pass() {
-  if constexpr (has_tile_pass) {
-    std::vector<const TiledSplats*> tiled;
-    for (const std::unique_ptr<TiledSplats>& each : tiled_splats)
-      if (each) tiled.push_back(each.get());
-    const auto count = std::count_if(splats.begin(), splats.end(),
-                                     [](const auto& each) { return each != nullptr; });
-    if (tiled.size() == std::size_t(count) && tiled.size() <= TilePass::max_layers) {
-      splat_pass = std::make_unique<TilePass>(device, std::move(tiled));
-      return;
-    }
+  std::vector<const TiledSplats*> tiled;
+  bool all = true;
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (tiled_splats[i]) tiled.push_back(tiled_splats[i].get());
+    all &= tiled_splats[i] || !splats[i];
   }
+  if (all && tiled.size() <= TilePass::max_layers) {
+    splat_pass = std::make_unique<TilePass>(device, std::move(tiled));
+    return;
+  }
+  upload_tiled_splats();
   auto raster = std::make_unique<SplatPass>(device, splats, splat_format);
   ordered_splats = &raster->splats();
   ordered_splats->sort_with(splat_sorter.get());
@@ -444,6 +460,7 @@ double Renderer::State::splat_depth_at(glm::ivec2 sample, float stored) {
   for (FrameCamera& layer : one.layers) layer.camera = cut_out_of(layer.camera, corner, {1, 1});
   FrameTarget pixel({.reversed_depth = plan.reversed_depth});
   pixel.resize({1, 1});
+  upload_tiled_splats();
   SplatMeasures measures(device, splats, SplatMeasure::median_depth);
   measures.resize(pixel);
   if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, true);

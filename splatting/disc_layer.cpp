@@ -1,18 +1,16 @@
 #include "splatting/disc_layer.hpp"
 
+#include <utility>
+
 #include "splatting/disc_entries.hpp"
-#include "splatting/gaussian_rows.hpp"
 
 namespace tureen::splatting {
 
-DiscLayer::DiscLayer(const Gaussians& discs, const SplatColor& color,
-                     std::span<const std::uint32_t> which, int degree)
-    : degree_(degree),
-      rows_(rows_of(discs, color, which, degree)),
-      projected_(projected_disc_row::count, which.size()) {}
+DiscLayer::DiscLayer(LayerData data)
+    : Layer(std::move(data)), projected_(projected_disc_row::count, count()) {}
 
 std::span<const float> DiscLayer::project(const ImageView& view) {
-  project_discs(view, rows_, degree_, 0, count(), projected_);
+  project_discs(view, data().rows, data().degree, 0, count(), projected_);
   return {projected_.row(projected_disc_row::depth), count()};
 }
 

@@ -10,10 +10,8 @@ namespace tureen::splatting {
 
 class DiscLayer final : public Layer {
  public:
-  DiscLayer(const Gaussians& discs, const SplatColor& color, std::span<const std::uint32_t> which,
-            int degree);
+  explicit DiscLayer(LayerData data);
 
-  std::size_t count() const override { return rows_.count(); }
   std::span<const float> project(const ImageView& view) override;
   void set_order(std::span<const std::uint32_t> splats) override;
   void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
@@ -22,8 +20,7 @@ class DiscLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  int degree_;
-  ParameterRows rows_, projected_;
+  ParameterRows projected_;
   std::vector<DiscEntry> entries_;  // in the order of blending
   std::vector<Box> boxes_;          // of the entries
 };

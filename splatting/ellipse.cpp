@@ -5,6 +5,15 @@
 
 namespace tureen::splatting {
 
+namespace {
+
+float half_width_at(const Ellipse& ellipse, float dy) {
+  const float r_dy = ellipse.r * dy;
+  return std::sqrt(std::max(ellipse.limit - r_dy * r_dy, 0.0f)) / ellipse.p;
+}
+
+}  // namespace
+
 void list_ellipse(const Ellipse& ellipse, std::uint32_t splat, TileLists& lists) {
   const auto& [x, y, p, q, r, limit, half_width, half_height] = ellipse;
   const auto [first, last] = lists.rows_between(y - half_height, y + half_height);
@@ -22,11 +31,8 @@ void list_ellipse(const Ellipse& ellipse, std::uint32_t splat, TileLists& lists)
     const float high = std::min(band.high - y, half_height);
     const float right_at = std::min(std::max(-extreme, low), high);
     const float left_at = std::min(std::max(extreme, low), high);
-    const auto half_width_at = [&](float dy) {
-      return std::sqrt(std::max(limit - r * r * dy * dy, 0.0f)) / p;
-    };
-    lists.add(row, x - slope * left_at - half_width_at(left_at),
-              x - slope * right_at + half_width_at(right_at), splat);
+    lists.add(row, x - slope * left_at - half_width_at(ellipse, left_at),
+              x - slope * right_at + half_width_at(ellipse, right_at), splat);
   }
 }
 

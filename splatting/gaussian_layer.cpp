@@ -1,20 +1,15 @@
 #include "splatting/gaussian_layer.hpp"
 
 #include <cmath>
-
-#include "splatting/gaussian_rows.hpp"
+#include <utility>
 
 namespace tureen::splatting {
 
-GaussianLayer::GaussianLayer(const Gaussians& gaussians, const SplatColor& color,
-                             std::span<const std::uint32_t> which, int degree)
-    : degree_(degree),
-      rows_(rows_of(gaussians, color, which, degree)),
-      projected_(which.size()),
-      depths_(which.size()) {}
+GaussianLayer::GaussianLayer(LayerData data)
+    : Layer(std::move(data)), projected_(count()), depths_(count()) {}
 
 std::span<const float> GaussianLayer::project(const ImageView& view) {
-  project_gaussians(view, rows_, degree_, 0, projected_);
+  project_gaussians(view, data().rows, data().degree, 0, projected_);
   for (std::size_t i = 0; i < projected_.size(); ++i) depths_[i] = projected_[i].depth;
   return depths_;
 }

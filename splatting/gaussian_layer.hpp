@@ -10,10 +10,8 @@ namespace tureen::splatting {
 
 class GaussianLayer final : public Layer {
  public:
-  GaussianLayer(const Gaussians& gaussians, const SplatColor& color,
-                std::span<const std::uint32_t> which, int degree);
+  explicit GaussianLayer(LayerData data);
 
-  std::size_t count() const override { return rows_.count(); }
   std::span<const float> project(const ImageView& view) override;
   void set_order(std::span<const std::uint32_t> splats) override;
   void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
@@ -22,8 +20,6 @@ class GaussianLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  int degree_;
-  ParameterRows rows_;
   std::vector<GaussianEntry> projected_;
   std::vector<float> depths_;
   std::vector<GaussianEntry> entries_;  // in the order of blending

@@ -4,10 +4,12 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "splatting/disc_layer.hpp"
 #include "splatting/gaussian_layer.hpp"
+#include "splatting/gaussian_rows.hpp"
 #include "splatting/neural_layer.hpp"
 #include "splatting/window_layer.hpp"
 
@@ -46,25 +48,37 @@ bool has_nan(const Splats& splats, std::size_t i) {
 
 }  // namespace
 
-std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& profile,
-                                  std::span<const std::uint32_t> which, int degree) {
+LayerData layer_data(const Splats& splats, const SplatProfile& profile,
+                     std::span<const std::uint32_t> which, int degree) {
   assert(has_layer_for(splats));
   std::vector<std::uint32_t> without_nan;
   std::copy_if(which.begin(), which.end(), std::back_inserter(without_nan),
                [&](std::uint32_t i) { return !has_nan(splats, i); });
-  which = without_nan;
   const SplatColor& color = splats.color;
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-    if (color.per_corner)
-      return std::make_unique<WindowLayer<CornerColorWindows>>(*windows, color, which, degree);
-    return std::make_unique<WindowLayer<OneColorWindows>>(*windows, color, which, degree);
-  }
+  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
+    return {color.per_corner ? LayerKind::corner_color_windows : LayerKind::windows, degree,
+            rows_of(*windows, color, without_nan, degree)};
   if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
-    return std::make_unique<NeuralLayer>(*densities, color, which, degree);
-  const auto& gaussians = std::get<Gaussians>(splats.kernel);
-  if (profile.projection == SplatProfile::Projection::plane)
-    return std::make_unique<DiscLayer>(gaussians, color, which, degree);
-  return std::make_unique<GaussianLayer>(gaussians, color, which, degree);
+    return {LayerKind::densities, degree, rows_of(*densities, color, without_nan, degree)};
+  const bool on_plane = profile.projection == SplatProfile::Projection::plane;
+  return {on_plane ? LayerKind::discs : LayerKind::gaussians, degree,
+          rows_of(std::get<Gaussians>(splats.kernel), color, without_nan, degree)};
+}
+
+std::unique_ptr<Layer> make_layer(LayerData data) {
+  switch (data.kind) {
+    case LayerKind::windows:
+      return std::make_unique<WindowLayer<OneColorWindows>>(std::move(data));
+    case LayerKind::corner_color_windows:
+      return std::make_unique<WindowLayer<CornerColorWindows>>(std::move(data));
+    case LayerKind::discs:
+      return std::make_unique<DiscLayer>(std::move(data));
+    case LayerKind::gaussians:
+      return std::make_unique<GaussianLayer>(std::move(data));
+    case LayerKind::densities:
+      return std::make_unique<NeuralLayer>(std::move(data));
+  }
+  return nullptr;
 }
 
 }  // namespace tureen::splatting

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "scene/splats.hpp"
 #include "splatting/image_view.hpp"
+#include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
 
 namespace tureen::splatting {
@@ -16,10 +18,22 @@ namespace tureen::splatting {
 inline constexpr int place_bits = 24;
 inline constexpr std::uint32_t place_mask = (1u << place_bits) - 1;
 
+enum class LayerKind { windows, corner_color_windows, discs, gaussians, densities };
+
+/// Everything that a layer is made from. The rows are those of window_row, gaussian_row or
+/// neural_row, by kind; `degree` is that of their harmonics.
+struct LayerData {
+  LayerKind kind = LayerKind::windows;
+  int degree = 0;
+  ParameterRows rows;
+};
+
 class Layer {
  public:
+  explicit Layer(LayerData data) : data_(std::move(data)) {}
   virtual ~Layer() = default;
-  virtual std::size_t count() const = 0;
+  const LayerData& data() const { return data_; }
+  std::size_t count() const { return data_.rows.count(); }
   /// Computes what all pixels of a splat share, and returns the view depth of each centre, in layer
   /// units; NaN for splats that are not drawn. Valid until the next call.
   virtual std::span<const float> project(const ImageView& view) = 0;
@@ -31,6 +45,9 @@ class Layer {
   /// Blends splats from a tile's list, all of this layer, front to back.
   virtual void blend(const ImageView& view, std::span<const std::uint32_t> splats,
                      TilePixels& pixels) const = 0;
+
+ private:
+  LayerData data_;
 };
 
 /// Whether make_layer() supports the splats: at most place_mask.
@@ -38,7 +55,9 @@ bool has_layer_for(const Splats& splats);
 
 /// A copy of the splats with these indices that have no NaN, with harmonics up to `degree`, for
 /// views of this profile. The splats fulfil has_layer_for().
-std::unique_ptr<Layer> make_layer(const Splats& splats, const SplatProfile& profile,
-                                  std::span<const std::uint32_t> which, int degree);
+LayerData layer_data(const Splats& splats, const SplatProfile& profile,
+                     std::span<const std::uint32_t> which, int degree);
+
+std::unique_ptr<Layer> make_layer(LayerData data);
 
 }  // namespace tureen::splatting

@@ -1,38 +1,42 @@
 #include "splatting/neural_layer.hpp"
 
+#include <utility>
+
 #include "splatting/harmonics_rows.hpp"
 
 namespace tureen::splatting {
 
-NeuralLayer::NeuralLayer(const NeuralDensities& densities, const SplatColor& color,
-                         std::span<const std::uint32_t> which, int degree)
-    : degree_(degree),
-      rows_(neural_row::harmonics + harmonics_rows(degree), which.size()),
-      projected_(projected_neural_row::count, which.size()) {
+ParameterRows rows_of(const NeuralDensities& densities, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree) {
   namespace row = neural_row;
+  ParameterRows rows(row::harmonics + harmonics_rows(degree), which.size());
   for (std::size_t i = 0; i < which.size(); ++i) {
     const std::uint32_t splat = which[i];
     for (int axis = 0; axis < 3; ++axis) {
-      rows_.row(row::center + std::size_t(axis))[i] = densities.centers[splat][axis];
-      rows_.row(row::semi_axes + std::size_t(axis))[i] = densities.semi_axes[splat][axis];
+      rows.row(row::center + std::size_t(axis))[i] = densities.centers[splat][axis];
+      rows.row(row::semi_axes + std::size_t(axis))[i] = densities.semi_axes[splat][axis];
     }
     const glm::quat& rotation = densities.rotations[splat];
-    rows_.row(row::rotation)[i] = rotation.x;
-    rows_.row(row::rotation + 1)[i] = rotation.y;
-    rows_.row(row::rotation + 2)[i] = rotation.z;
-    rows_.row(row::rotation + 3)[i] = rotation.w;
+    rows.row(row::rotation)[i] = rotation.x;
+    rows.row(row::rotation + 1)[i] = rotation.y;
+    rows.row(row::rotation + 2)[i] = rotation.z;
+    rows.row(row::rotation + 3)[i] = rotation.w;
     // The rows have the order of the network's values.
     const float* network = &densities.networks[NeuralDensities::parameters * splat];
     for (std::size_t k = 0; k < NeuralDensities::parameters; ++k) {
       const std::size_t at = row::frequencies + k;
-      rows_.row(at)[i] = at < row::amplitudes ? densities.omega * network[k] : network[k];
+      rows.row(at)[i] = at < row::amplitudes ? densities.omega * network[k] : network[k];
     }
   }
-  write_harmonics(color, which, degree, rows_, row::harmonics);
+  write_harmonics(color, which, degree, rows, row::harmonics);
+  return rows;
 }
 
+NeuralLayer::NeuralLayer(LayerData data)
+    : Layer(std::move(data)), projected_(projected_neural_row::count, count()) {}
+
 std::span<const float> NeuralLayer::project(const ImageView& view) {
-  project_densities(view, rows_, degree_, 0, count(), projected_);
+  project_densities(view, data().rows, data().degree, 0, count(), projected_);
   return {projected_.row(projected_neural_row::depth), count()};
 }
 

@@ -8,12 +8,14 @@
 
 namespace tureen::splatting {
 
+/// The rows of neural_row, for the densities with these indices and harmonics up to `degree`.
+ParameterRows rows_of(const NeuralDensities& densities, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree);
+
 class NeuralLayer final : public Layer {
  public:
-  NeuralLayer(const NeuralDensities& densities, const SplatColor& color,
-              std::span<const std::uint32_t> which, int degree);
+  explicit NeuralLayer(LayerData data);
 
-  std::size_t count() const override { return rows_.count(); }
   std::span<const float> project(const ImageView& view) override;
   void set_order(std::span<const std::uint32_t> splats) override;
   void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
@@ -22,8 +24,7 @@ class NeuralLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  int degree_;
-  ParameterRows rows_, projected_;
+  ParameterRows projected_;
   std::vector<NeuralEntry> entries_;  // in the order of blending
   std::vector<Ellipse> outlines_;     // of the entries
 };

@@ -15,11 +15,12 @@ class ParameterRows {
   ParameterRows() = default;
   /// Zeros.
   ParameterRows(std::size_t rows, std::size_t count)
-      : count_(count), lines_a_row_((count + row_alignment - 1) / row_alignment) {
+      : rows_(rows), count_(count), lines_a_row_((count + row_alignment - 1) / row_alignment) {
     lines_.resize(rows * lines_a_row_);
   }
 
   std::size_t count() const { return count_; }
+  std::size_t rows() const { return rows_; }
   /// From one row to the next.
   std::size_t stride() const { return lines_a_row_ * row_alignment; }
   /// count() values; stride() of them can be read and written.
@@ -38,7 +39,7 @@ class ParameterRows {
   struct alignas(row_alignment * sizeof(float)) Line {
     float values[row_alignment];
   };
-  std::size_t count_ = 0, lines_a_row_ = 0;
+  std::size_t rows_ = 0, count_ = 0, lines_a_row_ = 0;
   std::vector<Line> lines_;
 };
 

@@ -1,27 +1,32 @@
 #include "splatting/window_layer.hpp"
 
+#include <utility>
+
 #include "splatting/harmonics_rows.hpp"
 
 namespace tureen::splatting {
 
-template <class Kernel>
-WindowLayer<Kernel>::WindowLayer(const TriangleWindows& windows, const SplatColor& color,
-                                 std::span<const std::uint32_t> which, int degree)
-    : degree_(degree),
-      rows_(window_row::harmonics + Kernel::colors * harmonics_rows(degree), which.size()),
-      projected_(Kernel::rows, which.size()) {
+ParameterRows rows_of(const TriangleWindows& windows, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree) {
+  const std::size_t colors = color.per_corner ? 3 : 1;
+  ParameterRows rows(window_row::harmonics + colors * harmonics_rows(degree), which.size());
   for (std::size_t i = 0; i < which.size(); ++i) {
     for (std::size_t k = 0; k < 9; ++k)
-      rows_.row(window_row::corners + k)[i] = windows.corners[3 * which[i] + k / 3][int(k % 3)];
-    rows_.row(window_row::sigma)[i] = windows.sigma[which[i]];
-    rows_.row(window_row::opacity)[i] = windows.opacity[which[i]];
+      rows.row(window_row::corners + k)[i] = windows.corners[3 * which[i] + k / 3][int(k % 3)];
+    rows.row(window_row::sigma)[i] = windows.sigma[which[i]];
+    rows.row(window_row::opacity)[i] = windows.opacity[which[i]];
   }
-  write_harmonics(color, which, degree, rows_, window_row::harmonics);
+  write_harmonics(color, which, degree, rows, window_row::harmonics);
+  return rows;
 }
 
 template <class Kernel>
+WindowLayer<Kernel>::WindowLayer(LayerData data)
+    : Layer(std::move(data)), projected_(Kernel::rows, count()) {}
+
+template <class Kernel>
 std::span<const float> WindowLayer<Kernel>::project(const ImageView& view) {
-  Kernel::project(view, rows_, degree_, 0, count(), projected_);
+  Kernel::project(view, data().rows, data().degree, 0, count(), projected_);
   return {projected_.row(projected_window_row::depth), count()};
 }
 

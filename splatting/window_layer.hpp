@@ -28,14 +28,16 @@ struct CornerColorWindows {
   static constexpr auto blend = &blend_corner_windows;
 };
 
+/// The rows of window_row, for the windows with these indices and harmonics up to `degree`.
+ParameterRows rows_of(const TriangleWindows& windows, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree);
+
 /// `Kernel` is OneColorWindows or CornerColorWindows, as the colour says.
 template <class Kernel>
 class WindowLayer final : public Layer {
  public:
-  WindowLayer(const TriangleWindows& windows, const SplatColor& color,
-              std::span<const std::uint32_t> which, int degree);
+  explicit WindowLayer(LayerData data);
 
-  std::size_t count() const override { return rows_.count(); }
   std::span<const float> project(const ImageView& view) override;
   void set_order(std::span<const std::uint32_t> splats) override;
   void list(const ImageView& view, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
@@ -44,8 +46,7 @@ class WindowLayer final : public Layer {
              TilePixels& pixels) const override;
 
  private:
-  int degree_;
-  ParameterRows rows_, projected_;
+  ParameterRows projected_;
   std::vector<typename Kernel::Entry> entries_;  // in the order of blending
   std::vector<WindowOutline> outlines_;
 };

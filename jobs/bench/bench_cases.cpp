@@ -55,7 +55,7 @@ class RendererCase final : public BenchCase {
     } else if (splat_count(scene) > 0) {
       prepared = prepare_scene(scene, limits, {.plan = preferences});
       planned();
-      tiles_ = prepared.layers.front().tiled_splats != nullptr;
+      tiles_ = prepared.layers.front().tiled_splats.has_value();
     } else {
       RenderPlan plan = make_plan(only_soup(scene), limits, preferences);
       planned();

@@ -52,7 +52,9 @@ PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const Dev
                                   const RenderOptions& options) {
   const DeviceLimits limits = options.limits.value_or(device);
   PreparedScene prepared = prepare_debug_soups(placed_soups(layers), limits, options);
-  add_splats(prepared, layers, limits, options.plan);
+  PlanPreferences preferences = options.plan;
+  preferences.splat_blending = SplatBlending::raster;  // debug views measure splats on the device
+  add_splats(prepared, layers, limits, preferences);
   return prepared;
 }
 

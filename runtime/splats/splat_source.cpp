@@ -4,9 +4,14 @@
 #include <cassert>
 #include <cstring>
 #include <glm/vec4.hpp>
+#include <numeric>
+#include <utility>
 
 #include "base/error.hpp"
 #include "scene/spherical_harmonics.hpp"
+#include "splatting/gaussian_kernels.hpp"
+#include "splatting/neural_kernels.hpp"
+#include "splatting/window_kernels.hpp"
 
 namespace tureen {
 
@@ -85,6 +90,99 @@ TexelSource coefficient_source(const Splats& splats, const SplatPlan& plan) {
           }};
 }
 
+/// Where a value that is 0 for all splats is read.
+constexpr std::size_t no_row = ~std::size_t(0);
+
+/// The rows of the components of a splat's kernel texels.
+std::vector<std::size_t> kernel_rows(splatting::LayerKind kind) {
+  using Kind = splatting::LayerKind;
+  namespace window = splatting::window_row;
+  namespace gaussian = splatting::gaussian_row;
+  namespace neural = splatting::neural_row;
+  std::vector<std::size_t> rows;
+  const auto add = [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) rows.push_back(first + k);
+  };
+  switch (kind) {
+    case Kind::windows:
+    case Kind::corner_color_windows:
+      add(window::corners, 3);
+      rows.push_back(window::sigma);
+      add(window::corners + 3, 3);
+      rows.push_back(window::opacity);
+      add(window::corners + 6, 3);
+      rows.push_back(no_row);
+      break;
+    case Kind::discs:
+    case Kind::gaussians:
+      add(gaussian::x, 3);
+      rows.push_back(gaussian::opacity);
+      add(gaussian::scale_x, 3);
+      rows.push_back(no_row);
+      add(gaussian::rotation_x, 4);
+      break;
+    case Kind::densities:
+      add(neural::center, 3);
+      rows.push_back(no_row);
+      add(neural::semi_axes, 3);
+      rows.push_back(neural::offset);
+      add(neural::rotation, 4);
+      for (std::size_t k = 0; k < NeuralDensities::width; ++k) {
+        add(neural::frequencies + 3 * k, 3);
+        rows.push_back(neural::phases + k);
+      }
+      add(neural::amplitudes, NeuralDensities::width);
+      break;
+  }
+  return rows;
+}
+
+/// A source whose texels have the values of these rows in turn: the first `rows.size()` values are
+/// those of splat 0.
+TexelSource row_source(const splatting::ParameterRows& values, std::vector<std::size_t> rows,
+                       const TexelFormat& format, std::string what) {
+  return {format, rows.size() * sizeof(float) / format.bytes * values.count(), std::move(what),
+          [&values, rows = std::move(rows), components = format.bytes / sizeof(float)](
+              std::uint64_t first, std::span<std::byte> out) {
+            std::uint64_t at = first * components;
+            for (std::size_t i = 0; i < out.size(); i += sizeof(float), ++at) {
+              const std::size_t row = rows[at % rows.size()];
+              const float value = row == no_row ? 0.0f : values.row(row)[at / rows.size()];
+              std::memcpy(&out[i], &value, sizeof value);
+            }
+          }};
+}
+
+std::size_t first_harmonics_row(splatting::LayerKind kind) {
+  switch (kind) {
+    case splatting::LayerKind::windows:
+    case splatting::LayerKind::corner_color_windows:
+      return splatting::window_row::harmonics;
+    case splatting::LayerKind::densities:
+      return splatting::neural_row::harmonics;
+    default:
+      return splatting::gaussian_row::harmonics;
+  }
+}
+
+glm::vec3 center(const splatting::LayerData& layer, std::size_t i) {
+  const auto point = [&](std::size_t row) {
+    return glm::dvec3(layer.rows.row(row)[i], layer.rows.row(row + 1)[i],
+                      layer.rows.row(row + 2)[i]);
+  };
+  switch (layer.kind) {
+    case splatting::LayerKind::windows:
+    case splatting::LayerKind::corner_color_windows: {
+      const std::size_t first = splatting::window_row::corners;
+      return (point(first) + point(first + 3) + point(first + 6)) / 3.0;
+    }
+    case splatting::LayerKind::densities:
+      return point(splatting::neural_row::center);
+    default:
+      return point(splatting::gaussian_row::x);
+  }
+}
+
 }  // namespace
 
 int kernel_texels(SplatShaders shaders) {
@@ -98,6 +196,21 @@ SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const Te
   source.layout = layout.fitted(std::max(source.kernel.count, source.coefficients.count));
   source.centers.reserve(plan.drawn.size());
   for (const std::uint32_t i : plan.drawn) source.centers.emplace_back(center(splats, i));
+  return source;
+}
+
+SplatSource prepare_splats(const splatting::LayerData& layer, const TexelLayout& layout) {
+  const std::size_t first = first_harmonics_row(layer.kind);
+  std::vector<std::size_t> harmonics(layer.rows.rows() - first);
+  std::iota(harmonics.begin(), harmonics.end(), first);
+  SplatSource source;
+  source.kernel =
+      row_source(layer.rows, kernel_rows(layer.kind), texel_formats::rgba32f, "splats");
+  source.coefficients =
+      row_source(layer.rows, std::move(harmonics), texel_formats::rgb32f, "harmonics");
+  source.layout = layout.fitted(std::max(source.kernel.count, source.coefficients.count));
+  source.centers.reserve(layer.rows.count());
+  for (std::size_t i = 0; i < layer.rows.count(); ++i) source.centers.push_back(center(layer, i));
   return source;
 }
 

@@ -7,6 +7,7 @@
 #include "runtime/passes/texel_store.hpp"
 #include "runtime/plan/splat_plan.hpp"
 #include "scene/splats.hpp"
+#include "splatting/layer.hpp"
 
 namespace tureen {
 
@@ -24,5 +25,7 @@ struct SplatSource {
 /// The sources read the splats and plan.drawn. Both must outlive them without moving; the plan
 /// object itself may be moved. Throws DeviceLimitError.
 SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const TexelLayout& layout);
+/// The same from the rows of a layer for TilePass, which must outlive the sources.
+SplatSource prepare_splats(const splatting::LayerData& layer, const TexelLayout& layout);
 
 }  // namespace tureen

@@ -1,8 +1,8 @@
 #include "runtime/splats/tile_pass.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "runtime/gl/state.hpp"
@@ -10,6 +10,17 @@
 #include "splatting/composite.hpp"
 
 namespace tureen {
+
+namespace {
+
+/// Emscripten's library lacks std::bit_cast.
+float float_of(std::uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+}  // namespace
 
 TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers)
     : layers_(std::move(layers)),
@@ -76,7 +87,7 @@ void TilePass::read_depths(const Frame& frame, const FrameTarget& target) {
   pool_.run((bits.size() + pixels_a_task - 1) / pixels_a_task, [&](std::size_t task) {
     const std::size_t end = std::min((task + 1) * pixels_a_task, bits.size());
     for (std::size_t i = task * pixels_a_task; i < end; ++i)
-      depths_[i] = float(distance_of(double(std::bit_cast<float>(bits[i])), frame.range, storage)
+      depths_[i] = float(distance_of(double(float_of(bits[i])), frame.range, storage)
                              .value_or(std::numeric_limits<double>::infinity()));
   });
 }

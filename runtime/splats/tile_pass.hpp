@@ -23,13 +23,6 @@ struct TiledSplats {
   std::size_t layer = 0;  // index in Frame::layers
 };
 
-/// Whether this build has TilePass. Pages do not have it yet.
-#ifdef __EMSCRIPTEN__
-inline constexpr bool has_tile_pass = false;
-#else
-inline constexpr bool has_tile_pass = true;
-#endif
-
 class TilePass final : public SplatBlendingPass {
  public:
   /// Of splatting::TileRenderer.

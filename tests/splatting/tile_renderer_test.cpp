@@ -30,7 +30,8 @@ void in_threads(std::size_t count, const std::function<void(std::size_t)>& body)
 std::unique_ptr<splatting::Layer> layer_of(const Splats& splats) {
   std::vector<std::uint32_t> all(count(splats));
   std::iota(all.begin(), all.end(), 0u);
-  return splatting::make_layer(splats, splats.profile, all, splats.color.degree);
+  return splatting::make_layer(
+      splatting::layer_data(splats, splats.profile, all, splats.color.degree));
 }
 
 /// RGBA of the splats of a scene whose layers lie at the origin.

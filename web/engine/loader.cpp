@@ -162,7 +162,7 @@ void place_layers(std::optional<int> level) {
   }
 }
 
-/// {"limits", "level"?: maximum lattice level, "layer"?: only this layer}. Writes the head to the
+/// {"limits": result of "start", "level"?: maximum lattice level, "layer"?: only this layer}. Writes the head to the
 /// buffer and returns the blobs.
 Json prepare(const Json& arguments) {
   loader().prepared.reset();
@@ -170,8 +170,10 @@ Json prepare(const Json& arguments) {
   place_layers(level == arguments.end() ? std::nullopt : std::optional(level->get<int>()));
   std::span<const PlacedLayer> chosen = loader().placed;
   if (layer != arguments.end()) chosen = chosen.subspan(layer->get<std::size_t>(), 1);
+  const Json& limits = arguments.at("limits");
   loader().prepared =
-      prepare_scene(chosen, limits_of(arguments.at("limits")), page_options(*loader().scene));
+      prepare_scene(chosen, limits_of(limits),
+                    page_options(*loader().scene, blending_of(limits.at("blend"))));
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)
@@ -184,15 +186,19 @@ Json prepare(const Json& arguments) {
 /// because they are uploaded one after the other.
 Json forecast(const Json& arguments) {
   const Scene& scene = loader().scene.value();
+  const DeviceLimits limits = limits_of(arguments.at("limits"));
+  const PlanPreferences preferences =
+      page_options(scene, blending_of(arguments.at("limits").at("blend"))).plan;
   Json layers = Json::array();
   for (const PlacedLayer& layer : placed_layers(scene)) {
     if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
-      layers.push_back(device_forecast(*splats, make_splat_plan(*splats)).bytes);
+      const SplatPlan plan = make_splat_plan(*splats);
+      const bool on_device = !uses_tiles(*splats, plan, limits, preferences);
+      layers.push_back(on_device ? device_forecast(*splats, plan).bytes : 0);
       continue;
     }
     const TriangleSoup& soup = *soup_of(layer);
-    const RenderPlan plan =
-        make_plan(soup, limits_of(arguments.at("limits")), page_options(scene).plan);
+    const RenderPlan plan = make_plan(soup, limits, preferences);
     layers.push_back(device_forecast(soup, plan.soup(0)).bytes);
   }
   return layers;

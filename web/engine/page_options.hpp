@@ -10,8 +10,9 @@ namespace tureen::web {
 /// important than an alpha test in two thirds of the time (docs/decisions/alpha-cells.md).
 inline constexpr std::uint64_t max_alpha_cell_bytes = 16 << 20;
 
-inline RenderOptions page_options(const Scene& scene) {
+inline RenderOptions page_options(const Scene& scene, SplatBlending blending) {
   RenderOptions options;
+  options.plan.splat_blending = blending;
   options.plan.max_alpha_cell_bytes = max_alpha_cell_bytes;
   options.plan.quality = scene.quality;
   return options;

@@ -40,11 +40,14 @@ void weigh(std::vector<ShownLayer>& layers, const Renderer& renderer) {
 
 }  // namespace
 
-void start_page_view() { slot() = std::make_unique<PageView>(); }
+void start_page_view(SplatBlending blending) {
+  slot() = std::make_unique<PageView>(blending);
+}
 
 PageView& page_view() { return *slot(); }
 
-PageView::PageView() : context_(gl::Context::external(nullptr, gl::Api::es)) {}
+PageView::PageView(SplatBlending blending)
+    : context_(gl::Context::external(nullptr, gl::Api::es)), blending_(blending) {}
 
 PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene) const {
   std::vector<ShownLayer> layers = layers_of(prepared);

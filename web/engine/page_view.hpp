@@ -30,9 +30,10 @@ struct ShownScene {
 
 class PageView {
  public:
-  /// The canvas's context must be current, now and in all calls.
-  PageView();
+  /// The canvas's context must be current, now and in all calls. `blending`: of all scenes.
+  explicit PageView(SplatBlending blending);
 
+  SplatBlending splat_blending() const { return blending_; }
   const gl::Capabilities& capabilities() const { return context_.capabilities(); }
   const gl::Context& context() const { return context_; }
 
@@ -128,6 +129,7 @@ class PageView {
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
 
   gl::Context context_;
+  SplatBlending blending_;
   std::optional<Stage> stage_, preview_;
   std::optional<ReadScene> read_scene_;      // of stage_
   DebugView debug_view_ = DebugView::color;  // of stage_
@@ -139,7 +141,7 @@ class PageView {
 };
 
 /// The view of this instance, for all commands.
-void start_page_view();
+void start_page_view(SplatBlending blending);
 PageView& page_view();
 
 }  // namespace tureen::web

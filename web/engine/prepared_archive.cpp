@@ -1,7 +1,9 @@
 #include "web/engine/prepared_archive.hpp"
 
 #include <cassert>
+#include <cstring>
 
+#include "splatting/layer.hpp"
 #include "web/engine/archive.hpp"
 
 namespace tureen::web {
@@ -80,6 +82,15 @@ void archive_splats(Archive& archive, Value& value) {
 }
 
 template <class Archive, class Value>
+void archive_tiled_splats(Archive& archive, Value& value) {
+  auto& [kind, degree, rows] = value;  // a blob has the values of the rows
+  archive(kind, degree);
+  std::size_t row_count = rows.rows(), count = rows.count();
+  archive(row_count, count);
+  if constexpr (!std::is_const_v<Value>) rows = splatting::ParameterRows(row_count, count);
+}
+
+template <class Archive, class Value>
 void archive_network(Archive& archive, Value& value) {
   auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] =
       value;
@@ -116,22 +127,24 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  // Pages do not blend in tiles.
   auto& [name, bounds, framed, world_from_layer, visible, soup, splats, tiled_splats] = value;
   archive(name, bounds, framed, world_from_layer, visible);
-  bool of_splats = splats.has_value();
-  archive(of_splats);
+  bool of_splats = splats.has_value(), of_tiles = tiled_splats.has_value();
+  archive(of_splats, of_tiles);
   if constexpr (!std::is_const_v<Value>) {
     if (of_splats)
       splats.emplace();
+    else if (of_tiles)
+      tiled_splats.emplace();
     else
       soup.emplace();
   }
-  assert((soup || splats) && "the page's instance makes no passes from outside runtime/");
   if (of_splats)
     archive_splats(archive, *splats);
+  else if (of_tiles)
+    archive_tiled_splats(archive, *tiled_splats);
   else
-    archive_soup(archive, *soup);
+    archive_soup(archive, soup.value());  // the page's instance makes no passes from outside
 }
 
 template <class Archive, class Value>
@@ -146,21 +159,25 @@ void archive_scene(Archive& archive, Value& value) {
   archive_list(archive, layers, [](auto& to, auto& layer) { archive_layer(to, layer); });
 }
 
-/// The contents of a blob: a texel store or, without one, the corners of a soup.
+/// The contents of a blob: one of these.
 struct Blob {
-  const PreparedSoup* soup;
-  const TexelSource* store;
+  const PreparedSoup* soup = nullptr;  // its corners
+  const TexelSource* store = nullptr;
+  const splatting::ParameterRows* rows = nullptr;
 };
 
 /// Blobs of a layer.
 std::size_t blobs_of(const PreparedLayer& layer) {
+  if (layer.tiled_splats) return 1;
   return layer.splats ? 2 : 1 + layer.soup->appearance.samplers.size();
 }
 
 Blob blob_of(const PreparedLayer& layer, std::size_t index) {
+  if (layer.tiled_splats) return {.rows = &layer.tiled_splats->rows};
   if (layer.splats)
-    return {nullptr, index == 0 ? &layer.splats->kernel : &layer.splats->coefficients};
-  return {&*layer.soup, index == 0 ? nullptr : &layer.soup->appearance.samplers[index - 1].source};
+    return {.store = index == 0 ? &layer.splats->kernel : &layer.splats->coefficients};
+  if (index == 0) return {.soup = &*layer.soup};
+  return {.store = &layer.soup->appearance.samplers[index - 1].source};
 }
 
 Blob blob_at(const PreparedScene& prepared, std::size_t index) {
@@ -188,18 +205,25 @@ std::size_t blob_count(const PreparedScene& prepared) {
 }
 
 std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob) {
-  const auto [soup, store] = blob_at(prepared, blob);
+  const auto [soup, store, rows] = blob_at(prepared, blob);
+  if (rows) return rows->values().size_bytes();
   return (store ? store->count : soup->geometry.face_count) * blob_grain(prepared, blob);
 }
 
 std::size_t blob_grain(const PreparedScene& prepared, std::size_t blob) {
-  const auto [soup, store] = blob_at(prepared, blob);
+  const auto [soup, store, rows] = blob_at(prepared, blob);
+  if (rows) return sizeof(float);
   return store ? store->format.bytes : sizeof(FaceCorners);
 }
 
 void read_blob(const PreparedScene& prepared, std::size_t blob, std::uint64_t offset,
                std::span<std::byte> out) {
-  const auto [soup, store] = blob_at(prepared, blob);
+  const auto [soup, store, rows] = blob_at(prepared, blob);
+  if (rows) {
+    const auto bytes = std::as_bytes(rows->values());
+    std::memcpy(out.data(), bytes.data() + offset, out.size());
+    return;
+  }
   const std::uint64_t first = offset / blob_grain(prepared, blob);
   if (store) {
     store->fill(first, out);
@@ -223,6 +247,10 @@ PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read) {
     ++blob;
   };
   for (PreparedLayer& layer : prepared.layers) {
+    if (layer.tiled_splats) {
+      read(blob++, 0, std::as_writable_bytes(layer.tiled_splats->rows.values()));
+      continue;
+    }
     if (layer.splats) {
       fill_from(layer.splats->kernel);
       fill_from(layer.splats->coefficients);

@@ -17,7 +17,7 @@ namespace tureen::web {
 std::vector<std::byte> pack_head(const PreparedScene& prepared);
 
 /// The blobs of each layer in turn: the corners of its faces, then its appearance's stores; for
-/// splats, the stores of kernel and coefficients.
+/// splats, the stores of kernel and coefficients, or the rows for TilePass.
 std::size_t blob_count(const PreparedScene& prepared);
 std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob);
 
@@ -30,7 +30,7 @@ std::size_t blob_grain(const PreparedScene& prepared, std::size_t blob);
 using BlobReader =
     std::function<void(std::size_t blob, std::uint64_t offset, std::span<std::byte> out)>;
 
-/// The sources of the result use `read`, which must outlive them.
+/// Reads the rows for TilePass. The sources of the result use `read`, which must outlive them.
 PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read);
 
 }  // namespace tureen::web

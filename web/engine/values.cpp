@@ -77,6 +77,13 @@ DeviceLimits limits_of(const Json& value) {
           .software = value.at("software")};
 }
 
+SplatBlending blending_of(const Json& name) {
+  if (name == "auto") return SplatBlending::automatic;
+  if (name == "raster") return SplatBlending::raster;
+  if (name == "tiles") return SplatBlending::tiles;
+  throw UsageError("splats are blended by \"auto\", \"raster\" or \"tiles\", not " + name.dump());
+}
+
 Json to_json(const Subject& subject) {
   return {
       {"low", to_json(subject.low)}, {"high", to_json(subject.high)}, {"up", to_json(subject.up)}};

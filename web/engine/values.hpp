@@ -34,6 +34,9 @@ Camera camera_of(const Json& value);
 Json to_json(const DeviceLimits& limits);
 DeviceLimits limits_of(const Json& value);
 
+/// "auto", "raster" or "tiles". blending_of throws UsageError for another name.
+SplatBlending blending_of(const Json& name);
+
 Json to_json(const Subject& subject);
 Subject subject_of(const Json& value);
 

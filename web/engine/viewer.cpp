@@ -24,13 +24,17 @@ namespace {
 PageView& view() { return page_view(); }
 CameraControls& controls() { return view().controls(); }
 
-Json start(const Json&) {
-  start_page_view();
+/// {"blend"?: of splats: "auto", "raster" or "tiles"}. "limits" is for the loader's commands.
+Json start(const Json& options) {
+  const Json blend = options.is_null() ? Json("auto") : options.at("blend");
+  start_page_view(blending_of(blend));
   const gl::Capabilities& device = view().capabilities();
+  Json limits = to_json(device_limits(device));
+  limits["blend"] = blend;
   return {{"renderer", device.renderer},
           {"vendor", device.vendor},
           {"gl_version", device.version},
-          {"limits", to_json(device_limits(device))},
+          {"limits", limits},
           {"max_image_side", device.max_image_side}};
 }
 
@@ -293,7 +297,7 @@ Json read_for_debug_views(const Json& arguments) {
 /// [[source, layer of the source], ..]: the shown layers. Keeps what was read for them.
 Json keep_read_layers(const Json& shown) {
   PageView::ReadScene read{.scenes = std::exchange(reread(), {}), .layers = {}, .options = {}};
-  read.options = page_options(read.scenes.at(0));
+  read.options = page_options(read.scenes.at(0), view().splat_blending());
   for (const Json& place : shown) {
     const Scene& scene = read.scenes.at(place.at(0).get<std::size_t>());
     read.layers.push_back(&scene.layers.at(place.at(1).get<std::size_t>()).primitives);

@@ -1,7 +1,7 @@
 // The page's address: ?scene= holds a scene, once for each, and the part after '#' the camera and the layers. The page updates it, so
 // reloads, bookmarks and the Back button work as usual.
 
-import type { ViewPose } from '../viewer/types.js';
+import { splatBlendings, type SplatBlending, type ViewPose } from '../viewer/types.js';
 import { readFragment, writeFragment, type LinkedView } from './camera_link.js';
 
 /** Encodes a query, but keeps slashes and colons, which are allowed there, readable. */
@@ -13,6 +13,12 @@ export class AddressBar {
 
   /** The scenes in the address, unchanged. */
   scenes(): readonly string[] { return new URLSearchParams(location.search).getAll('scene').filter(Boolean); }
+
+  /** The value of ?blend=, if it is one. */
+  blend(): SplatBlending | undefined {
+    const given = new URLSearchParams(location.search).get('blend');
+    return splatBlendings.find((blend) => blend === given);
+  }
 
   /** Whether the address has these scenes, in this order. */
   has(scenes: readonly string[]): boolean {

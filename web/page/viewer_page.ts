@@ -163,8 +163,10 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
   let viewer: Viewer;
   try {
     const expected = wanted[0] ? fetchable(wanted[0]) : options.scene;
-    viewer = await createViewer(byId('canvas', HTMLCanvasElement),
-                                { ...(options.assets && { assets: options.assets }), ...(expected && { expected }) });
+    const blend = bar.blend();
+    viewer = await createViewer(byId('canvas', HTMLCanvasElement), {
+      ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
+    });
   } catch (error) {
     return explain(error);
   }

@@ -20,7 +20,10 @@ const utf8 = new TextEncoder();
 export function compile(assets: Assets): Promise<WebAssembly.Module> {
   let program = compiled.get(assets);
   if (!program) {
-    program = assets.wasm().then((bytes) => WebAssembly.compile(bytes));
+    program = assets.wasm().then((bytes) => WebAssembly.compile(bytes)).catch((error: unknown) => {
+      // Only browsers older than the program's instructions reject it.
+      throw error instanceof WebAssembly.CompileError ? new ViewerError(tooOld, 'device') : error;
+    });
     compiled.set(assets, program);
     program.catch(() => { compiled.delete(assets); });  // the next viewer tries again
   }
@@ -127,6 +130,9 @@ export class Engine {
   get memoryBytes(): number { return this.module.HEAPU8.length; }
 }
 
+const tooOld =
+  'This browser is too old: it cannot run the engine, which needs WebAssembly with SIMD. Use Chrome 95, Firefox 100, ' +
+  'Safari 16.4, or a newer version.';
 const noWebGl2 =
   'This browser does not provide WebGL2, which is needed to draw. Use a newer browser, or turn on hardware ' +
   'acceleration in its settings.';

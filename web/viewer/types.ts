@@ -140,6 +140,11 @@ export interface ViewPose {
  *  pixel), or a frame rate above 0 that an automatic factor maintains. */
 export type Resolution = number | { readonly targetFps: number };
 
+/** How splats are blended: by the device (raster), on the processor in tiles, which is faster where the device is
+ *  software, or by the faster of the two for the device (auto). Both have the same image. */
+export const splatBlendings = ['auto', 'raster', 'tiles'] as const;
+export type SplatBlending = (typeof splatBlendings)[number];
+
 export interface FrameStats {
   /** Interval between frames, median over the last second; null while no frames are drawn. */
   readonly frameMs: number | null;
@@ -281,4 +286,6 @@ export interface ViewerOptions {
   readonly controls?: boolean;
   readonly background?: Vec3;
   readonly resolution?: Resolution;
+  /** Default auto. */
+  readonly blend?: SplatBlending;
 }

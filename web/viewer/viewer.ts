@@ -18,14 +18,14 @@ import {
 } from './scene_summary.js';
 import {
   maxLayers, ViewerError, type FrameStats, type LegendEntry, type Matrix, type NamedView, type NavigationMode,
-  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
+  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatBlending, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
 } from './types.js';
 
 /** Starts the engine on this canvas. Rejects with ViewerError. */
 export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOptions = {}): Promise<Viewer> {
   const { assets } = options;
   const parts = typeof assets === 'object' ? assets : assetsAt(assets);
-  const viewer = new CanvasViewer(canvas, parts, compile(parts));
+  const viewer = new CanvasViewer(canvas, parts, compile(parts), options.blend ?? 'auto');
   await viewer.start(options.expected ?? null);
   if (options.background) viewer.background = options.background;
   if (options.resolution) viewer.resolution = options.resolution;
@@ -121,7 +121,7 @@ class CanvasViewer implements Viewer {
   private lastFrame: number | null = null;
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly assets: Assets,
-              private readonly program: Promise<WebAssembly.Module>) {
+              private readonly program: Promise<WebAssembly.Module>, private readonly blend: SplatBlending) {
     this.observer = new ResizeObserver(() => this.ask());
   }
 
@@ -150,7 +150,7 @@ class CanvasViewer implements Viewer {
     const engine = await Engine.create(await this.program);
     engine.takeCanvas(this.canvas);
     this.engine = engine;
-    this.device = engine.call<Device>('start');
+    this.device = engine.call<Device>('start', { blend: this.blend });
     this.sorting?.end();
     this.sorting = new SplatSorting(this.assets, this.program, engine, () => this.ask());
     this.lost = false;
