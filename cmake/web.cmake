@@ -11,9 +11,6 @@ add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
 add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
 
-# Vectors for splatting/. One build: all browsers with this are as new as docs/web.md says.
-add_compile_options(-msimd128)
-
 # Optimised for size, since the engine is downloaded. The device determines the time of a frame, and
 # -Os hardly changes the loops that read scenes.
 set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG")
