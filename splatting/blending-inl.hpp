@@ -6,6 +6,8 @@
 #define TUREEN_BLENDING_INL
 #endif
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 
 #include "splatting/image_view.hpp"
@@ -65,10 +67,44 @@ struct Block {
   HWY_INLINE bool has_open_pixels() const {
     bool open = false;
     for (std::size_t part = 0; part < parts; ++part)
-      open |= !hn::AllFalse(d, hn::Gt(transmittance[part], hn::Zero(d)));
+      open |= !none(hn::Gt(transmittance[part], hn::Zero(d)));
     return open;
   }
 };
+
+/// A value for each block of a tile.
+using BlockTag = hn::CappedTag<float, blocks_a_tile>;
+using Blocks = hn::Vec<BlockTag>;
+inline constexpr BlockTag of_blocks;
+/// Vectors without lanes have one value.
+inline constexpr bool fit_blocks = hn::MaxLanes(of_blocks) == blocks_a_tile;
+inline constexpr unsigned all_blocks = (1u << blocks_a_tile) - 1;
+/// From the first to the last pixel centre of a block.
+inline constexpr float block_extent = block_side - 1;
+
+/// The first pixel centres of a tile's blocks, in image coordinates.
+struct BlockCorners {
+  Blocks x, y;
+
+  HWY_INLINE explicit BlockCorners(const TilePixels& pixels) {
+    alignas(16) constexpr float column_of[blocks_a_tile] = {0, block_side, 0, block_side};
+    alignas(16) constexpr float row_of[blocks_a_tile] = {0, 0, block_side, block_side};
+    x = hn::Add(hn::Load(of_blocks, column_of), hn::Set(of_blocks, float(pixels.x) + 0.5f));
+    y = hn::Add(hn::Load(of_blocks, row_of), hn::Set(of_blocks, float(pixels.y) + 0.5f));
+  }
+};
+
+/// The largest value of `x_factor` x + `y_factor` y + c in each block, from that at its corner.
+HWY_INLINE Blocks largest_in_block(Blocks at_corner, float x_factor, float y_factor) {
+  return hn::Add(at_corner, hn::Set(of_blocks, block_extent * (std::max(x_factor, 0.0f) +
+                                                               std::max(y_factor, 0.0f))));
+}
+
+HWY_INLINE unsigned bits_of(hn::Mask<BlockTag> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(of_blocks, mask, bits);
+  return bits[0];
+}
 
 /// `color_of` of blend_entries(), for entries of one colour.
 struct OneColor {
@@ -89,7 +125,7 @@ HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, const C
     Floats alpha = hn::Zero(d);
     Mask blended = alpha_of(entry, block.x[part], block.y[part], block.inverse_behind[part], alpha);
     blended = hn::And(blended, hn::Gt(transmittance, hn::Zero(d)));
-    if (hn::AllFalse(d, blended)) continue;
+    if (none(blended)) continue;
     alpha = hn::Min(alpha, max_alpha);
     const Floats behind = hn::NegMulAdd(alpha, transmittance, transmittance);
     const Mask ends = hn::And(blended, hn::Lt(behind, stop));
@@ -100,7 +136,7 @@ HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, const C
     block.green[part] = hn::MulAdd(weight, color.y, block.green[part]);
     block.blue[part] = hn::MulAdd(weight, color.z, block.blue[part]);
     transmittance = hn::IfThenElse(blended, behind, transmittance);
-    if (hn::AllFalse(d, ends)) continue;
+    if (none(ends)) continue;
     transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
     closes = true;
   }
@@ -111,20 +147,39 @@ HWY_INLINE bool blend_entry(const Entry& entry, const AlphaOf& alpha_of, const C
 /// `alpha_of(entry, x, y, inverse_behind, alpha)` returns the pixels that the entry covers, and
 /// sets their alpha before its largest value is applied. `color_of(entry, x, y)` returns the colour
 /// of a covered pixel; elsewhere, a finite one. A splat that would lower a pixel's transmittance
-/// below the profile's stop closes the pixel.
+/// below the profile's stop closes the pixel. `alpha_of.blocks(entry, corners)` returns the blocks
+/// of the tile, as bits, that the entry may cover.
 template <class Entry, class AlphaOf, class ColorOf = OneColor>
 HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entries,
                               std::span<const std::uint32_t> tile, const AlphaOf& alpha_of,
                               TilePixels& pixels, const ColorOf& color_of = {}) {
   const Floats max_alpha = constant(view.max_alpha), stop = constant(view.stop_transmittance);
-  for (int i = 0; i < blocks_a_tile; ++i) {
-    Block block(pixels, i);
-    if (!block.has_open_pixels()) continue;
-    for (const std::uint32_t splat : tile)
-      if (blend_entry(entries[splat & place_mask], alpha_of, color_of, max_alpha, stop, block) &&
-          !block.has_open_pixels())
-        break;
-    block.store(pixels, i);
+  const BlockCorners corners(pixels);
+  constexpr std::size_t splats_a_round = 128;
+  std::uint32_t lists[blocks_a_tile][splats_a_round];
+  for (unsigned open = all_blocks; !tile.empty() && open != 0;) {
+    std::size_t lengths[blocks_a_tile] = {};
+    const std::size_t round = std::min(tile.size(), splats_a_round);
+    for (std::size_t i = 0; i < round; ++i) {
+      const std::uint32_t place = tile[i] & place_mask;
+      const unsigned covered =
+          fit_blocks ? alpha_of.blocks(entries[place], corners) : all_blocks;
+      for (std::size_t b = 0; b < blocks_a_tile; ++b) {
+        lists[b][lengths[b]] = place;
+        lengths[b] += covered >> b & 1;
+      }
+    }
+    tile = tile.subspan(round);
+    for (std::size_t b = 0; b < blocks_a_tile; ++b) {
+      if (lengths[b] == 0 || !(open >> b & 1)) continue;
+      Block block(pixels, int(b));
+      bool is_open = block.has_open_pixels();
+      for (std::size_t i = 0; is_open && i < lengths[b]; ++i)
+        if (blend_entry(entries[lists[b][i]], alpha_of, color_of, max_alpha, stop, block))
+          is_open = block.has_open_pixels();
+      if (!is_open) open &= ~(1u << b);
+      block.store(pixels, int(b));
+    }
   }
 }
 

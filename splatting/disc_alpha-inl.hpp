@@ -6,6 +6,7 @@
 #define TUREEN_DISC_ALPHA_INL
 #endif
 
+#include "splatting/blending-inl.hpp"
 #include "splatting/disc_kernels.hpp"
 #include "splatting/vector_math-inl.hpp"
 
@@ -72,12 +73,14 @@ struct DiscAlpha {
   float min_log_alpha;
   DiscConstants constants;
 
+  HWY_INLINE unsigned blocks(const DiscEntry&, const BlockCorners&) const { return all_blocks; }
+
   HWY_INLINE Mask operator()(const DiscEntry& e, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const DiscAt at(e, constants, x, y);
     const Floats log_alpha = at.log_alpha(e);
     Mask covered = hn::Ge(log_alpha, constant(min_log_alpha));
-    if (hn::AllFalse(d, covered)) return covered;
+    if (none(covered)) return covered;
     covered = hn::And(covered, hn::Lt(hn::Mul(at.depth, inverse_behind), constant(1.0f)));
     alpha = exp2_of(hn::Max(log_alpha, constant(min_log_alpha)));
     return covered;

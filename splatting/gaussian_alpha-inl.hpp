@@ -6,6 +6,9 @@
 #define TUREEN_GAUSSIAN_ALPHA_INL
 #endif
 
+#include <algorithm>
+
+#include "splatting/blending-inl.hpp"
 #include "splatting/gaussian_kernels.hpp"
 #include "splatting/vector_math-inl.hpp"
 
@@ -27,11 +30,30 @@ HWY_INLINE Floats log_alpha_of(const GaussianEntry& entry, Floats x, Floats y) {
 struct GaussianAlpha {
   Floats min_log_alpha;
 
+  /// By a lower bound of the exponent: the smallest |u| and |v| in each block, for p and r > 0.
+  HWY_INLINE unsigned blocks(const GaussianEntry& entry, const BlockCorners& corners) const {
+    const auto set = [](float value) { return hn::Set(of_blocks, value); };
+    const Blocks dx = hn::Sub(corners.x, set(entry.x)), dy = hn::Sub(corners.y, set(entry.y));
+    const Blocks u = hn::MulAdd(set(entry.p), dx, hn::Mul(set(entry.q), dy));
+    const float slope = block_extent * entry.q;
+    const Blocks from_u = hn::Add(u, set(std::min(slope, 0.0f)));
+    const Blocks to_u = largest_in_block(u, entry.p, entry.q);
+    const Blocks to_dy = hn::Add(dy, set(block_extent));
+    const auto smallest = [](Blocks from, Blocks to) {
+      return hn::ZeroIfNegative(hn::Max(from, hn::Neg(to)));
+    };
+    const Blocks least_u = smallest(from_u, to_u);
+    const Blocks least_v = hn::Mul(set(entry.r), smallest(dy, to_dy));
+    const Blocks bound = hn::NegMulAdd(least_u, least_u,
+                                       hn::NegMulAdd(least_v, least_v, set(entry.log_opacity)));
+    return bits_of(hn::Ge(bound, set(hn::GetLane(min_log_alpha))));
+  }
+
   HWY_INLINE Mask operator()(const GaussianEntry& entry, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const Floats log_alpha = log_alpha_of(entry, x, y);
     Mask covered = hn::Ge(log_alpha, min_log_alpha);
-    if (hn::AllFalse(d, covered)) return covered;
+    if (none(covered)) return covered;
     covered = hn::And(covered, hn::Gt(constant(entry.inverse_depth), inverse_behind));
     alpha = exp2_of(hn::Max(log_alpha, min_log_alpha));
     return covered;

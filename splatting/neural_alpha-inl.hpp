@@ -11,6 +11,7 @@
 #define TUREEN_NEURAL_ALPHA_INL
 #endif
 
+#include "splatting/blending-inl.hpp"
 #include "splatting/neural_kernels.hpp"
 #include "splatting/vector_math-inl.hpp"
 
@@ -54,7 +55,7 @@ struct DensityChord {
     // False for NaN.
     const Floats discriminant = hn::Sub(constant(1.0f), dot(in_sphere, in_sphere));
     exists = hn::Gt(discriminant, hn::Zero(d));
-    if (hn::AllFalse(d, exists)) return;
+    if (none(exists)) return;
 
     // Depths from the middle of the chord: only the parts that are cut depend on the distance.
     const Floats half_chord = hn::Sqrt(hn::Mul(hn::ZeroIfNegative(discriminant), by_speed));
@@ -95,11 +96,13 @@ struct NeuralAlpha {
         by_fy(1 / view.fy),
         min_alpha(view.min_alpha) {}
 
+  HWY_INLINE unsigned blocks(const NeuralEntry&, const BlockCorners&) const { return all_blocks; }
+
   HWY_INLINE Mask operator()(const NeuralEntry& entry, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const DensityChord chord(entry, hn::Mul(hn::Sub(x, constant(cx)), constant(by_fx)),
                              hn::Mul(hn::Sub(y, constant(cy)), constant(by_fy)), inverse_behind);
-    if (hn::AllFalse(d, chord.exists)) return chord.exists;
+    if (none(chord.exists)) return chord.exists;
     const Floats depth = chord.optical_depth(entry);
     alpha = one_minus_exp_of(depth);
     // min_alpha does not reject a NaN, which limits of vectors may hide (docs/numerics.md, B3).

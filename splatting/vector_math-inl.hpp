@@ -29,17 +29,28 @@ HWY_INLINE Floats constant(float value) { return hn::Set(d, value); }
 /// The depth of splats that are not drawn.
 HWY_INLINE Floats not_drawn() { return constant(std::numeric_limits<float>::quiet_NaN()); }
 
+/// Whether no lane is set.
+HWY_INLINE bool none(Mask mask) {
+#if HWY_TARGET == HWY_WASM
+  return !wasm_v128_any_true(mask.raw);  // AllFalse of Highway 1.0 moves both halves
+#else
+  return hn::AllFalse(d, mask);
+#endif
+}
+
 /// 2^x for x in [-126, 127], to 2e-7 of the value. Polynomial: interpolation in Chebyshev's nodes
 /// on [-1/2, 1/2].
 HWY_INLINE Floats exp2_of(Floats x) {
-  const Floats whole = hn::Round(x), f = hn::Sub(x, whole);
+  // The sum's last bits are x as a whole number. On some processors conversions take much longer.
+  const Floats to_last_bits = constant(0x1.8p23f), shifted = hn::Add(x, to_last_bits);
+  const Floats whole = hn::Sub(shifted, to_last_bits), f = hn::Sub(x, whole);
   Floats y = hn::MulAdd(constant(0.00133908634f), f, constant(0.00967603192f));
   y = hn::MulAdd(y, f, constant(0.0555035711f));
   y = hn::MulAdd(y, f, constant(0.240221075f));
   y = hn::MulAdd(y, f, constant(0.693147188f));
   y = hn::MulAdd(y, f, constant(1.0000000755f));
   const hn::RebindToSigned<FloatTag> di;
-  const auto exponent = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127)));
+  const auto exponent = hn::ShiftLeft<23>(hn::Add(hn::BitCast(di, shifted), hn::Set(di, 127)));
   return hn::Mul(y, hn::BitCast(d, exponent));
 }
 

@@ -6,6 +6,7 @@
 #define TUREEN_WINDOW_ALPHA_INL
 #endif
 
+#include "splatting/blending-inl.hpp"
 #include "splatting/vector_math-inl.hpp"
 #include "splatting/window_kernels.hpp"
 
@@ -44,12 +45,25 @@ HWY_INLINE Floats window_alpha_of(const WindowShape& entry, Floats log_rho) {
 struct WindowAlpha {
   Floats inverse_near;
 
+  /// By the largest distance from each edge in each block.
+  HWY_INLINE unsigned blocks(const WindowShape& entry, const BlockCorners& corners) const {
+    const auto set = [](float value) { return hn::Set(of_blocks, value); };
+    const Blocks dx = hn::Sub(corners.x, set(entry.x)), dy = hn::Sub(corners.y, set(entry.y));
+    const auto largest = [&](const float* edge) {
+      const Blocks at = hn::MulAdd(set(edge[0]), dx, hn::MulAdd(set(edge[1]), dy, set(edge[2])));
+      return largest_in_block(at, edge[0], edge[1]);
+    };
+    const float* edges = entry.edges;
+    const Blocks rho = hn::Min(hn::Min(largest(edges), largest(edges + 3)), largest(edges + 6));
+    return bits_of(hn::Ge(rho, set(entry.min_rho)));
+  }
+
   /// Returns the pixels where alpha reaches the smallest value, and sets `alpha` there.
   HWY_INLINE Mask operator()(const WindowShape& entry, Floats x, Floats y, Floats inverse_behind,
                              Floats& alpha) const {
     const WindowAt at(entry, x, y);
     Mask covered = hn::Ge(at.rho, constant(entry.min_rho));
-    if (hn::AllFalse(d, covered)) return covered;
+    if (none(covered)) return covered;
     const Floats inverse_depth = at.linear(entry.inverse_depth);
     covered = hn::And(covered, hn::Gt(inverse_depth, inverse_behind));
     covered = hn::And(covered, hn::Lt(inverse_depth, inverse_near));

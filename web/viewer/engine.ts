@@ -13,6 +13,11 @@ export interface Parcel {
   readonly blobs: readonly ArrayBuffer[];
 }
 
+/** A module with one function, which returns a vector: i32x4.splat(0). */
+const vectors = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 17, 11,
+]);
+
 const compiled = new WeakMap<Assets, Promise<WebAssembly.Module>>();
 const utf8 = new TextEncoder();
 
@@ -20,10 +25,8 @@ const utf8 = new TextEncoder();
 export function compile(assets: Assets): Promise<WebAssembly.Module> {
   let program = compiled.get(assets);
   if (!program) {
-    program = assets.wasm().then((bytes) => WebAssembly.compile(bytes)).catch((error: unknown) => {
-      // Only browsers older than the program's instructions reject it.
-      throw error instanceof WebAssembly.CompileError ? new ViewerError(tooOld, 'device') : error;
-    });
+    program = WebAssembly.validate(vectors) ? assets.wasm().then((bytes) => WebAssembly.compile(bytes))
+                                            : Promise.reject(new ViewerError(tooOld, 'device'));
     compiled.set(assets, program);
     program.catch(() => { compiled.delete(assets); });  // the next viewer tries again
   }
@@ -131,8 +134,9 @@ export class Engine {
 }
 
 const tooOld =
-  'This browser is too old: it cannot run the engine, which needs WebAssembly with SIMD. Use Chrome 95, Firefox 100, ' +
-  'Safari 16.4, or a newer version.';
+  'This browser is too old: the engine needs WebAssembly with SIMD. Use Chrome 95, Firefox 100, Safari 16.4, or a ' +
+  'newer version.';
+
 const noWebGl2 =
   'This browser does not provide WebGL2, which is needed to draw. Use a newer browser, or turn on hardware ' +
   'acceleration in its settings.';
