@@ -275,6 +275,19 @@ class Bench:
                             cloud, EXAMPLE, *(['--quick'] if self.quick else []))
             self.keep('browser', {'browser': rows_of(text or '')})
 
+    def viewers(self):
+        """Gaussians in Tureen's page and in viewers from npm, which it installs into web/bench/viewers."""
+        scene = next((path for path in self.options.scene if path.suffix == '.ply'),
+                     self.options.data / 'gaussians/guitar_3dgs_dc.ply')
+        if not scene.exists():
+            return self.skip('viewers', f'{scene} does not exist: --scene GAUSSIANS.ply')
+        if not Path('build/web/out/site/viewer.js').exists():
+            return self.skip('viewers', 'the page is not built: ./dev web')
+        views = scene.with_suffix('.views.json')
+        text = self.run('viewers', 'node', 'tests/bench/viewers_benchmark.mjs', self.out / 'viewers', scene,
+                        *(['--views', views] if views.exists() else []), *(['--quick'] if self.quick else []))
+        self.keep('viewers', {'viewers': rows_of(text or '')})
+
     def training(self):
         """Trains all available sets, which takes hours. Other parts use the trained soups."""
         (self.out / 'training').mkdir(exist_ok=True)
@@ -333,7 +346,8 @@ def fit(kind, rows):
             'pixel_ns': 1e6 * costs[3], 'worst_residual': worst}
 
 
-PARTS = ['training', 'frames', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
+# The first two run only when named.
+PARTS = ['training', 'viewers', 'frames', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
 
 # Removed parts and options of `./dev bench`, and their replacements.
 RETIRED = {
@@ -349,7 +363,8 @@ def bench(arguments):
     parts = ''.join(f'  {name:16} {getattr(Bench, name).__doc__}\n' for name in PARTS)
     parser = argparse.ArgumentParser(
         prog='./dev bench', formatter_class=argparse.RawDescriptionHelpFormatter,
-        description='Measures, and writes JSON into build/bench. Default: all parts except training.',
+        description='Measures, and writes JSON into build/bench. Default: all parts except training and '
+                    'viewers.',
         epilog=f'parts:\n{parts}\nExit code 1 if a part failed.')
     parser.add_argument('part', nargs='*', metavar='PART', help='listed below')
     parser.add_argument('--quick', action='store_true',
@@ -359,8 +374,8 @@ def bench(arguments):
     parser.add_argument('--scene', action='append', default=[], type=Path, metavar='FILE',
                         help='measure this soup, too')
     parser.add_argument('--data', default=Path('../shared/data'), type=Path, metavar='FOLDER',
-                        help='folder with soups/ficus_2dts.off, rendered/lego, photos/fox and photos/bottle, all '
-                             'optional (default ../shared/data)')
+                        help='folder with soups/ficus_2dts.off, gaussians/guitar_3dgs_dc.ply, rendered/lego, '
+                             'photos/fox and photos/bottle, all optional (default ../shared/data)')
     parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # only checks the arguments
     for word in (argument.split('=')[0] for argument in arguments):
         word not in RETIRED or parser.error(f'{word} was removed; use {RETIRED[word]}')
@@ -374,7 +389,7 @@ def bench(arguments):
     if options.check:
         return 0
     run = Bench(options)
-    for part in sorted(options.part or PARTS[1:], key=PARTS.index):
+    for part in sorted(options.part or PARTS[2:], key=PARTS.index):
         getattr(run, part)()
     run.report()
     print_table(run.outcomes)

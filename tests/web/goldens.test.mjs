@@ -42,10 +42,13 @@ test('several layers on llvmpipe', drawing(llvmpipe, async ({ load, image }) => 
   assertSame('layers', golden('layers'), await image({ from: 0, width: 320, height: 240 }));
 }));
 
-test('splats on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
-  await load(scenes, ['splats.glb']);
-  assertSame('splats', golden('splats'), await image({ from: 0, width: 320, height: 240 }));
-}));
+for (const [blend, name] of [['raster', 'splats'], ['tiles', 'splats_in_tiles']]) {
+  test(`splats by ${blend} on llvmpipe`, () => llvmpipe.visit(`drawing.html?blend=${blend}`, async (page) => {
+    const { load, image } = await drawingPage(page);
+    await load(scenes, ['splats.glb']);
+    assertSame(name, golden(name), await image({ from: 0, width: 320, height: 240 }));
+  }));
+}
 
 // The bounds of Layers.AgreeWithTheOracle (tests/runtime/layers_test.cpp): rounding to 8 bits gives 58.9 dB.
 test('several layers agree with the oracle on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {

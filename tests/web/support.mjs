@@ -88,7 +88,7 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
   });
 
   /**
-   * Opens an address in a new profile and passes the page to `body`. Fails if the page logs an error
+   * Opens an address in a new profile, passes the page to `body` and returns its result. Fails if the page logs an error
    * that matches none of `expected`, throws, or contacts a server that is not in `friends`.
    */
   async function visit(address, body, { expected = [], friends = [], ...context } = {}) {
@@ -107,9 +107,10 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
     try {
       const page = await profile.newPage();
       await page.goto(new URL(address, server.address).href);
-      await body(page, profile);
+      const result = await body(page, profile);
       assert.deepEqual(complaints, [], 'errors of the page');
       assert.deepEqual(strangers, [], 'requests to other servers');
+      return result;
     } finally {
       await profile.close();
     }
