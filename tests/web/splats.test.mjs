@@ -22,11 +22,12 @@ function manyGaussians(count) {
   return Buffer.concat([Buffer.from(head), Buffer.from(values.buffer)]);
 }
 
-const scene = manyGaussians(120_000);  // SplatPass sorts 100,000 and more beside the frames
-const { visit } = await stage({ routes: {
-  ...drawingRoutes,
-  '/many.ply': (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene),
-} });
+const ply = (count) => {
+  const scene = manyGaussians(count);
+  return (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene);
+};
+// SplatPass sorts 100,000 and more beside the frames.
+const { visit } = await stage({ routes: { ...drawingRoutes, '/many.ply': ply(120_000), '/few.ply': ply(3_000) } });
 
 /** Turns by 1.9 degrees, where the order of the view before may still be drawn. Returns the numbers of channels
  *  that differ from an exact image: in the first frame, and in that after the next change of the order. */
@@ -74,7 +75,7 @@ test('without a worker, frames sort', () => visit('drawing.html?blend=raster', a
 const view = { eye: [0.4, 0.7, 2.2], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 };
 const imageOf = (address, wanted) => visit(address, async (page) => {
   const { image } = await drawingPage(page);
-  await page.evaluate(() => viewer.load({ url: '/many.ply' }));
+  await page.evaluate(() => viewer.load({ url: '/few.ply' }));
   return image({ from: view, width: 160, height: 120, ...wanted });
 });
 
@@ -85,6 +86,23 @@ test('tiles, the choice on llvmpipe, and raster have the same picture', async ()
   assert.deepEqual(automatic, tiles);
 });
 
+test('a frame in tiles can be read from the canvas', () => visit('drawing.html?blend=tiles', async (page) => {
+  await drawingPage(page);
+  const brightest = await page.evaluate(async (from) => {
+    await viewer.load({ url: '/few.ply' });
+    viewer.background = [0, 0, 0];
+    viewer.setView(from);
+    viewer.draw();
+    await new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); });
+    viewer.draw();  // after the canvas was presented
+    const { width, height } = viewer.canvas, pixels = new Uint8Array(4 * width * height);
+    const gl = viewer.canvas.getContext('webgl2');
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return Math.max(...pixels.filter((value, at) => at % 4 < 3));
+  }, view);
+  assert.ok(brightest > 0);
+}));
+
 test('a debug view draws by raster what was blended in tiles', async () => {
   const wanted = { look: 'overdraw' };
   assert.deepEqual(await imageOf('drawing.html?blend=tiles', wanted), await imageOf('drawing.html?blend=raster', wanted));
@@ -94,7 +112,7 @@ test('the focus is the same point in tiles and by raster', async () => {
   const targetOf = (address) => visit(address, async (page) => {
     await drawingPage(page);
     return page.evaluate(async (from) => {
-      await viewer.load({ url: '/many.ply' });
+      await viewer.load({ url: '/few.ply' });
       viewer.setView(from);
       viewer.draw();
       return viewer.focus(40, 20) && viewer.getView().target;

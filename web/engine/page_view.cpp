@@ -248,7 +248,19 @@ void PageView::draw(int width, int height, double seconds) {
   controls().advance(seconds, flight_);
   if (!shows_scene()) return clear_canvas(width, height);
   current()->renderer->draw({controls().camera(width, height)}, Renderer::SplatOrdering::earlier);
+  clear_after_presentation();
   current()->renderer->blit_to(0);
+}
+
+/// Chromium clears a canvas that was presented late: at the next draw or clear, to any framebuffer,
+/// or at the next read. Without one before the blit (tiles only upload), a read would clear the
+/// image.
+void PageView::clear_after_presentation() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void PageView::sort_in_frames() {

@@ -104,6 +104,7 @@ class PageView {
   void sort_in_frames();
 
   void clear_canvas(int width, int height) const;
+  void clear_after_presentation() const;
 
   /// The current image, at any size that the device supports.
   Image8 image(int width, int height);
