@@ -88,9 +88,9 @@ struct Renderer::State {
   std::vector<std::unique_ptr<DeviceSoup>> soups;
   std::vector<std::unique_ptr<DeviceSplats>> splats;
   std::vector<std::unique_ptr<TiledSplats>> tiled_splats;
-  bool layered = false;                                    // the passes are those of several soups
-  bool draws_layers = true;                                // otherwise `passes` are all passes
-  std::vector<SoupPasses> soup_passes;                     // one for each layer, if they are drawn
+  bool layered = false;                 // the passes are those of several soups
+  bool draws_layers = true;             // otherwise `passes` are all passes
+  std::vector<SoupPasses> soup_passes;  // one for each layer, if they are drawn
   std::unique_ptr<SplatSorter> splat_sorter;
   std::unique_ptr<SplatBlendingPass> splat_pass;  // of all layers of splats
   OrderedSplats* ordered_splats = nullptr;        // of the pass, if the device blends

@@ -162,8 +162,7 @@ HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entr
     const std::size_t round = std::min(tile.size(), splats_a_round);
     for (std::size_t i = 0; i < round; ++i) {
       const std::uint32_t place = tile[i] & place_mask;
-      const unsigned covered =
-          fit_blocks ? alpha_of.blocks(entries[place], corners) : all_blocks;
+      const unsigned covered = fit_blocks ? alpha_of.blocks(entries[place], corners) : all_blocks;
       for (std::size_t b = 0; b < blocks_a_tile; ++b) {
         lists[b][lengths[b]] = place;
         lengths[b] += covered >> b & 1;

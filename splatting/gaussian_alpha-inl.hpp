@@ -44,8 +44,8 @@ struct GaussianAlpha {
     };
     const Blocks least_u = smallest(from_u, to_u);
     const Blocks least_v = hn::Mul(set(entry.r), smallest(dy, to_dy));
-    const Blocks bound = hn::NegMulAdd(least_u, least_u,
-                                       hn::NegMulAdd(least_v, least_v, set(entry.log_opacity)));
+    const Blocks bound =
+        hn::NegMulAdd(least_u, least_u, hn::NegMulAdd(least_v, least_v, set(entry.log_opacity)));
     return bits_of(hn::Ge(bound, set(hn::GetLane(min_log_alpha))));
   }
 

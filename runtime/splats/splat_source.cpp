@@ -204,8 +204,7 @@ SplatSource prepare_splats(const splatting::LayerData& layer, const TexelLayout&
   std::vector<std::size_t> harmonics(layer.rows.rows() - first);
   std::iota(harmonics.begin(), harmonics.end(), first);
   SplatSource source;
-  source.kernel =
-      row_source(layer.rows, kernel_rows(layer.kind), texel_formats::rgba32f, "splats");
+  source.kernel = row_source(layer.rows, kernel_rows(layer.kind), texel_formats::rgba32f, "splats");
   source.coefficients =
       row_source(layer.rows, std::move(harmonics), texel_formats::rgb32f, "harmonics");
   source.layout = layout.fitted(std::max(source.kernel.count, source.coefficients.count));

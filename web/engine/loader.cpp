@@ -162,8 +162,8 @@ void place_layers(std::optional<int> level) {
   }
 }
 
-/// {"limits": result of "start", "level"?: maximum lattice level, "layer"?: only this layer}. Writes the head to the
-/// buffer and returns the blobs.
+/// {"limits": result of "start", "level"?: maximum lattice level, "layer"?: only this layer}.
+/// Writes the head to the buffer and returns the blobs.
 Json prepare(const Json& arguments) {
   loader().prepared.reset();
   const auto level = arguments.find("level"), layer = arguments.find("layer");
@@ -171,9 +171,8 @@ Json prepare(const Json& arguments) {
   std::span<const PlacedLayer> chosen = loader().placed;
   if (layer != arguments.end()) chosen = chosen.subspan(layer->get<std::size_t>(), 1);
   const Json& limits = arguments.at("limits");
-  loader().prepared =
-      prepare_scene(chosen, limits_of(limits),
-                    page_options(*loader().scene, blending_of(limits.at("blend"))));
+  loader().prepared = prepare_scene(chosen, limits_of(limits),
+                                    page_options(*loader().scene, blending_of(limits.at("blend"))));
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)

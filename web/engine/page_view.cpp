@@ -40,9 +40,7 @@ void weigh(std::vector<ShownLayer>& layers, const Renderer& renderer) {
 
 }  // namespace
 
-void start_page_view(SplatBlending blending) {
-  slot() = std::make_unique<PageView>(blending);
-}
+void start_page_view(SplatBlending blending) { slot() = std::make_unique<PageView>(blending); }
 
 PageView& page_view() { return *slot(); }
 
