@@ -182,6 +182,48 @@ HWY_INLINE void blend_entries(const ImageView& view, std::span<const Entry> entr
   }
 }
 
+/// Adds the entries at these places to `hits`, with `alpha_of` and `color_of` as in
+/// blend_entries(). `depth_of(place)` returns a function of (entry, x, y, inverse_behind): the
+/// depth along the rays through covered pixels, in layer units.
+template <class Entry, class AlphaOf, class DepthOf, class ColorOf = OneColor>
+HWY_INLINE void collect_entries(const ImageView& view, std::span<const Entry> entries,
+                                std::span<const std::uint32_t> tile, const AlphaOf& alpha_of,
+                                const DepthOf& depth_of, const TilePixels& pixels, TileHits& hits,
+                                const ColorOf& color_of = {}) {
+  const Floats max_alpha = constant(view.max_alpha), scale = constant(hits.scale);
+  Floats x[blocks_a_tile][parts], y[blocks_a_tile][parts];
+  for (int block = 0; block < blocks_a_tile; ++block)
+    pixel_centers(pixels.x, pixels.y, block, x[block], y[block]);
+  for (const std::uint32_t splat : tile) {
+    const std::uint32_t place = splat & place_mask;
+    const Entry& entry = entries[place];
+    const auto depth_at = depth_of(place);
+    for (std::size_t first = 0; first < tile_pixels; first += lanes) {
+      const std::size_t block = first / block_pixels, part = first % block_pixels / lanes;
+      const Floats px = x[block][part], py = y[block][part];
+      const Floats behind = hn::Load(d, pixels.inverse_behind + first);
+      Floats alpha = hn::Zero(d);
+      Mask covered = alpha_of(entry, px, py, behind, alpha);
+      if (none(covered)) continue;
+      const Floats depth = hn::Mul(scale, depth_at(entry, px, py, behind));
+      covered = hn::And(covered, hn::Eq(depth, depth));  // not NaN, which has no place in an order
+      const Vector3 color = color_of(entry, px, py);
+      alignas(64) float is_covered[lanes], depths[lanes], alphas[lanes], red[lanes], green[lanes],
+          blue[lanes];
+      hn::Store(hn::IfThenElseZero(covered, constant(1.0f)), d, is_covered);
+      hn::Store(depth, d, depths);
+      hn::Store(hn::Min(alpha, max_alpha), d, alphas);
+      hn::Store(color.x, d, red);
+      hn::Store(color.y, d, green);
+      hn::Store(color.z, d, blue);
+      for (std::size_t i = 0; i < lanes; ++i)
+        if (is_covered[i] > 0)
+          hits.at[first + i].push_back(
+              {depths[i], alphas[i], red[i], green[i], blue[i], view.stop_transmittance});
+    }
+  }
+}
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -68,6 +68,14 @@ void blend_corner_windows_on(const ImageView& view, std::span<const CornerWindow
                 CornerColor{});
 }
 
+void collect_corner_windows_on(const ImageView& view, std::span<const CornerWindowEntry> entries,
+                               std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                               TileHits& hits) {
+  collect_entries(
+      view, entries, tile, WindowAlpha{constant(1.0f / view.near)},
+      [](std::uint32_t) { return WindowDepth(); }, pixels, hits, CornerColor{});
+}
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -76,6 +84,7 @@ namespace tureen::splatting {
 
 HWY_EXPORT(project_corner_windows_on);
 HWY_EXPORT(blend_corner_windows_on);
+HWY_EXPORT(collect_corner_windows_on);
 
 void project_corner_windows(const ImageView& view, const ParameterRows& windows,
                             int harmonics_degree, std::size_t begin, std::size_t end,
@@ -87,6 +96,12 @@ void project_corner_windows(const ImageView& view, const ParameterRows& windows,
 void blend_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
                           std::span<const std::uint32_t> tile, TilePixels& pixels) {
   HWY_DYNAMIC_DISPATCH(blend_corner_windows_on)(view, entries, tile, pixels);
+}
+
+void collect_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
+                            std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                            TileHits& hits) {
+  HWY_DYNAMIC_DISPATCH(collect_corner_windows_on)(view, entries, tile, pixels, hits);
 }
 
 }  // namespace tureen::splatting

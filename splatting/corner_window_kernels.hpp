@@ -37,4 +37,9 @@ void project_corner_windows(const ImageView& view, const ParameterRows& windows,
 void blend_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
                           std::span<const std::uint32_t> tile, TilePixels& pixels);
 
+/// Adds the entries to the hits of a tile (Layer::collect).
+void collect_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
+                            std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                            TileHits& hits);
+
 }  // namespace tureen::splatting

@@ -87,6 +87,15 @@ struct DiscAlpha {
   }
 };
 
+/// The depth of a disc along rays, or of its centre for the screen filter.
+struct DiscDepth {
+  DiscConstants constants;
+
+  HWY_INLINE Floats operator()(const DiscEntry& entry, Floats x, Floats y, Floats) const {
+    return DiscAt(entry, constants, x, y).depth;
+  }
+};
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -106,6 +106,14 @@ void blend_discs_on(const ImageView& view, std::span<const DiscEntry> entries,
                 pixels);
 }
 
+void collect_discs_on(const ImageView& view, std::span<const DiscEntry> entries,
+                      std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                      TileHits& hits) {
+  collect_entries(
+      view, entries, tile, DiscAlpha{std::log2(view.min_alpha), disc_constants(view)},
+      [&](std::uint32_t) { return DiscDepth{disc_constants(view)}; }, pixels, hits);
+}
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -114,6 +122,7 @@ namespace tureen::splatting {
 
 HWY_EXPORT(project_discs_on);
 HWY_EXPORT(blend_discs_on);
+HWY_EXPORT(collect_discs_on);
 
 void project_discs(const ImageView& view, const ParameterRows& discs, int harmonics_degree,
                    std::size_t begin, std::size_t end, ParameterRows& projected) {
@@ -123,6 +132,11 @@ void project_discs(const ImageView& view, const ParameterRows& discs, int harmon
 void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,
                  std::span<const std::uint32_t> tile, TilePixels& pixels) {
   HWY_DYNAMIC_DISPATCH(blend_discs_on)(view, entries, tile, pixels);
+}
+
+void collect_discs(const ImageView& view, std::span<const DiscEntry> entries,
+                   std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits) {
+  HWY_DYNAMIC_DISPATCH(collect_discs_on)(view, entries, tile, pixels, hits);
 }
 
 }  // namespace tureen::splatting

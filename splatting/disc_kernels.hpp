@@ -7,6 +7,7 @@
 #include <span>
 
 #include "splatting/image_view.hpp"
+#include "splatting/layer.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
 
@@ -54,5 +55,9 @@ void project_discs(const ImageView& view, const ParameterRows& discs, int harmon
 /// Blends the entries front to back into the pixels of a tile.
 void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,
                  std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// Adds the entries to the hits of a tile (Layer::collect).
+void collect_discs(const ImageView& view, std::span<const DiscEntry> entries,
+                   std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits);
 
 }  // namespace tureen::splatting

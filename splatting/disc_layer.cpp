@@ -33,4 +33,9 @@ void DiscLayer::blend(const ImageView& view, std::span<const std::uint32_t> spla
   blend_discs(view, entries_, splats, pixels);
 }
 
+void DiscLayer::collect(const ImageView& view, std::span<const std::uint32_t> splats,
+                        const TilePixels& pixels, TileHits& hits) const {
+  collect_discs(view, entries_, splats, pixels, hits);
+}
+
 }  // namespace tureen::splatting

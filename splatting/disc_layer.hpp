@@ -18,6 +18,8 @@ class DiscLayer final : public Layer {
             TileLists& lists) const override;
   void blend(const ImageView& view, std::span<const std::uint32_t> splats,
              TilePixels& pixels) const override;
+  void collect(const ImageView& view, std::span<const std::uint32_t> splats,
+               const TilePixels& pixels, TileHits& hits) const override;
 
  private:
   ParameterRows projected_;

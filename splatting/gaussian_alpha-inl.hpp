@@ -60,6 +60,33 @@ struct GaussianAlpha {
   }
 };
 
+/// The depth of the largest density of one Gaussian along rays, at least that of the near plane.
+struct GaussianPeakDepth {
+  const ImageView& view;
+  GaussianPeak peak;
+
+  HWY_INLINE Floats operator()(const GaussianEntry&, Floats x, Floats y, Floats) const {
+    const Floats ray_x = hn::Mul(hn::Sub(x, constant(view.cx)), constant(1 / view.fx));
+    const Floats ray_y = hn::Mul(hn::Sub(y, constant(view.cy)), constant(1 / view.fy));
+    // From the centre to the ray's point at the same depth: both are large, their difference not.
+    const Floats center_z = constant(peak.center[2]);
+    const Floats off_x = hn::NegMulAdd(center_z, ray_x, constant(peak.center[0]));
+    const Floats off_y = hn::NegMulAdd(center_z, ray_y, constant(peak.center[1]));
+    Floats numerator = hn::Zero(d), denominator = hn::Zero(d);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* axis = peak.axes + 3 * k;
+      const Floats axis_x = constant(axis[0]), axis_y = constant(axis[1]);
+      const Floats along = hn::MulAdd(axis_x, ray_x, hn::MulAdd(axis_y, ray_y, constant(axis[2])));
+      const Floats off = hn::MulAdd(axis_x, off_x, hn::Mul(axis_y, off_y));
+      numerator = hn::MulAdd(along, off, numerator);
+      denominator = hn::MulAdd(along, along, denominator);
+    }
+    // A disc seen edge-on has no single largest density.
+    const Floats depth = hn::Add(center_z, hn::Div(numerator, denominator));
+    return hn::IfThenElse(hn::IsFinite(depth), hn::Max(depth, constant(view.near)), center_z);
+  }
+};
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "splatting/gaussian_kernels.cpp"
@@ -149,6 +150,17 @@ void blend_gaussians_on(const ImageView& view, std::span<const GaussianEntry> en
   blend_entries(view, entries, tile, GaussianAlpha{constant(std::log2(view.min_alpha))}, pixels);
 }
 
+void collect_gaussians_on(const ImageView& view, std::span<const GaussianEntry> entries,
+                          const ParameterRows& gaussians, std::span<const std::uint32_t> order,
+                          std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                          TileHits& hits) {
+  const auto depth_of = [&](std::uint32_t place) {
+    return GaussianPeakDepth{view, gaussian_peak(view, gaussians, order[place])};
+  };
+  collect_entries(view, entries, tile, GaussianAlpha{constant(std::log2(view.min_alpha))}, depth_of,
+                  pixels, hits);
+}
+
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE
@@ -159,6 +171,7 @@ namespace tureen::splatting {
 
 HWY_EXPORT(project_gaussians_on);
 HWY_EXPORT(blend_gaussians_on);
+HWY_EXPORT(collect_gaussians_on);
 HWY_EXPORT(target_name);
 
 void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
@@ -169,6 +182,38 @@ void project_gaussians(const ImageView& view, const ParameterRows& gaussians, in
 void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
                      std::span<const std::uint32_t> tile, TilePixels& pixels) {
   HWY_DYNAMIC_DISPATCH(blend_gaussians_on)(view, entries, tile, pixels);
+}
+
+void collect_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
+                       const ParameterRows& gaussians, std::span<const std::uint32_t> order,
+                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                       TileHits& hits) {
+  HWY_DYNAMIC_DISPATCH(collect_gaussians_on)(view, entries, gaussians, order, tile, pixels, hits);
+}
+
+GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians, std::size_t i) {
+  namespace row = gaussian_row;
+  const auto value = [&](std::size_t which) { return gaussians.row(which)[i]; };
+  const float* m = view.view_from_layer;
+  const auto in_view = [&](const glm::vec3& v, int axis) {
+    return m[3 * axis] * v.x + m[3 * axis + 1] * v.y + m[3 * axis + 2] * v.z;
+  };
+  const glm::vec3 scales(value(row::scale_x), value(row::scale_y), value(row::scale_z));
+  const float smallest = std::min(scales.x, std::min(scales.y, scales.z));
+  const glm::mat3 rotation =
+      glm::mat3_cast(glm::normalize(glm::quat(value(row::rotation_w), value(row::rotation_x),
+                                              value(row::rotation_y), value(row::rotation_z))));
+  glm::vec3 from_eye;
+  for (int axis = 0; axis < 3; ++axis)
+    from_eye[axis] = (value(row::x + std::size_t(axis)) - view.eye_high[axis]) - view.eye_low[axis];
+  GaussianPeak peak;
+  for (int axis = 0; axis < 3; ++axis) {
+    peak.center[axis] = in_view(from_eye, axis);
+    for (int k = 0; k < 3; ++k)
+      peak.axes[3 * k + axis] =
+          (scales[k] > 0 ? smallest / scales[k] : 1.0f) * in_view(rotation[k], axis);
+  }
+  return peak;
 }
 
 const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "splatting/image_view.hpp"
+#include "splatting/layer.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
 
@@ -47,6 +48,21 @@ void project_gaussians(const ImageView& view, const ParameterRows& gaussians, in
 /// Blends the entries front to back into the pixels of a tile.
 void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
                      std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// What the depth of a Gaussian's largest density along a ray depends on, in view coordinates: the
+/// unit axes, each times the smallest scale over its own, and the centre.
+struct GaussianPeak {
+  float axes[9], center[3];
+};
+/// Of Gaussian `i` in rows of gaussian_row.
+GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians, std::size_t i);
+
+/// Adds the entries to the hits of a tile (Layer::collect). The Gaussian at place i of the entries
+/// is order[i] in the rows.
+void collect_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
+                       const ParameterRows& gaussians, std::span<const std::uint32_t> order,
+                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                       TileHits& hits);
 
 /// The name of the chosen vectors: "AVX3_ZEN4", "AVX2", ..
 const char* vector_target();

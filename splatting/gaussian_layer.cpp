@@ -15,6 +15,7 @@ std::span<const float> GaussianLayer::project(const ImageView& view) {
 }
 
 void GaussianLayer::set_order(std::span<const std::uint32_t> splats) {
+  order_.assign(splats.begin(), splats.end());
   entries_.resize(splats.size());
   for (std::size_t place = 0; place < splats.size(); ++place)
     entries_[place] = projected_[splats[place]];
@@ -30,6 +31,11 @@ void GaussianLayer::list(const ImageView& view, std::uint32_t begin, std::uint32
 void GaussianLayer::blend(const ImageView& view, std::span<const std::uint32_t> splats,
                           TilePixels& pixels) const {
   blend_gaussians(view, entries_, splats, pixels);
+}
+
+void GaussianLayer::collect(const ImageView& view, std::span<const std::uint32_t> splats,
+                            const TilePixels& pixels, TileHits& hits) const {
+  collect_gaussians(view, entries_, data().rows, order_, splats, pixels, hits);
 }
 
 }  // namespace tureen::splatting

@@ -18,11 +18,14 @@ class GaussianLayer final : public Layer {
             TileLists& lists) const override;
   void blend(const ImageView& view, std::span<const std::uint32_t> splats,
              TilePixels& pixels) const override;
+  void collect(const ImageView& view, std::span<const std::uint32_t> splats,
+               const TilePixels& pixels, TileHits& hits) const override;
 
  private:
   std::vector<GaussianEntry> projected_;
   std::vector<float> depths_;
   std::vector<GaussianEntry> entries_;  // in the order of blending
+  std::vector<std::uint32_t> order_;    // their indices
 };
 
 }  // namespace tureen::splatting

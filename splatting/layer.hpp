@@ -1,10 +1,12 @@
 // The splats of one layer, as the tile renderer draws them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "scene/splats.hpp"
 #include "splatting/image_view.hpp"
@@ -28,6 +30,24 @@ struct LayerData {
   ParameterRows rows;
 };
 
+/// A splat at a pixel.
+struct SplatHit {
+  float depth;  // along the pixel's ray, in TileHits::scale
+  float alpha;  // limited by the profile
+  float red, green, blue;
+  float stop;  // ImageView::stop_transmittance of its layer
+};
+
+/// The splats at each pixel of a tile, for blending in the order along the rays.
+struct TileHits {
+  std::array<std::vector<SplatHit>, tile_pixels> at;
+  float scale = 1;  // world units per layer unit, for hits that are added
+
+  void clear() {
+    for (std::vector<SplatHit>& hits : at) hits.clear();
+  }
+};
+
 class Layer {
  public:
   explicit Layer(LayerData data) : data_(std::move(data)) {}
@@ -45,6 +65,12 @@ class Layer {
   /// Blends splats from a tile's list, all of this layer, front to back.
   virtual void blend(const ImageView& view, std::span<const std::uint32_t> splats,
                      TilePixels& pixels) const = 0;
+  /// Adds the same splats at every pixel that they cover, instead of blending them. Depth is that
+  /// of the largest density (Gaussians), of the plane (windows, discs) or of the middle of the
+  /// chord (neural densities), as oracle/splats.hpp has it. Of `pixels`, the place and
+  /// inverse_behind are used.
+  virtual void collect(const ImageView& view, std::span<const std::uint32_t> splats,
+                       const TilePixels& pixels, TileHits& hits) const = 0;
 
  private:
   LayerData data_;

@@ -111,6 +111,19 @@ struct NeuralAlpha {
   }
 };
 
+/// The depth of the middle of a chord, in layer units.
+struct NeuralDepth {
+  NeuralAlpha camera;
+
+  HWY_INLINE Floats operator()(const NeuralEntry& entry, Floats x, Floats y,
+                               Floats inverse_behind) const {
+    const DensityChord chord(
+        entry, hn::Mul(hn::Sub(x, constant(camera.cx)), constant(camera.by_fx)),
+        hn::Mul(hn::Sub(y, constant(camera.cy)), constant(camera.by_fy)), inverse_behind);
+    return hn::Mul(hn::Add(chord.middle.z, constant(entry.center[2])), constant(1 / entry.by_unit));
+  }
+};
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -163,6 +163,14 @@ void blend_densities_on(const ImageView& view, std::span<const NeuralEntry> entr
   blend_entries(view, entries, tile, NeuralAlpha(view), pixels);
 }
 
+void collect_densities_on(const ImageView& view, std::span<const NeuralEntry> entries,
+                          std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                          TileHits& hits) {
+  collect_entries(
+      view, entries, tile, NeuralAlpha(view),
+      [&](std::uint32_t) { return NeuralDepth{NeuralAlpha(view)}; }, pixels, hits);
+}
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -171,6 +179,7 @@ namespace tureen::splatting {
 
 HWY_EXPORT(project_densities_on);
 HWY_EXPORT(blend_densities_on);
+HWY_EXPORT(collect_densities_on);
 
 void project_densities(const ImageView& view, const ParameterRows& densities, int harmonics_degree,
                        std::size_t begin, std::size_t end, ParameterRows& projected) {
@@ -181,6 +190,12 @@ void project_densities(const ImageView& view, const ParameterRows& densities, in
 void blend_densities(const ImageView& view, std::span<const NeuralEntry> entries,
                      std::span<const std::uint32_t> tile, TilePixels& pixels) {
   HWY_DYNAMIC_DISPATCH(blend_densities_on)(view, entries, tile, pixels);
+}
+
+void collect_densities(const ImageView& view, std::span<const NeuralEntry> entries,
+                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                       TileHits& hits) {
+  HWY_DYNAMIC_DISPATCH(collect_densities_on)(view, entries, tile, pixels, hits);
 }
 
 }  // namespace tureen::splatting

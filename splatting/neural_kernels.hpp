@@ -8,6 +8,7 @@
 
 #include "scene/splats.hpp"
 #include "splatting/image_view.hpp"
+#include "splatting/layer.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
 
@@ -72,5 +73,10 @@ void project_densities(const ImageView& view, const ParameterRows& densities, in
 /// Blends the entries front to back into the pixels of a tile.
 void blend_densities(const ImageView& view, std::span<const NeuralEntry> entries,
                      std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// Adds the entries to the hits of a tile (Layer::collect).
+void collect_densities(const ImageView& view, std::span<const NeuralEntry> entries,
+                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                       TileHits& hits);
 
 }  // namespace tureen::splatting

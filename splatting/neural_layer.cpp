@@ -58,4 +58,9 @@ void NeuralLayer::blend(const ImageView& view, std::span<const std::uint32_t> sp
   blend_densities(view, entries_, splats, pixels);
 }
 
+void NeuralLayer::collect(const ImageView& view, std::span<const std::uint32_t> splats,
+                          const TilePixels& pixels, TileHits& hits) const {
+  collect_densities(view, entries_, splats, pixels, hits);
+}
+
 }  // namespace tureen::splatting

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 namespace tureen::splatting {
 
@@ -17,6 +18,23 @@ Place place_of(int pixel) {
   const int block = pixel / block_pixels, inside = pixel % block_pixels;
   return {block_side * (block % blocks_a_side) + inside % block_side,
           block_side * (block / blocks_a_side) + inside / block_side};
+}
+
+/// Blends the splats at pixel `i`. They come in the order of the centres, which is kept at equal
+/// depths.
+void blend_in_order(std::vector<SplatHit>& hits, int i, TilePixels& pixels) {
+  std::stable_sort(hits.begin(), hits.end(),
+                   [](const SplatHit& a, const SplatHit& b) { return a.depth < b.depth; });
+  for (const SplatHit& hit : hits) {
+    const float transmittance = pixels.transmittance[i];
+    const float behind = transmittance * (1 - hit.alpha);
+    if (behind < hit.stop) return;
+    const float weight = transmittance * hit.alpha;
+    pixels.red[i] += weight * hit.red;
+    pixels.green[i] += weight * hit.green;
+    pixels.blue[i] += weight * hit.blue;
+    pixels.transmittance[i] = behind;
+  }
 }
 
 }  // namespace
@@ -51,7 +69,7 @@ void TileRenderer::sort(std::span<const LayerInView> layers) {
 }
 
 void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const float> depths,
-                        std::span<float> rgba) {
+                        std::span<float> rgba, BlendOrder order) {
   assert(!layers.empty() && layers.size() <= 255);
   const ImageView& image = layers.front().view;
   assert(rgba.size() == 4 * std::size_t(image.width) * std::size_t(image.height));
@@ -62,13 +80,15 @@ void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const flo
                                   run.layer << place_bits, lists_);
   parallel_(std::size_t(lists_.rows()), [&](std::size_t row) {
     lists_.finish(int(row));
+    std::optional<TileHits> hits;
+    if (order == BlendOrder::along_rays) hits.emplace();
     for (int column = 0; column < lists_.columns(); ++column)
-      draw_tile(layers, depths, column, int(row), rgba);
+      draw_tile(layers, depths, column, int(row), hits ? &*hits : nullptr, rgba);
   });
 }
 
 void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<const float> depths,
-                             int column, int row, std::span<float> rgba) const {
+                             int column, int row, TileHits* hits, std::span<float> rgba) const {
   const ImageView& image = layers.front().view;
   if (lists_.tile(column, row).empty()) {
     const int x = column * tile_side, width = std::min(tile_side, image.width - x);
@@ -101,8 +121,17 @@ void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<cons
         pixels.inverse_behind[i] = static_cast<float>(in_view.scale / double(depths[pixel]));
       });
     const auto splats = static_cast<std::size_t>(end - rest.begin());
-    in_view.layer->blend(in_view.view, rest.first(splats), pixels);
+    if (hits) {
+      hits->scale = static_cast<float>(in_view.scale);
+      in_view.layer->collect(in_view.view, rest.first(splats), pixels, *hits);
+    } else {
+      in_view.layer->blend(in_view.view, rest.first(splats), pixels);
+    }
     rest = rest.subspan(splats);
+  }
+  if (hits) {
+    for (int i = 0; i < tile_pixels; ++i) blend_in_order(hits->at[std::size_t(i)], i, pixels);
+    hits->clear();
   }
   for_each_pixel([&](int i, std::size_t pixel) {
     float* out = &rgba[4 * pixel];

@@ -1,6 +1,6 @@
 // Draws splats on the processor, tile by tile: projects them, orders them by the view depth of
 // their centres, sorts them into tiles by their outlines, and blends each tile front to back by the
-// rules of their profile.
+// rules of their profile. Or collects the splats at each pixel, and orders those.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,14 @@ namespace tureen::splatting {
 /// Calls body(0) .. body(count - 1), in any order, perhaps in several threads.
 using Parallel =
     std::function<void(std::size_t count, const std::function<void(std::size_t)>& body)>;
+
+/// Which of two splats at a pixel is in front.
+enum class BlendOrder {
+  /// By the view depth of the centres; at equal depths the earlier layer, then the lower index.
+  centres,
+  /// By the depth along the pixel's ray (SplatHit); at equal depths as `centres`.
+  along_rays,
+};
 
 /// A visible layer and its camera.
 struct LayerInView {
@@ -33,7 +41,7 @@ class TileRenderer {
   /// which may exceed 1, and alpha to `rgba`: 4 floats a pixel. The result does not depend on the
   /// number of threads.
   void draw(std::span<const LayerInView> layers, std::span<const float> depths,
-            std::span<float> rgba);
+            std::span<float> rgba, BlendOrder order = BlendOrder::centres);
 
  private:
   /// Consecutive splats of one layer in the order.
@@ -42,7 +50,7 @@ class TileRenderer {
   };
   void sort(std::span<const LayerInView> layers);
   void draw_tile(std::span<const LayerInView> layers, std::span<const float> depths, int column,
-                 int row, std::span<float> rgba) const;
+                 int row, TileHits* hits, std::span<float> rgba) const;
 
   Parallel parallel_;
   std::vector<KeyedIndex> keys_, scratch_;

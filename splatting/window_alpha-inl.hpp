@@ -72,6 +72,13 @@ struct WindowAlpha {
   }
 };
 
+/// The depth of a window's plane along rays.
+struct WindowDepth {
+  HWY_INLINE Floats operator()(const WindowShape& entry, Floats x, Floats y, Floats) const {
+    return hn::Div(constant(1.0f), WindowAt(entry, x, y).linear(entry.inverse_depth));
+  }
+};
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

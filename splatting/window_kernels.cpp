@@ -31,6 +31,14 @@ void blend_windows_on(const ImageView& view, std::span<const WindowEntry> entrie
   blend_entries(view, entries, tile, WindowAlpha{constant(1.0f / view.near)}, pixels);
 }
 
+void collect_windows_on(const ImageView& view, std::span<const WindowEntry> entries,
+                        std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                        TileHits& hits) {
+  collect_entries(
+      view, entries, tile, WindowAlpha{constant(1.0f / view.near)},
+      [](std::uint32_t) { return WindowDepth(); }, pixels, hits);
+}
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -39,6 +47,7 @@ namespace tureen::splatting {
 
 HWY_EXPORT(project_windows_on);
 HWY_EXPORT(blend_windows_on);
+HWY_EXPORT(collect_windows_on);
 
 void project_windows(const ImageView& view, const ParameterRows& windows, int harmonics_degree,
                      std::size_t begin, std::size_t end, ParameterRows& projected) {
@@ -48,6 +57,12 @@ void project_windows(const ImageView& view, const ParameterRows& windows, int ha
 void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,
                    std::span<const std::uint32_t> tile, TilePixels& pixels) {
   HWY_DYNAMIC_DISPATCH(blend_windows_on)(view, entries, tile, pixels);
+}
+
+void collect_windows(const ImageView& view, std::span<const WindowEntry> entries,
+                     std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                     TileHits& hits) {
+  HWY_DYNAMIC_DISPATCH(collect_windows_on)(view, entries, tile, pixels, hits);
 }
 
 }  // namespace tureen::splatting

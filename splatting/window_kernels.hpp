@@ -7,6 +7,7 @@
 #include <span>
 
 #include "splatting/image_view.hpp"
+#include "splatting/layer.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tile_lists.hpp"
 
@@ -64,5 +65,9 @@ void project_windows(const ImageView& view, const ParameterRows& windows, int ha
 /// Blends the entries front to back into the pixels of a tile.
 void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,
                    std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// Adds the entries to the hits of a tile (Layer::collect).
+void collect_windows(const ImageView& view, std::span<const WindowEntry> entries,
+                     std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits);
 
 }  // namespace tureen::splatting

@@ -51,6 +51,12 @@ void WindowLayer<Kernel>::blend(const ImageView& view, std::span<const std::uint
   Kernel::blend(view, entries_, splats, pixels);
 }
 
+template <class Kernel>
+void WindowLayer<Kernel>::collect(const ImageView& view, std::span<const std::uint32_t> splats,
+                                  const TilePixels& pixels, TileHits& hits) const {
+  Kernel::collect(view, entries_, splats, pixels, hits);
+}
+
 template class WindowLayer<OneColorWindows>;
 template class WindowLayer<CornerColorWindows>;
 

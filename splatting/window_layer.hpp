@@ -16,6 +16,7 @@ struct OneColorWindows {
   static constexpr auto project = &project_windows;
   static constexpr auto read = &read_entry;
   static constexpr auto blend = &blend_windows;
+  static constexpr auto collect = &collect_windows;
 };
 
 /// Windows with colours of their corners.
@@ -26,6 +27,7 @@ struct CornerColorWindows {
   static constexpr auto project = &project_corner_windows;
   static constexpr auto read = &read_corner_entry;
   static constexpr auto blend = &blend_corner_windows;
+  static constexpr auto collect = &collect_corner_windows;
 };
 
 /// The rows of window_row, for the windows with these indices and harmonics up to `degree`.
@@ -44,6 +46,8 @@ class WindowLayer final : public Layer {
             TileLists& lists) const override;
   void blend(const ImageView& view, std::span<const std::uint32_t> splats,
              TilePixels& pixels) const override;
+  void collect(const ImageView& view, std::span<const std::uint32_t> splats,
+               const TilePixels& pixels, TileHits& hits) const override;
 
  private:
   ParameterRows projected_;
