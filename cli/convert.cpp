@@ -34,7 +34,7 @@ struct ConvertOptions {
   bool force = false;
   bool json = false;
   Edits edits;
-  std::optional<Quality> quality;  // empty: the scene's own
+  QualityOptions quality;
   CompressArguments compressed;
 };
 
@@ -94,8 +94,9 @@ void check_output(const ConvertOptions& options) {
   const fs::path output = options.output;
   check_compressed(options.compressed, output);
   require_known_extension(output);
-  if (options.quality && extension_of(output) != ".glb" && !is_scene_page(output))
-    throw UsageError("only .glb and .html store --supersample and --resolution-scale");
+  if (options.quality.any() && extension_of(output) != ".glb" && !is_scene_page(output))
+    throw UsageError(
+        "only .glb and .html store --supersample, --resolution-scale and --splat-order");
   require_not_inputs(output, options.scene);
   // These checks do not depend on --force.
   if (is_export(output))
@@ -141,7 +142,7 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 /// Whether the page can contain the scene's file unchanged.
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.choice == ReadingChoice{} &&
-         options.edits == Edits{} && !options.quality && options.layer.empty() &&
+         options.edits == Edits{} && !options.quality.any() && options.layer.empty() &&
          options.scene.paths.size() == 1 && is_our_glb(options.scene.paths.front());
 }
 
@@ -176,7 +177,7 @@ ExitCode convert_scene(ConvertOptions options) {
   apply(options.edits, scene);
   if (triangle_count(scene) + splat_count(scene) == 0)
     throw UsageError("there is nothing to write: no triangles or splats are left");
-  if (options.quality) scene.quality = *options.quality;
+  options.quality.apply_to(scene.quality);
   const Json figures = page ? write_page(*page, std::move(scene), options)
                             : write(std::move(scene), options, options.output);
   const std::uint64_t bytes = bytes_on_disk(options.output);

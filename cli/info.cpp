@@ -396,7 +396,8 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
                {"preset", scene.quality != Quality{} ? Json(describe(scene.quality)) : Json()},
                {"quality",
                 {{"resolution_scale", scene.quality.resolution_scale},
-                 {"supersampling", scene.quality.supersampling}}}});
+                 {"supersampling", scene.quality.supersampling},
+                 {"splat_order", name_of(scene.quality.splat_order)}}}});
   if (only) json.update(plan_json(only->plan));
   json["devices"] = devices.json;
   if (only) json["lint"] = lint_json(*only);

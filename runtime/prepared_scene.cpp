@@ -53,14 +53,26 @@ PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLim
 bool uses_tiles(const Splats& splats, const SplatPlan& plan, const DeviceLimits& limits,
                 const PlanPreferences& preferences) {
   const SplatBlending blending = preferences.splat_blending;
-  if (blending == SplatBlending::raster ||
-      (blending == SplatBlending::automatic && !limits.software))
+  const Quality::SplatOrder order = preferences.quality.splat_order;
+  if (order == Quality::SplatOrder::stochastic) {
+    if (blending == SplatBlending::tiles)
+      throw UsageError("tiles do not draw stochastic splats",
+                       "use --blend raster or auto, or another splat order");
+    return false;
+  }
+  const bool exact = order == Quality::SplatOrder::exact;
+  if (exact && blending == SplatBlending::raster)
+    throw UsageError("raster does not blend splats in exact order",
+                     "use --blend tiles or auto, or another splat order");
+  if (!exact && (blending == SplatBlending::raster ||
+                 (blending == SplatBlending::automatic && !limits.software)))
     return false;
   if (!plan.as_published && splatting::has_layer_for(splats)) return true;
-  if (blending == SplatBlending::tiles)
+  if (blending == SplatBlending::tiles || exact)
     throw UsageError(plan.as_published ? "tiles do not have the culls of published rasterisers"
                                        : "tiles cannot blend so many splats",
-                     "--blend raster can, and auto chooses it");
+                     exact ? "use another splat order: the exact one needs tiles"
+                           : "--blend raster can, and auto chooses it");
   return false;
 }
 
@@ -86,8 +98,9 @@ void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
           splatting::layer_data(*splats, plan.profile, plan.drawn, plan.harmonics_degree);
     } else {
       // On hardware, the gain is not measured.
-      if (limits.software && preferences.specialise &&
-          preferences.specialisations.has(Specialisation::hidden_splats))
+      if (limits.software &&
+          preferences.quality.splat_order != Quality::SplatOrder::stochastic &&
+          preferences.specialise && preferences.specialisations.has(Specialisation::hidden_splats))
         plan.applied.push_back({Specialisation::hidden_splats, 0, 0, 0.5});
       prepared_layer.splats = prepare_splats(*splats, plan, layout);
     }

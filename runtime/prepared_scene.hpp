@@ -98,8 +98,9 @@ PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const D
 /// The same with a plan from make_plan for these soups and limits.
 PreparedScene prepare_scene(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
                             RenderPlan plan);
-/// Whether TilePass blends the splats, so the device does not hold them. Throws UsageError for
-/// SplatBlending::tiles if they cannot be blended so.
+/// Whether TilePass blends the splats, so the device does not hold them. Throws UsageError if
+/// SplatBlending::tiles or the exact order is requested and tiles cannot blend the splats, for
+/// raster with the exact order, and for tiles with stochastic splats.
 bool uses_tiles(const Splats& splats, const SplatPlan& plan, const DeviceLimits& limits,
                 const PlanPreferences& preferences);
 /// Completes a scene that was prepared from the soups of `layers`. Of `preferences`, those of

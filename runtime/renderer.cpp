@@ -14,6 +14,7 @@
 #include "runtime/passes/targets.hpp"
 #include "runtime/splats/splat_measures.hpp"
 #include "runtime/splats/splat_pass.hpp"
+#include "runtime/splats/stochastic_splat_pass.hpp"
 #include "runtime/splats/tile_pass.hpp"
 #include "scene/clip_range.hpp"
 
@@ -30,7 +31,7 @@ struct Renderer::State {
     draws_layers = !prepared.make_passes;
     arrange();
     if (prepared.make_passes) passes = prepared.make_passes({device, plan, soups});
-    if (plan.quality != Quality{}) filter.emplace(plan.quality, device.api);
+    if (!has_one_sample_a_pixel(plan.quality)) filter.emplace(plan.quality, device.api);
   }
 
   struct Place {
@@ -210,8 +211,12 @@ void Renderer::State::drop_splat_pass() {
   ordered_splats = nullptr;
 }
 
-/// Tiles blend if they can blend all layers, otherwise the device does.
+/// Tiles blend if they can blend all layers, otherwise the device does, or samples alpha.
 void Renderer::State::make_splat_pass() {
+  if (plan.quality.splat_order == Quality::SplatOrder::stochastic) {
+    splat_pass = std::make_unique<StochasticSplatPass>(device, splats, splat_format);
+    return;
+  }
   std::vector<const TiledSplats*> tiled;
   bool all = true;
   for (std::size_t i = 0; i < splats.size(); ++i) {
@@ -219,7 +224,7 @@ void Renderer::State::make_splat_pass() {
     all &= tiled_splats[i] || !splats[i];
   }
   if (all && tiled.size() <= TilePass::max_layers) {
-    splat_pass = std::make_unique<TilePass>(device, std::move(tiled));
+    splat_pass = std::make_unique<TilePass>(device, std::move(tiled), plan.quality.splat_order);
     return;
   }
   upload_tiled_splats();
@@ -270,7 +275,13 @@ void Renderer::State::resize(glm::ivec2 new_size) {
 void Renderer::State::set_frame(const FrameInput& input) {
   camera = input.camera;
   frame.input = input;
-  if (filter) frame.input.camera = resampled(input.camera, target.size().x, target.size().y);
+  if (filter) {
+    frame.input.camera = resampled(input.camera, target.size().x, target.size().y);
+    if (const std::optional<Camera>& whole = input.whole) {
+      const glm::ivec2 samples = tureen::sample_size(plan.quality, {whole->width, whole->height});
+      frame.input.whole = resampled(*whole, samples.x, samples.y);
+    }
+  }
   frame.background = background;
   visible_boxes.clear();
   for (const Place& place : places)

@@ -1,14 +1,31 @@
 #include "scene/quality.hpp"
 
+#include <cstddef>
+
 #include "base/decimal_text.hpp"
 
 namespace tureen {
 
+const char* name_of(Quality::SplatOrder order) { return splat_order_names[std::size_t(order)]; }
+
+bool has_one_sample_a_pixel(const Quality& quality) {
+  return quality.resolution_scale == 1 && quality.supersampling == 1;
+}
+
 std::string describe(const Quality& quality) {
-  if (quality.resolution_scale != 1)
-    return short_decimal(100 * quality.resolution_scale, 4) + " % of the rows and columns";
-  const std::string n = std::to_string(quality.supersampling);
-  return quality.supersampling > 1 ? n + " x " + n + " samples a pixel" : "one sample a pixel";
+  std::string text;
+  if (quality.resolution_scale != 1) {
+    text = short_decimal(100 * quality.resolution_scale, 4) + " % of the rows and columns";
+  } else if (quality.supersampling > 1) {
+    const std::string n = std::to_string(quality.supersampling);
+    text = n + " x " + n + " samples a pixel";
+  }
+  const auto add = [&](const char* words) {
+    text += (text.empty() ? "" : ", ") + std::string(words);
+  };
+  if (quality.splat_order == Quality::SplatOrder::exact) add("splats in exact order");
+  if (quality.splat_order == Quality::SplatOrder::stochastic) add("stochastic splats");
+  return text.empty() ? "one sample a pixel" : text;
 }
 
 std::optional<std::string> defect(const Quality& quality) {
@@ -20,6 +37,9 @@ std::optional<std::string> defect(const Quality& quality) {
     return "supersampling is " + std::to_string(quality.supersampling) + ", not 1 to 8";
   if (quality.resolution_scale < 1 && quality.supersampling > 1)
     return "a resolution scale below 1 and supersampling cannot be combined";
+  if (quality.splat_order < Quality::SplatOrder::centre ||
+      quality.splat_order > Quality::SplatOrder::stochastic)
+    return "the splat order is neither centre, exact nor stochastic";
   return std::nullopt;
 }
 

@@ -315,8 +315,10 @@ void Application::draw_image() {
     state_.messages.error("The image cannot be drawn", error.reason(), state_.now);
     image_is_current_ = false;
     DrawingChoice choice = state_.stage->choice;
-    if (quality_of(choice, *state_.stage->scene).supersampling == 1 || !worker_.idle()) return;
-    choice.quality = Quality{};
+    Quality quality = quality_of(choice, *state_.stage->scene);
+    if (quality.supersampling == 1 || !worker_.idle()) return;
+    quality.supersampling = 1;
+    choice.quality = quality;
     state_.ask(ChooseDrawing{choice});
   }
 }

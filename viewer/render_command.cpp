@@ -28,7 +28,11 @@ void add_choice(std::string& command, const DrawingChoice& choice, const Scene& 
       kept += (kept.empty() ? "" : ",") + std::string(entry.name);
   if (choice.plan.specialise && !kept.empty()) command += " --keep " + kept;
   const Quality quality = quality_of(choice, scene);
-  if (quality == scene.quality) return;
+  if (quality.splat_order != scene.quality.splat_order)
+    command += fmt::format(" --splat-order {}", name_of(quality.splat_order));
+  if (quality.resolution_scale == scene.quality.resolution_scale &&
+      quality.supersampling == scene.quality.supersampling)
+    return;
   command += quality.resolution_scale < 1 ? fmt::format(" --scale {}", quality.resolution_scale)
                                           : fmt::format(" --supersample {}", quality.supersampling);
 }

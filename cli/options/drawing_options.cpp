@@ -31,6 +31,16 @@ void add_context_option(Command& command, gl::Backend& backend) {
       .value_name("NAME");
 }
 
+Option add_splat_order(Command& command, std::function<void(Quality::SplatOrder)> set,
+                       const std::string& help) {
+  const auto choose = [set = std::move(set)](std::size_t index) {
+    set(Quality::SplatOrder(index));
+  };
+  return add_word_option(command, "--splat-order",
+                         {splat_order_names.begin(), splat_order_names.end()}, choose, help)
+      .value_name("NAME");
+}
+
 void add_drawing_options(Command& command, DrawingOptions& options) {
   add_context_option(command, options.backend);
   add_choice<PipelineKind>(
@@ -72,6 +82,12 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       "what blends splats: raster (the device), tiles (the processor), or auto (default: tiles on "
       "software OpenGL, but not with --as-published)")
       .value_name("NAME");
+  add_splat_order(
+      command, [&options](Quality::SplatOrder order) { options.splat_order = order; },
+      "the splat in front at a pixel: centre (the one with the nearer centre), exact (the nearer "
+      "one "
+      "along the ray; by the processor, several times slower) or stochastic (as centre, but "
+      "without blending: noisy, the mean of many samples is right); the scene's own by default");
   command
       .add_option("--supersample", options.supersampling,
                   "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "
@@ -107,11 +123,18 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
     say("--as-published has no effect: the scene has no splats");
   if (preferences.splat_blending != SplatBlending::automatic && splat_count(scene) == 0)
     say("--blend has no effect: the scene has no splats");
-  preferences.quality = scene.quality;
-  // Each option replaces the scene's complete quality setting; they exclude each other.
-  if (options.supersampling) preferences.quality = {.supersampling = *options.supersampling};
-  if (options.resolution_scale)
-    preferences.quality = {.resolution_scale = *options.resolution_scale};
+  if (options.splat_order && splat_count(scene) == 0)
+    say("--splat-order has no effect: the scene has no splats");
+  else if (options.splat_order && options.pipeline == PipelineKind::baseline)
+    say("--splat-order has no effect: the baseline blends in the order of the centres");
+  Quality& quality = preferences.quality;
+  quality = scene.quality;
+  // Each of these options replaces both settings; they exclude each other.
+  if (options.supersampling || options.resolution_scale) {
+    quality.supersampling = options.supersampling.value_or(1);
+    quality.resolution_scale = options.resolution_scale.value_or(1);
+  }
+  quality.splat_order = options.splat_order.value_or(quality.splat_order);
   return preferences;
 }
 

@@ -1,7 +1,9 @@
 // The drawing options that all drawing commands share.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "cli/options/arguments.hpp"
 #include "jobs/baseline/baseline.hpp"
@@ -18,7 +20,12 @@ struct DrawingOptions {
   bool opaque = false;
   std::optional<int> supersampling = {};  // without both, the scene's own quality
   std::optional<double> resolution_scale = {};
+  std::optional<Quality::SplatOrder> splat_order = {};  // without, the scene's own
 };
+
+/// --splat-order, called with the value. `help` is its description.
+Option add_splat_order(Command& command, std::function<void(Quality::SplatOrder)> set,
+                       const std::string& help);
 
 /// The plan's preferences for a scene; its quality setting is the default. Prints a sentence for
 /// each option that does not apply to the scene.
@@ -30,7 +37,8 @@ void add_context_option(Command& command, gl::Backend& backend);
 /// Applies --opaque. Throws as make_opaque.
 void apply_opaque(Scene& scene, const DrawingOptions& options);
 
-/// --context, --pipeline, --no-specialise, --keep, --shading, --blend, --supersample and --opaque.
+/// --context, --pipeline, --no-specialise, --keep, --shading, --blend, --splat-order, --supersample
+/// and --opaque.
 /// `options` must live until the arguments are parsed.
 void add_drawing_options(Command& command, DrawingOptions& options);
 

@@ -1,5 +1,7 @@
 #include "cli/options/edit_options.hpp"
 
+#include "cli/options/drawing_options.hpp"
+
 namespace tureen::cli {
 
 void add_edit_options(Command& command, Edits& edits) {
@@ -21,12 +23,19 @@ void add_edit_options(Command& command, Edits& edits) {
       .value_name("N");
 }
 
-void add_quality_options(Command& command, std::optional<Quality>& quality) {
+void QualityOptions::apply_to(Quality& quality) const {
+  const Quality::SplatOrder order = splat_order.value_or(quality.splat_order);
+  if (sampling) quality = *sampling;
+  quality.splat_order = order;
+}
+
+void add_quality_options(Command& command, QualityOptions& quality) {
   const Option samples = command
                              .add_option(
                                  "--supersample",
                                  [&quality](const std::string& text) {
-                                   quality = Quality{.supersampling = int(*number_from(text))};
+                                   quality.sampling =
+                                       Quality{.supersampling = int(*number_from(text))};
                                  },
                                  "quality setting stored in OUT: N x N samples a pixel, 1 to 8")
                              .check(between(1, 8))
@@ -35,12 +44,15 @@ void add_quality_options(Command& command, std::optional<Quality>& quality) {
       .add_option(
           "--resolution-scale",
           [&quality](const std::string& text) {
-            quality = Quality{.resolution_scale = *number_from(text)};
+            quality.sampling = Quality{.resolution_scale = *number_from(text)};
           },
           "quality setting stored in OUT: fraction of the rows and columns to draw, 0.25 to 1")
       .check(between(0.25, 1.0))
       .excludes(samples)
       .value_name("S");
+  add_splat_order(
+      command, [&quality](Quality::SplatOrder order) { quality.splat_order = order; },
+      "quality setting stored in OUT: order of splats, centre, exact or stochastic");
 }
 
 }  // namespace tureen::cli

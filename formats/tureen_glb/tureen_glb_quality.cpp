@@ -45,6 +45,8 @@ nlohmann::json quality_json(const Quality& quality) {
   nlohmann::json json = nlohmann::json::object();
   if (quality.resolution_scale != 1) json["resolution_scale"] = quality.resolution_scale;
   if (quality.supersampling != 1) json["supersampling"] = quality.supersampling;
+  if (quality.splat_order != Quality::SplatOrder::centre)
+    json["splat_order"] = name_of(quality.splat_order);
   return json;
 }
 
@@ -55,6 +57,8 @@ StoredPreset read_preset(const JsonView& view) {
     preset.quality.resolution_scale = scale->number();
   if (const auto samples = view.find("supersampling"))
     preset.quality.supersampling = int(samples->natural(8));
+  if (const auto order = view.find("splat_order"))
+    preset.quality.splat_order = Quality::SplatOrder(order->one_of(splat_order_names));
   if (const auto reason = defect(preset.quality)) view.fail(*reason);
   if (const auto level = view.find("lattice_level"))
     preset.edits.lattice_level = int(level->natural(lattice::max_level));

@@ -53,7 +53,9 @@ PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const Dev
   const DeviceLimits limits = options.limits.value_or(device);
   PreparedScene prepared = prepare_debug_soups(placed_soups(layers), limits, options);
   PlanPreferences preferences = options.plan;
-  preferences.splat_blending = SplatBlending::raster;  // debug views measure splats on the device
+  // Debug views measure splats on the device, where only raster in this order can draw them.
+  preferences.splat_blending = SplatBlending::raster;
+  preferences.quality.splat_order = prepared.plan.quality.splat_order = Quality::SplatOrder::centre;
   add_splats(prepared, layers, limits, preferences);
   return prepared;
 }

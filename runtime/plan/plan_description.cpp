@@ -80,9 +80,11 @@ std::string describe_frame(const SoupPlan& plan, const RenderPlan& common) {
 }
 
 template <class Add>
-void add_splats(const SplatPlan& plan, const Add& add) {
-  add("draws " + part_of(plan.drawn.size(), plan.splats) + "splats (" + plan.kernel +
-      "), blended from near to far");
+void add_splats(const SplatPlan& plan, Quality::SplatOrder order, const Add& add) {
+  add("draws " + part_of(plan.drawn.size(), plan.splats) + "splats (" + plan.kernel + "), " +
+      (order == Quality::SplatOrder::stochastic ? "each opaque with the probability of its alpha"
+       : order == Quality::SplatOrder::exact    ? "blended from near to far along each ray"
+                                                : "blended from near to far"));
   for (const AppliedSpecialisation& each : plan.applied) add(describe(each));
 }
 
@@ -94,9 +96,11 @@ std::string describe(const AppliedSpecialisation& applied) {
 
 std::vector<std::string> describe_sampling(const Quality& quality) {
   std::vector<std::string> sentences;
+  Quality sampling = quality;
+  sampling.splat_order = Quality::SplatOrder::centre;
   if (quality.resolution_scale < 1)
-    sentences.push_back("draws " + describe(quality) + " and enlarges the image bilinearly");
-  if (quality.supersampling > 1) sentences.push_back("draws " + describe(quality));
+    sentences.push_back("draws " + describe(sampling) + " and enlarges the image bilinearly");
+  if (quality.supersampling > 1) sentences.push_back("draws " + describe(sampling));
   return sentences;
 }
 
@@ -111,7 +115,7 @@ std::vector<std::string> describe(const RenderPlan& common) {
   for (const LayerPlan& of_layer : common.layers) {
     ++layer;
     if (const auto* splats = std::get_if<SplatPlan>(&of_layer)) {
-      add_splats(*splats, add);
+      add_splats(*splats, common.quality.splat_order, add);
       continue;
     }
     const auto& plan = std::get<SoupPlan>(of_layer);

@@ -139,10 +139,13 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
 gl::Program DeviceSplats::make_program(SplatOutput output) const {
   const Files files = files_of(shaders_);
   Constants with_output = constants();
-  constexpr const char* names[splat_outputs] = {"OUTPUT_COLOR", "OUTPUT_SUMS", "OUTPUT_PREFIXES",
-                                                "OUTPUT_DEPTH_FOUND", "OUTPUT_COUNTS"};
+  constexpr const char* names[splat_outputs] = {"OUTPUT_COLOR",    "OUTPUT_SUMS",
+                                                "OUTPUT_PREFIXES", "OUTPUT_DEPTH_FOUND",
+                                                "OUTPUT_SAMPLE",   "OUTPUT_COUNTS"};
   for (std::size_t i = 0; i < splat_outputs; ++i) with_output[names[i]] = std::to_string(i);
   with_output["OUTPUT"] = std::to_string(std::size_t(output));
+  with_output["MEASURES"] =
+      output == SplatOutput::color || output == SplatOutput::sample ? "0" : "1";
   with_output["HIDDEN_TILE_SIDE"] = std::to_string(HiddenTiles::side);
   with_output["HIDDEN_LEVELS"] = std::to_string(HiddenTiles::levels);
   return gl::Program(assemble({.file = files.vertex, .constants = with_output}, device_.api),
@@ -178,8 +181,8 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   program.set("principal_point", glm::vec2(camera.cx, camera.height - camera.cy));
   const Camera whole = frame.input.whole.value_or(camera);
   program.set("slope_range", ewa_slope_range(whole));
-  program.set("whole_corner",
-              glm::vec2(whole.cx - camera.cx, whole.cy - camera.cy + camera.height));
+  const glm::vec2 corner(whole.cx - camera.cx, whole.cy - camera.cy + camera.height);
+  for (const char* name : {"whole_corner", "sample_corner"}) program.set(name, corner);
   program.set("near", static_cast<float>(in_layer.range.near));
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }
@@ -199,7 +202,8 @@ void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLu
     program.set_texture(name, unit, projected_[std::size_t(unit - 2)].id());
     ++unit;
   }
-  if (tests_depth()) program.set_texture("depth_texture", unit++, target.depth_texture());
+  if (tests_depth() || drawing.output == SplatOutput::sample)
+    program.set_texture("depth_texture", unit++, target.depth_texture());
   if (drawing.bounds) program.set_texture("bounds", unit++, drawing.bounds);
   program.set("leaves_out_hidden", drawing.hidden ? 1 : 0);
   // Also without tiles: samplers of different types may not share a unit.
@@ -213,6 +217,8 @@ void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLu
   program.set("ndc_from_stored",
               target.reversed_depth() ? glm::vec2(1.0f, 0.0f) : glm::vec2(2.0f, -1.0f));
   program.set("far_stored", target.far_depth());
+  program.set("nearest", static_cast<float>(in_layer.range.near));
+  program.set("layer", static_cast<int>(layer_));
   if (drawing.output != SplatOutput::color) {
     program.set("world_scale", static_cast<float>(in_layer.scale));
     program.set("world_from_layer", glm::mat3(in_layer.world_from_layer));

@@ -30,9 +30,10 @@ enum class SplatOutput {
   sums,         // two targets: alpha times normal and 1; alpha times depth, opacity, sigma and 1
   prefixes,     // alpha of those splats that belong to each of four prefixes of the order
   depth_found,  // the depth of the splat that a search has found; other fragments are discarded
+  sample,       // colour and 1 with the probability of alpha, at the depth of the splat's centre
   counts,       // 1; 1 in front of the splat that a search has found; 0; the place in the order
 };
-inline constexpr std::size_t splat_outputs = 5;
+inline constexpr std::size_t splat_outputs = 6;
 
 struct SplatDrawing {
   SplatOutput output = SplatOutput::color;

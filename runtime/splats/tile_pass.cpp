@@ -22,8 +22,11 @@ float float_of(std::uint32_t bits) {
 
 }  // namespace
 
-TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers)
+TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers,
+                   Quality::SplatOrder order)
     : layers_(std::move(layers)),
+      order_(order == Quality::SplatOrder::exact ? splatting::BlendOrder::along_rays
+                                                 : splatting::BlendOrder::centres),
       renderer_([this](std::size_t count, const std::function<void(std::size_t)>& body) {
         pool_.run(count, body);
       }),
@@ -55,7 +58,7 @@ void TilePass::draw(const Frame& frame, FrameTarget& target) {
     return;
   }
   read_depths(frame, target);
-  renderer_.draw(views, depths_, rgba_);
+  renderer_.draw(views, depths_, rgba_, order_);
   if (target.has_color()) {
     upload();
     blended_.composite_over(target);

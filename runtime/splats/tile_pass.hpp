@@ -12,6 +12,7 @@
 #include "runtime/gl/context.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/splats/splat_target.hpp"
+#include "scene/quality.hpp"
 #include "splatting/tile_renderer.hpp"
 
 namespace tureen {
@@ -28,8 +29,9 @@ class TilePass final : public SplatBlendingPass {
   /// Of splatting::TileRenderer.
   static constexpr std::size_t max_layers = 255;
 
-  /// `layers` outlive the pass; at most max_layers.
-  TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers);
+  /// `layers` outlive the pass; at most max_layers. `order` is centre or exact.
+  TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers,
+           Quality::SplatOrder order);
 
   void resize(const FrameTarget& target) override;
   void draw(const Frame& frame, FrameTarget& target) override;
@@ -44,6 +46,7 @@ class TilePass final : public SplatBlendingPass {
   void upload_over_background(FrameTarget& target);
 
   std::vector<const TiledSplats*> layers_;
+  splatting::BlendOrder order_;
   ThreadPool pool_;
   splatting::TileRenderer renderer_;
   glm::ivec2 size_{0};

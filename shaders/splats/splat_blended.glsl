@@ -14,6 +14,38 @@ void blend(vec3 color, float alpha) {
 }
 
 void blend_nothing() { blended = vec4(0.0); }
+#elif OUTPUT == OUTPUT_SAMPLE
+flat in uint sampled_splat;
+uniform int layer;
+uniform float nearest;       // the near plane
+uniform vec2 sample_corner;  // of the target in the whole image, in samples
+
+layout(location = 0) out vec4 sampled;
+
+// Evenly distributed in [0, 1), as if independent for every sample of the image, splat and layer:
+// pcg3d of Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020.
+float random() {
+  ivec2 at = ivec2(floor(vec2(sample_corner.x + gl_FragCoord.x, sample_corner.y - gl_FragCoord.y)));
+  uvec3 v = uvec3(at, sampled_splat ^ (uint(layer) << 24));
+  v = v * 1664525u + 1013904223u;
+  for (int i = 0; i < 2; ++i) {
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    if (i == 0) v ^= v >> 16u;
+  }
+  return float(v.x >> 8) / 16777216.0;
+}
+
+// Opaque with probability alpha, if it is in front of the soups. `depth` is that of the fragment.
+void sample_splat(vec3 color, float alpha, float depth) {
+  if (!is_blended(alpha) || !(depth >= nearest && depth < depth_behind()) ||
+      random() >= min(alpha, MAX_ALPHA))
+    discard;
+  sampled = vec4(color, 1.0);
+}
+
+void blend_nothing() { discard; }
 #else
 #include "splat_prefixes.glsl"
 

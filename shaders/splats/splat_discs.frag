@@ -3,7 +3,7 @@ flat in vec4 color;
 flat in vec4 plane_xy;
 flat in vec3 plane_w;
 flat in vec4 origin;
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
 flat in vec3 normal;
 #endif
 
@@ -13,8 +13,8 @@ flat in vec4 tiles;
 #include "splat_tiles.glsl"
 #endif
 
-#include "splat_blended.glsl"
 #include "splat_depth_behind.glsl"
+#include "splat_blended.glsl"
 
 void main() {
 #if AS_PUBLISHED
@@ -44,6 +44,8 @@ void main() {
   if (!(depth < depth_behind())) alpha = 0.0;
 #if OUTPUT == OUTPUT_COLOR
   blend(color.rgb, alpha);
+#elif OUTPUT == OUTPUT_SAMPLE
+  sample_splat(color.rgb, alpha, depth);
 #else
   measure(alpha, depth, normal, color.a, 0.0);
 #endif

@@ -41,7 +41,7 @@ void main() {
 #if AS_PUBLISHED
   tiles = published_tiles();
 #endif
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
   measure_vertex(rotation_of(kernel_texel(splat, 2))[2],
                  (kernel_texel(splat, 0).xyz - eye_high) - eye_low);
 #endif
@@ -68,4 +68,7 @@ void main() {
 #endif
   }
   gl_Position = corner_around(low, high, splat_corner(), half_size);
+#if OUTPUT == OUTPUT_SAMPLE
+  gl_Position = at_center_depth(gl_Position, plane_w.z, splat);
+#endif
 }

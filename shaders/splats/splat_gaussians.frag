@@ -4,11 +4,14 @@ flat in vec4 color;
 flat in vec4 tiles;
 #include "splat_tiles.glsl"
 #endif
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
 flat in vec3 normal;
+#endif
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
 flat in float center_depth;
 #endif
 
+#include "splat_depth_behind.glsl"
 #include "splat_blended.glsl"
 
 void main() {
@@ -21,6 +24,8 @@ void main() {
   float alpha = color.a * exp(-0.5 * dot(deviations, deviations));
 #if OUTPUT == OUTPUT_COLOR
   blend(color.rgb, alpha);
+#elif OUTPUT == OUTPUT_SAMPLE
+  sample_splat(color.rgb, alpha, center_depth);
 #else
   measure(alpha, center_depth, normal, color.a, 0.0);
 #endif

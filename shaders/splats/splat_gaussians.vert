@@ -21,7 +21,7 @@ flat out vec4 color;
 flat out vec4 tiles;
 #include "splat_tiles.glsl"
 #endif
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
 flat out float center_depth;
 #endif
 
@@ -31,8 +31,10 @@ void main() {
   vec4 center = texelFetch(places, at, 0);
   vec4 axes = texelFetch(axes_of_splats, at, 0);
   color = texelFetch(colors, at, 0);
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
   center_depth = -center.z;
+#endif
+#if MEASURES
   // The axis of the smallest scale; of a disc, its normal.
   vec3 scales = kernel_texel(splat, 1).xyz;
   mat3 axes_in_layer = rotation_of(kernel_texel(splat, 2));
@@ -66,4 +68,7 @@ void main() {
   gl_Position = is_drawn ? vec4(pixel / half_size - 1.0,
                                 (depth_of_z.x * center.z + depth_of_z.y) / -center.z, 1.0)
                          : nowhere;
+#if OUTPUT == OUTPUT_SAMPLE
+  if (is_drawn) gl_Position = at_center_depth(gl_Position, center_depth, splat);
+#endif
 }

@@ -1,5 +1,5 @@
 // What measured splats need besides what drawn ones do (splat_blended.glsl).
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
 uniform mat3 world_from_layer;  // rotation or reflection
 
 flat out int place;    // in the order of blending

@@ -10,12 +10,12 @@ uniform float near;
 
 flat in uint splat;
 flat in vec3 color;
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
 uniform mat3 world_from_layer;
 #endif
 
-#include "splat_blended.glsl"
 #include "splat_depth_behind.glsl"
+#include "splat_blended.glsl"
 
 // The phase in [-pi, pi], where GLSL specifies sin and cos. The constants sum to 2 pi; products of
 // the first with integers up to 2^11 are exact (docs/numerics.md, N12).
@@ -95,6 +95,8 @@ void main() {
                               : 1.0 - exp(-depth);
 #if OUTPUT == OUTPUT_COLOR
   blend(color, alpha);
+#elif OUTPUT == OUTPUT_SAMPLE
+  sample_splat(color, alpha, 0.5 * (begin + end) * unit / ray_length);
 #else
   // The normal of the ellipsoid where the ray enters it.
   vec3 entry = middle - sqrt(discriminant / squared_speed) * unit_direction;

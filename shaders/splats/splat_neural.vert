@@ -20,7 +20,7 @@ void main() {
   vec4 color_and_drawn = texelFetch(colors, projected_position(splat), 0);
   color = color_and_drawn.rgb;
   vec3 from_eye = (kernel_texel(splat, 0).xyz - eye_high) - eye_low;
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
   measure_vertex(vec3(0.0), from_eye);  // the fragments have normals of their own
 #endif
   vec3 semi_axes = kernel_texel(splat, 1).xyz;
@@ -47,4 +47,7 @@ void main() {
     high = at + vec2(x.y, y.y) + 1.0;
   }
   gl_Position = corner_around(low, high, splat_corner(), half_size);
+#if OUTPUT == OUTPUT_SAMPLE
+  gl_Position = at_center_depth(gl_Position, unit * depth, splat);
+#endif
 }

@@ -21,13 +21,13 @@ uniform sampler2D colors;
 out vec3 distances;
 flat out vec4 color;
 flat out float sigma;
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
 flat out float unit;  // layer units in one unit of w
 #endif
 #if COLORS_PER_SPLAT == 3
 out vec4 weighted_color;
 #endif
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
 out float weight;  // of the corners, together
 #endif
 
@@ -108,10 +108,12 @@ void main() {
   }
   color = texelFetch(colors, projected_position(splat * uint(COLORS_PER_SPLAT)), 0);
   sigma = texels[0].w;
-#if OUTPUT != OUTPUT_COLOR
+#if MEASURES
   measure_vertex(cross((texels[1].xyz - texels[0].xyz) / size,
                        (texels[2].xyz - texels[0].xyz) / size),
                  corners[0]);
+#endif
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
   unit = size;
 #endif
   // Behind the eye, or without area in the image.
@@ -131,7 +133,12 @@ void main() {
   weights[corner] += 1.0 + shift * total;
   gl_Position = visible ? weights.x * clip[0] + weights.y * clip[1] + weights.z * clip[2] : nowhere;
   distances = visible ? weights * total / lengths : vec3(0.0);
-#if OUTPUT != OUTPUT_COLOR
+#if OUTPUT == OUTPUT_SAMPLE
+  if (visible)
+    gl_Position =
+        at_center_depth(gl_Position, size * (clip[0].w + clip[1].w + clip[2].w) / 3.0, splat);
+#endif
+#if MEASURES || OUTPUT == OUTPUT_SAMPLE
   weight = weights.x + weights.y + weights.z;
 #endif
 #if COLORS_PER_SPLAT == 3

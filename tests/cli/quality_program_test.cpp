@@ -58,6 +58,7 @@ TEST_F(QualityProgram, ConvertStoresIt) {
   };
   EXPECT_EQ(stored("--supersample", "2"), (Quality{.supersampling = 2}));
   EXPECT_EQ(stored("--resolution-scale", "0.75"), (Quality{.resolution_scale = 0.75}));
+  EXPECT_EQ(stored("--splat-order", "exact"), (Quality{.splat_order = Quality::SplatOrder::exact}));
   EXPECT_EQ(run({"convert", example.string(), "both.glb", "--supersample", "2",
                  "--resolution-scale", "0.5"})
                 .exit_code,

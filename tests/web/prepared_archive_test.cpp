@@ -90,7 +90,7 @@ TEST_P(PreparedArchive, NorAtAnotherResolution) {
   RenderOptions options;
   options.plan.quality = {.resolution_scale = 0.5};
   expect_same(test::random_soup(85, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
-  options.plan.quality = {.supersampling = 2};
+  options.plan.quality = {.supersampling = 2, .splat_order = Quality::SplatOrder::stochastic};
   expect_same(test::random_soup(85, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
 }
 

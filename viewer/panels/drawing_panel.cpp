@@ -28,13 +28,14 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
   const Quality quality = quality_of(choice, scene);
   const char* current = "as requested";
   for (const auto& each : samplings)
-    if (Quality{each.scale, each.supersampling} == quality) current = each.name;
+    if (each.scale == quality.resolution_scale && each.supersampling == quality.supersampling)
+      current = each.name;
   bool changed = false;
   ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
   if (!ImGui::BeginCombo("samples", current)) return false;
   for (const auto& each : samplings)
     if (ImGui::Selectable(each.name, each.name == current)) {
-      choice.quality = Quality{each.scale, each.supersampling};
+      choice.quality = Quality{each.scale, each.supersampling, quality.splat_order};
       changed = true;
     }
   ImGui::EndCombo();
@@ -42,7 +43,7 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
 }
 
 /// The rules of rendering splats. Returns whether they changed.
-bool splat_rules(DrawingChoice& choice, const StageSource& stage) {
+bool splat_rules(DrawingChoice& choice, const Stage& stage) {
   std::vector<const Splats*> splats;
   for (const StageLayer& layer : stage.layers)
     if (const auto* of_layer = std::get_if<Splats>(layer.primitives.get()))
@@ -73,6 +74,17 @@ bool splat_rules(DrawingChoice& choice, const StageSource& stage) {
     ImGui::EndCombo();
   }
   tip("The method by whose rules splats are drawn. tureen convert --profile saves it");
+  Quality quality = quality_of(choice, *stage.scene);
+  int order = int(quality.splat_order);
+  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
+  if (ImGui::Combo("splat order", &order, splat_order_names.data(),
+                   int(splat_order_names.size()))) {
+    quality.splat_order = Quality::SplatOrder(order);
+    choice.quality = quality;
+    changed = true;
+  }
+  tip("The splat in front: the one with the nearer centre; exactly the nearer one at each pixel, "
+      "slower; or drawn by chance without blending, noisy");
   changed |= ImGui::Checkbox("as published", &choice.plan.as_published);
   tip("Also cull splats by the rules of their authors' code that depend on the resolution");
   return changed;

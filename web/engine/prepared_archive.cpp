@@ -15,8 +15,8 @@ namespace {
 
 template <class Archive, class Value>
 void archive_quality(Archive& archive, Value& value) {
-  auto& [resolution_scale, supersampling] = value;
-  archive(resolution_scale, supersampling);
+  auto& [resolution_scale, supersampling, splat_order] = value;
+  archive(resolution_scale, supersampling, splat_order);
 }
 
 template <class Archive, class Value>

@@ -201,7 +201,12 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
 
 // -- quality, and presets in files of earlier versions -------------------------------------------
 
-constexpr Quality qualities[] = {{}, {.resolution_scale = 0.3}, {.supersampling = 3}};
+constexpr Quality qualities[] = {
+    {},
+    {.resolution_scale = 0.3},
+    {.supersampling = 3},
+    {.splat_order = Quality::SplatOrder::exact},
+    {.supersampling = 2, .splat_order = Quality::SplatOrder::stochastic}};
 
 /// Three faces of levels 0, 2 and 3. The file stores levels in an accessor with a byte for each
 /// face. As a choice of faces, it selects all but the first.
@@ -267,6 +272,17 @@ TEST(TureenGlbQuality, TheSchemaNamesEveryKeyThatIsWritten) {
     scene.quality = quality;
     expect_names(test::glb_json(test::glb_bytes(scene, "quality"))["extensions"][tureen_extension],
                  names);
+  }
+}
+
+TEST(TureenGlbQuality, AnUnknownSplatOrderIsAnError) {
+  try {
+    read_back(with_preset(scene_of_levels(), {{"splat_order", "sideways"}}));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.reason(),
+              "extensions.TUREEN_triangle_soup.preset.splat_order: \"sideways\" is not supported; "
+              "expected one of centre, exact, stochastic");
   }
 }
 

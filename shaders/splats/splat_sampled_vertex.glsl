@@ -1,0 +1,16 @@
+// What stochastic splats need besides what blended ones do: the depth test keeps the splat with the
+// nearest centre.
+#if OUTPUT == OUTPUT_SAMPLE
+uniform float nearest;         // the near plane
+uniform vec2 ndc_from_stored;  // factor and summand
+
+flat out uint sampled_splat;
+
+// The position with a depth, from 0 to 1, that decreases with the depth of the centre, which may be
+// before the near plane. It is the same at all vertices, so all fragments have it.
+vec4 at_center_depth(vec4 position, float depth, uint splat) {
+  sampled_splat = splat;
+  float stored = depth >= nearest ? 0.5 * nearest / depth : 1.0 - 0.5 / (2.0 - depth / nearest);
+  return vec4(position.xy, (stored * ndc_from_stored.x + ndc_from_stored.y) * position.w, position.w);
+}
+#endif
