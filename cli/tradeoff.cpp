@@ -48,7 +48,7 @@ ExitCode tradeoff(const TradeoffArguments& options) {
     require_writable_scene(options.written_scene, options.scene.path, options.force);
 
   Scene scene = read_one_layer(options.scene);
-  make_opaque(scene);
+  only_layer(scene).visible = true;
   TradeoffReport report = measure_tradeoff(options, scene);
   // If the scene cannot be written, the report is still written: measuring takes minutes.
   std::exception_ptr unwritten;
@@ -60,9 +60,9 @@ ExitCode tradeoff(const TradeoffArguments& options) {
   write_files(options, report);
 
   say_list("Reading:", report.notes);
-  say(fmt::format("{} triangles, {} views of {} x {}, on {} ({})", counted(report.scene.triangles),
-                  report.views, report.width, report.height, report.device.renderer,
-                  report.device.context));
+  say(fmt::format("{}, {} views of {} x {}, on {} ({})",
+                  primitives_text(report.scene.triangles, report.scene.splats), report.views,
+                  report.width, report.height, report.device.renderer, report.device.context));
   say_tables(report);
   for (const std::string& path : report.output) say("wrote " + path);
   if (options.json) print_json(results::to_json(report));
@@ -84,8 +84,8 @@ measurement has the frame time and E_render, the error against the oracle's imag
 unchanged scene. The reference for quality settings has 8 x 8 samples a pixel. With photographs,
 the report also has the error against them (E_model), for the baseline too. The choice is the
 fastest configuration within --least-psnr and --most-mismatch; of equally fast ones, the one with
-the fewest changes. It contains no quality setting. docs/tradeoff.md describes the method. Triangle
-windows are measured as opaque triangles; other splats have no edits and are refused.
+the fewest changes. Of the quality settings, it contains only the order of splats.
+docs/tradeoff.md describes the method.
 
 Examples:
   tureen tradeoff soup.glb -o tradeoff                report.html and tradeoff.json
@@ -106,8 +106,8 @@ on the device, or the output cannot be written.)");
       command, "--reference", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
       "reference for edits, drawn by the CPU in double precision: device (default, vertices "
-      "rounded as on the device) or exact (not rounded; the error then includes the device's "
-      "rounding)")
+      "rounded as on the device, splats in the order of their centres) or exact (vertices not "
+      "rounded, splats in exact order; the error then includes those of the device)")
       .value_name("NAME");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },

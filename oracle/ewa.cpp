@@ -46,9 +46,11 @@ std::optional<EwaInView> EwaInView::project(const Gaussians& gaussians, std::siz
   const glm::dmat3 rotation = glm::mat3_cast(glm::normalize(glm::dquat(gaussians.rotations[i])));
 
   const Camera& camera = view.camera();
-  const glm::dvec2 size(camera.width, camera.height);
-  const glm::dvec3 low = view.ray(-ewa_margin * size);
-  const glm::dvec3 high = view.ray((1 + ewa_margin) * size);
+  const Camera& whole = view.whole();
+  const glm::dvec2 size(whole.width, whole.height), middle(whole.cx, whole.cy);
+  const glm::dvec2 focal(whole.fx, whole.fy);
+  const glm::dvec2 low = (-ewa_margin * size - middle) / focal;
+  const glm::dvec2 high = ((1 + ewa_margin) * size - middle) / focal;
   const double x = std::clamp(center.x / center.z, low.x, high.x);
   const double y = std::clamp(center.y / center.z, low.y, high.y);
 

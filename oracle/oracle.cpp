@@ -144,7 +144,8 @@ OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
                                  .stop = options.splat_stop,
                                  .supersampling = n,
                                  .near = range.near,
-                                 .culls = options.splat_culls};
+                                 .culls = options.splat_culls,
+                                 .whole = input.whole};
   if (options.progress)
     blending.progress = [&](double fraction) { options.progress(0.5 + 0.5 * fraction); };
   const std::vector<oracle::BlendedSample> blended =

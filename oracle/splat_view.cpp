@@ -17,8 +17,9 @@ glm::dmat3 image_axes_from_world(const Camera& camera) {
 }  // namespace
 
 SplatView::SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near,
-                     SplatCulls culls)
+                     SplatCulls culls, const std::optional<Camera>& whole)
     : camera_(camera),
+      whole_(whole.value_or(camera)),
       near_(near),
       culls_(culls),
       view_from_world_(image_axes_from_world(camera)),

@@ -8,6 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "oracle/clipped_polygon.hpp"
 #include "scene/camera.hpp"
@@ -22,8 +23,9 @@ class SplatView {
  public:
   /// `world_from_layer` is a similarity that may mirror. `near` is the frame's near distance in
   /// world units: only points with a depth of at least `near` exist.
+  /// `whole`: the camera of the whole image, if `camera` is that of a part.
   SplatView(const glm::dmat4& world_from_layer, const Camera& camera, double near,
-            SplatCulls culls = SplatCulls::none);
+            SplatCulls culls = SplatCulls::none, const std::optional<Camera>& whole = {});
 
   /// A point in layer coordinates. It is computed relative to the eye, so it loses no digits far
   /// from the world's origin.
@@ -49,11 +51,12 @@ class SplatView {
   }
 
   const Camera& camera() const { return camera_; }
+  const Camera& whole() const { return whole_; }
   double near() const { return near_; }
   SplatCulls culls() const { return culls_; }
 
  private:
-  Camera camera_;
+  Camera camera_, whole_;
   double near_;
   SplatCulls culls_;
   glm::dmat3 view_from_world_;

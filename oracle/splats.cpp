@@ -47,7 +47,8 @@ class Blender {
         samples_(std::size_t(columns_) * rows_) {
     assert(opaque_depth.size() == samples_.size());
     for (const PlacedSplats& layer : layers)
-      views_.emplace_back(layer.world_from_layer, camera, options.near, options.culls);
+      views_.emplace_back(layer.world_from_layer, camera, options.near, options.culls,
+                          options.whole);
     sort_centres();
   }
 

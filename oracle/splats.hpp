@@ -12,6 +12,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct SplatBlending {
   int supersampling = 1;
   double near = 0;  // of the frame's clip range
   SplatCulls culls = SplatCulls::none;
+  std::optional<Camera> whole = {};  // of the whole image, if the camera is that of a part
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };

@@ -219,7 +219,7 @@ HWY_INLINE void collect_entries(const ImageView& view, std::span<const Entry> en
       for (std::size_t i = 0; i < lanes; ++i)
         if (is_covered[i] > 0)
           hits.at[first + i].push_back(
-              {depths[i], alphas[i], red[i], green[i], blue[i], view.stop_transmittance});
+              {depths[i], alphas[i], red[i], green[i], blue[i], view.stop_transmittance, place});
     }
   }
 }

@@ -35,7 +35,8 @@ struct SplatHit {
   float depth;  // along the pixel's ray, in TileHits::scale
   float alpha;  // limited by the profile
   float red, green, blue;
-  float stop;  // ImageView::stop_transmittance of its layer
+  float stop;           // ImageView::stop_transmittance of its layer
+  std::uint32_t place;  // in its layer's order
 };
 
 /// The splats at each pixel of a tile, for blending in the order along the rays.

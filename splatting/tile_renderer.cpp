@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace tureen::splatting {
@@ -140,6 +141,37 @@ void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<cons
     out[2] = pixels.blue[i];
     out[3] = 1.0f - std::abs(pixels.transmittance[i]);
   });
+}
+
+void TileRenderer::add_weights(const LayerInView& layer, std::span<double> weights) {
+  assert(weights.size() == layer.layer->count());
+  const std::span layers(&layer, 1);
+  sort(layers);
+  lists_.begin(layer.view.width, layer.view.height);
+  for (const Run& run : runs_) layer.layer->list(layer.view, run.begin, run.end, 0, lists_);
+  const auto hits = std::make_unique<TileHits>();
+  for (int row = 0; row < lists_.rows(); ++row) {
+    lists_.finish(row);
+    for (int column = 0; column < lists_.columns(); ++column) {
+      TilePixels pixels{};
+      pixels.x = column * tile_side;
+      pixels.y = row * tile_side;
+      layer.layer->collect(layer.view, lists_.tile(column, row), pixels, *hits);
+      for (int i = 0; i < tile_pixels; ++i) {
+        const Place at = place_of(i);
+        if (pixels.x + at.column >= layer.view.width || pixels.y + at.row >= layer.view.height)
+          continue;
+        float transmittance = 1;
+        for (const SplatHit& hit : hits->at[std::size_t(i)]) {
+          const float behind = transmittance * (1 - hit.alpha);
+          if (behind < hit.stop) break;
+          weights[orders_.front()[hit.place]] += double(transmittance - behind);
+          transmittance = behind;
+        }
+      }
+      hits->clear();
+    }
+  }
 }
 
 }  // namespace tureen::splatting

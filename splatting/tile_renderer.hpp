@@ -43,6 +43,11 @@ class TileRenderer {
   void draw(std::span<const LayerInView> layers, std::span<const float> depths,
             std::span<float> rgba, BlendOrder order = BlendOrder::centres);
 
+  /// Adds to weights[i] what splat i of the layer contributes to the image: the sum over the pixels
+  /// of its alpha times the transmittance of the splats in front. Nothing opaque is behind. Uses
+  /// one thread. Slower than draw().
+  void add_weights(const LayerInView& layer, std::span<double> weights);
+
  private:
   /// Consecutive splats of one layer in the order.
   struct Run {

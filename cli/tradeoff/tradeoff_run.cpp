@@ -66,33 +66,33 @@ std::vector<Photograph> test_photographs(const TradeoffOptions& options, Tradeof
 void measure_models(const TradeoffOptions& options, const Scene& scene,
                     const std::vector<Photograph>& photographs, TradeoffReport& report) {
   if (photographs.empty()) return;
-  const auto& soup = only_soup(scene);
   report.model = {options.dataset.path, "test", int(photographs.size()), name(SsimBorder::valid)};
   Progress progress("photographs");
   tradeoff::ModelOptions model{.backend = options.backend,
                                .background = scene.info.background,
                                .with_flip = options.with_flip};
   model.progress = [&](double fraction) { progress.update(0.8 * fraction); };
-  report.drawing_model = tradeoff::model_errors(report.study.drawing, soup,
-                                                origin_of(only_layer(scene)), photographs, model);
+  report.drawing_model = tradeoff::model_errors(report.study.drawing, scene, photographs, model);
   model.progress = [&](double fraction) { progress.update(0.8 + 0.2 * fraction); };
-  report.antialiasing_model = tradeoff::model_errors(
-      report.study.antialiasing, soup, origin_of(only_layer(scene)), photographs, model);
+  report.antialiasing_model =
+      tradeoff::model_errors(report.study.antialiasing, scene, photographs, model);
 }
 
 /// The part of the report that is known before the measurements.
 TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
-  const auto& soup = only_soup(scene);
   TradeoffReport report;
   report.notes = all_notes(scene.info);
   if (scene.quality != Quality{})
-    report.notes.push_back(
-        "measured with one sample a pixel instead of the scene's quality setting: " +
-        describe(scene.quality));
+    report.notes.push_back("measured with the default quality settings instead of the scene's: " +
+                           describe(scene.quality));
   report.date = utc_now();
   report.program = {program_version(), program_commit(), options.arguments};
-  report.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
-                  appearance_name(soup.appearance)};
+  const Primitives& primitives = only_layer(scene).primitives;
+  const auto* soup = std::get_if<TriangleSoup>(&primitives);
+  report.scene = {
+      scene.info.name, options.scene.path, triangle_count(scene),
+      soup ? appearance_name(soup->appearance) : tureen::describe(std::get<Splats>(primitives)),
+      splat_count(scene)};
   report.machine = this_machine();
   report.with_flip = options.with_flip;
   report.samples = options.samples == tradeoff::Samples::device ? "device" : "exact";
@@ -103,10 +103,11 @@ TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
 tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
                          TradeoffReport& report) {
   const Defaults defaults = defaults_of(options.effort);
-  const auto& soup = only_soup(scene);
   report.rounds = options.rounds > 0 ? options.rounds : defaults.rounds;
+  DefaultViews default_views = defaults.views;
+  if (splat_count(scene) > 0) default_views.adversarial = false;  // those are of triangles
   const TradeoffViews views =
-      tradeoff_views(view_options(options), defaults.views, scene, options.scene.path);
+      tradeoff_views(view_options(options), default_views, scene, options.scene.path);
   report.notes.insert(report.notes.end(), views.notes.begin(), views.notes.end());
   report.camera_set = views.camera_set;
   report.views = int(views.judges.size());
@@ -142,8 +143,8 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
     }
     progress->update(fraction);
   };
-  tradeoff::Study found = tradeoff::run_study(
-      {context, soup, origin_of(only_layer(scene)), views.judges, views.counting}, study);
+  tradeoff::Study found =
+      tradeoff::run_study({context, scene, views.judges, views.counting}, study);
   progress.reset();
   const tradeoff::Candidates left = tradeoff::candidates(found.drawing);
   if (const auto cheapest = tradeoff::cheapest_within(left.points, report.limits))

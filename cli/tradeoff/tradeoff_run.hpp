@@ -35,7 +35,7 @@ struct TradeoffOptions {
 /// Checks the options before anything is read. Throws UsageError.
 void check(const TradeoffOptions& options);
 
-/// Measures a scene with one layer, which must hold a TriangleSoup, and makes the choice. Prints
+/// Measures a scene with one layer, which is visible, and makes the choice. Prints
 /// progress. Throws Interrupted, and the exceptions of reading a dataset and of drawing.
 TradeoffReport measure_tradeoff(const TradeoffOptions& options, const Scene& scene);
 

@@ -26,16 +26,16 @@ void require_writable_scene(const fs::path& path, const fs::path& scene, bool re
 
 void write_chosen(const fs::path& path, Scene scene, TradeoffReport& report) {
   if (!report.study.choice) return;
-  const Edits& edits = report.study.drawing.outcomes[*report.study.choice].applied.edits;
+  const tradeoff::Applied& applied = report.study.drawing.outcomes[*report.study.choice].applied;
   std::vector<std::string> sentences;
-  if (edits == Edits{}) {
+  if (!has_edits(applied)) {
     sentences.emplace_back("without edits: no edit within the limits is measurably faster");
   } else {
-    auto& soup = only_soup(scene);
     Progress progress("reducing the scene");
-    soup = edited(std::move(soup), edits, [&](double done) { progress.update(done); });
-    scene.info.notes.push_back("reduced by tureen tradeoff: " + describe(edits));
+    scene = edited(std::move(scene), applied, [&](double done) { progress.update(done); });
+    scene.info.notes.push_back("reduced by tureen tradeoff: " + describe_edits(applied));
   }
+  if (splat_count(scene) > 0) scene.quality.splat_order = applied.quality.splat_order;
   const std::vector<std::string> losses = write_scene(scene, path);
   sentences.insert(sentences.end(), losses.begin(), losses.end());
   say_list("Writing " + path.string() + ":", sentences);

@@ -54,13 +54,12 @@ std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {
   const RenderOptions options{.plan = job.plan, .background = {options_.background, 0.0f}};
   const PipelineKind pipeline =
       job.outcome.method == Method::baseline ? PipelineKind::baseline : PipelineKind::tureen;
-  const auto renderer_of = [&](const TriangleSoup& soup) {
-    return std::make_unique<Renderer>(
-        make_renderer(scene_.context, soup, scene_.origin, pipeline, options));
+  const auto renderer_of = [&](const Scene& scene) {
+    return std::make_unique<Renderer>(make_renderer(scene_.context, scene, pipeline, options));
   };
-  const Edits& edits = job.outcome.applied.edits;
-  if (edits == Edits{}) return renderer_of(scene_.soup);
-  return renderer_of(edited(scene_.soup, edits, [this](double) { report_share(0.2 * made_); }));
+  const Applied& applied = job.outcome.applied;
+  if (!has_edits(applied)) return renderer_of(scene_.scene);
+  return renderer_of(edited(scene_.scene, applied, [this](double) { report_share(0.2 * made_); }));
 }
 
 void Measurer::measure_group(std::vector<Job> jobs) {

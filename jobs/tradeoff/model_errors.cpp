@@ -1,7 +1,6 @@
 #include "jobs/tradeoff/model_errors.hpp"
 
 #include "jobs/eval/evaluation.hpp"
-#include "scene/edit/edits.hpp"
 
 namespace tureen::tradeoff {
 
@@ -9,7 +8,7 @@ namespace {
 
 using Share = std::function<void(double)>;  // of the progress of one outcome; may throw
 
-ModelError drawn_error(const Outcome& outcome, const TriangleSoup& soup, glm::dvec3 origin,
+ModelError drawn_error(const Outcome& outcome, const Scene& scene,
                        std::span<const Photograph> photographs, const ModelOptions& options,
                        const Share& progress) {
   EvaluationOptions evaluation;
@@ -19,12 +18,11 @@ ModelError drawn_error(const Outcome& outcome, const TriangleSoup& soup, glm::dv
   evaluation.background = options.background;
   evaluation.metrics.with_flip = options.with_flip;
   evaluation.progress = progress;
-  const Edits& edits = outcome.applied.edits;
-  std::optional<TriangleSoup> reduced;
+  std::optional<Scene> reduced;
   // Editing is short compared with the photographs. It can be cancelled but shows no progress.
-  if (edits != Edits{}) reduced = edited(soup, edits, [&](double) { progress(0); });
-  const ViewMetrics mean =
-      evaluate(reduced ? *reduced : soup, origin, photographs, evaluation).mean;
+  if (has_edits(outcome.applied))
+    reduced = edited(scene, outcome.applied, [&](double) { progress(0); });
+  const ViewMetrics mean = evaluate(reduced ? *reduced : scene, photographs, evaluation).mean;
   return {mean.psnr_db, mean.ssim, mean.flip};
 }
 
@@ -38,8 +36,7 @@ std::vector<Photograph> spread_out(std::vector<Photograph> photographs, std::siz
   return chosen;
 }
 
-std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const TriangleSoup& soup,
-                                                    glm::dvec3 origin,
+std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Scene& scene,
                                                     std::span<const Photograph> photographs,
                                                     const ModelOptions& options) {
   std::vector<std::optional<ModelError>> errors(panel.outcomes.size());
@@ -49,7 +46,7 @@ std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Tr
       if (options.progress) options.progress((double(i) + fraction) / double(errors.size()));
     };
     if (outcome.method != Method::generic)
-      errors[i] = drawn_error(outcome, soup, origin, photographs, options, progress);
+      errors[i] = drawn_error(outcome, scene, photographs, options, progress);
   }
   return errors;
 }

@@ -31,8 +31,7 @@ struct ModelOptions {
 std::vector<Photograph> spread_out(std::vector<Photograph> photographs, std::size_t most);
 
 /// One entry for each outcome of the panel; nullopt for generic twins, which draw the same images.
-std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const TriangleSoup& soup,
-                                                    glm::dvec3 origin,
+std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Scene& scene,
                                                     std::span<const Photograph> photographs,
                                                     const ModelOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "jobs/visibility/visibility_count.hpp"
 
@@ -64,7 +65,63 @@ QualitySetting triangle_budget(std::span<const std::uint64_t> visible_pixels) {
   return setting;
 }
 
+QualitySetting splat_fraction(std::span<const std::uint64_t> weights) {
+  QualitySetting setting{"splat_fraction", "splats", {{"1", "all splats", unchanged}}};
+  for (const auto& [fraction, name] : {std::pair{0.9, "0.9"}, std::pair{0.75, "0.75"},
+                                       std::pair{0.5, "0.5"}, std::pair{0.25, "0.25"}}) {
+    const std::vector<std::uint8_t> keeps_splat = most_visible(weights, fraction);
+    setting.values.push_back(
+        {name, percent_text(fraction) + " of the splats",
+         [keeps_splat](Applied& applied) { applied.splat_edits.keeps_splat = keeps_splat; }});
+  }
+  return setting;
+}
+
+QualitySetting splat_order() {
+  const auto become = [](Quality::SplatOrder order) {
+    return [order](Applied& applied) { applied.quality.splat_order = order; };
+  };
+  return {"splat_order",
+          "splat order",
+          {{"centre", "order of the centres", unchanged},
+           {"exact", "exact order", become(Quality::SplatOrder::exact)},
+           {"stochastic", "stochastic", become(Quality::SplatOrder::stochastic)}}};
+}
+
 }  // namespace
+
+bool has_edits(const Applied& applied) {
+  return applied.edits != Edits{} || applied.splat_edits != SplatEdits{};
+}
+
+std::string describe_edits(const Applied& applied) {
+  return applied.splat_edits != SplatEdits{} ? describe(applied.splat_edits)
+                                             : describe(applied.edits);
+}
+
+Scene edited(Scene scene, const Applied& applied, const std::function<void(double)>& progress) {
+  Primitives& primitives = only_layer(scene).primitives;
+  if (auto* soup = std::get_if<TriangleSoup>(&primitives))
+    *soup = edited(std::move(*soup), applied.edits, progress);
+  else
+    scene = edited(std::move(scene), applied.splat_edits);
+  return scene;
+}
+
+std::vector<QualitySetting> drawing_settings(const Splats& splats,
+                                             std::span<const std::uint64_t> weights) {
+  std::vector<QualitySetting> settings{splat_order()};
+  // Below ten splats there is no tenth.
+  if (weights.size() >= 10) settings.push_back(splat_fraction(weights));
+  const std::vector<std::uint8_t> opaque = nearly_opaque_windows(splats);
+  if (std::count(opaque.begin(), opaque.end(), 1) > 0)
+    settings.push_back({"opaque_windows",
+                        "opaque windows",
+                        {{"false", "all windows blended", unchanged},
+                         {"true", "nearly opaque windows as triangles",
+                          [](Applied& applied) { applied.splat_edits.opaque_windows = true; }}}});
+  return settings;
+}
 
 std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels) {
@@ -80,7 +137,7 @@ std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
   return settings;
 }
 
-std::vector<QualitySetting> antialiasing_settings(int max_samples) {
+std::vector<QualitySetting> antialiasing_settings(int max_samples, bool has_splats) {
   QualitySetting scale{
       "resolution_scale", "resolution scale", {{"1", "full resolution", unchanged}}};
   for (const double factor : {0.75, 0.5})
@@ -93,6 +150,7 @@ std::vector<QualitySetting> antialiasing_settings(int max_samples) {
     samples.values.push_back({std::to_string(n),
                               std::to_string(n) + " x " + std::to_string(n) + " samples a pixel",
                               [n](Applied& applied) { applied.quality.supersampling = n; }});
+  if (has_splats) return {scale, samples, splat_order()};
   return {scale, samples};
 }
 

@@ -11,16 +11,28 @@
 
 #include "jobs/tradeoff/experiment.hpp"
 #include "scene/edit/edits.hpp"
+#include "scene/edit/splat_edits.hpp"
 #include "scene/quality.hpp"
+#include "scene/scene.hpp"
+#include "scene/splats.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen::tradeoff {
 
-/// The soup's edits and sampling quality for chosen values.
+/// The edits and the quality of a scene for chosen values.
 struct Applied {
-  Edits edits;
+  Edits edits;             // of a soup
+  SplatEdits splat_edits;  // of splats
   Quality quality;
 };
+
+/// Whether the data change.
+bool has_edits(const Applied& applied);
+/// "12 of 40 triangles, lattice level at most 3"; "none".
+std::string describe_edits(const Applied& applied);
+/// The scene, which has one layer, with the edits applied. Its quality stays. `progress` as for
+/// edited() of a soup.
+Scene edited(Scene scene, const Applied& applied, const std::function<void(double)>& progress = {});
 
 struct SettingValue {
   std::string value;  // name for programs: "3", "base"
@@ -41,9 +53,14 @@ struct QualitySetting {
 std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels);
 
-/// The quality settings: resolution scale, and supersampling up to
-/// `max_samples` an axis.
-std::vector<QualitySetting> antialiasing_settings(int max_samples);
+/// The same for splats: their order and number, and for windows opaque triangles. `weights` is the
+/// result of splat_weights(); without, the number does not vary.
+std::vector<QualitySetting> drawing_settings(const Splats& splats,
+                                             std::span<const std::uint64_t> weights);
+
+/// The quality settings: resolution scale, supersampling up to `max_samples` an axis, and with
+/// splats their order.
+std::vector<QualitySetting> antialiasing_settings(int max_samples, bool has_splats);
 
 /// The number of values of each setting, for the experiment.
 std::vector<int> value_counts(const std::vector<QualitySetting>& settings);

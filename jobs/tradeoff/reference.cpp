@@ -18,16 +18,17 @@ Camera strip_of(const Camera& camera, int first, int rows) {
   return strip;
 }
 
-/// Sets alpha to the fraction of a pixel's rays with a hit.
+/// Sets alpha to the mean coverage of a pixel's rays.
 void set_coverage(OracleImage& image, int supersampling) {
   const auto width = std::size_t(image.color.width), n = std::size_t(supersampling);
-  std::vector<int> hits(image.color.pixels.size());
+  std::vector<double> covered(image.color.pixels.size());
   for (std::size_t ray = 0; ray < image.face.size(); ++ray) {
     const std::size_t column = ray % (width * n) / n, row = ray / (width * n) / n;
-    hits[row * width + column] += image.face[ray] != OracleImage::no_face;
+    const double of_splats = image.splat_alpha.empty() ? 0.0 : image.splat_alpha[ray];
+    covered[row * width + column] += image.face[ray] != OracleImage::no_face ? 1.0 : of_splats;
   }
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    image.color.pixels[i].a = float(hits[i]) / float(n * n);
+  for (std::size_t i = 0; i < covered.size(); ++i)
+    image.color.pixels[i].a = float(covered[i] / double(n * n));
 }
 
 }  // namespace
@@ -38,8 +39,7 @@ int device_subpixel_bits() {
   return bits >= 1 && bits <= 16 ? bits : 8;
 }
 
-ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
-                       const ReferenceOptions& options) {
+ImageF reference_image(const Scene& scene, const Camera& camera, const ReferenceOptions& options) {
   const bool antialiased = options.samples == Samples::antialiased;
   const int n = antialiased ? antialiased_samples : 1;
   // A snapped image is drawn in one piece, because clipping depends on the image's border.
@@ -49,6 +49,7 @@ ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera
   OracleOptions oracle;
   oracle.supersampling = n;
   oracle.background = options.background;
+  if (options.samples == Samples::exact) oracle.splat_order = oracle::SplatOrder::exact;
   if (options.samples == Samples::device) {
     oracle.rays.coverage = oracle::Coverage::snapped;
     oracle.rays.subpixel_bits = options.subpixel_bits;
@@ -60,7 +61,7 @@ ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera
       oracle.progress = [&](double fraction) {
         options.progress((first + fraction * strip.height) / camera.height);
       };
-    OracleImage drawn = render_oracle(soup, origin, {strip}, oracle);
+    OracleImage drawn = render_oracle(scene, {.camera = strip, .whole = camera}, oracle);
     set_coverage(drawn, n);
     std::copy(drawn.color.pixels.begin(), drawn.color.pixels.end(), &image.at(0, first));
   }

@@ -8,15 +8,18 @@
 
 namespace tureen::tradeoff {
 
-/// The sample points of the reference. All kinds use float colours of unquantised texels.
+/// The sample points of the reference, and the order of its splats. All kinds use float colours of
+/// unquantised texels.
 enum class Samples {
-  /// One sample a pixel at the device's sample points: vertices lie on its subpixel grid
+  /// One sample a pixel; splats in the order of their centres, triangles at the device's sample
+  /// points: vertices lie on its subpixel grid
   /// (oracle::Coverage::snapped). The device's rounding is independent of all settings, but on
   /// small images it costs more than most of them (docs/tradeoff.md).
   device,
-  /// One sample a pixel, at its centre, of the exact triangles.
+  /// One sample a pixel, at its centre, of the exact triangles; splats in exact order.
   exact,
-  /// antialiased_samples^2 samples a pixel, on a regular grid, of the exact triangles.
+  /// antialiased_samples^2 samples a pixel, on a regular grid, of the exact triangles; splats in
+  /// the order of their centres.
   antialiased,
 };
 
@@ -36,9 +39,9 @@ struct ReferenceOptions {
   std::function<void(double)> progress = {};
 };
 
-/// The image over the background; alpha is coverage, the fraction of rays with a hit. Memory in
-/// addition to the image: 12 bytes a ray, in strips of at most about 4 million rays.
-ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
-                       const ReferenceOptions& options);
+/// The image of the scene over the background; alpha is coverage, the mean of the rays: 1 with a
+/// hit, otherwise the alpha of the splats. Memory in addition to the image: 12 bytes a ray, 88 with
+/// splats, in strips of at most about 4 million rays.
+ImageF reference_image(const Scene& scene, const Camera& camera, const ReferenceOptions& options);
 
 }  // namespace tureen::tradeoff

@@ -9,8 +9,10 @@
 
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/tradeoff/measurer.hpp"
+#include "jobs/tradeoff/splat_weights.hpp"
 #include "jobs/tradeoff/study_images.hpp"
 #include "jobs/visibility/visibility_count.hpp"
+#include "splatting/layer.hpp"
 
 namespace tureen::tradeoff {
 
@@ -65,6 +67,24 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
   return error_between(reference, as_shown(reference), with_flip);
 }
 
+std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOptions& options) {
+  const Layer& layer = only_layer(scene.scene);
+  const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
+  if (!soup) {
+    const auto& splats = std::get<Splats>(layer.primitives);
+    std::vector<std::uint64_t> weights;
+    if (splatting::has_layer_for(splats))
+      weights = splat_weights(splats, layer.world_from_layer, scene.counting, [&](double fraction) {
+        report(options, StudyStage::visibility, fraction);
+      });
+    return drawing_settings(splats, weights);
+  }
+  const std::vector<std::uint64_t> visible = count_visible_pixels(
+      scene.context, *soup, origin_of(layer), scene.counting,
+      [&](double fraction) { report(options, StudyStage::visibility, fraction); });
+  return drawing_settings(*soup, visible);
+}
+
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
   References references{
@@ -74,10 +94,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   if (options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
 
-  const std::vector<std::uint64_t> visible = count_visible_pixels(
-      scene.context, scene.soup, scene.origin, scene.counting,
-      [&](double fraction) { report(options, StudyStage::visibility, fraction); });
-  panel.settings = drawing_settings(scene.soup, visible);
+  panel.settings = settings_of(scene, options);
   const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
 
@@ -102,7 +119,7 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
   const References references{
       oracle_images(scene, options, Samples::antialiased, StudyStage::antialiased_references), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
-  panel.settings = antialiasing_settings(options.max_samples);
+  panel.settings = antialiasing_settings(options.max_samples, splat_count(scene.scene) > 0);
   const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
@@ -119,7 +136,7 @@ const char* name_of(StudyStage stage) {
     case StudyStage::exact_references:
       return "exact reference images";
     case StudyStage::visibility:
-      return "visible triangles";
+      return "visible primitives";
     case StudyStage::settings:
       return "one setting at a time";
     case StudyStage::combined_settings:

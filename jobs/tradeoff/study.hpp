@@ -61,11 +61,10 @@ struct References {
 /// The scene on the device, and the views.
 struct StudyScene {
   const gl::Context& context;
-  const TriangleSoup& soup;
-  glm::dvec3 origin;
+  const Scene& scene;               // one layer, visible
   std::span<const Camera> cameras;  // at least one
-  /// Views in which the visible pixels of each triangle are counted. The edit that removes
-  /// triangles uses these counts.
+  /// Views in which the visible pixels of each triangle are counted, or the weights of each splat
+  /// are added. The edit that removes them uses these counts.
   std::span<const Camera> counting;
 };
 

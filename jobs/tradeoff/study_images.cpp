@@ -49,7 +49,7 @@ std::vector<ImageF> oracle_images(const StudyScene& scene, const StudyOptions& o
   std::vector<ImageF> images(scene.cameras.size());
   const auto progress = [&](double fraction) { report(options, stage, fraction); };
   on_all_cores(images.size(), progress, [&](std::size_t i, const auto& check) {
-    images[i] = reference_image(scene.soup, scene.origin, scene.cameras[i],
+    images[i] = reference_image(scene.scene, scene.cameras[i],
                                 {.samples = samples,
                                  .subpixel_bits = options.subpixel_bits,
                                  .background = options.background,

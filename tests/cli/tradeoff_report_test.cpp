@@ -135,7 +135,7 @@ TEST(TradeoffCandidates, AreWhatCanBeChosen) {
 
 tradeoff::Panel supersampled() {
   tradeoff::Panel result;
-  result.settings = tradeoff::antialiasing_settings(8);
+  result.settings = tradeoff::antialiasing_settings(8, false);
   const std::vector<tradeoff::Configuration> star{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
   double ms = 5, psnr = 30;
   for (const tradeoff::Configuration& each : star) {

@@ -271,7 +271,7 @@ function showTradeoff(entry) {
       chosen ? [`${ms(chosen.ms)} ms`, `the choice: ${chosen.name}${chosen === defaults ? '' : `, ${times(defaults.ms / chosen.ms)} as fast as the defaults`}`] : ['no choice', `no configuration reaches ${limits?.least_psnr_db} dB`],
       [`${db((chosen ?? defaults).e_render.psnr_db)} dB`, `error of ${chosen ? 'the choice' : 'the defaults'} against the reference`],
       photographed[0] && [`${db(photographed[0].e_model.psnr_db)} dB`, `the defaults against ${data.e_model?.photographs} photographs`]),
-    ...panel('Drawing settings', drawing, `Error against the reference image of the same model, ${data.protocol.samples === 'exact' ? 'with exact triangles' : 'at the device\'s sample points'}.`),
+    ...panel('Drawing settings', drawing, `Error against the reference image of the same model, ${reference(data)}.`),
     ...panel('Antialiasing settings', data.antialiasing, 'Error against the reference image with 8 × 8 samples per pixel.'),
     ...(photographed.length ? [element('h3', {}, 'Against photographs'), paragraph('This is the error of the model, not of drawing. Do not compare it with the errors above.', 'faint'),
       plots(errorPlot('Photographs: error against time', 'best time per frame (ms)', 'PSNR against photographs (dB)', photographed, (c) => c.ms, (c) => c.e_model.psnr_db, (c) => c.on_front)),
@@ -279,6 +279,13 @@ function showTradeoff(entry) {
         ['against the defaults (dB)', (c) => c.e_model.psnr_db - photographed[0].e_model.psnr_db, fixed(3)], ['SSIM', (c) => c.e_model.ssim, fixed(4)], ['FLIP', (c) => c.e_model.flip, fixed(4)]], photographed)] : []),
     provenance(data),
   ];
+}
+
+/** How the reference of the drawing settings was drawn. */
+function reference({ protocol, scene }) {
+  const exact = protocol.samples === 'exact';
+  if (scene.splats) return exact ? 'in exact order of the splats' : 'in the order of the splats\' centres';
+  return exact ? 'with exact triangles' : 'at the device\'s sample points';
 }
 
 /** The configuration of a panel with this method and these settings; undefined if the panel has none. */
