@@ -282,6 +282,7 @@ void Renderer::State::set_frame(const FrameInput& input) {
       frame.input.whole = resampled(*whole, samples.x, samples.y);
     }
   }
+  frame.samples_per_pixel = plan.quality.supersampling;
   frame.background = background;
   visible_boxes.clear();
   for (const Place& place : places)

@@ -38,6 +38,9 @@ struct Frame {
   std::vector<FrameCamera> layers;  // for each layer of the scene
   /// Whether splats may be blended in the order of an earlier view.
   bool may_use_earlier_order = false;
+  /// With supersampling, samples per pixel along each axis; otherwise 1. Low passes of splats are
+  /// in pixels.
+  double samples_per_pixel = 1;
 };
 
 class Pass {

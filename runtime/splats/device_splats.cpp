@@ -184,6 +184,7 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   const glm::vec2 corner(whole.cx - camera.cx, whole.cy - camera.cy + camera.height);
   for (const char* name : {"whole_corner", "sample_corner"}) program.set(name, corner);
   program.set("near", static_cast<float>(in_layer.range.near));
+  program.set("pixel_area", static_cast<float>(frame.samples_per_pixel * frame.samples_per_pixel));
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));
 }
 

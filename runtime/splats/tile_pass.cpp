@@ -44,6 +44,7 @@ void TilePass::resize(const FrameTarget& target) {
 
 void TilePass::draw(const Frame& frame, FrameTarget& target) {
   std::vector<splatting::LayerInView> views;
+  const auto pixel_area = static_cast<float>(frame.samples_per_pixel * frame.samples_per_pixel);
   for (const TiledSplats* each : layers_) {
     const FrameCamera& camera = frame.layers[each->layer];
     if (!camera.visible) continue;
@@ -52,6 +53,9 @@ void TilePass::draw(const Frame& frame, FrameTarget& target) {
          splatting::image_view(camera.camera, camera.eye, camera.range.near, each->profile,
                                frame.input.whole.value_or(frame.input.camera)),
          camera.scale});
+    // In samples.
+    views.back().view.dilation *= pixel_area;
+    views.back().view.screen_variance *= pixel_area;
   }
   if (views.empty()) {
     std::fill(rgba_.begin(), rgba_.end(), 0.0f);

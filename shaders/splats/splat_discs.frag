@@ -8,6 +8,7 @@ flat in vec3 normal;
 #endif
 
 uniform float near;
+uniform float pixel_area;  // in samples
 #if AS_PUBLISHED
 flat in vec4 tiles;
 #include "splat_tiles.glsl"
@@ -34,7 +35,7 @@ void main() {
   // False for a plane that contains the ray.
   if (!(depth > near && squared < infinity)) squared = infinity;
 #if SCREEN_FILTER
-  float on_screen = dot(pixel, pixel) / SCREEN_VARIANCE;
+  float on_screen = dot(pixel, pixel) / (SCREEN_VARIANCE * pixel_area);
   if (on_screen < squared) {
     squared = on_screen;
     depth = plane_w.z;

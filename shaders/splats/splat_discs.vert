@@ -8,6 +8,7 @@
 uniform sampler2D colors, planes_xy, planes_w, places;
 uniform vec2 half_size;  // of the image, in pixels
 uniform float near;
+uniform float pixel_area;  // in samples
 
 flat out vec4 color;
 flat out vec4 plane_xy;
@@ -59,7 +60,7 @@ void main() {
     // One pixel more, for rounding.
     vec2 margin = vec2(1.0);
 #if SCREEN_FILTER
-    float screen = radius * sqrt(SCREEN_VARIANCE) + 1.0;
+    float screen = radius * sqrt(SCREEN_VARIANCE * pixel_area) + 1.0;
     low = origin.xy + min(vec2(x.x, y.x) - margin, -screen);
     high = origin.xy + max(vec2(x.y, y.y) + margin, screen);
 #else

@@ -1,5 +1,6 @@
 // EWA splatting of a Gaussian: its covariance in the image by the affine approximation of the
 // projection at its centre.
+uniform float pixel_area;      // in samples
 uniform vec2 focal;            // in pixels
 uniform vec2 principal_point;  // in pixels from the lower left corner of the image
 uniform vec4 slope_range;      // the smallest x/depth and y/depth of the approximation, the largest
@@ -44,7 +45,7 @@ float project(uint splat, out vec3 from_eye) {
   vec3 normal = cross(x, y);
   float determinant = dot(normal, normal);
 #if DILATION
-  float before = determinant, variance = DILATION_VARIANCE / unit / unit;
+  float before = determinant, variance = DILATION_VARIANCE * pixel_area / unit / unit;
   determinant += variance * (xx + yy + variance);
   xx += variance;
   yy += variance;
