@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -13,6 +14,7 @@
 #include "tests/cli/photographs_fixture.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/random_splats.hpp"
 
 namespace tureen {
 namespace tradeoff_program_test {
@@ -165,6 +167,36 @@ TEST_F(Tradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
                 fine["e_render"]["psnr_db"].get<double>() -
                     antialiased(json, {})["e_render"]["psnr_db"].get<double>());
     }
+}
+
+/// The choice has the exact order if only that is good enough; the scene that is written has it,
+/// too.
+TEST_F(Tradeoff, OfSplatsVariesTheirOrderAndNumber) {
+  Splats splats = test::random_splats(test::splat_kinds[0], 300, 0.3, 1);
+  auto& windows = std::get<TriangleWindows>(splats.kernel);
+  // A few are opaque in all but name.
+  std::fill_n(windows.sigma.begin(), 20, 0.01f);
+  std::fill_n(windows.opacity.begin(), 20, 0.99f);
+  tureen::write_scene(scene_of(std::move(splats)), folder / "soup.glb");
+  const ChildResult result =
+      tradeoff({"--json", "--reference", "exact", "--combinations", "0", "--least-psnr", "42",
+                "--most-mismatch", "1", "--write", "chosen.glb"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  std::vector<std::string> keys;
+  for (const auto& setting : json["drawing"]["knobs"]) keys.push_back(setting["key"]);
+  EXPECT_THAT(keys, testing::ElementsAre("splat_order", "splat_fraction", "opaque_windows"));
+  for (const auto& each : json["drawing"]["configurations"]) {
+    if (each["method"] != "tureen") continue;
+    if (each["name"] == "exact order") {
+      EXPECT_GE(each["e_render"]["psnr_db"], 45);
+    } else {
+      EXPECT_LT(each["e_render"]["psnr_db"], 40) << each["name"];
+    }
+  }
+  EXPECT_EQ(json["choice"]["name"], "exact order");
+  EXPECT_EQ(tureen::read_scene(folder / "chosen.glb").quality.splat_order,
+            Quality::SplatOrder::exact);
 }
 
 TEST_F(Tradeoff, NeverOverwritesSilently) {
