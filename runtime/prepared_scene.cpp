@@ -98,8 +98,7 @@ void add_splats(PreparedScene& prepared, std::span<const PlacedLayer> layers,
           splatting::layer_data(*splats, plan.profile, plan.drawn, plan.harmonics_degree);
     } else {
       // On hardware, the gain is not measured.
-      if (limits.software &&
-          preferences.quality.splat_order != Quality::SplatOrder::stochastic &&
+      if (limits.software && preferences.quality.splat_order != Quality::SplatOrder::stochastic &&
           preferences.specialise && preferences.specialisations.has(Specialisation::hidden_splats))
         plan.applied.push_back({Specialisation::hidden_splats, 0, 0, 0.5});
       prepared_layer.splats = prepare_splats(*splats, plan, layout);
