@@ -1,5 +1,6 @@
 // `tureen-view`: the window. `tureen view` starts it.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -39,7 +40,7 @@ extern "C" void note_interrupt(int) { was_interrupted = 1; }
 struct Arguments {
   std::vector<std::string> paths;
   std::string api = "gl", size, replay, record, images, training;
-  std::string pipeline = "auto", profile;
+  std::string pipeline = "auto", profile, blend = "auto";
   bool as_published = false;
   bool no_specialise = false, no_settings = false, report = false;
 };
@@ -72,6 +73,14 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
                   "log of a run of tureen train to follow: curves, pause, stop and keep; SCENE is "
                   "its OUT.watch.glb")
       ->option_text("OUT.jsonl");
+  program
+      .add_option(
+          "--blend", arguments.blend,
+          "what blends splats: raster (the device), tiles (the processor), or auto (default: "
+          "tiles on software OpenGL, but not with --as-published)")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(splat_blending_names.begin(), splat_blending_names.end())))
+      ->option_text("NAME");
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
@@ -147,6 +156,9 @@ int run(const Arguments& arguments) {
   if (arguments.pipeline != "auto") options.drawing.pipeline = PipelineKind::baseline;
   options.drawing.plan.specialise = !arguments.no_specialise;
   options.drawing.plan.as_published = arguments.as_published;
+  options.drawing.plan.splat_blending = SplatBlending(
+      std::find(splat_blending_names.begin(), splat_blending_names.end(), arguments.blend) -
+      splat_blending_names.begin());
   options.drawing.plan.splat_profile = profile_named(arguments.profile);
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on stored settings.

@@ -22,6 +22,9 @@ void add_choice(std::string& command, const DrawingChoice& choice, const Scene& 
   if (choice.plan.splat_profile)
     command += " --profile " + std::string(name_of(*choice.plan.splat_profile));
   if (choice.plan.as_published) command += " --as-published";
+  if (choice.plan.splat_blending != SplatBlending::automatic)
+    command +=
+        fmt::format(" --blend {}", splat_blending_names[std::size_t(choice.plan.splat_blending)]);
   std::string kept;
   for (const SpecialisationName& entry : specialisation_names())
     if (!choice.plan.specialisations.has(entry.what))

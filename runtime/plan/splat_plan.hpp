@@ -1,6 +1,7 @@
 // The plan of one layer of splats.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,6 +27,8 @@ enum class SplatBlending {
   raster,     // the device's rasteriser
   tiles,      // the processor's vectors, tile by tile (splatting/)
 };
+/// In options, in the order of the enumeration.
+inline constexpr std::array<const char*, 3> splat_blending_names{"auto", "raster", "tiles"};
 
 /// The texture in which splats are blended by raster.
 enum class SplatFormat {

@@ -25,9 +25,9 @@ if (!out || !scene) {
   process.exit(2);
 }
 
-const [width, height] = quick ? [160, 90] : [1280, 720], rounds = quick ? 1 : 3;
+const [width, height] = quick ? [160, 90] : [1280, 720], rounds = quick ? 1 : 2;
 /** Of one view in one round. Slow viewers draw fewer frames. */
-const motion = quick ? { frames: 2, minFrames: 1, maxMs: 1 } : { frames: 8, minFrames: 3, maxMs: 4000 };
+const motion = quick ? { frames: 2, minFrames: 1, maxMs: 1 } : { frames: 8, minFrames: 3, maxMs: 3000 };
 /** Time limit of a step in the page, ms. */
 const patience = 180_000;
 /** A busy machine must neither lose the context nor slow down timers. */

@@ -115,9 +115,11 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""), Not(HasSubstr("--supersample")));
   choice.plan.splat_profile = profile_named("mip");
   choice.plan.as_published = true;
+  choice.plan.splat_blending = SplatBlending::raster;
   choice.quality = Quality{};
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
-              AllOf(HasSubstr("--supersample 1"), HasSubstr("--profile mip --as-published")));
+              AllOf(HasSubstr("--supersample 1"),
+                    HasSubstr("--profile mip --as-published --blend raster")));
 }
 
 }  // namespace render_command_test

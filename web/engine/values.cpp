@@ -78,9 +78,8 @@ DeviceLimits limits_of(const Json& value) {
 }
 
 SplatBlending blending_of(const Json& name) {
-  if (name == "auto") return SplatBlending::automatic;
-  if (name == "raster") return SplatBlending::raster;
-  if (name == "tiles") return SplatBlending::tiles;
+  for (std::size_t i = 0; i < splat_blending_names.size(); ++i)
+    if (name == splat_blending_names[i]) return SplatBlending(i);
   throw UsageError("splats are blended by \"auto\", \"raster\" or \"tiles\", not " + name.dump());
 }
 
