@@ -48,21 +48,26 @@ bool has_nan(const Splats& splats, std::size_t i) {
 
 }  // namespace
 
+std::vector<std::uint32_t> without_nan(const Splats& splats, std::span<const std::uint32_t> which) {
+  std::vector<std::uint32_t> result;
+  std::copy_if(which.begin(), which.end(), std::back_inserter(result),
+               [&](std::uint32_t i) { return !has_nan(splats, i); });
+  return result;
+}
+
 LayerData layer_data(const Splats& splats, const SplatProfile& profile,
                      std::span<const std::uint32_t> which, int degree) {
   assert(has_layer_for(splats));
-  std::vector<std::uint32_t> without_nan;
-  std::copy_if(which.begin(), which.end(), std::back_inserter(without_nan),
-               [&](std::uint32_t i) { return !has_nan(splats, i); });
+  const std::vector<std::uint32_t> kept = without_nan(splats, which);
   const SplatColor& color = splats.color;
   if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
     return {color.per_corner ? LayerKind::corner_color_windows : LayerKind::windows, degree,
-            rows_of(*windows, color, without_nan, degree)};
+            rows_of(*windows, color, kept, degree)};
   if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
-    return {LayerKind::densities, degree, rows_of(*densities, color, without_nan, degree)};
+    return {LayerKind::densities, degree, rows_of(*densities, color, kept, degree)};
   const bool on_plane = profile.projection == SplatProfile::Projection::plane;
   return {on_plane ? LayerKind::discs : LayerKind::gaussians, degree,
-          rows_of(std::get<Gaussians>(splats.kernel), color, without_nan, degree)};
+          rows_of(std::get<Gaussians>(splats.kernel), color, kept, degree)};
 }
 
 std::unique_ptr<Layer> make_layer(LayerData data) {

@@ -14,10 +14,11 @@ std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4&
                                          const std::function<void(double)>& progress) {
   std::vector<std::uint32_t> all(count(splats));
   std::iota(all.begin(), all.end(), 0u);
-  const std::unique_ptr<splatting::Layer> layer =
-      splatting::make_layer(splats, splats.profile, all, splats.color.degree);
+  const std::vector<std::uint32_t> drawn = splatting::without_nan(splats, all);
+  const std::unique_ptr<splatting::Layer> layer = splatting::make_layer(
+      splatting::layer_data(splats, splats.profile, drawn, splats.color.degree));
   splatting::TileRenderer renderer({});
-  std::vector<double> weights(all.size());
+  std::vector<double> weights(drawn.size());
   const PlacedBounds placed{bounds(splats), world_from_layer};
   for (std::size_t i = 0; i < views.size(); ++i) {
     const ClipRange range = clip_range({&placed, 1}, views[i], DepthStorage::reversed_float);
@@ -29,8 +30,9 @@ std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4&
                          weights);
     if (progress) progress(double(i + 1) / double(views.size()));
   }
-  std::vector<std::uint64_t> result;
-  for (const double weight : weights) result.push_back(std::uint64_t(std::llround(1e6 * weight)));
+  std::vector<std::uint64_t> result(all.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    result[drawn[i]] = std::uint64_t(std::llround(1e6 * weights[i]));
   return result;
 }
 
