@@ -49,8 +49,8 @@ void project_gaussians(const ImageView& view, const ParameterRows& gaussians, in
 void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
                      std::span<const std::uint32_t> tile, TilePixels& pixels);
 
-/// What the depth of a Gaussian's largest density along a ray depends on, in view coordinates: the
-/// unit axes, each times the smallest scale over its own, and the centre.
+/// A Gaussian in view coordinates, for the depth at which a ray meets its largest density: the
+/// unit axes, each times the smallest scale over its own, and the centre, in layer units.
 struct GaussianPeak {
   float axes[9], center[3];
 };

@@ -83,8 +83,8 @@ bool has_layer_for(const Splats& splats);
 /// Those of the splats with these indices that have no NaN.
 std::vector<std::uint32_t> without_nan(const Splats& splats, std::span<const std::uint32_t> which);
 
-/// A copy of the splats without_nan(), with harmonics up to `degree`, for
-/// views of this profile. The splats fulfil has_layer_for().
+/// A copy of the splats with these indices, without those that have a NaN, for views of this
+/// profile. Harmonics up to `degree` are copied. The splats fulfil has_layer_for().
 LayerData layer_data(const Splats& splats, const SplatProfile& profile,
                      std::span<const std::uint32_t> which, int degree);
 

@@ -1,5 +1,5 @@
-// What stochastic splats need besides what blended ones do: the depth test keeps the splat with the
-// nearest centre.
+// Vertices of stochastic splats: the depth of a splat is that of its centre, so the depth test keeps
+// the splat with the nearest centre.
 #if OUTPUT == OUTPUT_SAMPLE
 uniform float nearest;         // the near plane
 uniform vec2 ndc_from_stored;  // factor and summand
