@@ -17,6 +17,7 @@
 #include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
+#include "scene/edit/splat_limit.hpp"
 
 namespace tureen {
 
@@ -214,6 +215,7 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   const Candidate candidate = candidate_at(path, head);
   const Format& format = format_to_read(candidate);
   Scene scene = format.read(path, options);
+  if (options.max_splats) limit_splats(scene, *options.max_splats);
 
   const std::string extension = extension_of(path);
   const auto promises = [&](const Format& other) {

@@ -28,6 +28,7 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "soft_triangles_opaque",
     "soft_triangles_dropped",
     "splats_dropped",
+    "splats_limited",
     "splat_colors_linear",
     "profile_assumed",
     "render_mode_unknown",
@@ -139,6 +140,9 @@ std::string sentence_of(const Remark& remark) {
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) + " splats " +
              (counts[0] == 1 ? "has" : "have") +
              " a value that is not finite or outside its range: dropped";
+    case Kind::splats_limited:
+      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
+             " splats were read: those with the largest opacity times area";
     case Kind::splat_colors_linear:
       return "the splats were trained and are blended in linear light; they are drawn as if their "
              "colours were display-referred, and look different";

@@ -32,6 +32,7 @@ struct Remark {
     soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
     // Splats.
     splats_dropped,            // counts: dropped, all
+    splats_limited,            // counts: kept, all
     splat_colors_linear,       // in linear light, which SplatColor does not hold
     profile_assumed,           // names: the profile
     render_mode_unknown,       // names: the mode that the file asks for, the profile that is used

@@ -319,6 +319,16 @@ std::size_t byte_size(const Splats& splats) {
          vector_bytes(densities.rotations) + vector_bytes(densities.networks);
 }
 
+std::size_t bytes_per_splat(const SplatKernel& kernel, int degree) {
+  constexpr std::size_t ellipsoid = 2 * sizeof(glm::vec3) + sizeof(glm::quat);
+  const std::size_t shape = std::holds_alternative<TriangleWindows>(kernel)
+                                ? 3 * sizeof(glm::vec3) + 2 * sizeof(float)
+                            : std::holds_alternative<Gaussians>(kernel)
+                                ? ellipsoid + sizeof(float)
+                                : ellipsoid + NeuralDensities::parameters * sizeof(float);
+  return shape + std::size_t(harmonics::count(degree)) * sizeof(glm::vec3);
+}
+
 std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>& keeps) {
   auto& [corners, sigma, opacity] = std::get<TriangleWindows>(splats.kernel);
   std::vector<glm::vec3>& coefficients = splats.color.coefficients;

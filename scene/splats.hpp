@@ -176,6 +176,8 @@ Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which,
 
 /// Bytes in the vectors.
 std::size_t byte_size(const Splats& splats);
+/// Bytes of one splat with this kernel and one colour of this degree.
+std::size_t bytes_per_splat(const SplatKernel& kernel, int degree);
 
 /// Removes the windows for which `keeps` returns false, and their colours. It is called once for
 /// each window, in order, before that window moves. Returns the number that remain.

@@ -35,6 +35,7 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
   ReadOptions options;
   options.vertex_colors = choice.vertex_colors;
   options.octagon_q = choice.octagon_q;
+  options.max_splats = choice.max_splats;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
   if (!choice.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));
@@ -63,6 +64,11 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
           "and 21.1075")
       .value_name("Q")
       .check(between(0.001, 1000.0));
+  command
+      .add_option("--max-splats", choice.max_splats,
+                  "read at most N splats of each scene, those with the largest opacity times area")
+      .value_name("N")
+      .check(between(1.0, 4294967295.0));
   std::vector<std::string> names;
   std::string listed;
   for (const NamedProfile& each : named_profiles) {

@@ -1,6 +1,7 @@
 // One or several scenes named on the command line, read with progress.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,13 +18,14 @@ struct ReadingChoice {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
   std::string up;            // empty: the scene's own; of several scenes, the first's
   std::string_view profile;  // of named_profiles, for all splats; empty: the scene's own
-  std::optional<double> octagon_q = {};  // ReadOptions::octagon_q
+  std::optional<double> octagon_q = {};          // ReadOptions::octagon_q
+  std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
 
   bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds --vertex-colors, --up, --octagon-q and --profile. `choice` must live until the arguments
-/// are parsed.
+/// Adds --vertex-colors, --up, --octagon-q, --profile and --max-splats. `choice` must live until
+/// the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
 
 struct SceneArgument {

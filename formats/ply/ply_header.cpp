@@ -27,7 +27,8 @@ constexpr TypeName type_names[] = {
 
 class HeaderReader {
  public:
-  explicit HeaderReader(Input& input) : input_(input) {
+  /// `whole`: whether `input` is the whole file, so that the elements must fit into it.
+  HeaderReader(Input& input, bool whole) : input_(input), whole_(whole) {
     std::vector<char> bytes(
         static_cast<std::size_t>(std::min<std::uint64_t>(input.size(), max_header)));
     input_.seek(0);
@@ -61,7 +62,7 @@ class HeaderReader {
     expect_words(1, "end_header");
     header_.body = next_;
     header_.body_line = line_ + 1;
-    check_sizes();
+    if (whole_) check_sizes();
     return std::move(header_);
   }
 
@@ -186,6 +187,7 @@ class HeaderReader {
   }
 
   Input& input_;
+  bool whole_;
   std::string text_;
   std::string line_break_ = "\n";
   std::size_t next_ = 0;
@@ -221,6 +223,18 @@ bool is_ply(std::span<const std::byte> head) {
          (head[3] == std::byte('\n') || head[3] == std::byte('\r'));
 }
 
-PlyHeader read_ply_header(Input& input) { return HeaderReader(input).read(); }
+PlyHeader read_ply_header(Input& input) { return HeaderReader(input, true).read(); }
+
+std::optional<PlyHeader> read_ply_beginning(Input& input) {
+  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(input.size(), max_header)),
+                   ' ');
+  input.seek(0);
+  text.resize(input.read_some(std::as_writable_bytes(std::span(text))));
+  // Both line breaks end the line; with CR LF the body begins one byte later.
+  const std::size_t last = text.find("end_header");
+  const bool is_complete = last != std::string::npos && last + 12 <= text.size();
+  if (!is_complete && text.size() < max_header) return std::nullopt;
+  return HeaderReader(input, false).read();
+}
 
 }  // namespace tureen

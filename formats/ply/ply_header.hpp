@@ -63,4 +63,8 @@ bool is_ply(std::span<const std::byte> head);
 /// a header longer than 1 MiB, or elements that exceed the file.
 PlyHeader read_ply_header(Input& input);
 
+/// The same from the first bytes of a partial file, whose size is unknown: elements may exceed it.
+/// Returns nullopt until the header is complete. Throws InputError.
+std::optional<PlyHeader> read_ply_beginning(Input& input);
+
 }  // namespace tureen

@@ -55,7 +55,7 @@ float unpacked_coefficient(std::uint8_t byte) {
 class CompressedPlyReader {
  public:
   CompressedPlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
-      : input_(input), header_(header), values_(input, header, options) {}
+      : input_(input), header_(header), options_(options), values_(input, header, options) {}
 
   Scene read() {
     const PlyElement& vertex = *header_.find("vertex");
@@ -156,7 +156,7 @@ class CompressedPlyReader {
   Scene unpack(int degree, const SplatPlyProfile& profile) {
     const auto kind =
         profile.is_flat ? SplatBuilder::Kind::flat_gaussians : SplatBuilder::Kind::gaussians;
-    SplatBuilder builder(input_, kind, degree, packed_.size());
+    SplatBuilder builder(input_, options_, kind, degree, packed_.size());
     const auto rest = static_cast<std::size_t>(harmonics::count(degree) - 1);
     std::array<glm::vec3, harmonics::count(harmonics::max_degree)> coefficients;
     for (std::size_t i = 0; i < packed_.size(); ++i) {
@@ -201,6 +201,7 @@ class CompressedPlyReader {
 
   Input& input_;
   const PlyHeader& header_;
+  const ReadOptions& options_;
   PlyValues values_;
   std::vector<ChunkRanges> ranges_;
   std::vector<PackedSplat> packed_;

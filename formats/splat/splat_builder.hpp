@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "base/input.hpp"
+#include "formats/scene_file.hpp"
 #include "formats/splat/splat_values.hpp"
 #include "scene/scene.hpp"
 
@@ -17,9 +19,11 @@ class SplatBuilder {
  public:
   enum class Kind { gaussians, flat_gaussians, neural_densities };
 
-  /// Takes the memory of `count` splats from the input's budget. The caller has checked that the
-  /// input can hold them. Throws InputError for 2^32 splats or more.
-  SplatBuilder(Input& input, Kind kind, int degree, std::uint64_t count);
+  /// Takes the memory of `count` splats from the input's budget, of at most twice
+  /// ReadOptions::max_splats. The caller has checked that the input can hold them. Throws
+  /// InputError for 2^32 splats or more.
+  SplatBuilder(Input& input, const ReadOptions& options, Kind kind, int degree,
+               std::uint64_t count);
 
   /// Rounds the values to float and adds the splat. Drops it unless is_valid_splat() and
   /// unit_rotation() accept it. Drops neural densities also if a semi-axis is 0 or a network
@@ -33,8 +37,12 @@ class SplatBuilder {
   Scene finish(const SplatProfile& profile, const std::string& format);
 
  private:
+  /// Throws InputError, with a number of splats that would fit, if the budget does not hold them.
+  void require_memory(std::uint64_t held, std::size_t each, std::uint64_t all) const;
+
   Input& input_;
   Kind kind_;
+  std::optional<std::uint64_t> max_splats_;
   std::uint64_t added_ = 0, dropped_ = 0;
   Splats splats_;
 };

@@ -15,14 +15,14 @@ using SplatRow = std::array<double, splat_slot::count>;
 class SplatPlyReader {
  public:
   SplatPlyReader(Input& input, const PlyHeader& header, const ReadOptions& options)
-      : input_(input), header_(header), values_(input, header, options) {}
+      : input_(input), header_(header), options_(options), values_(input, header, options) {}
 
   Scene read() {
     const PlyElement& vertex = *header_.find("vertex");
     SplatPlyLayout layout = splat_ply_layout(input_, vertex);
     const SplatPlyProfile profile = splat_ply_profile(header_, layout.kind);
     if (profile.is_flat) layout.kind = SplatBuilder::Kind::flat_gaussians;
-    SplatBuilder builder(input_, layout.kind, layout.degree, vertex.count);
+    SplatBuilder builder(input_, options_, layout.kind, layout.degree, vertex.count);
     for (const PlyElement& element : header_.elements) {
       if (&element != &vertex) {
         values_.skip_rows(element);
@@ -96,6 +96,7 @@ class SplatPlyReader {
 
   Input& input_;
   const PlyHeader& header_;
+  const ReadOptions& options_;
   PlyValues values_;
   SplatRow row_{};
 };

@@ -13,8 +13,6 @@ namespace tureen {
 
 namespace {
 
-constexpr std::size_t splat_record_size = 32;
-
 /// 0 is b = 127.5, which no byte has: writers round it up to 128.
 double rotation_part(std::byte byte) { return std::to_integer<int>(byte) / 127.5 - 1.0; }
 
@@ -34,7 +32,8 @@ Scene read_splat_records(Input& input, const ReadOptions& options) {
     input.fail_at(input.size() / splat_record_size * splat_record_size,
                   "a .splat file has records of 32 bytes, but its last one has " +
                       std::to_string(input.size() % splat_record_size));
-  SplatBuilder builder(input, SplatBuilder::Kind::gaussians, 0, input.size() / splat_record_size);
+  SplatBuilder builder(input, options, SplatBuilder::Kind::gaussians, 0,
+                       input.size() / splat_record_size);
   ProgressMeter meter(options);
   std::array<std::byte, 256 * splat_record_size> block;
   input.seek(0);

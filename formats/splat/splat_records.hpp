@@ -5,6 +5,7 @@
 //   28..31        quaternion (w, x, y, z); a byte b is b / 127.5 - 1
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
 #include "base/input.hpp"
@@ -12,6 +13,8 @@
 #include "scene/scene.hpp"
 
 namespace tureen {
+
+inline constexpr std::size_t splat_record_size = 32;
 
 /// Whether the path is a file with the extension .splat whose size is a multiple of 32, and not 0.
 /// The content has no signature.

@@ -30,6 +30,14 @@ Camera camera(const JsonView& view) {
   return result;
 }
 
+bool is_visible(const JsonView& node) {
+  const auto extension = node["extensions"].find(glb_layout::visibility_extension);
+  const auto visible = extension ? extension->find("visible") : std::nullopt;
+  if (!visible) return true;
+  if (!visible->value().is_boolean()) visible->fail("expected true or false");
+  return visible->value().get<bool>();
+}
+
 }  // namespace
 
 JsonView tureen_extension_of(const GlbArrays& arrays) {
@@ -66,6 +74,18 @@ void read_info(const JsonView& extension, Scene& scene) {
 
 Layer read_layer_at_origin(const JsonView& extension) {
   return {.world_from_layer = at_origin(json_vector<3, double>(extension["origin"]))};
+}
+
+Layer read_layer_of_node(const JsonView& node) {
+  Layer layer;
+  if (const auto name = node.find("name")) layer.name = name->text();
+  const JsonView matrix = node["matrix"];
+  if (matrix.size() != 16) matrix.fail("expected 16 numbers");
+  for (int i = 0; i < 16; ++i)
+    layer.world_from_layer[i / 4][i % 4] = matrix.at(std::size_t(i)).number();
+  if (const auto reason = defect(layer)) matrix.fail(*reason);
+  layer.visible = is_visible(node);
+  return layer;
 }
 
 GeometryLayout geometry_layout(const GlbArrays& arrays, const JsonView& extension) {

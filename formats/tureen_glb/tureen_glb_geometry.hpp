@@ -21,6 +21,9 @@ void read_info(const JsonView& extension, Scene& scene);
 /// The layer of a file without has_layers(), at its origin and without primitives.
 Layer read_layer_at_origin(const JsonView& extension);
 
+/// The layer of a node, in a file with has_layers(), without primitives.
+Layer read_layer_of_node(const JsonView& node);
+
 /// Locations of a soup's vertices and triangles in an uncompressed file. `extension` is that of the
 /// root or of a layer.
 struct GeometryLayout {

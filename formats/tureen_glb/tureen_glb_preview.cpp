@@ -5,6 +5,7 @@
 
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
+#include "formats/tureen_glb/tureen_glb_splats.hpp"
 #include "image/srgb.hpp"
 
 namespace tureen {
@@ -82,29 +83,53 @@ Scene read_preview(GlbArrays& arrays, const JsonView& extension, const PreviewLa
   return scene;
 }
 
+/// The node of the only layer, if that has Gaussians or neural densities.
+std::optional<JsonView> node_with_splats(const GlbArrays& arrays, const JsonView& extension) {
+  if (!has_layers(extension) || extension["layers"].size() != 1) return std::nullopt;
+  const JsonView node = arrays.root()["nodes"].at(GlbArrays::index(extension["layers"].at(0)));
+  const auto count = node["extensions"][tureen_extension].find("splat_count");
+  return count && count->natural(GlbArrays::max_count) > 0 ? std::optional(node) : std::nullopt;
+}
+
+Scene read_splat_preview(GlbArrays& arrays, const JsonView& extension, const JsonView& node) {
+  Scene scene;
+  read_info(extension, scene);
+  Layer& layer = scene.layers.emplace_back(read_layer_of_node(node));
+  layer.primitives =
+      read_splats(arrays, node, node["extensions"][tureen_extension]["splat_count"], 0);
+  return scene;
+}
+
 /// Returns the size as tureen_glb_preview_size does. Reads the scene into `wanted`, unless that is
 /// null or `prefix` is too short.
-std::optional<std::uint64_t> preview(std::span<const std::byte> prefix, const std::string& name,
-                                     std::optional<Scene>* wanted) {
+std::optional<PreviewSize> preview(std::span<const std::byte> prefix, const std::string& name,
+                                   std::optional<Scene>* wanted) {
+  constexpr PreviewSize none;
   Input input = Input::memory(name, prefix);
   if (!is_glb(input))
-    return input.size() < sizeof(std::uint32_t) ? std::nullopt : std::optional<std::uint64_t>(0);
+    return input.size() < sizeof(std::uint32_t) ? std::nullopt : std::optional(none);
   const std::optional<GlbContainer> glb = read_glb_beginning(input);
   if (!glb) return std::nullopt;
-  if (!is_tureen_glb(*glb)) return 0;
+  if (!is_tureen_glb(*glb)) return none;
   GlbArrays arrays(input, *glb);
   const JsonView extension = tureen_extension_of(arrays);
+  if (const auto node = node_with_splats(arrays, extension)) {
+    const std::uint64_t size =
+        splats_end(arrays, *node, (*node)["extensions"][tureen_extension]["splat_count"], 0);
+    if (wanted && size <= prefix.size()) *wanted = read_splat_preview(arrays, extension, *node);
+    return PreviewSize{size, true};
+  }
   const std::optional<PreviewLayout> layout = preview_layout(arrays, extension);
-  if (!layout) return 0;
+  if (!layout) return none;
   if (wanted && layout->size() <= prefix.size())
     *wanted = read_preview(arrays, extension, *layout, prefix);
-  return layout->size();
+  return PreviewSize{layout->size(), false};
 }
 
 }  // namespace
 
-std::optional<std::uint64_t> tureen_glb_preview_size(std::span<const std::byte> prefix,
-                                                     const std::string& name) {
+std::optional<PreviewSize> tureen_glb_preview_size(std::span<const std::byte> prefix,
+                                                   const std::string& name) {
   return preview(prefix, name, nullptr);
 }
 

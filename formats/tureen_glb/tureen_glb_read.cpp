@@ -29,7 +29,8 @@ class Reader {
   Reader(Input& input, const GlbContainer& glb, const ReadOptions& options)
       : input_(input),
         arrays_(input, glb, options.progress),
-        extension_(tureen_extension_of(arrays_)) {}
+        extension_(tureen_extension_of(arrays_)),
+        found_splats_(options.found_splats) {}
 
   Scene scene() {
     Scene scene;
@@ -66,21 +67,27 @@ class Reader {
     if (layers.size() > max_layers)
       layers.fail("the file has " + std::to_string(layers.size()) + " layers; at most " +
                   std::to_string(max_layers) + " are supported");
+    const auto node = [&](std::size_t i) {
+      return arrays_.root()["nodes"].at(GlbArrays::index(layers.at(i)));
+    };
+    if (found_splats_) {
+      std::uint64_t splats = 0, bytes = 0;
+      for (std::size_t i = 0; i < layers.size(); ++i) {
+        const auto count = node(i)["extensions"][tureen_extension].find("splat_count");
+        if (!count) continue;
+        splats += count->natural(GlbArrays::max_count);
+        bytes += splat_bytes(arrays_, node(i), *count);
+      }
+      if (splats > 0) found_splats_(splats, bytes);
+    }
     for (std::size_t i = 0; i < layers.size(); ++i) {
       arrays_.begin_layer();
-      scene.layers.push_back(layer(arrays_.root()["nodes"].at(GlbArrays::index(layers.at(i)))));
+      scene.layers.push_back(layer(node(i)));
     }
   }
 
   Layer layer(const JsonView& node) {
-    Layer result;
-    if (const auto name = node.find("name")) result.name = name->text();
-    const JsonView matrix = node["matrix"];
-    if (matrix.size() != 16) matrix.fail("expected 16 numbers");
-    for (int i = 0; i < 16; ++i)
-      result.world_from_layer[i / 4][i % 4] = matrix.at(std::size_t(i)).number();
-    if (const auto reason = defect(result)) matrix.fail(*reason);
-    result.visible = is_visible(node);
+    Layer result = read_layer_of_node(node);
     const JsonView extension = node["extensions"][tureen_extension];
     if (extension.find("splat_count")) {
       result.primitives = read_splats(arrays_, node, extension["splat_count"]);
@@ -90,14 +97,6 @@ class Reader {
     tureen::read_geometry(arrays_, geometry_layout(arrays_, extension), soup);
     result.primitives = primitives(extension, std::move(soup));
     return result;
-  }
-
-  static bool is_visible(const JsonView& node) {
-    const auto extension = node["extensions"].find(layout::visibility_extension);
-    const auto visible = extension ? extension->find("visible") : std::nullopt;
-    if (!visible) return true;
-    if (!visible->value().is_boolean()) visible->fail("expected true or false");
-    return visible->value().get<bool>();
   }
 
   /// The appearance in `extension`, of the root or of a layer, for the given geometry.
@@ -424,6 +423,7 @@ class Reader {
   Input& input_;
   GlbArrays arrays_;
   JsonView extension_;
+  std::function<void(std::uint64_t, std::uint64_t)> found_splats_;
   std::uint64_t images_end_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "scene/spherical_harmonics.hpp"
 #include "scene/splats.hpp"
 
 namespace tureen {
@@ -40,8 +41,17 @@ std::string harmonics_attribute(int degree, int order);
 
 SplatProfile read_splat_profile(const JsonView& view);
 
-/// The splats of a layer, `node`, with `splat_count` from the layer's extension. They have no
-/// defect(). Throws InputError.
-Splats read_splats(GlbArrays& arrays, const JsonView& node, const JsonView& splat_count);
+/// The splats of a layer, `node`, with `splat_count` from the layer's extension. Harmonics above
+/// `max_degree` are not read. They have no defect(). Throws InputError.
+Splats read_splats(GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
+                   int max_degree = harmonics::max_degree);
+
+/// Bytes of the splats in memory; no array is read.
+std::uint64_t splat_bytes(const GlbArrays& arrays, const JsonView& node,
+                          const JsonView& splat_count);
+
+/// The number of leading bytes of the file that read_splats() needs.
+std::uint64_t splats_end(const GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
+                         int max_degree);
 
 }  // namespace tureen

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "formats/gltf/glb_arrays.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
@@ -9,99 +11,88 @@ namespace {
 
 namespace splat_layout = glb_layout;
 
-/// The JSON of a layer's splats.
+JsonView primitive_of(const GlbArrays& arrays, const JsonView& node) {
+  return arrays.root()["meshes"].at(GlbArrays::index(node["mesh"]))["primitives"].at(0);
+}
+
+/// TUREEN_splats of a primitive.
+JsonView ours_of(const JsonView& primitive) {
+  return primitive["extensions"][splat_layout::splatting_extension]["extensions"]
+                  [splat_layout::splats_extension];
+}
+
+/// Where a layer's splats are.
 struct SplatLayout {
+  JsonView ours;  // TUREEN_splats
+  std::size_t kernel;
   std::uint64_t splats = 0;
-  JsonView ours;        // TUREEN_splats
-  JsonView attributes;  // of the primitive; without splats not used
+  GlbArrays::Location centers = {}, scales = {}, rotations = {}, opacity = {}, networks = {};
+  std::vector<GlbArrays::Location> coefficients = {};  // one array each
+  bool is_neural() const { return kernel == 2; }
 };
 
+/// Locates every array before any is read: a false count fails before the memory is taken.
 SplatLayout splat_layout_of(const GlbArrays& arrays, const JsonView& node,
-                            const JsonView& splat_count) {
+                            const JsonView& splat_count, int max_degree) {
   const std::uint64_t splats = splat_count.natural(GlbArrays::max_count);
   if (splats == 0) {
     const JsonView ours = node["extensions"][tureen_extension]["splats"];
-    return {splats, ours, ours};
+    return {.ours = ours, .kernel = ours["kernel"].one_of(splat_layout::splat_kernels)};
   }
-  const JsonView primitive =
-      arrays.root()["meshes"].at(GlbArrays::index(node["mesh"]))["primitives"].at(0);
-  return {splats,
-          primitive["extensions"][splat_layout::splatting_extension]["extensions"]
-                   [splat_layout::splats_extension],
-          primitive["attributes"]};
+  const JsonView primitive = primitive_of(arrays, node), attributes = primitive["attributes"];
+  const JsonView ours = ours_of(primitive);
+  SplatLayout layout{
+      .ours = ours, .kernel = ours["kernel"].one_of(splat_layout::splat_kernels), .splats = splats};
+  const auto locate = [&](const std::string& key, const GlbArrays::Format& format) {
+    return arrays.location(attributes, key.c_str(), splats, format);
+  };
+  const std::string prefix = std::string(splat_layout::splatting_extension) + ":";
+  layout.centers = locate("POSITION", glb_formats::vec3_float);
+  layout.scales = locate(prefix + "SCALE", glb_formats::vec3_float);
+  layout.rotations = locate(prefix + "ROTATION", glb_formats::vec4_float);
+  if (layout.is_neural())
+    layout.networks = arrays.location(ours, "networks", NeuralDensities::parameters * splats,
+                                      glb_formats::scalar_float);
+  else
+    layout.opacity = locate(prefix + "OPACITY", glb_formats::scalar_float);
+  const int degree = std::min(int(ours["degree"].natural(harmonics::max_degree)), max_degree);
+  for (int l = 0; l <= degree; ++l)
+    for (int order = 0; order < 2 * l + 1; ++order)
+      layout.coefficients.push_back(locate(harmonics_attribute(l, order), glb_formats::vec3_float));
+  return layout;
 }
 
-class SplatReader {
- public:
-  SplatReader(GlbArrays& arrays, SplatLayout layout)
-      : arrays_(arrays), layout_(std::move(layout)) {}
-
-  Splats splats() {
-    Splats splats;
-    splats.profile = read_splat_profile(layout_.ours["profile"]);
-    splats.kernel = kernel();
-    splats.color.degree = int(layout_.ours["degree"].natural(harmonics::max_degree));
-    splats.color.coefficients = coefficients(splats.color.degree);
-    if (const auto reason = defect(splats)) layout_.ours.fail(*reason);
-    return splats;
+SplatKernel read_kernel(GlbArrays& arrays, const SplatLayout& layout) {
+  const auto read_ellipsoids = [&](auto& centers, auto& scales, auto& rotations) {
+    centers = arrays.read_at<glm::vec3>(layout.centers, "POSITION");
+    scales = arrays.read_at<glm::vec3>(layout.scales, "SCALE");
+    rotations = arrays.read_at<glm::quat>(layout.rotations, "ROTATION");
+  };
+  if (!layout.is_neural()) {
+    Gaussians gaussians;
+    gaussians.flat = layout.kernel == 1;
+    read_ellipsoids(gaussians.centers, gaussians.scales, gaussians.rotations);
+    gaussians.opacity = arrays.read_at<float>(layout.opacity, "OPACITY");
+    return gaussians;
   }
+  NeuralDensities densities;
+  read_ellipsoids(densities.centers, densities.semi_axes, densities.rotations);
+  densities.networks = arrays.read_at<float>(layout.networks, "networks");
+  densities.omega = layout.ours["omega"].number_float();
+  return densities;
+}
 
- private:
-  SplatKernel kernel() {
-    const std::size_t kernel = layout_.ours["kernel"].one_of(splat_layout::splat_kernels);
-    if (kernel < 2) {
-      Gaussians gaussians;
-      gaussians.flat = kernel == 1;
-      read_ellipsoids(gaussians.centers, gaussians.scales, gaussians.rotations);
-      gaussians.opacity = attribute<float>("OPACITY", glb_formats::scalar_float);
-      return gaussians;
-    }
-    NeuralDensities densities;
-    read_ellipsoids(densities.centers, densities.semi_axes, densities.rotations);
-    densities.networks =
-        arrays_.read<float>(layout_.ours, "networks", NeuralDensities::parameters * layout_.splats,
-                            glb_formats::scalar_float);
-    densities.omega = layout_.ours["omega"].number_float();
-    return densities;
+std::vector<glm::vec3> read_coefficients(GlbArrays& arrays, const SplatLayout& layout) {
+  const std::size_t stride = layout.coefficients.size();
+  arrays.take_memory(layout.splats * stride, sizeof(glm::vec3), "harmonics");
+  std::vector<glm::vec3> result(static_cast<std::size_t>(layout.splats) * stride);
+  for (std::size_t k = 0; k < stride; ++k) {
+    PassingMemory passing(arrays.budget());
+    const auto plane = arrays.read_at<glm::vec3>(layout.coefficients[k], "harmonics");
+    for (std::size_t i = 0; i < plane.size(); ++i) result[i * stride + k] = plane[i];
   }
-
-  void read_ellipsoids(std::vector<glm::vec3>& centers, std::vector<glm::vec3>& scales,
-                       std::vector<glm::quat>& rotations) {
-    if (layout_.splats == 0) return;
-    centers = arrays_.read<glm::vec3>(layout_.attributes, "POSITION", layout_.splats,
-                                      glb_formats::vec3_float);
-    scales = attribute<glm::vec3>("SCALE", glb_formats::vec3_float);
-    rotations = attribute<glm::quat>("ROTATION", glb_formats::vec4_float);
-  }
-
-  template <class T>
-  std::vector<T> attribute(const char* name, const GlbArrays::Format& format) {
-    if (layout_.splats == 0) return {};
-    const std::string key = std::string(splat_layout::splatting_extension) + ":" + name;
-    return arrays_.read<T>(layout_.attributes, key.c_str(), layout_.splats, format);
-  }
-
-  std::vector<glm::vec3> coefficients(int degree) {
-    if (layout_.splats == 0) return {};
-    // Every array is located first: a false count fails before the memory is taken.
-    std::vector<GlbArrays::Location> planes;
-    for (int l = 0; l <= degree; ++l)
-      for (int order = 0; order < 2 * l + 1; ++order)
-        planes.push_back(arrays_.location(layout_.attributes, harmonics_attribute(l, order).c_str(),
-                                          layout_.splats, glb_formats::vec3_float));
-    arrays_.take_memory(layout_.splats * planes.size(), sizeof(glm::vec3), "harmonics");
-    std::vector<glm::vec3> result(static_cast<std::size_t>(layout_.splats) * planes.size());
-    for (std::size_t k = 0; k < planes.size(); ++k) {
-      PassingMemory passing(arrays_.budget());
-      const auto plane = arrays_.read_at<glm::vec3>(planes[k], "harmonics");
-      for (std::size_t i = 0; i < plane.size(); ++i) result[i * planes.size() + k] = plane[i];
-    }
-    return result;
-  }
-
-  GlbArrays& arrays_;
-  SplatLayout layout_;
-};
+  return result;
+}
 
 }  // namespace
 
@@ -118,8 +109,36 @@ SplatProfile read_splat_profile(const JsonView& view) {
   return profile;
 }
 
-Splats read_splats(GlbArrays& arrays, const JsonView& node, const JsonView& splat_count) {
-  return SplatReader(arrays, splat_layout_of(arrays, node, splat_count)).splats();
+Splats read_splats(GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
+                   int max_degree) {
+  const SplatLayout layout = splat_layout_of(arrays, node, splat_count, max_degree);
+  Splats splats;
+  splats.profile = read_splat_profile(layout.ours["profile"]);
+  splats.kernel = read_kernel(arrays, layout);
+  splats.color.degree =
+      std::min(int(layout.ours["degree"].natural(harmonics::max_degree)), max_degree);
+  if (layout.splats > 0) splats.color.coefficients = read_coefficients(arrays, layout);
+  if (const auto reason = defect(splats)) layout.ours.fail(*reason);
+  return splats;
+}
+
+std::uint64_t splat_bytes(const GlbArrays& arrays, const JsonView& node,
+                          const JsonView& splat_count) {
+  const std::uint64_t splats = splat_count.natural(GlbArrays::max_count);
+  if (splats == 0) return 0;
+  const JsonView ours = ours_of(primitive_of(arrays, node));
+  const bool is_neural = ours["kernel"].one_of(splat_layout::splat_kernels) == 2;
+  const SplatKernel kernel = is_neural ? SplatKernel(NeuralDensities{}) : Gaussians{};
+  return splats * bytes_per_splat(kernel, int(ours["degree"].natural(harmonics::max_degree)));
+}
+
+std::uint64_t splats_end(const GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
+                         int max_degree) {
+  const SplatLayout layout = splat_layout_of(arrays, node, splat_count, max_degree);
+  std::uint64_t end = std::max({layout.centers.end(), layout.scales.end(), layout.rotations.end(),
+                                layout.opacity.end(), layout.networks.end()});
+  for (const GlbArrays::Location& plane : layout.coefficients) end = std::max(end, plane.end());
+  return end;
 }
 
 }  // namespace tureen

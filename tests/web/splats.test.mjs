@@ -5,25 +5,11 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { assertAlike } from './images.mjs';
+import { splatPly } from './splat_ply.mjs';
 import { stage } from './support.mjs';
 
-/** A splat PLY of `count` Gaussians in a ball. */
-function manyGaussians(count) {
-  const names = ['x', 'y', 'z', 'f_dc_0', 'f_dc_1', 'f_dc_2', 'opacity', 'scale_0', 'scale_1', 'scale_2',
-                 'rot_0', 'rot_1', 'rot_2', 'rot_3'];
-  const head = ['ply', 'format binary_little_endian 1.0', `element vertex ${count}`,
-                ...names.map((name) => `property float ${name}`), 'end_header', ''].join('\n');
-  const values = new Float32Array(names.length * count);
-  let state = 1;
-  const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 31 - 1;
-  for (let i = 0; i < count; ++i)
-    values.set([random(), random(), random(), 2 * random(), 2 * random(), 2 * random(), 1, -4, -4, -4, 1, 0, 0, 0],
-               names.length * i);
-  return Buffer.concat([Buffer.from(head), Buffer.from(values.buffer)]);
-}
-
 const ply = (count) => {
-  const scene = manyGaussians(count);
+  const scene = splatPly(count);
   return (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene);
 };
 // SplatPass sorts 100,000 and more beside the frames.

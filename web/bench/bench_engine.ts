@@ -148,9 +148,11 @@ export class BenchEngine {
   async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
     let added: AddedScene | null = null;
     const program = Promise.resolve(this.program), limits = Promise.resolve(this.device.limits);
-    const loading = new Loading(this.assets, program, limits, files);
+    // A benchmark measures all splats.
+    const loading = new Loading(this.assets, program, limits, files, Number.MAX_VALUE, null);
     const load = loading.run({
       progress: tell,
+      offer: ({ splats }) => Promise.resolve(splats),
       preview: () => {},
       scene: (scene) => {
         try {

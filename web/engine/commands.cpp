@@ -49,14 +49,14 @@ Commands all_commands() {
 }
 
 Json failure(const char* kind, const std::string& message) {
-  return {{"error", {{"kind", kind}, {"message", message}}}};
+  return object({{"error", object({{"kind", kind}, {"message", message}})}});
 }
 
 /// Converts every error to a value: JavaScript would get an exception only as a number.
 Json run(const std::string& name, const std::string& given) {
   static const Commands commands = all_commands();
   try {
-    return {{"result", commands.at(name)(Json::parse(given))}};
+    return object({{"result", commands.at(name)(Json::parse(given))}});
   } catch (const InputError& error) {
     return failure("input", error.without_hint());
   } catch (const UsageError& error) {

@@ -7,7 +7,7 @@
 
 #include "camera/up_axis.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/tureen_glb/tureen_glb_preview.hpp"
+#include "formats/scene_preview.hpp"
 #include "runtime/debug_views/debug_view.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/render_options.hpp"
@@ -50,10 +50,10 @@ Json debug_views_of(std::span<const PlacedLayer> layers) {
   Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not_all(name.what, layers);
-    list.push_back({{"name", name.name},
-                    {"title", name.title},
-                    {"meaning", name.meaning},
-                    {"missing", reason ? Json(*reason) : Json()}});
+    list.push_back(object({{"name", name.name},
+                           {"title", name.title},
+                           {"meaning", name.meaning},
+                           {"missing", reason ? Json(*reason) : Json()}}));
   }
   return list;
 }
@@ -104,19 +104,19 @@ Json describe(const Scene& scene) {
   for (const PlacedLayer& layer : layers) names.push_back(layer.name);
   Json cameras = Json::array();
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
-  return {{"name", scene.info.name},
-          {"source", scene.info.source},
-          {"notes", notes_of(scene)},
-          {"layer_names", names},
-          {"triangles", triangles},
-          {"splats", splats},
-          {"appearance", appearances_of(layers)},
-          {"cameras", cameras},
-          {"background", to_json(glm::dvec3(scene.info.background))},
-          {"subject", to_json(subject)},
-          {"up_reason", describe(up)},
-          {"debug_views", debug_views_of(layers)},
-          {"feature_count", features}};
+  return object({{"name", scene.info.name},
+                 {"source", scene.info.source},
+                 {"notes", notes_of(scene)},
+                 {"layer_names", names},
+                 {"triangles", triangles},
+                 {"splats", splats},
+                 {"appearance", appearances_of(layers)},
+                 {"cameras", cameras},
+                 {"background", to_json(glm::dvec3(scene.info.background))},
+                 {"subject", to_json(subject)},
+                 {"up_reason", describe(up)},
+                 {"debug_views", debug_views_of(layers)},
+                 {"feature_count", features}});
 }
 
 Json take(Scene scene) {
@@ -127,23 +127,55 @@ Json take(Scene scene) {
   return describe(*loader().scene);
 }
 
-/// {"folder", "paths"}: reads any scene from the file system of this instance.
+/// Ends read_scene() before the memory for the splats is taken.
+struct TooManySplats {
+  std::uint64_t splats, bytes;
+};
+
+/// Bytes in page and device for splats of `bytes` in memory: the scene and the data for the device
+/// in the loader, these data in the page, and on the device with the projected splats.
+double load_bytes(std::uint64_t splats, std::uint64_t bytes) {
+  constexpr double projected = 64;  // four texels of four floats each
+  return 4.0 * double(bytes) + projected * double(splats);
+}
+
+/// {"folder", "paths", "memory" or "max_splats"}: reads any scene from the file system of this
+/// instance. Returns its description, or {"offer": {"splats", "bytes", "fitting"}} if its splats
+/// need more than `memory`.
 Json read(const Json& arguments) {
-  ReadOptions options;
+  ReadOptions options = read_options(arguments);
   options.progress = report_progress;
-  return take(read_scene(scene_path(arguments), options));
+  if (!options.max_splats)
+    options.found_splats = [memory = arguments.at("memory").get<double>()](std::uint64_t splats,
+                                                                           std::uint64_t bytes) {
+      if (load_bytes(splats, bytes) > memory) throw TooManySplats{splats, bytes};
+    };
+  try {
+    return take(read_scene(scene_path(arguments), options));
+  } catch (const TooManySplats& many) {
+    const double bytes = load_bytes(many.splats, many.bytes);
+    const double fitting = arguments.at("memory").get<double>() / bytes * double(many.splats);
+    return object(
+        {{"offer", object({{"splats", many.splats},
+                           {"bytes", bytes},
+                           {"fitting", std::max<std::uint64_t>(1, std::uint64_t(fitting))}})}});
+  }
 }
 
-/// {"name"}; the buffer holds the first bytes of a file. Returns the number of bytes for a preview;
-/// 0 if the file has none, null if more bytes are needed to decide.
+/// {"name", "shown": number of bytes of the last preview}; the buffer holds the first bytes of a
+/// file. Returns {"size": number of bytes for a preview, 0 if there is no further one,
+/// "has_splats"}; null if more bytes are needed to decide.
 Json preview_size(const Json& arguments) {
-  const auto size = tureen_glb_preview_size(buffer(), arguments.at("name").get<std::string>());
-  return size ? Json(*size) : Json();
+  const auto next = tureen::preview_size(buffer(), arguments.at("name").get<std::string>(),
+                                         arguments.at("shown").get<std::uint64_t>());
+  if (!next) return nullptr;
+  return object({{"size", next->bytes}, {"has_splats", next->has_splats}});
 }
 
-/// {"name"}; the buffer holds the number of bytes from "preview_size".
+/// {"name"}; the buffer holds at least the number of bytes from "preview_size".
 Json preview(const Json& arguments) {
-  auto scene = read_tureen_glb_preview(buffer(), arguments.at("name").get<std::string>());
+  auto scene = read_preview(buffer(), arguments.at("name").get<std::string>());
+  buffer() = {};  // the splats need memory now
   return scene ? take(std::move(*scene)) : Json();
 }
 
@@ -176,8 +208,8 @@ Json prepare(const Json& arguments) {
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)
-    blobs.push_back(
-        {{"size", blob_size(*loader().prepared, i)}, {"grain", blob_grain(*loader().prepared, i)}});
+    blobs.push_back(object({{"size", blob_size(*loader().prepared, i)},
+                            {"grain", blob_grain(*loader().prepared, i)}}));
   return blobs;
 }
 

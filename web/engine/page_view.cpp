@@ -57,16 +57,27 @@ PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene) c
   if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
   controls.reset();
   controls.arrive();
-  return {{}, std::move(renderer), std::move(scene), controls, std::move(layers)};
+  const glm::dvec3 eye = controls.eye(), target = controls.target();
+  return {{}, std::move(renderer), std::move(scene), controls, std::move(layers), eye, target};
+}
+
+void PageView::keep_view(Stage& stage) const {
+  if (!preview_) return;
+  const CameraControls& before = preview_->controls;
+  if (before.eye() == preview_->first_eye && before.target() == preview_->first_target) return;
+  stage.controls = before;
+  stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
 }
 
 void PageView::show_preview(PreparedScene prepared, ShownScene scene) {
-  preview_.emplace(make_stage(std::move(prepared), std::move(scene)));
+  Stage stage = make_stage(std::move(prepared), std::move(scene));
+  keep_view(stage);
+  preview_.emplace(std::move(stage));
 }
 
 void PageView::show(PreparedScene prepared, ShownScene scene) {
   Stage stage = make_stage(std::move(prepared), std::move(scene));
-  if (preview_) stage.controls = preview_->controls;
+  keep_view(stage);
   drop_preview();
   drop_scene();
   stage_.emplace(std::move(stage));

@@ -37,8 +37,8 @@ class PageView {
   const gl::Capabilities& capabilities() const { return context_.capabilities(); }
   const gl::Context& context() const { return context_; }
 
-  /// Shows a preview instead of the scene, until it is dropped or the next scene arrives. The next
-  /// scene keeps the preview's view.
+  /// Shows a preview instead of the scene, until it is dropped or the next preview or scene
+  /// arrives. That keeps the preview's view if it was moved.
   void show_preview(PreparedScene prepared, ShownScene scene);
   void drop_preview() { preview_.reset(); }
   void show(PreparedScene prepared, ShownScene scene);
@@ -117,9 +117,13 @@ class PageView {
     ShownScene scene;
     CameraControls controls;
     std::vector<ShownLayer> layers;
+    glm::dvec3 first_eye, first_target;  // of the controls
   };
   void prepare_renderer(bool for_debug_views);
   Stage make_stage(PreparedScene prepared, ShownScene scene) const;
+  /// Keeps the view of the preview if it was moved. Otherwise the first view of `stage` stays: the
+  /// preview may show only a part of the scene.
+  void keep_view(Stage& stage) const;
   /// The scene, if it has this layer.
   Stage& stage_with(std::size_t layer);
   /// The same, but the colours must be shown.

@@ -1,7 +1,5 @@
 #include "web/engine/scene_path.hpp"
 
-#include "formats/scene_file.hpp"
-
 namespace tureen::web {
 
 std::filesystem::path scene_path(const Json& arguments) {
@@ -10,6 +8,13 @@ std::filesystem::path scene_path(const Json& arguments) {
   for (const Json& path : paths)
     if (is_scene(path.get<std::string>())) return path.get<std::string>();
   return paths.back().get<std::string>();
+}
+
+ReadOptions read_options(const Json& arguments) {
+  ReadOptions options;
+  if (const auto max = arguments.find("max_splats"); max != arguments.end())
+    options.max_splats = max->get<std::uint64_t>();
+  return options;
 }
 
 }  // namespace tureen::web

@@ -57,12 +57,12 @@ Json sort_task(const Json&) {
   ArchiveWriter centers;
   for (const SplatsInView& view : all.current->views) {
     layers.push_back(
-        {{"axis", to_json(view.axis)}, {"offset", view.offset}, {"behind", view.behind}});
+        object({{"axis", to_json(view.axis)}, {"offset", view.offset}, {"behind", view.behind}}));
     if (!all.sent_centers) centers(view.centers);
   }
   buffer() = centers.take();
   all.current->sent = all.sent_centers = true;
-  return {{"number", all.number}, {"layers", layers}};
+  return object({{"number", all.number}, {"layers", layers}});
 }
 
 /// number of the task: the buffer holds its order. Returns whether the task is current.

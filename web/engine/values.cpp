@@ -6,6 +6,12 @@
 
 namespace tureen::web {
 
+Json object(std::initializer_list<Member> members) {
+  Json result = Json::object();
+  for (const Member& member : members) result[member.key] = std::move(member.value);
+  return result;
+}
+
 Json to_json(const glm::dvec3& value) { return {value.x, value.y, value.z}; }
 
 glm::dvec3 vector_of(const Json& value) {
@@ -26,10 +32,10 @@ glm::dmat4 matrix_of(const Json& value) {
 }
 
 Json to_json(const Similarity& similarity) {
-  return {{"position", to_json(similarity.position)},
-          {"rotation", to_json(glm::radians(similarity.angles))},
-          {"scale", similarity.scale},
-          {"mirror", similarity.mirror}};
+  return object({{"position", to_json(similarity.position)},
+                 {"rotation", to_json(glm::radians(similarity.angles))},
+                 {"scale", similarity.scale},
+                 {"mirror", similarity.mirror}});
 }
 
 Similarity placement_of(const Json& value) {
@@ -42,10 +48,14 @@ Similarity placement_of(const Json& value) {
 }
 
 Json to_json(const Camera& camera) {
-  return {{"name", camera.name},     {"width", camera.width},
-          {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},         {"cx", camera.cx},
-          {"cy", camera.cy},         {"view_from_world", to_json(camera.view_from_world)}};
+  return object({{"name", camera.name},
+                 {"width", camera.width},
+                 {"height", camera.height},
+                 {"fx", camera.fx},
+                 {"fy", camera.fy},
+                 {"cx", camera.cx},
+                 {"cy", camera.cy},
+                 {"view_from_world", to_json(camera.view_from_world)}});
 }
 
 Camera camera_of(const Json& value) {
@@ -62,11 +72,11 @@ Camera camera_of(const Json& value) {
 }
 
 Json to_json(const DeviceLimits& limits) {
-  return {{"max_texture_size", limits.max_texture_size},
-          {"max_array_layers", limits.max_array_layers},
-          {"clip_control", limits.clip_control},
-          {"compute_shaders", limits.compute_shaders},
-          {"software", limits.software}};
+  return object({{"max_texture_size", limits.max_texture_size},
+                 {"max_array_layers", limits.max_array_layers},
+                 {"clip_control", limits.clip_control},
+                 {"compute_shaders", limits.compute_shaders},
+                 {"software", limits.software}});
 }
 
 DeviceLimits limits_of(const Json& value) {

@@ -5,6 +5,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "camera/navigation.hpp"
@@ -15,6 +16,15 @@
 namespace tureen::web {
 
 using Json = nlohmann::json;
+
+/// A key and a value of object().
+struct Member {
+  const char* key;
+  mutable Json value;  // moved from: initialiser lists are constant
+};
+
+/// A JSON object. The initialiser lists of nlohmann::json need several times the code.
+Json object(std::initializer_list<Member> members);
 
 Json to_json(const glm::dvec3& value);
 glm::dvec3 vector_of(const Json& value);

@@ -31,11 +31,11 @@ Json start(const Json& options) {
   const gl::Capabilities& device = view().capabilities();
   Json limits = to_json(device_limits(device));
   limits["blend"] = blend;
-  return {{"renderer", device.renderer},
-          {"vendor", device.vendor},
-          {"gl_version", device.version},
-          {"limits", limits},
-          {"max_image_side", device.max_image_side}};
+  return object({{"renderer", device.renderer},
+                 {"vendor", device.vendor},
+                 {"gl_version", device.version},
+                 {"limits", limits},
+                 {"max_image_side", device.max_image_side}});
 }
 
 // -- scenes -------------------------------------------------------------------------------------
@@ -49,12 +49,12 @@ ShownScene scene_of(const Json& scene) {
 Json layers() {
   Json list = Json::array();
   for (const auto& [box, visible, triangles, splats, device_bytes] : view().layers())
-    list.push_back({{"triangles", triangles},
-                    {"splats", splats},
-                    {"visible", visible},
-                    {"transform", to_json(box.world_from_layer)},
-                    {"placement", to_json(similarity_of(box.world_from_layer))},
-                    {"device_bytes", device_bytes}});
+    list.push_back(object({{"triangles", triangles},
+                           {"splats", splats},
+                           {"visible", visible},
+                           {"transform", to_json(box.world_from_layer)},
+                           {"placement", to_json(similarity_of(box.world_from_layer))},
+                           {"device_bytes", device_bytes}}));
   return list;
 }
 
@@ -64,10 +64,10 @@ Json facts() {
     const auto* soup = std::get_if<SoupPlan>(&layer);
     drawn += soup ? soup->faces.size() : std::get<SplatPlan>(layer).drawn.size();
   }
-  return {{"plan", describe(view().renderer().plan())},
-          {"drawn", drawn},
-          {"device_bytes", view().renderer().device_bytes()},
-          {"layers", layers()}};
+  return object({{"plan", describe(view().renderer().plan())},
+                 {"drawn", drawn},
+                 {"device_bytes", view().renderer().device_bytes()},
+                 {"layers", layers()}});
 }
 
 /// {"scene": result of "read", "role": "preview" or "scene"}
@@ -135,11 +135,11 @@ constexpr int any_side = 1000;
 Json pose() {
   const Camera camera = controls().camera(any_side, any_side);
   const ViewState state = state_of(camera, controls().up(), controls().distance());
-  return {{"eye", to_json(camera.eye())},
-          {"target", to_json(state.target)},
-          {"up", to_json(state.up)},
-          {"fov", controls().fov()},
-          {"roll", state.roll}};
+  return object({{"eye", to_json(camera.eye())},
+                 {"target", to_json(state.target)},
+                 {"up", to_json(state.up)},
+                 {"fov", controls().fov()},
+                 {"roll", state.roll}});
 }
 
 bool is_angle(double fov) { return fov > 0 && fov < std::numbers::pi; }
@@ -278,11 +278,12 @@ std::vector<Scene>& reread() {
   return scenes;
 }
 
-/// {"folder", "paths", "level"?: maximum lattice level, "source": number of the source}: reads a
-/// source again, for debug views that need more data than the renderer has. Source 0 is the first.
+/// {"folder", "paths", "level"?: maximum lattice level, "max_splats"?, "source": number of the
+/// source}: reads a source again, for debug views that need more data than the renderer has. Source
+/// 0 is the first.
 Json read_for_debug_views(const Json& arguments) {
   if (arguments.at("source") == 0) reread().clear();
-  Scene scene = read_scene(scene_path(arguments));
+  Scene scene = read_scene(scene_path(arguments), read_options(arguments));
   if (const auto level = arguments.find("level"); level != arguments.end()) {
     for (Layer& layer : scene.layers) {
       auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
@@ -318,7 +319,8 @@ Json show_debug_view(const Json& arguments) {
 Json legend(const Json&) {
   Json entries = Json::array();
   for (const LegendEntry& entry : view().legend())
-    entries.push_back({{"color", to_json(glm::dvec3(entry.color) / 255.0)}, {"text", entry.text}});
+    entries.push_back(
+        object({{"color", to_json(glm::dvec3(entry.color) / 255.0)}, {"text", entry.text}}));
   return entries;
 }
 

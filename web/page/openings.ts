@@ -158,7 +158,7 @@ export class Openings {
     // The preview already has this view, and the user may move it before the whole scene arrives.
     let looked = false;
     const forget = this.viewer.on('preview', () => {
-      this.lookFrom(view);
+      if (!looked) this.lookFrom(view);
       looked = true;
     });
     const loaded: Promise<SceneSummary | null> = this.loading.load(first.source);

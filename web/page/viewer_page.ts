@@ -23,6 +23,7 @@ import { SceneSection } from './sections/scene.js';
 import { TimesSection } from './sections/times.js';
 import { ViewsSection } from './sections/views.js';
 import { Shortcuts } from './shortcuts.js';
+import { chooseSplats } from './splat_choice.js';
 import { Start } from './start.js';
 
 export interface ViewerPageOptions {
@@ -165,7 +166,7 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
     const expected = wanted[0] ? fetchable(wanted[0]) : options.scene;
     const blend = bar.blend();
     viewer = await createViewer(byId('canvas', HTMLCanvasElement), {
-      ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
+      chooseSplats, ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
     });
   } catch (error) {
     return explain(error);

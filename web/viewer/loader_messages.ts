@@ -1,7 +1,7 @@
 // Messages between the page and its workers: one loads a scene, another sorts splats.
 
 import type { Parcel } from './engine.js';
-import type { LoadProgress, DebugViewChoice, SceneFile, Vec3, ViewerError } from './types.js';
+import type { LoadProgress, DebugViewChoice, SceneFile, SplatOffer, Vec3, ViewerError } from './types.js';
 
 export interface FilesToLoad {
   readonly files: readonly SceneFile[];
@@ -52,14 +52,27 @@ export interface PreparedLayer {
 export type LoadRole = 'scene' | 'layers';
 
 export type ToLoader =
-  | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad; readonly role: LoadRole }
+  | LoadMessage
   /** Sent when the device is available; preparing depends on its limits. */
   | { readonly kind: 'limits'; readonly limits: unknown }
   /** The device's memory is too small: prepare the scene with a lower lattice level. */
   | { readonly kind: 'lower'; readonly why: string }
   /** Prepare the next layer: the page holds no more than one at a time. */
   | { readonly kind: 'next' }
+  /** The answer to an offer: the number of splats to read. */
+  | { readonly kind: 'splats'; readonly number: number }
   | SortMessage;
+
+export interface LoadMessage {
+  readonly kind: 'load';
+  readonly program: WebAssembly.Module;
+  readonly source: SourceToLoad;
+  readonly role: LoadRole;
+  /** As SplatOffer.memory. */
+  readonly memory: number;
+  /** Reads at most this number of splats; null: makes an offer if they need more memory. */
+  readonly maxSplats: number | null;
+}
 
 /** A task for a worker that sorts splats, and does nothing else (splat_sorting.ts). */
 export interface SortMessage {
@@ -79,6 +92,8 @@ export interface SortTask {
 export type FromLoader =
   | { readonly kind: 'progress'; readonly progress: LoadProgress }
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
+  /** The loader waits for the answer, 'splats'. */
+  | { readonly kind: 'offer'; readonly offer: SplatOffer }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
   | { readonly kind: 'sorted'; readonly number: number; readonly order: Uint8Array<ArrayBuffer> }

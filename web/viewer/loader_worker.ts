@@ -5,11 +5,11 @@
 import { download } from './download.js';
 import { Engine, type Parcel } from './engine.js';
 import type {
-  FilesToLoad, FromLoader, LoadRole, PreparedScene, SceneDescription, SortMessage, SourceToLoad, ToLoader,
+  FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, ToLoader,
 } from './loader_messages.js';
 import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
-import { ViewerError, type LoadStage } from './types.js';
+import { ViewerError, type LoadStage, type SplatOffer } from './types.js';
 
 /** Maximum size of a blob's part in the engine's memory. */
 const blockBytes = 1 << 20;
@@ -30,18 +30,34 @@ class Loader {
   private forecasts: readonly number[] = [];  // of added layers
   private nextLayer = 0;
 
-  constructor(private readonly engine: Engine, private readonly limits: Promise<unknown>, private readonly from: 'files' | 'url',
-              private readonly role: LoadRole) {}
+  private readonly from: 'files' | 'url';
 
-  async load(source: SourceToLoad): Promise<void> {
+  constructor(private readonly engine: Engine, private readonly limits: Promise<unknown>,
+              private readonly chosen: Promise<number>, private readonly message: LoadMessage) {
+    this.from = 'url' in message.source ? 'url' : 'files';
+  }
+
+  async load(): Promise<void> {
+    const { source } = this.message;
     const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
     this.engine.onProgress = (fraction) => this.tell('read', fraction);
     const begin = performance.now();
-    this.description = readWith<SceneDescription>(this.engine, 'read', files);
+    this.description = await this.read(files);
     this.readMs = performance.now() - begin;
-    if (this.role === 'scene') return this.send();
+    if (this.message.role === 'scene') return this.send();
     this.forecasts = this.engine.call<number[]>('forecast', { limits: await this.limits });
     await this.sendLayer();
+  }
+
+  /** Reads the scene, or a part of its splats if the memory does not hold all. */
+  private async read(files: OpenedFiles): Promise<SceneDescription> {
+    const { memory, maxSplats } = this.message;
+    const once = (splats: number | null) => readWith<SceneDescription | { readonly offer: SplatOffer }>(
+      this.engine, 'read', files, splats === null ? { memory } : { max_splats: splats });
+    const result = once(maxSplats);
+    if (!('offer' in result)) return result;
+    post({ kind: 'offer', offer: { ...result.offer, name: this.message.source.name, memory } });
+    return once(await this.chosen) as SceneDescription;
   }
 
   /** Sends the next layer. */
@@ -70,8 +86,8 @@ class Loader {
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
       // Added layers have none: the scene stays visible. Otherwise, the whole scene follows immediately.
-      if (this.role === 'layers' || prefix.length === total) return;
-      const description = preview.read(prefix);
+      if (this.message.role === 'layers' || prefix.length === total) return;
+      const description = preview.read(prefix, total);
       if (description) post({ kind: 'preview', scene: await this.prepared(description) });
     });
     return oneFile(name, bytes);
@@ -151,14 +167,16 @@ async function sortSplats({ program, task, centers }: SortMessage): Promise<void
 let loader: Loader | null = null;
 let giveLimits: (limits: unknown) => void;
 const limits = new Promise<unknown>((resolve) => { giveLimits = resolve; });
+let choose: (splats: number) => void;
+const chosen = new Promise<number>((resolve) => { choose = resolve; });
 
 async function handle(message: ToLoader): Promise<void> {
   switch (message.kind) {
     case 'load':
-      loader = new Loader(await Engine.create(message.program), limits, 'url' in message.source ? 'url' : 'files',
-                          message.role);
-      return loader.load(message.source);
+      loader = new Loader(await Engine.create(message.program), limits, chosen, message);
+      return loader.load();
     case 'limits': return giveLimits(message.limits);
+    case 'splats': return choose(message.number);
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
     case 'sort': return sortSplats(message);

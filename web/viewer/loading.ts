@@ -3,10 +3,15 @@
 import { fileNameOf, urlOf } from './addresses.js';
 import type { Assets } from './assets.js';
 import type { FromLoader, LoadRole, PreparedLayer, PreparedScene, SourceToLoad, ToLoader } from './loader_messages.js';
-import { ViewerError, type LoadProgress, type SceneSource } from './types.js';
+import { ViewerError, type LoadProgress, type SceneSource, type SplatOffer } from './types.js';
 
-export interface LoadingEvents {
+interface CommonEvents {
   progress(progress: LoadProgress): void;
+  /** Resolves to the number of splats to read. */
+  offer(offer: SplatOffer, signal: AbortSignal): Promise<number>;
+}
+
+export interface LoadingEvents extends CommonEvents {
   preview(scene: PreparedScene): void;
   /** Uploads the scene to the device. Returns null, or the reason if the device's memory is too small; the
    *  scene then arrives again with a lower lattice level. */
@@ -14,8 +19,7 @@ export interface LoadingEvents {
 }
 
 /** The events of a load that adds layers: no preview, and layer after layer instead of a scene. */
-export interface AddingEvents {
-  progress(progress: LoadProgress): void;
+export interface AddingEvents extends CommonEvents {
   layer(layer: PreparedLayer): void;
 }
 
@@ -41,10 +45,12 @@ export class Loading {
   private events: LoadingEvents | AddingEvents | null = null;
   private worker: Worker | null = null;
   private readonly unheard: FromLoader[] = [];
-  private over = false;
+  private readonly ending = new AbortController();
 
-  /** `limits`: limits of the device; preparing waits for them. `role` decides which events run() needs. */
+  /** `limits`: limits of the device; preparing waits for them. `memory`, `maxSplats`: as in LoadMessage. `role` decides
+   *  which events run() needs. */
   constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource,
+              private readonly memory: number, private readonly maxSplats: number | null,
               private readonly role: LoadRole = 'scene') {
     this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
     this.shown.catch(() => {});  // run() returns the error
@@ -75,16 +81,28 @@ export class Loading {
       if (this.events) this.hear(data);
       else this.unheard.push(data);
     };
-    tell({ kind: 'load', program: await program, source: toLoad, role: this.role });
+    const { role, memory, maxSplats } = this;
+    tell({ kind: 'load', program: await program, source: toLoad, role, memory, maxSplats });
     tell({ kind: 'limits', limits: await limits });
   }
 
   private end(error: unknown = null): void {
     if (this.over) return;
-    this.over = true;
+    this.ending.abort();
     this.worker?.terminate();
     if (error === null) this.settle.resolve();
     else this.settle.reject(error);
+  }
+
+  private get over(): boolean { return this.ending.signal.aborted; }
+
+  private async answer(offer: SplatOffer): Promise<void> {
+    try {
+      const number = await this.events!.offer(offer, this.ending.signal);
+      this.worker!.postMessage({ kind: 'splats', number } satisfies ToLoader);
+    } catch (error) {
+      this.end(error);
+    }
   }
 
   private hear(message: FromLoader): void {
@@ -94,6 +112,7 @@ export class Loading {
       switch (message.kind) {
         case 'progress': return events.progress(message.progress);
         case 'preview': return (events as LoadingEvents).preview(message.scene);
+        case 'offer': return void this.answer(message.offer);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));
         case 'scene': {
           const why = (events as LoadingEvents).scene(message.scene);

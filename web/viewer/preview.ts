@@ -1,40 +1,67 @@
-// Reads a preview from the first bytes of a GLB: an image of mean colours, which precede the texels in
-// the file (docs/format.md).
+// Reads previews from the first bytes of a file (formats/scene_preview.hpp): a soup in mean colours, splats in the
+// colours of degree 0, or the first splats.
 
 import type { Engine } from './engine.js';
 import type { SceneDescription } from './loader_messages.js';
 
+/** Splats are shown early only after this time: below, the whole scene follows so soon that a preview delays it. */
+const patienceMs = 300;
+
+/** Largest part of a file for a preview of splats: it and its splats are in the loader's memory at once. */
+const maxSplatBytes = 256 << 20;
+/** The headers of files with several previews are not larger. */
+const maxHeader = 1 << 20;
+
+/** web/engine/loader.cpp */
+interface PreviewSize {
+  readonly size: number;
+  readonly has_splats: boolean;
+}
+
 export class Preview {
-  /** Number of bytes for a preview; null while unknown. */
-  private needed: number | null = null;
-  /** Number of bytes at the last query of `needed`; the next query follows at twice this number. */
+  /** The next preview; null while unknown. */
+  private next: PreviewSize | null = null;
+  /** Number of bytes of the last preview. */
+  private shown = 0;
+  /** Number of bytes at the last query of `next`; the next query follows at twice this number. */
   private asked = 0;
+  /** The next preview of splats is not made before this time. */
+  private notBefore = performance.now() + patienceMs;
   private over = false;
 
   constructor(private readonly engine: Engine, private readonly name: string) {}
 
-  /** A description when there are enough bytes, only once. Ignores a broken file: its reader reports the
-   *  error later. */
-  read(prefix: Uint8Array): SceneDescription | null {
+  /** A description whenever there are enough bytes for a further preview; `total`: the size of the file, if it is
+   *  known. Ignores a broken file: its reader reports the error later. */
+  read(prefix: Uint8Array, total: number | null): SceneDescription | null {
     if (this.over) return null;
     try {
-      return this.tryToRead(prefix);
+      return this.tryToRead(prefix, total);
     } catch {
       this.over = true;
       return null;
     }
   }
 
-  private tryToRead(prefix: Uint8Array): SceneDescription | null {
-    if (this.needed === null && prefix.length >= 2 * this.asked) {
+  private tryToRead(prefix: Uint8Array, total: number | null): SceneDescription | null {
+    if (this.next === null && prefix.length >= 2 * this.asked) {
       this.asked = prefix.length;
-      this.engine.setBuffer(prefix);
-      this.needed = this.engine.call<number | null>('preview_size', { name: this.name });
-      this.over = this.needed === 0;
+      this.engine.setBuffer(this.shown === 0 ? prefix : prefix.subarray(0, maxHeader));
+      this.next = this.engine.call<PreviewSize | null>('preview_size', { name: this.name, shown: this.shown });
     }
-    if (this.over || this.needed === null || prefix.length < this.needed) return null;
-    this.over = true;
-    this.engine.setBuffer(prefix.subarray(0, this.needed));
-    return this.engine.call<SceneDescription | null>('preview', { name: this.name });
+    const { next } = this;
+    if (next === null) return null;
+    const begin = performance.now(), size = Math.max(next.size, next.has_splats ? prefix.length : 0);
+    // The whole scene follows soon after three quarters of the file.
+    this.over = next.size === 0 || (next.has_splats && size > Math.min(maxSplatBytes, 0.75 * (total ?? Infinity)));
+    if (this.over || prefix.length < next.size || (next.has_splats && begin < this.notBefore)) return null;
+    this.engine.setBuffer(prefix.subarray(0, size));
+    const description = this.engine.call<SceneDescription | null>('preview', { name: this.name });
+    this.shown = size;
+    this.next = null;
+    this.asked = 0;
+    const end = performance.now();
+    this.notBefore = end + 2 * (end - begin);  // at most a third of the time is spent on previews
+    return description;
   }
 }

@@ -145,6 +145,18 @@ export type Resolution = number | { readonly targetFps: number };
 export const splatBlendings = ['auto', 'raster', 'tiles'] as const;
 export type SplatBlending = (typeof splatBlendings)[number];
 
+/** A scene with more splats than the memory probably holds. */
+export interface SplatOffer {
+  /** The name of its file. */
+  readonly name: string;
+  readonly splats: number;
+  /** Forecast of the bytes that all splats need, in the page and on the device together. */
+  readonly bytes: number;
+  /** The memory, in bytes, and the number of splats that fit it. */
+  readonly memory: number;
+  readonly fitting: number;
+}
+
 export interface FrameStats {
   /** Interval between frames, median over the last second; null while no frames are drawn. */
   readonly frameMs: number | null;
@@ -164,7 +176,8 @@ export interface FrameStats {
 export interface ViewerEvents {
   /** Progress of a load. */
   progress: LoadProgress;
-  /** A first image with mean colours is shown, while the load continues. */
+  /** A first image with mean colours or a part of the splats is shown, while the load continues. A load may have
+   *  several. */
   preview: { readonly triangles: number; readonly splats: number };
   /** The current scene changed, or layers were added or removed; null for none. */
   scene: SceneSummary | null;
@@ -288,4 +301,11 @@ export interface ViewerOptions {
   readonly resolution?: Resolution;
   /** Default auto. */
   readonly blend?: SplatBlending;
+  /** Memory for a scene of splats, in bytes. Default: 4 GiB, and on phones a quarter of the memory that the browser
+   *  reports, or 1 GiB. */
+  readonly memory?: number;
+  /** Called before a scene is read that needs more memory. Resolves to the number of splats to read: those with the
+   *  largest opacity times area. Rejects to cancel the load. `signal`: aborted if the load ends otherwise. Default:
+   *  those that fit. */
+  readonly chooseSplats?: (offer: SplatOffer, signal: AbortSignal) => Promise<number>;
 }

@@ -7,8 +7,9 @@ import { assetsAt, type Assets } from './assets.js';
 import { attachControls } from './controls.js';
 import { compile, Engine, type Parcel } from './engine.js';
 import { FrameTimes } from './frame_times.js';
-import type { PreparedScene, SceneDescription } from './loader_messages.js';
+import type { LoadRole, PreparedScene, SceneDescription } from './loader_messages.js';
 import { isShortage, Loading } from './loading.js';
+import { defaultMemory } from './memory.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
@@ -18,14 +19,16 @@ import {
 } from './scene_summary.js';
 import {
   maxLayers, ViewerError, type FrameStats, type LegendEntry, type Matrix, type NamedView, type NavigationMode,
-  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatBlending, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
+  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatBlending, type SplatOffer,
+  type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
 } from './types.js';
 
 /** Starts the engine on this canvas. Rejects with ViewerError. */
 export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOptions = {}): Promise<Viewer> {
   const { assets } = options;
   const parts = typeof assets === 'object' ? assets : assetsAt(assets);
-  const viewer = new CanvasViewer(canvas, parts, compile(parts), options.blend ?? 'auto');
+  const viewer = new CanvasViewer(canvas, parts, compile(parts), options.blend ?? 'auto', Math.min(options.memory ?? defaultMemory(), Number.MAX_VALUE),
+                                  options.chooseSplats ?? (({ fitting }) => Promise.resolve(fitting)));
   await viewer.start(options.expected ?? null);
   if (options.background) viewer.background = options.background;
   if (options.resolution) viewer.resolution = options.resolution;
@@ -114,6 +117,8 @@ class CanvasViewer implements Viewer {
   private background_: Vec3 = [0, 0, 0];
   private backgroundBefore: Vec3 = [0, 0, 0];
   private gliding_ = true;
+  /** Numbers of splats that were chosen for sources whose splats do not all fit. */
+  private readonly maxSplats = new WeakMap<SceneSource, number>();
   private lost = false;
   /** Whether the view was moved since the last 'view' event. */
   private moved = false;
@@ -121,7 +126,8 @@ class CanvasViewer implements Viewer {
   private lastFrame: number | null = null;
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly assets: Assets,
-              private readonly program: Promise<WebAssembly.Module>, private readonly blend: SplatBlending) {
+              private readonly program: Promise<WebAssembly.Module>, private readonly blend: SplatBlending,
+              private readonly memory: number, private readonly chooseSplats: NonNullable<ViewerOptions['chooseSplats']>) {
     this.observer = new ResizeObserver(() => this.ask());
   }
 
@@ -220,6 +226,7 @@ class CanvasViewer implements Viewer {
     try {
       await this.run(loading, options.signal, {
         progress: (progress) => this.emit('progress', progress),
+        offer: this.offering(source),
         preview: (scene) => this.showPreview(scene),
         scene: (scene) => {
           layers = scene.description.layer_names.length;
@@ -254,7 +261,20 @@ class CanvasViewer implements Viewer {
     this.expected = null;
     if (expected && isSame(expected.source, source)) return expected.loading;
     expected?.loading.cancel();
-    return new Loading(this.assets, this.program, this.started.then(() => this.device.limits), source);
+    return this.loadingOf(source, this.started.then(() => this.device.limits), 'scene');
+  }
+
+  private loadingOf(source: SceneSource, limits: Promise<unknown>, role: LoadRole): Loading {
+    return new Loading(this.assets, this.program, limits, source, this.memory, this.maxSplats.get(source) ?? null, role);
+  }
+
+  /** Asks how many splats of the source to read, and remembers the answer for later reads. */
+  private offering(source: SceneSource) {
+    return async (offer: SplatOffer, signal: AbortSignal): Promise<number> => {
+      const splats = await this.chooseSplats(offer, signal);
+      this.maxSplats.set(source, splats);
+      return splats;
+    };
   }
 
   private showPreview(scene: PreparedScene): void {
@@ -410,11 +430,12 @@ class CanvasViewer implements Viewer {
     if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
     this.requireRoom(1);
     const refused: string[] = [];
-    const loading = new Loading(this.assets, this.program, Promise.resolve(this.device.limits), source, 'layers');
+    const loading = this.loadingOf(source, Promise.resolve(this.device.limits), 'layers');
     let part: Part | null = null, total = 0;
     try {
       await this.run(loading, signal, {
         progress: (progress) => this.emit('progress', progress),
+        offer: this.offering(source),
         layer: ({ description, parcel, index, forecasts }) => {
           if (index === 0) this.requireRoom(forecasts.length);
           total = forecasts.length;
@@ -668,7 +689,9 @@ class CanvasViewer implements Viewer {
       const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
                                     : await openFiles(source.files, source.name ?? name);
       if (this.parts !== parts) throw new ViewerError('Another scene is open now.', 'cancelled');
-      readWith(this.engine, 'read_for_debug_views', files, { source: index, ...(level !== null && { level }) });
+      const splats = this.maxSplats.get(source);
+      readWith(this.engine, 'read_for_debug_views', files,
+               { source: index, ...(level !== null && { level }), ...(splats !== undefined && { max_splats: splats }) });
     }
     this.engine.call('keep_read_layers', this.records.map(({ part, index }) => [parts.indexOf(part), index]));
   }

@@ -176,7 +176,7 @@ TEST(TureenGlbLayers, AreAtTheirPlacesInOtherViewers) {
 
 TEST(TureenGlbLayers, HaveNoPreview) {
   const auto bytes = test::glb_bytes(three_layers(), "preview");
-  EXPECT_EQ(tureen_glb_preview_size(bytes, "memory.glb"), 0u);
+  EXPECT_EQ(tureen_glb_preview_size(bytes, "memory.glb").value().bytes, 0u);
   EXPECT_FALSE(read_tureen_glb_preview(bytes, "memory.glb"));
 }
 

@@ -29,7 +29,8 @@ using Bytes = std::span<const std::byte>;
 constexpr float color_tolerance = 12.92f * 0.51f / 65535.0f;
 
 std::optional<std::uint64_t> size_of(Bytes prefix) {
-  return tureen_glb_preview_size(prefix, "arriving.glb");
+  const auto size = tureen_glb_preview_size(prefix, "arriving.glb");
+  return size ? std::optional(size->bytes) : std::nullopt;
 }
 
 std::optional<Scene> preview_of(Bytes prefix) {
@@ -50,12 +51,46 @@ TriangleSoup soup_of(const Scene& scene) {
   return splats ? to_opaque(*splats, 0.0f).soup : only_soup(scene);
 }
 
-TEST(GlbPreviewOfSplats, DoesNotExist) {
+TEST(GlbPreviewOfSplats, HasTheColorsOfDegreeZero) {
   for (const test::GlbKind& kind : test::splat_glb_kinds()) {
-    const std::vector<std::byte> bytes = test::glb_bytes(test::random_scene(kind, 1, 3), kind.name);
-    EXPECT_EQ(size_of(bytes), 0u) << kind.name;
-    EXPECT_EQ(size_of(Bytes(bytes).first(beginning_of(bytes))), 0u) << kind.name;
-    EXPECT_FALSE(preview_of(bytes)) << kind.name;
+    SCOPED_TRACE(kind.name);
+    const Scene whole = test::random_scene(kind, 1, 3);
+    const auto& splats = std::get<Splats>(only_layer(whole).primitives);
+    const std::vector<std::byte> bytes = test::glb_bytes(whole, kind.name);
+    const std::uint64_t size = size_of(bytes).value();
+    EXPECT_EQ(size_of(Bytes(bytes).first(beginning_of(bytes))), size);
+    if (std::holds_alternative<TriangleWindows>(splats.kernel)) {
+      EXPECT_EQ(size, 0u);
+      EXPECT_FALSE(preview_of(bytes));
+      continue;
+    }
+    EXPECT_TRUE(tureen_glb_preview_size(bytes, "arriving.glb")->has_splats);
+    EXPECT_FALSE(preview_of(Bytes(bytes).first(std::size_t(size) - 1)));
+    std::optional<Scene> preview = preview_of(Bytes(bytes).first(std::size_t(size)));
+    ASSERT_TRUE(preview);
+    Scene expected = whole;
+    auto& color = std::get<Splats>(only_layer(expected).primitives).color;
+    const std::size_t stride = coefficients_per_splat(color);
+    for (std::size_t i = 0; i < count(splats); ++i)
+      color.coefficients[i] = splats.color.coefficients[stride * i];
+    color.coefficients.resize(count(splats));
+    color.degree = 0;
+    EXPECT_EQ(test::difference(*preview, expected), "");
+  }
+}
+
+TEST(GlbPreviewOfSplats, SurvivesDamage) {
+  for (const test::GlbKind& kind : test::splat_glb_kinds()) {
+    const std::vector<std::byte> bytes = test::glb_bytes(test::random_scene(kind, 4, 1), kind.name);
+    const std::size_t size = std::size_t(size_of(bytes).value());
+    if (size == 0) continue;
+    const auto read = [](Bytes damaged) {
+      const std::optional<Scene> preview = preview_of(damaged);
+      if (preview) {
+        EXPECT_FALSE(defect(std::get<Splats>(only_layer(*preview).primitives)));
+      }
+    };
+    EXPECT_GT(test::survive_damage(Bytes(bytes).first(size), read).refused, 0u) << kind.name;
   }
 }
 

@@ -1,0 +1,108 @@
+// Splats: images while a file arrives, and the question how many to read if the memory does not hold all.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { drawingPage, drawingRoutes } from './drawing.mjs';
+import { splatPly } from './splat_ply.mjs';
+import { sceneShown, stage } from './support.mjs';
+
+const splats = 60_000, bytes = splatPly(splats);
+/** Forecast: four times the 56 bytes of each in memory, and 64 bytes of its projection. */
+const bytesEach = 288;
+
+/** Sends the file in parts, each after more than the time before a preview. */
+function slowly(request, response) {
+  response.writeHead(200, { 'content-length': bytes.length });
+  const parts = 10, part = Math.ceil(bytes.length / parts);
+  let sent = 0;
+  const timer = setInterval(() => {
+    response.write(bytes.subarray(sent, sent += part));
+    if (sent < bytes.length) return;
+    clearInterval(timer);
+    response.end();
+  }, 400);
+}
+
+const { visit } = await stage({ routes: {
+  ...drawingRoutes,
+  '/slow.ply': slowly,
+  '/many.ply': (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes),
+} });
+
+test('more and more splats are shown while the file arrives', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const { previews, whole, eye } = await page.evaluate(async () => {
+    const previews = [];
+    viewer.on('preview', ({ splats }) => {
+      previews.push(splats);
+      if (previews.length === 1) viewer.setView({ eye: [0, 0, 5], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 });
+    });
+    const { splats } = await viewer.load({ url: '/slow.ply' });
+    return { previews, whole: splats, eye: viewer.getView().eye };
+  });
+  assert.equal(whole, splats);
+  assert.ok(previews.length >= 2, `previews: ${previews}`);
+  assert.ok(previews[0] >= 16_384 && previews.every((count, at) => at === 0 || count >= 2 * previews[at - 1]), `${previews}`);
+  assert.deepEqual(eye, [0, 0, 5], 'the view that was chosen during the load');
+}));
+
+/** The splats of a viewer with little memory, and what it asked. */
+const loaded = (page, choice) => page.evaluate(async ([memory, wanted]) => {
+  const { createViewer } = await import('/viewer.js');
+  const asked = [], canvas = document.createElement('canvas');
+  document.body.append(canvas);
+  const chooseSplats = (offer) => {
+    asked.push(offer);
+    return wanted === 'none' ? Promise.reject(new Error('no')) : Promise.resolve(offer[wanted]);
+  };
+  const small = await createViewer(canvas, { memory, ...(wanted && { chooseSplats }) });
+  try {
+    const { splats, notes } = await small.load({ url: '/many.ply' });
+    await small.show('overdraw');  // reads the scene again
+    return { splats, notes, asked };
+  } catch (error) {
+    return { error: String(error), asked };
+  } finally {
+    small.dispose();
+  }
+}, [20_000 * bytesEach, choice]);
+
+test('of too many splats, the largest or all are read, as the caller chooses', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const automatic = await loaded(page, null);
+  assert.equal(automatic.splats, 20_000);
+  assert.ok(automatic.notes.some((note) => note.includes('20000 of 60000 splats')), `${automatic.notes}`);
+  const { asked, ...all } = await loaded(page, 'splats');
+  assert.equal(all.splats, splats);
+  assert.deepEqual(asked, [{ name: 'many.ply', splats, bytes: splats * bytesEach, memory: 20_000 * bytesEach, fitting: 20_000 }]);
+  assert.match((await loaded(page, 'none')).error, /no/);
+}));
+
+/** The page on a phone with little memory, and its question. */
+const asked = async (page) => {
+  await page.addInitScript(() => {
+    Object.defineProperty(Navigator.prototype, 'deviceMemory', { get: () => 0.02 });
+    const real = window.matchMedia.bind(window);
+    window.matchMedia = (query) => (/pointer/.test(query) ? { matches: query.includes('coarse') } : real(query));
+  });
+  await page.reload();
+  const dialog = page.locator('#splat-choice');
+  await dialog.waitFor();
+  return dialog;
+};
+
+test('the page asks how many splats to load', () => visit('?scene=many.ply', async (page) => {
+  const dialog = await asked(page);
+  assert.match(await dialog.textContent(), /60,000 splats need about 17.MB.*at most 5\.4.MB.*largest 18,641/s);
+  await dialog.getByRole('button', { name: /largest/ }).click();
+  await sceneShown(page, 'many');
+  assert.equal(await dialog.isVisible(), false);
+  assert.match(await page.textContent('#panel'), /18,641/);
+}));
+
+test('without an answer nothing is loaded', () => visit('?scene=many.ply', async (page) => {
+  await asked(page);
+  await page.keyboard.press('Escape');
+  await page.locator('#start').waitFor();
+  assert.equal(await page.evaluate(() => document.getElementById('loading').hidden), true);
+}));
