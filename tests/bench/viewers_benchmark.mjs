@@ -121,9 +121,11 @@ async function visit(rasteriser, { viewer, options = {} }, address, wantsImages)
                              { viewer, options, width, height, url: '/scene.ply', camera: Object.values(cameras)[0] });
     await page.goto(address);
     const late = new Promise((_, reject) => setTimeout(reject, 4 * patience, new Error('no answer')).unref());
+    late.catch(() => {});  // it may reject after an error of the page
     const call = (method, ...given) => Promise.race([late, page.evaluate(
       async ([name, args]) => (await window.bench)[name](...args), [method, given])]);
-    const firstImageMs = await page.evaluate(async () => (await window.bench).firstImageMs), moved = {}, images = {};
+    const firstImageMs = await Promise.race([late, page.evaluate(async () => (await window.bench).firstImageMs)]);
+    const moved = {}, images = {};
     for (const [name, camera] of Object.entries(cameras)) moved[name] = await call('move', camera, motion);
     if (wantsImages)
       for (const [name, camera] of Object.entries(cameras))

@@ -58,8 +58,10 @@ const loaded = (page, choice) => page.evaluate(async ([memory, wanted]) => {
   const small = await createViewer(canvas, { memory, ...(wanted && { chooseSplats }) });
   try {
     const { splats, notes } = await small.load({ url: '/many.ply' });
+    small.setView({ eye: [0, 0, 5], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 });
     await small.show('overdraw');  // reads the scene again
-    return { splats, notes, asked };
+    const image = new Uint8Array(await (await small.screenshot({ width: 40, height: 30 })).arrayBuffer());
+    return { splats, notes, asked, overdraw: image.join() };
   } catch (error) {
     return { error: String(error), asked };
   } finally {
@@ -67,15 +69,49 @@ const loaded = (page, choice) => page.evaluate(async ([memory, wanted]) => {
   }
 }, [20_000 * bytesEach, choice]);
 
-test('of too many splats, the largest or all are read, as the caller chooses', () => visit('drawing.html', async (page) => {
+test('the caller chooses: the largest splats that fit, or all', () => visit('drawing.html', async (page) => {
   await drawingPage(page);
   const automatic = await loaded(page, null);
   assert.equal(automatic.splats, 20_000);
   assert.ok(automatic.notes.some((note) => note.includes('20000 of 60000 splats')), `${automatic.notes}`);
   const { asked, ...all } = await loaded(page, 'splats');
+  assert.notEqual(all.overdraw, automatic.overdraw);
+  assert.equal((await loaded(page, 'fitting')).overdraw, automatic.overdraw);
   assert.equal(all.splats, splats);
   assert.deepEqual(asked, [{ name: 'many.ply', splats, bytes: splats * bytesEach, memory: 20_000 * bytesEach, fitting: 20_000 }]);
   assert.match((await loaded(page, 'none')).error, /no/);
+}));
+
+test('a load that ends takes its question back', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const result = await page.evaluate(async () => {
+    const { createViewer } = await import('/viewer.js');
+    const canvas = document.createElement('canvas');
+    document.body.append(canvas);
+    let asked;
+    const question = new Promise((resolve) => { asked = resolve; });
+    const chooseSplats = (offer, signal) => new Promise((resolve, reject) => {
+      signal.addEventListener('abort', () => reject(new Error('taken back')));
+      asked();
+    });
+    const small = await createViewer(canvas, { memory: 1e6, chooseSplats });
+    const first = small.load({ url: '/many.ply' }).catch(({ kind }) => kind);
+    await question;
+    const { triangles } = await small.load({ url: '/soup.glb' });
+    small.dispose();
+    return [await first, triangles];
+  });
+  assert.deepEqual(result, ['cancelled', 7000]);
+}));
+
+test('a field of view that was set during the load stays', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const fov = await page.evaluate(async () => {
+    viewer.on('preview', () => { viewer.fov = 0.5; });
+    await viewer.load({ url: '/slow.ply' });
+    return viewer.fov;
+  });
+  assert.ok(Math.abs(fov - 0.5) < 1e-6, `${fov}`);
 }));
 
 /** The page on a phone with little memory, and its question. */

@@ -62,14 +62,14 @@ Json facts(const Renderer& renderer, double start) {
   renderer.finish();
   Json specialisations = Json::array();
   for (const AppliedSpecialisation& each : renderer.plan().applied())
-    specialisations.push_back({{"name", name_of(each.what)},
-                               {"count", each.count},
-                               {"total", each.total},
-                               {"margin", each.margin}});
-  return {{"plan", describe(renderer.plan())},
-          {"specialisations", specialisations},
-          {"device_bytes", renderer.device_bytes()},
-          {"upload_ms", milliseconds() - start}};
+    specialisations.push_back(object({{"name", name_of(each.what)},
+                                      {"count", each.count},
+                                      {"total", each.total},
+                                      {"margin", each.margin}}));
+  return object({{"plan", describe(renderer.plan())},
+                 {"specialisations", specialisations},
+                 {"device_bytes", renderer.device_bytes()},
+                 {"upload_ms", milliseconds() - start}});
 }
 
 Json clear(const Json&) {
@@ -232,7 +232,7 @@ Json step(const Json& budget) {
   const double end = milliseconds() + budget.get<double>();
   bool goes_on = run().step();
   while (goes_on && milliseconds() < end) goes_on = run().step();
-  return {{"done", !goes_on}, {"fraction", run().fraction()}};
+  return object({{"done", !goes_on}, {"fraction", run().fraction()}});
 }
 
 Json rounds_of(const FrameTimes& times) {
@@ -245,13 +245,13 @@ Json rounds_of(const FrameTimes& times) {
 }
 
 Json to_json(const FrameStatistics& ms) {
-  return {{"mean", ms.mean},
-          {"median", ms.median},
-          {"p95", ms.p95},
-          {"p99", ms.p99},
-          {"min_of_medians", ms.min_of_medians},
-          {"spread", ms.spread},
-          {"low_1_percent_fps", ms.low_1_percent_fps}};
+  return object({{"mean", ms.mean},
+                 {"median", ms.median},
+                 {"p95", ms.p95},
+                 {"p99", ms.p99},
+                 {"min_of_medians", ms.min_of_medians},
+                 {"spread", ms.spread},
+                 {"low_1_percent_fps", ms.low_1_percent_fps}});
 }
 
 /// The hash of a frame's images, in their order.
@@ -271,16 +271,16 @@ Json result(const Json&) {
   for (const FrameTimes& times : measured.self_test) self_test.push_back(rounds_of(times));
   for (std::size_t i = 0; i < measured.cases.size(); ++i) {
     const CaseResult& benchmark_case = measured.cases[i];
-    cases.push_back({{"name", benchmark_case.name},
-                     {"stable", benchmark_case.stable},
-                     {"frame_ms", rounds_of(benchmark_case.times)},
-                     {"pixels_hash", hash_of(bench().cases[i])},
-                     {"statistics", to_json(statistics_of(benchmark_case.times))}});
+    cases.push_back(object({{"name", benchmark_case.name},
+                            {"stable", benchmark_case.stable},
+                            {"frame_ms", rounds_of(benchmark_case.times)},
+                            {"pixels_hash", hash_of(bench().cases[i])},
+                            {"statistics", to_json(statistics_of(benchmark_case.times))}}));
   }
-  return {{"frames_per_sample", measured.frames_per_sample},
-          {"aa_spread", measured.aa_spread},
-          {"self_test_ms", self_test},
-          {"entrants", cases}};
+  return object({{"frames_per_sample", measured.frames_per_sample},
+                 {"aa_spread", measured.aa_spread},
+                 {"self_test_ms", self_test},
+                 {"entrants", cases}});
 }
 
 /// {"cells": [{"scene", "camera", "x", "y", "width", "height"}], "width", "height"}

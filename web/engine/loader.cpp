@@ -119,10 +119,14 @@ Json describe(const Scene& scene) {
                  {"feature_count", features}});
 }
 
+/// Frees the scene and the buffer: a scene that is read next needs the memory.
+void forget() {
+  loader() = {};
+  std::vector<std::byte>().swap(buffer());
+}
+
 Json take(Scene scene) {
-  loader().prepared.reset();
-  loader().placed.clear();
-  loader().reduced.clear();
+  forget();
   loader().scene = std::move(scene);
   return describe(*loader().scene);
 }
@@ -143,6 +147,7 @@ double load_bytes(std::uint64_t splats, std::uint64_t bytes) {
 /// instance. Returns its description, or {"offer": {"splats", "bytes", "fitting"}} if its splats
 /// need more than `memory`.
 Json read(const Json& arguments) {
+  forget();  // a preview
   ReadOptions options = read_options(arguments);
   options.progress = report_progress;
   if (!options.max_splats)
@@ -174,8 +179,8 @@ Json preview_size(const Json& arguments) {
 
 /// {"name"}; the buffer holds at least the number of bytes from "preview_size".
 Json preview(const Json& arguments) {
+  loader() = {};  // the preview before
   auto scene = read_preview(buffer(), arguments.at("name").get<std::string>());
-  buffer() = {};  // the splats need memory now
   return scene ? take(std::move(*scene)) : Json();
 }
 

@@ -117,7 +117,8 @@ class PageView {
     ShownScene scene;
     CameraControls controls;
     std::vector<ShownLayer> layers;
-    glm::dvec3 first_eye, first_target;  // of the controls
+    glm::dvec3 first_target;  // of the controls, as is:
+    Camera first_view;        // in a square image
   };
   void prepare_renderer(bool for_debug_views);
   Stage make_stage(PreparedScene prepared, ShownScene scene) const;

@@ -94,8 +94,9 @@ SplatBlending blending_of(const Json& name) {
 }
 
 Json to_json(const Subject& subject) {
-  return {
-      {"low", to_json(subject.low)}, {"high", to_json(subject.high)}, {"up", to_json(subject.up)}};
+  return object({{"low", to_json(subject.low)},
+                 {"high", to_json(subject.high)},
+                 {"up", to_json(subject.up)}});
 }
 
 Subject subject_of(const Json& value) {

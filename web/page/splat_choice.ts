@@ -17,10 +17,12 @@ export function chooseSplats({ name, splats, bytes, memory, fitting }: SplatOffe
   dialog.returnValue = '';
   dialog.showModal();
   return new Promise((resolve, reject) => {
+    const close = () => dialog.close('');
+    signal.addEventListener('abort', close);
     dialog.addEventListener('close', () => {
+      signal.removeEventListener('abort', close);
       if (dialog.returnValue) resolve(Number(dialog.returnValue));
       else reject(new ViewerError('Loading was cancelled.', 'cancelled'));
     }, { once: true });
-    signal.addEventListener('abort', () => dialog.close(''), { once: true });
   });
 }

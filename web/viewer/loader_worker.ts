@@ -80,15 +80,21 @@ class Loader {
   }
 
   private async fetched(url: string, name: string): Promise<OpenedFiles> {
-    const preview = new Preview(this.engine, name);
+    const preview = new Preview(this.engine, name, this.message.memory);
     const bytes = await download(url, async ({ bytes: prefix, total }) => {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
       // Added layers have none: the scene stays visible. Otherwise, the whole scene follows immediately.
       if (this.message.role === 'layers' || prefix.length === total) return;
-      const description = preview.read(prefix, total);
-      if (description) post({ kind: 'preview', scene: await this.prepared(description) });
+      const begin = performance.now(), description = preview.read(prefix, total);
+      if (!description) return;
+      try {
+        post({ kind: 'preview', scene: await this.prepared(description) });
+      } catch {
+        return preview.stop();  // the memory may hold the scene without it
+      }
+      preview.took(performance.now() - begin);
     });
     return oneFile(name, bytes);
   }

@@ -101,7 +101,7 @@ export class Loading {
       const number = await this.events!.offer(offer, this.ending.signal);
       this.worker!.postMessage({ kind: 'splats', number } satisfies ToLoader);
     } catch (error) {
-      this.end(error);
+      this.end(error instanceof ViewerError ? error : new ViewerError(String(error), 'cancelled'));
     }
   }
 

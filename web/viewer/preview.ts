@@ -7,8 +7,9 @@ import type { SceneDescription } from './loader_messages.js';
 /** Splats are shown early only after this time: below, the whole scene follows so soon that a preview delays it. */
 const patienceMs = 300;
 
-/** Largest part of a file for a preview of splats: it and its splats are in the loader's memory at once. */
-const maxSplatBytes = 256 << 20;
+/** Largest part of a file for a preview of splats, in bytes, and as a fraction of the memory for a scene: the part and
+ *  its splats are in the loader's memory at once. */
+const maxSplatBytes = 256 << 20, maxSplatPart = 1 / 16;
 /** The headers of files with several previews are not larger. */
 const maxHeader = 1 << 20;
 
@@ -29,7 +30,14 @@ export class Preview {
   private notBefore = performance.now() + patienceMs;
   private over = false;
 
-  constructor(private readonly engine: Engine, private readonly name: string) {}
+  /** `memory`: as SplatOffer.memory. */
+  constructor(private readonly engine: Engine, private readonly name: string, private readonly memory: number) {}
+
+  /** Ends the previews. */
+  stop(): void { this.over = true; }
+
+  /** Time that a preview took in all. At most a third of the time is spent on previews. */
+  took(ms: number): void { this.notBefore = performance.now() + 2 * ms; }
 
   /** A description whenever there are enough bytes for a further preview; `total`: the size of the file, if it is
    *  known. Ignores a broken file: its reader reports the error later. */
@@ -51,17 +59,15 @@ export class Preview {
     }
     const { next } = this;
     if (next === null) return null;
-    const begin = performance.now(), size = Math.max(next.size, next.has_splats ? prefix.length : 0);
+    const size = Math.max(next.size, next.has_splats ? prefix.length : 0);
     // The whole scene follows soon after three quarters of the file.
-    this.over = next.size === 0 || (next.has_splats && size > Math.min(maxSplatBytes, 0.75 * (total ?? Infinity)));
-    if (this.over || prefix.length < next.size || (next.has_splats && begin < this.notBefore)) return null;
+    this.over = next.size === 0 || (next.has_splats && size > Math.min(maxSplatBytes, maxSplatPart * this.memory, 0.75 * (total ?? Infinity)));
+    if (this.over || prefix.length < next.size || (next.has_splats && performance.now() < this.notBefore)) return null;
     this.engine.setBuffer(prefix.subarray(0, size));
     const description = this.engine.call<SceneDescription | null>('preview', { name: this.name });
     this.shown = size;
     this.next = null;
     this.asked = 0;
-    const end = performance.now();
-    this.notBefore = end + 2 * (end - begin);  // at most a third of the time is spent on previews
     return description;
   }
 }

@@ -301,11 +301,12 @@ export interface ViewerOptions {
   readonly resolution?: Resolution;
   /** Default auto. */
   readonly blend?: SplatBlending;
-  /** Memory for a scene of splats, in bytes. Default: 4 GiB, and on phones a quarter of the memory that the browser
+  /** Memory for the splats of one source, in bytes, above 0. Default: 3 GiB, and on phones a quarter of the memory that the browser
    *  reports, or 1 GiB. */
   readonly memory?: number;
-  /** Called before a scene is read that needs more memory. Resolves to the number of splats to read: those with the
-   *  largest opacity times area. Rejects to cancel the load. `signal`: aborted if the load ends otherwise. Default:
+  /** Called before splats are read that need more memory; not for triangle windows and foreign glTF. Resolves to the
+   *  number of splats to read, at least 1: those with the largest opacity times area. Rejects to end the load.
+   *  `signal`: aborted if the load ends otherwise. The answer holds for all reads of the same source object. Default:
    *  those that fit. */
   readonly chooseSplats?: (offer: SplatOffer, signal: AbortSignal) => Promise<number>;
 }

@@ -19,7 +19,7 @@ import {
 } from './scene_summary.js';
 import {
   maxLayers, ViewerError, type FrameStats, type LegendEntry, type Matrix, type NamedView, type NavigationMode,
-  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatBlending, type SplatOffer,
+  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
   type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
 } from './types.js';
 
@@ -27,8 +27,10 @@ import {
 export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOptions = {}): Promise<Viewer> {
   const { assets } = options;
   const parts = typeof assets === 'object' ? assets : assetsAt(assets);
-  const viewer = new CanvasViewer(canvas, parts, compile(parts), options.blend ?? 'auto', Math.min(options.memory ?? defaultMemory(), Number.MAX_VALUE),
-                                  options.chooseSplats ?? (({ fitting }) => Promise.resolve(fitting)));
+  const { blend = 'auto', memory = defaultMemory(), chooseSplats = async ({ fitting }: SplatOffer) => fitting } = options;
+  if (!(memory > 0)) throw new ViewerError(`The memory for splats is ${memory} bytes; it must be above 0.`, 'usage');
+  const viewer = new CanvasViewer(canvas, parts, compile(parts),
+                                  { blend, memory: Math.min(memory, Number.MAX_VALUE), chooseSplats });
   await viewer.start(options.expected ?? null);
   if (options.background) viewer.background = options.background;
   if (options.resolution) viewer.resolution = options.resolution;
@@ -126,8 +128,8 @@ class CanvasViewer implements Viewer {
   private lastFrame: number | null = null;
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly assets: Assets,
-              private readonly program: Promise<WebAssembly.Module>, private readonly blend: SplatBlending,
-              private readonly memory: number, private readonly chooseSplats: NonNullable<ViewerOptions['chooseSplats']>) {
+              private readonly program: Promise<WebAssembly.Module>,
+              private readonly options: Required<Pick<ViewerOptions, 'blend' | 'memory' | 'chooseSplats'>>) {
     this.observer = new ResizeObserver(() => this.ask());
   }
 
@@ -156,7 +158,7 @@ class CanvasViewer implements Viewer {
     const engine = await Engine.create(await this.program);
     engine.takeCanvas(this.canvas);
     this.engine = engine;
-    this.device = engine.call<Device>('start', { blend: this.blend });
+    this.device = engine.call<Device>('start', { blend: this.options.blend });
     this.sorting?.end();
     this.sorting = new SplatSorting(this.assets, this.program, engine, () => this.ask());
     this.lost = false;
@@ -265,13 +267,14 @@ class CanvasViewer implements Viewer {
   }
 
   private loadingOf(source: SceneSource, limits: Promise<unknown>, role: LoadRole): Loading {
-    return new Loading(this.assets, this.program, limits, source, this.memory, this.maxSplats.get(source) ?? null, role);
+    return new Loading(this.assets, this.program, limits, source, this.options.memory, this.maxSplats.get(source) ?? null, role);
   }
 
   /** Asks how many splats of the source to read, and remembers the answer for later reads. */
   private offering(source: SceneSource) {
     return async (offer: SplatOffer, signal: AbortSignal): Promise<number> => {
-      const splats = await this.chooseSplats(offer, signal);
+      const wanted = await this.options.chooseSplats(offer, signal), splats = Math.min(Math.floor(wanted), offer.splats);
+      if (!(splats >= 1)) throw new ViewerError(`chooseSplats resolved to ${wanted}, which is below 1.`, 'usage');
       this.maxSplats.set(source, splats);
       return splats;
     };
@@ -283,6 +286,7 @@ class CanvasViewer implements Viewer {
       this.unpack(scene, 'preview');
     } catch (error) {
       // The memory is too small for two scenes, or the device is lost. The complete scene will replace the old one.
+      if (!this.previewed) this.background = before;
       if (isShortage(error) || this.isGone) return;
       throw error;
     }

@@ -21,7 +21,9 @@ export async function create({ canvas, url, options, camera: first }) {
     }
   };
   const source = { url };
-  const viewer = await createViewer(canvas, { ...options, expected: source, controls: false, background: [0, 0, 0] });
+  const viewer = await createViewer(canvas, {
+    ...options, expected: source, controls: false, background: [0, 0, 0], chooseSplats: async ({ splats }) => splats,
+  });
   await viewer.load(source);
   viewer.gliding = false;
   viewer.background = [0, 0, 0];
