@@ -215,7 +215,6 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   const Candidate candidate = candidate_at(path, head);
   const Format& format = format_to_read(candidate);
   Scene scene = format.read(path, options);
-  if (options.max_splats) limit_splats(scene, *options.max_splats);
 
   const std::string extension = extension_of(path);
   const auto promises = [&](const Format& other) {
@@ -234,6 +233,7 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
       is_empty = false;
   }
   if (is_empty) throw InputError({path.string(), {}, {}}, nothing_in(scene));
+  if (options.max_splats) limit_splats(scene, *options.max_splats);
   return scene;
 }
 

@@ -21,14 +21,15 @@ struct ReadOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
   /// Q > 0 of octagon meshes (formats/splat/octagon_npz.hpp). nullopt: 4, with a remark.
   std::optional<double> octagon_q = {};
-  /// Of more splats, those that contribute the most are read (scene/edit/splat_limit.hpp), with a
-  /// remark. Readers of SplatBuilder hold at most twice as many in memory, others all.
+  /// Maximum number of splats, at least 1. The reader keeps those that contribute the most
+  /// (scene/edit/splat_limit.hpp), with a remark. Readers of splat files hold an eighth more while
+  /// they read, that of our GLB all shapes, but only the kept colours, others everything.
   std::optional<std::uint64_t> max_splats = {};
   /// Called with the number of splats in the file and their bytes in memory, before that memory is
   /// taken; may throw to stop. Not for triangle windows and foreign glTF.
   std::function<void(std::uint64_t splats, std::uint64_t bytes)> found_splats = {};
   /// Called with the fraction done, 0..1; may throw to cancel.
-  std::function<void(double)> progress;
+  std::function<void(double)> progress = {};
 };
 
 /// Whether a reader recognises the content. Throws InputError if the path cannot be opened.

@@ -27,6 +27,7 @@ struct ApplicationOptions {
   std::filesystem::path dataset;              // empty: none
   std::filesystem::path training;             // log of a run to follow; empty: none
   DrawingChoice drawing = {};
+  std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats of every file
   gl::Api api = gl::Api::desktop;
   std::optional<glm::ivec2> window = {};          // in points; default: of the last run
   std::optional<std::filesystem::path> settings;  // file; nullopt: not stored

@@ -41,6 +41,7 @@ struct Arguments {
   std::vector<std::string> paths;
   std::string api = "gl", size, replay, record, images, training;
   std::string pipeline = "auto", profile, blend = "auto";
+  std::optional<std::uint64_t> max_splats;
   bool as_published = false;
   bool no_specialise = false, no_settings = false, report = false;
 };
@@ -101,6 +102,11 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
           "--max-memory", [](const std::string& text) { set_max_memory(parse_memory_size(text)); },
           max_memory_help)
       ->option_text("SIZE");
+  program
+      .add_option("--max-splats", arguments.max_splats,
+                  "read at most N splats of each scene, those with the largest opacity times area")
+      ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
+      ->option_text("N");
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(
       "--report", arguments.report,
@@ -159,6 +165,7 @@ int run(const Arguments& arguments) {
   options.drawing.plan.splat_blending = SplatBlending(
       std::find(splat_blending_names.begin(), splat_blending_names.end(), arguments.blend) -
       splat_blending_names.begin());
+  options.max_splats = arguments.max_splats;
   options.drawing.plan.splat_profile = profile_named(arguments.profile);
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on stored settings.

@@ -31,11 +31,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+ReadOptions options_of(const ReadRequest& request, std::function<void(double)> progress) {
+  return {.max_splats = request.max_splats, .progress = std::move(progress)};
+}
+
 /// Reads a file and appends it and its layers.
-void append_file(StageSource& source, const fs::path& path,
-                 const std::function<void(double)>& progress) {
+void append_file(StageSource& source, const fs::path& path, const ReadOptions& options) {
   const FileWatch watch(path);
-  auto scene = std::make_shared<Scene>(read_scene(path, {.progress = progress}));
+  auto scene = std::make_shared<Scene>(read_scene(path, options));
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
   for (std::size_t i = 0; i < scene->layers.size(); ++i) {
     Layer& layer = scene->layers[i];
@@ -55,9 +58,9 @@ void append_files(StageSource& source, const ReadRequest& request) {
   for (std::size_t i = 0; i < request.paths.size(); ++i) {
     request.begins(request.paths[i]);
     try {
-      append_file(source, request.paths[i], [&](double done) {
-        request.progress((double(i) + done) / double(request.paths.size()));
-      });
+      append_file(source, request.paths[i], options_of(request, [&](double done) {
+                    request.progress((double(i) + done) / double(request.paths.size()));
+                  }));
     } catch (const InputError& error) {
       const bool none_remains = source.files.empty() && i + 1 == request.paths.size();
       if (!request.unreadable || none_remains) throw;
@@ -275,8 +278,9 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
       continue;
     }
     request.begins(file.path);
-    append_file(source, file.path,
-                [&](double done) { request.progress((finished + done) / total); });
+    append_file(source, file.path, options_of(request, [&](double done) {
+                  request.progress((finished + done) / total);
+                }));
     finished += 1;
   }
   ReadRequest further = request;

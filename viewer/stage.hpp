@@ -125,6 +125,7 @@ struct ReadRequest {
   /// Called for a file of `paths` with an error; the other files are read. Without this function,
   /// and if no file remains, the error is thrown.
   std::function<void(const std::filesystem::path&, const std::string& reason)> unreadable = {};
+  std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
 };
 
 /// The layers of all files, in one scene (merged() in scene/scene.hpp). Throws InputError, and

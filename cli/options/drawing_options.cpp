@@ -84,10 +84,10 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       .value_name("NAME");
   add_splat_order(
       command, [&options](Quality::SplatOrder order) { options.splat_order = order; },
-      "the splat in front at a pixel: centre (the one with the nearer centre), exact (the nearer "
-      "one "
-      "along the ray; by the processor, several times slower) or stochastic (as centre, but "
-      "without blending: noisy, the mean of many samples is right); the scene's own by default");
+      "order of splats at a pixel; the scene's own by default. centre: by their centres. exact: "
+      "along the pixel's ray; by the processor, several times slower. stochastic: by their "
+      "centres, "
+      "without blending; noisy, but the mean of many samples is right");
   command
       .add_option("--supersample", options.supersampling,
                   "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "

@@ -38,8 +38,7 @@ void add_context_option(Command& command, gl::Backend& backend);
 void apply_opaque(Scene& scene, const DrawingOptions& options);
 
 /// --context, --pipeline, --no-specialise, --keep, --shading, --blend, --splat-order, --supersample
-/// and --opaque.
-/// `options` must live until the arguments are parsed.
+/// and --opaque. `options` must live until the arguments are parsed.
 void add_drawing_options(Command& command, DrawingOptions& options);
 
 /// --scale, after add_drawing_options. Commands whose --scale resizes photographs cannot have it.

@@ -230,9 +230,11 @@ std::optional<PlyHeader> read_ply_beginning(Input& input) {
                    ' ');
   input.seek(0);
   text.resize(input.read_some(std::as_writable_bytes(std::span(text))));
-  // Both line breaks end the line; with CR LF the body begins one byte later.
-  const std::size_t last = text.find("end_header");
-  const bool is_complete = last != std::string::npos && last + 12 <= text.size();
+  // A byte more than the line: with CR LF, the body begins after both.
+  std::size_t last = text.find_first_of("\r\n");
+  while (last != std::string::npos && text.compare(last + 1, 10, "end_header") != 0)
+    last = text.find_first_of("\r\n", last + 1);
+  const bool is_complete = last != std::string::npos && last + 13 <= text.size();
   if (!is_complete && text.size() < max_header) return std::nullopt;
   return HeaderReader(input, false).read();
 }

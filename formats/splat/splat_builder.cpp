@@ -24,7 +24,7 @@ bool is_valid_density(const glm::vec3& semi_axes, std::span<const float> network
 
 SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, Kind kind, int degree,
                            std::uint64_t count)
-    : input_(input), kind_(kind), max_splats_(options.max_splats) {
+    : input_(input), kind_(kind) {
   if (count > std::numeric_limits<std::uint32_t>::max())
     input.fail(std::to_string(count) + " splats are more than 32 bits can count");
   const bool is_neural = kind == Kind::neural_densities;
@@ -34,12 +34,16 @@ SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, Kind kind, 
     splats_.kernel.emplace<Gaussians>().flat = kind == Kind::flat_gaussians;
   if (options.found_splats)
     options.found_splats(count, count * bytes_per_splat(splats_.kernel, degree));
-  const std::uint64_t held = max_splats_ ? std::min(count, 2 * *max_splats_) : count;
-  require_memory(held, bytes_per_splat(splats_.kernel, degree), count);
-  const auto reserve = [&](auto& values, std::size_t each) {
-    input_.take_memory(held, each * sizeof(values[0]), "the splats");
-    values.reserve(static_cast<std::size_t>(held) * each);
-  };
+  const std::uint64_t kept = std::min(count, options.max_splats.value_or(count));
+  const std::uint64_t held = std::min(count, kept + kept / 8 + 1);
+  kept_ = static_cast<std::size_t>(kept);
+  held_ = static_cast<std::size_t>(held);
+  const std::size_t bytes = bytes_per_splat(splats_.kernel, degree);
+  // An eighth more, and their order: at most the bytes again, a key, and what largest_splats()
+  // needs.
+  fitting_ = input.budget().left() / (2 * bytes + bytes / 8 + 1 + 16 + 2 * limit_bytes_per_splat);
+  take(held * bytes, std::to_string(count) + " splats of " + std::to_string(bytes) + " bytes each");
+  const auto reserve = [&](auto& values, std::size_t each) { values.reserve(held_ * each); };
   splats_.color.degree = degree;
   reserve(splats_.color.coefficients, std::size_t(harmonics::count(degree)));
   if (is_neural) {
@@ -57,14 +61,18 @@ SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, Kind kind, 
   }
 }
 
-void SplatBuilder::require_memory(std::uint64_t held, std::size_t each, std::uint64_t all) const {
-  const std::uint64_t fitting = input_.budget().left() / each;
-  if (held <= fitting) return;
-  // With --max-splats, twice as many are held, and to sort them takes as much as one time.
-  input_.fail(input_.budget().refusal(std::to_string(all) + " splats of " + std::to_string(each) +
-                                      " bytes each"),
-              std::string(max_memory_hint) + ", or read fewer: --max-splats " +
-                  std::to_string(std::max<std::uint64_t>(fitting / 3, 1)));
+void SplatBuilder::take(std::uint64_t bytes, const std::string& what) {
+  MemoryBudget budget = input_.budget();
+  if (!budget.take(bytes))
+    input_.fail(budget.refusal(what), std::string(max_memory_hint) +
+                                          ", or read fewer: --max-splats " +
+                                          std::to_string(std::max<std::uint64_t>(fitting_, 1)));
+}
+
+void SplatBuilder::keep_largest() {
+  PassingMemory passing(input_.budget());
+  take(limit_bytes_per_splat * count(splats_), "the order of the splats");
+  splats_ = largest_splats(std::move(splats_), kept_);
 }
 
 void SplatBuilder::add(const SplatValues& splat, std::span<const glm::vec3> coefficients,
@@ -78,8 +86,7 @@ void SplatBuilder::add(const SplatValues& splat, std::span<const glm::vec3> coef
     ++dropped_;
     return;
   }
-  if (max_splats_ && count(splats_) >= 2 * *max_splats_)
-    splats_ = largest_splats(std::move(splats_), static_cast<std::size_t>(*max_splats_));
+  if (kept_ < held_ && count(splats_) == held_) keep_largest();
   auto& colors = splats_.color.coefficients;
   colors.insert(colors.end(), coefficients.begin(), coefficients.end());
   if (is_neural) {
@@ -99,11 +106,10 @@ void SplatBuilder::add(const SplatValues& splat, std::span<const glm::vec3> coef
 
 Scene SplatBuilder::finish(const SplatProfile& profile, const std::string& format) {
   splats_.profile = profile;
-  if (max_splats_)
-    splats_ = largest_splats(std::move(splats_), static_cast<std::size_t>(*max_splats_));
+  if (count(splats_) > kept_) keep_largest();
   {
     PassingMemory passing(input_.budget());
-    input_.take_memory(morton_order_bytes(splats_), 1, "the order of the splats");
+    take(morton_order_bytes(splats_), "the order of the splats");
     sort_in_morton_order(splats_);
   }
   const std::uint64_t kept = count(splats_), valid = added_ - dropped_;

@@ -19,9 +19,9 @@ class SplatBuilder {
  public:
   enum class Kind { gaussians, flat_gaussians, neural_densities };
 
-  /// Takes the memory of `count` splats from the input's budget, of at most twice
-  /// ReadOptions::max_splats. The caller has checked that the input can hold them. Throws
-  /// InputError for 2^32 splats or more.
+  /// Takes the memory of `count` splats from the input's budget, of at most an
+  /// eighth more than ReadOptions::max_splats. The caller has checked that the input can hold them.
+  /// Throws InputError for 2^32 splats or more.
   SplatBuilder(Input& input, const ReadOptions& options, Kind kind, int degree,
                std::uint64_t count);
 
@@ -37,12 +37,17 @@ class SplatBuilder {
   Scene finish(const SplatProfile& profile, const std::string& format);
 
  private:
-  /// Throws InputError, with a number of splats that would fit, if the budget does not hold them.
-  void require_memory(std::uint64_t held, std::size_t each, std::uint64_t all) const;
+  /// Takes memory; throws InputError with a number of splats that would fit if the budget is
+  /// exceeded.
+  void take(std::uint64_t bytes, const std::string& what);
+  /// Removes all but the largest splats.
+  void keep_largest();
 
   Input& input_;
   Kind kind_;
-  std::optional<std::uint64_t> max_splats_;
+  /// With ReadOptions::max_splats: the number that stays, and that to which the splats may grow.
+  std::size_t kept_ = 0, held_ = 0;
+  std::uint64_t fitting_ = 0;  // number of splats that the budget holds
   std::uint64_t added_ = 0, dropped_ = 0;
   Splats splats_;
 };

@@ -12,7 +12,7 @@ namespace tureen {
 
 namespace {
 
-/// About 4 MB of a file of degree 3, and 10 ms to draw. Fewer splats rarely show what it is.
+/// About 4 MB of a file of degree 3. Fewer splats rarely show what it is.
 constexpr std::uint64_t first_splats = 16384;
 
 /// Where the splats of a file are.
@@ -43,14 +43,17 @@ std::optional<SplatRows> rows_of(const PlyHeader& header) {
   return SplatRows{header.body, vertex.min_bytes(false), vertex.count};
 }
 
-bool is_named_splat(const std::string& name) { return extension_of(name) == ".splat"; }
+/// Records have no signature: other content decides first, as in read_scene().
+bool is_records(std::span<const std::byte> prefix, const std::string& name) {
+  return extension_of(name) == ".splat" && !is_ply(prefix);
+}
 
 }  // namespace
 
 std::optional<PreviewSize> splat_preview_size(std::span<const std::byte> prefix,
                                               const std::string& name, std::uint64_t shown) {
-  if (is_named_splat(name)) return SplatRows{0, splat_record_size, {}}.next(shown);
   if (prefix.size() < 4) return std::nullopt;
+  if (is_records(prefix, name)) return SplatRows{0, splat_record_size, {}}.next(shown);
   if (!is_ply(prefix)) return PreviewSize{};
   Input input = Input::memory(name, prefix);
   const std::optional<PlyHeader> header = read_ply_beginning(input);
@@ -61,7 +64,7 @@ std::optional<PreviewSize> splat_preview_size(std::span<const std::byte> prefix,
 
 std::optional<Scene> read_splat_preview(std::span<const std::byte> prefix,
                                         const std::string& name) {
-  if (is_named_splat(name)) {
+  if (is_records(prefix, name)) {
     const std::size_t whole = prefix.size() / splat_record_size * splat_record_size;
     if (whole == 0) return std::nullopt;
     Input input = Input::memory(name, prefix.first(whole));

@@ -95,8 +95,8 @@ Scene read_splat_preview(GlbArrays& arrays, const JsonView& extension, const Jso
   Scene scene;
   read_info(extension, scene);
   Layer& layer = scene.layers.emplace_back(read_layer_of_node(node));
-  layer.primitives =
-      read_splats(arrays, node, node["extensions"][tureen_extension]["splat_count"], 0);
+  layer.primitives = read_splats(arrays, node, node["extensions"][tureen_extension]["splat_count"],
+                                 {.max_degree = 0});
   return scene;
 }
 

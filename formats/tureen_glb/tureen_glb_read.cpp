@@ -15,6 +15,7 @@
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
 #include "image/png.hpp"
+#include "scene/edit/splat_limit.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -30,7 +31,7 @@ class Reader {
       : input_(input),
         arrays_(input, glb, options.progress),
         extension_(tureen_extension_of(arrays_)),
-        found_splats_(options.found_splats) {}
+        options_(options) {}
 
   Scene scene() {
     Scene scene;
@@ -70,27 +71,36 @@ class Reader {
     const auto node = [&](std::size_t i) {
       return arrays_.root()["nodes"].at(GlbArrays::index(layers.at(i)));
     };
-    if (found_splats_) {
-      std::uint64_t splats = 0, bytes = 0;
-      for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto count = node(i)["extensions"][tureen_extension].find("splat_count");
-        if (!count) continue;
-        splats += count->natural(GlbArrays::max_count);
-        bytes += splat_bytes(arrays_, node(i), *count);
-      }
-      if (splats > 0) found_splats_(splats, bytes);
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const auto count = node(i)["extensions"][tureen_extension].find("splat_count");
+      if (!count) continue;
+      all_splats_ += count->natural(GlbArrays::max_count);
+      bytes += splat_bytes(arrays_, node(i), *count);
     }
+    // A false count is rejected later.
+    if (all_splats_ > 0 && bytes <= input_.size() && options_.found_splats)
+      options_.found_splats(all_splats_, bytes);
     for (std::size_t i = 0; i < layers.size(); ++i) {
       arrays_.begin_layer();
       scene.layers.push_back(layer(node(i)));
     }
+    if (kept_splats_ < all_splats_)
+      scene.info.remarks.push_back({Remark::Kind::splats_limited, {kept_splats_, all_splats_}});
   }
 
   Layer layer(const JsonView& node) {
     Layer result = read_layer_of_node(node);
     const JsonView extension = node["extensions"][tureen_extension];
     if (extension.find("splat_count")) {
-      result.primitives = read_splats(arrays_, node, extension["splat_count"]);
+      const std::uint64_t number = extension["splat_count"].natural(GlbArrays::max_count);
+      SplatPart part;
+      if (options_.max_splats && *options_.max_splats < all_splats_)
+        part.max_splats = share_of(number, read_splats_, *options_.max_splats, all_splats_);
+      Splats splats = read_splats(arrays_, node, extension["splat_count"], part);
+      read_splats_ += number;
+      kept_splats_ += count(splats);
+      result.primitives = std::move(splats);
       return result;
     }
     TriangleSoup soup;
@@ -423,7 +433,9 @@ class Reader {
   Input& input_;
   GlbArrays arrays_;
   JsonView extension_;
-  std::function<void(std::uint64_t, std::uint64_t)> found_splats_;
+  const ReadOptions& options_;
+  // Numbers of Gaussians and neural densities: in the file, in the layers so far, and kept.
+  std::uint64_t all_splats_ = 0, read_splats_ = 0, kept_splats_ = 0;
   std::uint64_t images_end_ = 0;
 };
 

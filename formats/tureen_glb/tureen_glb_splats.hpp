@@ -7,7 +7,9 @@
 // neighbours in tureen_glb_write.cpp).
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "scene/spherical_harmonics.hpp"
@@ -41,10 +43,16 @@ std::string harmonics_attribute(int degree, int order);
 
 SplatProfile read_splat_profile(const JsonView& view);
 
-/// The splats of a layer, `node`, with `splat_count` from the layer's extension. Harmonics above
-/// `max_degree` are not read. They have no defect(). Throws InputError.
+/// The part of a layer's splats that is read.
+struct SplatPart {
+  int max_degree = harmonics::max_degree;        // harmonics above it are not read
+  std::optional<std::uint64_t> max_splats = {};  // as largest_splats() keeps them
+};
+
+/// The splats of a layer, `node`, with `splat_count` from the layer's extension. They have no
+/// defect(). Throws InputError.
 Splats read_splats(GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
-                   int max_degree = harmonics::max_degree);
+                   const SplatPart& part = {});
 
 /// Bytes of the splats in memory; no array is read.
 std::uint64_t splat_bytes(const GlbArrays& arrays, const JsonView& node,

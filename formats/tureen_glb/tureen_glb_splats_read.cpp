@@ -3,6 +3,8 @@
 #include "formats/gltf/glb_arrays.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
+#include "scene/edit/splat_edits.hpp"
+#include "scene/edit/splat_limit.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -82,14 +84,21 @@ SplatKernel read_kernel(GlbArrays& arrays, const SplatLayout& layout) {
   return densities;
 }
 
-std::vector<glm::vec3> read_coefficients(GlbArrays& arrays, const SplatLayout& layout) {
+/// The coefficients of the `kept` splats with a nonzero entry in `keeps`.
+std::vector<glm::vec3> read_coefficients(GlbArrays& arrays, const SplatLayout& layout,
+                                         std::span<const std::uint8_t> keeps, std::size_t kept) {
   const std::size_t stride = layout.coefficients.size();
-  arrays.take_memory(layout.splats * stride, sizeof(glm::vec3), "harmonics");
-  std::vector<glm::vec3> result(static_cast<std::size_t>(layout.splats) * stride);
+  arrays.take_memory(kept * stride, sizeof(glm::vec3), "harmonics");
+  std::vector<glm::vec3> result(kept * stride);
   for (std::size_t k = 0; k < stride; ++k) {
     PassingMemory passing(arrays.budget());
     const auto plane = arrays.read_at<glm::vec3>(layout.coefficients[k], "harmonics");
-    for (std::size_t i = 0; i < plane.size(); ++i) result[i * stride + k] = plane[i];
+    std::size_t at = k;
+    for (std::size_t i = 0; i < plane.size(); ++i)
+      if (keeps[i]) {
+        result[at] = plane[i];
+        at += stride;
+      }
   }
   return result;
 }
@@ -110,14 +119,23 @@ SplatProfile read_splat_profile(const JsonView& view) {
 }
 
 Splats read_splats(GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
-                   int max_degree) {
-  const SplatLayout layout = splat_layout_of(arrays, node, splat_count, max_degree);
+                   const SplatPart& part) {
+  const SplatLayout layout = splat_layout_of(arrays, node, splat_count, part.max_degree);
   Splats splats;
   splats.profile = read_splat_profile(layout.ours["profile"]);
   splats.kernel = read_kernel(arrays, layout);
   splats.color.degree =
-      std::min(int(layout.ours["degree"].natural(harmonics::max_degree)), max_degree);
-  if (layout.splats > 0) splats.color.coefficients = read_coefficients(arrays, layout);
+      std::min(int(layout.ours["degree"].natural(harmonics::max_degree)), part.max_degree);
+  const auto all = static_cast<std::size_t>(layout.splats);
+  const std::size_t kept = std::min<std::uint64_t>(all, part.max_splats.value_or(all));
+  std::vector<std::uint8_t> keeps(all, 1);
+  if (kept < all) {
+    PassingMemory passing(arrays.budget());
+    arrays.take_memory(all, limit_bytes_per_splat, "the order of the splats");
+    keeps = largest_splats(splats.kernel, kept);
+    keep_splats(splats.kernel, keeps);
+  }
+  if (all > 0) splats.color.coefficients = read_coefficients(arrays, layout, keeps, kept);
   if (const auto reason = defect(splats)) layout.ours.fail(*reason);
   return splats;
 }

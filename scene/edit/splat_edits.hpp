@@ -13,6 +13,9 @@
 
 namespace tureen {
 
+/// Removes the splats with an entry of 0 in `keeps`, which has one a splat.
+void keep_splats(SplatKernel& kernel, std::span<const std::uint8_t> keeps);
+
 /// The splats with a nonzero entry in `keeps` (one a splat), with their colours, in their order.
 Splats keep_splats(Splats splats, std::span<const std::uint8_t> keeps);
 

@@ -1,6 +1,7 @@
 #include "scene/edit/splat_limit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
@@ -12,33 +13,39 @@ namespace tureen {
 
 namespace {
 
-/// The product of the two largest.
-float largest_area(const glm::vec3& axes) {
+/// The product of the two largest, in double: it may exceed a float.
+double largest_area(const glm::dvec3& axes) {
   return std::max({axes.x * axes.y, axes.y * axes.z, axes.z * axes.x});
 }
 
 }  // namespace
 
-std::vector<float> splat_contributions(const Splats& splats) {
-  std::vector<float> result(count(splats));
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (const auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
-      result[i] = gaussians->opacity[i] * largest_area(gaussians->scales[i]);
-    } else if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-      const glm::vec3* corner = &windows->corners[3 * i];
-      const float area = glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-      result[i] = area * static_cast<float>(mean_coverage(windows->opacity[i], windows->sigma[i]));
-    } else {
-      result[i] = largest_area(std::get<NeuralDensities>(splats.kernel).semi_axes[i]);
+std::vector<double> splat_contributions(const SplatKernel& kernel) {
+  std::vector<double> result;
+  if (const auto* gaussians = std::get_if<Gaussians>(&kernel)) {
+    for (std::size_t i = 0; i < gaussians->scales.size(); ++i)
+      result.push_back(double(gaussians->opacity[i]) * largest_area(gaussians->scales[i]));
+  } else if (const auto* windows = std::get_if<TriangleWindows>(&kernel)) {
+    for (std::size_t i = 0; i < windows->opacity.size(); ++i) {
+      const glm::dvec3 a = windows->corners[3 * i], b = windows->corners[3 * i + 1],
+                       c = windows->corners[3 * i + 2];
+      result.push_back(mean_coverage(double(windows->opacity[i]), double(windows->sigma[i])) *
+                       glm::length(glm::cross(b - a, c - a)));
     }
+  } else {
+    for (const glm::vec3& axes : std::get<NeuralDensities>(kernel).semi_axes)
+      result.push_back(largest_area(axes));
   }
+  // A reader may not have rejected its values yet.
+  for (double& each : result)
+    if (std::isnan(each)) each = 0;
   return result;
 }
 
-Splats largest_splats(Splats splats, std::size_t max) {
-  const std::size_t all = count(splats);
-  if (all <= max) return splats;
-  const std::vector<float> contributions = splat_contributions(splats);
+std::vector<std::uint8_t> largest_splats(const SplatKernel& kernel, std::size_t max) {
+  const std::vector<double> contributions = splat_contributions(kernel);
+  const std::size_t all = contributions.size();
+  if (all <= max) return std::vector<std::uint8_t>(all, 1);
   std::vector<std::uint32_t> order(all);
   std::iota(order.begin(), order.end(), 0u);
   // Of equal splats the first stay, so that the result does not depend on the library.
@@ -49,20 +56,35 @@ Splats largest_splats(Splats splats, std::size_t max) {
       });
   std::vector<std::uint8_t> keeps(all, 0);
   for (std::size_t i = 0; i < max; ++i) keeps[order[i]] = 1;
+  return keeps;
+}
+
+Splats largest_splats(Splats splats, std::size_t max) {
+  if (count(splats) <= max) return splats;
+  const std::vector<std::uint8_t> keeps = largest_splats(splats.kernel, max);
   return keep_splats(std::move(splats), keeps);
 }
 
+std::size_t share_of(std::uint64_t splats, std::uint64_t before, std::uint64_t max,
+                     std::uint64_t all) {
+  // The product first: the quotient of an exact multiple is exact.
+  const auto up_to = [&](std::uint64_t count) {
+    return static_cast<std::size_t>(double(max) * double(count) / double(all));
+  };
+  return std::max<std::size_t>(up_to(before + splats) - up_to(before), 1);
+}
+
 void limit_splats(Scene& scene, std::uint64_t max) {
-  std::uint64_t all = 0, kept = 0;
+  std::uint64_t all = 0, before = 0, kept = 0;
   for (const Layer& layer : scene.layers)
     if (const auto* splats = std::get_if<Splats>(&layer.primitives)) all += count(*splats);
   if (all <= max) return;
-  const double fraction = double(max) / double(all);
   for (Layer& layer : scene.layers) {
     auto* splats = std::get_if<Splats>(&layer.primitives);
     if (!splats || count(*splats) == 0) continue;
-    const auto part = static_cast<std::size_t>(fraction * double(count(*splats)));
-    *splats = largest_splats(std::move(*splats), std::max<std::size_t>(part, 1));
+    const std::size_t number = count(*splats);
+    *splats = largest_splats(std::move(*splats), share_of(number, before, max, all));
+    before += number;
     kept += count(*splats);
   }
   scene.info.remarks.push_back({Remark::Kind::splats_limited, {kept, all}});

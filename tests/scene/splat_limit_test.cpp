@@ -34,7 +34,7 @@ TEST(SplatLimit, KeepsTheLargestInTheirOrder) {
   EXPECT_EQ(places(largest_splats(all, 7)), (std::vector<float>{0, 1, 2, 4, 5, 6, 7}))
       << "of equal ones the first";
   EXPECT_EQ(count(largest_splats(all, 8)), 8u);
-  EXPECT_THAT(splat_contributions(all), ::testing::ElementsAre(3, 1, 4, 1, 5, 9, 2, 6));
+  EXPECT_THAT(splat_contributions(all.kernel), ::testing::ElementsAre(3, 1, 4, 1, 5, 9, 2, 6));
 }
 
 TEST(SplatLimit, SharesTheNumberAmongLayers) {
@@ -50,6 +50,27 @@ TEST(SplatLimit, SharesTheNumberAmongLayers) {
   EXPECT_EQ(scene.info.remarks[0], (Remark{Remark::Kind::splats_limited, {6, 9}}));
   limit_splats(scene, 1);
   EXPECT_EQ(count(std::get<Splats>(scene.layers[1].primitives)), 1u) << "a layer is never empty";
+}
+
+TEST(SplatLimit, IsReachedExactly) {
+  for (const std::uint64_t all : {398u, 1000u, 4999999u})
+    for (const std::uint64_t max : {1u, 245u, 397u}) {
+      EXPECT_EQ(share_of(all, 0, max, all), max);
+      const std::uint64_t first = all / 3;
+      if (max > 1) {
+        EXPECT_EQ(share_of(first, 0, max, all) + share_of(all - first, first, max, all), max);
+      }
+    }
+}
+
+TEST(SplatLimit, RanksExtremeValues) {
+  Splats splats = row_of({1, 2, 3});
+  auto& gaussians = std::get<Gaussians>(splats.kernel);
+  gaussians.scales[0] = glm::vec3(3e38f);
+  gaussians.opacity[0] = 0.0f;
+  EXPECT_EQ(places(largest_splats(splats, 2)), (std::vector<float>{1, 2}));
+  gaussians.opacity[0] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(places(largest_splats(splats, 2)), (std::vector<float>{1, 2}));
 }
 
 TEST(SplatLimit, FitsEveryKernel) {

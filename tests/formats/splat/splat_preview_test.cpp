@@ -4,6 +4,7 @@
 #include "formats/scene_preview.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "formats/splat/splat_records.hpp"
+#include "scene/edit/splat_edits.hpp"
 #include "tests/formats/random_scene.hpp"
 #include "tests/formats/truncation.hpp"
 
@@ -42,14 +43,19 @@ TEST(SplatPreview, GrowsUntilTheFileIsWhole) {
 }
 
 TEST(SplatPreview, HasTheFirstSplats) {
-  const std::vector<std::byte> bytes = ply_with(10);
-  for (const std::size_t lost : {1u, 200u}) {
-    const auto preview = read_preview(Bytes(bytes).first(bytes.size() - lost), "a.ply");
-    ASSERT_TRUE(preview);
-    const auto& splats = std::get<Splats>(only_layer(*preview).primitives);
-    EXPECT_FALSE(defect(splats));
-    // A row of degree 1 has 26 floats: 104 bytes.
-    EXPECT_EQ(count(splats), lost == 1 ? 9u : 8u);
+  test::RandomScene random(1);
+  const Splats ten = random.gaussians(10, 1, "3dgs", false);
+  std::vector<std::uint8_t> keeps(10, 1);
+  const std::vector<std::byte> bytes = ply_of(ten);
+  // A row of degree 1 has 26 floats: 104 bytes.
+  for (const std::size_t rows : {9u, 8u}) {
+    keeps[rows] = 0;
+    const auto preview =
+        read_preview(Bytes(bytes).first(bytes.size() - 104 * (9 - rows) - 1), "a.ply");
+    const auto whole = read_preview(ply_of(keep_splats(ten, keeps)), "a.ply");
+    ASSERT_TRUE(preview && whole);
+    EXPECT_EQ(count(std::get<Splats>(only_layer(*preview).primitives)), rows);
+    EXPECT_EQ(test::difference(*preview, *whole), "");
   }
   EXPECT_EQ(preview_size(bytes, "a.ply", 0).value().bytes, 0u) << "too few for a preview";
 }
@@ -64,12 +70,17 @@ TEST(SplatPreview, NeedsTheHeader) {
     EXPECT_FALSE(read_preview(Bytes(bytes).first(length), "a.ply")) << length;
   }
   EXPECT_TRUE(preview_size(Bytes(bytes).first(body + 1), "a.ply", 0));
+  const std::string comment =
+      "ply\nformat binary_little_endian 1.0\ncomment end_header is not here\n";
+  EXPECT_FALSE(preview_size(std::as_bytes(std::span(comment)), "a.ply", 0));
 }
 
 TEST(SplatPreview, OfRecordsIsKnownByName) {
   const std::vector<std::byte> bytes(splat_record_size * 5 + 7, std::byte(0x3f));
   EXPECT_EQ(preview_size(bytes, "a.splat", 0).value().bytes, splat_record_size * first_splats);
   EXPECT_EQ(count(std::get<Splats>(only_layer(*read_preview(bytes, "a.splat")).primitives)), 5u);
+  const std::vector<std::byte> misnamed = ply_with(3);
+  EXPECT_EQ(count(std::get<Splats>(only_layer(*read_preview(misnamed, "a.splat")).primitives)), 3u);
   EXPECT_EQ(preview_size(bytes, "a.spz", 0).value().bytes, 0u);
   EXPECT_FALSE(read_preview(bytes, "a.spz"));
 }
