@@ -70,7 +70,8 @@ bool uses_tiles(const Splats& splats, const SplatPlan& plan, const DeviceLimits&
   if (!plan.as_published && splatting::has_layer_for(splats)) return true;
   if (blending == SplatBlending::tiles || exact)
     throw UsageError(plan.as_published ? "tiles do not have the culls of published rasterisers"
-                                       : "tiles blend at most 16,777,215 splats",
+                                       : "tiles blend at most " +
+                                             std::to_string(splatting::place_mask) + " splats",
                      exact ? "use another splat order: the exact one needs tiles"
                            : "--blend raster can, and auto chooses it");
   return false;

@@ -36,8 +36,8 @@ struct PreparedLayer {
   Bounds framed = {};  // framed_bounds()
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
-  /// One of the three is set: `splats` for the device, `tiled_splats` for TilePass. None is if the
-  /// passes from PreparedScene::make_passes hold the soup on the device (the baseline).
+  /// One of the three is set: `splats` for the device, `tiled_splats` for TilePass. All are empty
+  /// if the passes from PreparedScene::make_passes hold the layer (the baselines).
   std::optional<PreparedSoup> soup = {};
   std::optional<SplatSource> splats = {};
   std::optional<splatting::LayerData> tiled_splats = {};

@@ -214,6 +214,7 @@ void Renderer::State::drop_splat_pass() {
 /// Tiles blend if they can blend all layers, otherwise the device does, or samples alpha.
 void Renderer::State::make_splat_pass() {
   if (plan.quality.splat_order == Quality::SplatOrder::stochastic) {
+    upload_tiled_splats();  // of added layers that were prepared for another order
     splat_pass = std::make_unique<StochasticSplatPass>(device, splats, splat_format);
     return;
   }
@@ -227,6 +228,10 @@ void Renderer::State::make_splat_pass() {
     splat_pass = std::make_unique<TilePass>(device, std::move(tiled), plan.quality.splat_order);
     return;
   }
+  if (plan.quality.splat_order == Quality::SplatOrder::exact)
+    throw UsageError("the exact order of splats needs tiles for all layers, and at most " +
+                         std::to_string(TilePass::max_layers) + " layers of splats",
+                     "prepare added layers with the same quality");
   upload_tiled_splats();
   auto raster = std::make_unique<SplatPass>(device, splats, splat_format);
   ordered_splats = &raster->splats();

@@ -70,10 +70,11 @@ class Renderer {
   // soups: call set_passes({}) before remove_layer() and swap_layers().
 
   /// Adds the layers of a scene after the present ones, which stay on the device. Several layers
-  /// are all drawn deferred. The quality stays that of the first scene. Requires a scene
-  /// without make_passes, no call of set_passes() before, the same choice of reversed depth, and at
-  /// most max_layers layers. Throws
-  /// DeviceLimitError and ContextError; then the layers are as before.
+  /// are all drawn deferred. The quality stays that of the first scene. Requires a scene without
+  /// make_passes, no call of set_passes() before, the same choice of reversed depth, and at most
+  /// max_layers layers. Throws DeviceLimitError and ContextError, and UsageError if the exact order
+  /// of splats is shown and the added splats were not prepared for it; then the layers are as
+  /// before.
   void add_layers(PreparedScene prepared);
   /// The same with layers that another renderer of the same device has uploaded, for example in
   /// another thread. If `other` has another context than this renderer, call
@@ -101,8 +102,9 @@ class Renderer {
   /// samples, exceeds Capabilities::max_image_side.
   ///
   /// Splats are blended in the order of their depths in this view. With `order` `earlier` and a
-  /// sorter, many splats may have the order of an earlier view that looks in a direction less than
-  /// 2 degrees away, so that no frame of a moving camera waits for sorting.
+  /// sorter, many splats may have the order of an earlier view that looks in a direction at most
+  /// max_order_lag away. A frame then waits for sorting only after a larger turn, or if it shows
+  /// splats that the order lacks.
   enum class SplatOrdering { exact, earlier };
   void draw(const FrameInput& input, SplatOrdering order = SplatOrdering::exact);
 
@@ -139,7 +141,8 @@ class Renderer {
   /// of the soups. Returns nullopt outside the image, for the background, and if no pass stores
   /// depth, as in DebugView::overdraw of soups. On soups, its precision is that of the depth
   /// buffer; on splats, that of floats (SplatMeasures). Draws all splats about ten times, in one
-  /// pixel, and waits for the device.
+  /// pixel, and waits for the device. With tiles, the first call copies the splats to the device,
+  /// where they stay. Throws DeviceLimitError.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 
   /// Copies the last frame to a framebuffer (0 is the window), its lower left corner to `corner`.

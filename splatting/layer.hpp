@@ -20,6 +20,7 @@ namespace tureen::splatting {
 inline constexpr int place_bits = 24;
 inline constexpr std::uint32_t place_mask = (1u << place_bits) - 1;
 
+/// Kernels; discs and Gaussians are the projections of Gaussians by SplatProfile::projection.
 enum class LayerKind { windows, corner_color_windows, discs, gaussians, densities };
 
 /// Everything that a layer is made from. The rows are those of window_row, gaussian_row or
@@ -32,7 +33,7 @@ struct LayerData {
 
 /// A splat at a pixel.
 struct SplatHit {
-  float depth;  // along the pixel's ray, in TileHits::scale
+  float depth;  // view depth at which the pixel's ray meets the splat, in world units
   float alpha;  // limited by the profile
   float red, green, blue;
   float stop;           // ImageView::stop_transmittance of its layer
@@ -88,6 +89,7 @@ std::vector<std::uint32_t> without_nan(const Splats& splats, std::span<const std
 LayerData layer_data(const Splats& splats, const SplatProfile& profile,
                      std::span<const std::uint32_t> which, int degree);
 
+/// The layer that draws these data.
 std::unique_ptr<Layer> make_layer(LayerData data);
 
 }  // namespace tureen::splatting

@@ -11,7 +11,6 @@ namespace tureen::splatting {
 /// Windows of one colour, for WindowLayer.
 struct OneColorWindows {
   using Entry = WindowEntry;
-  static constexpr std::size_t colors = 1;
   static constexpr std::size_t rows = projected_window_row::count;
   static constexpr auto project = &project_windows;
   static constexpr auto read = &read_entry;
@@ -22,7 +21,6 @@ struct OneColorWindows {
 /// Windows with colours of their corners.
 struct CornerColorWindows {
   using Entry = CornerWindowEntry;
-  static constexpr std::size_t colors = 3;
   static constexpr std::size_t rows = projected_corner_row::count;
   static constexpr auto project = &project_corner_windows;
   static constexpr auto read = &read_corner_entry;

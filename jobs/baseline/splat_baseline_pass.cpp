@@ -120,7 +120,8 @@ void SplatBaselinePass::set_view(const Frame& frame) {
   program_.set("slope_range", ewa_slope_range(frame.input.whole.value_or(camera)));
   const bool dilates = profile_.low_pass == SplatProfile::LowPass::dilation ||
                        profile_.low_pass == SplatProfile::LowPass::mip;
-  program_.set("dilation", dilates ? static_cast<float>(dilation_variance) : 0.0f);
+  const double pixel_area = frame.samples_per_pixel * frame.samples_per_pixel;
+  program_.set("dilation", dilates ? static_cast<float>(dilation_variance * pixel_area) : 0.0f);
 }
 
 std::size_t SplatBaselinePass::device_bytes() const {

@@ -79,6 +79,8 @@ class RendererCase final : public BenchCase {
   }
   std::optional<double> order_ms(std::span<const Camera> cameras,
                                  const std::function<double()>& clock) const override {
+    const bool sorts = renderer_->plan().quality.splat_order != Quality::SplatOrder::stochastic;
+    if (!sorts) return std::nullopt;
     return tureen::order_ms(scene_, pipeline_, cameras, clock);
   }
   bool blends_in_tiles() const override { return tiles_; }

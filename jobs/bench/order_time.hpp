@@ -12,8 +12,9 @@
 
 namespace tureen {
 
-/// Milliseconds a view for sorting all splats, by SplatOrder or by the baseline's order: the mean
-/// over the cameras of the best of three times. Empty without splats. `clock` is in seconds; null:
+/// Milliseconds a view for sorting all splats, by SplatOrder (also for tiles, which sort the same
+/// keys) or by the baseline's order: the mean over the cameras of the best of three times. Empty
+/// without splats. `clock` is in seconds; null:
 /// the steady clock. Asserts cameras.
 std::optional<double> order_ms(const Scene& scene, PipelineKind pipeline,
                                std::span<const Camera> cameras,

@@ -38,8 +38,8 @@ struct Frame {
   std::vector<FrameCamera> layers;  // for each layer of the scene
   /// Whether splats may be blended in the order of an earlier view.
   bool may_use_earlier_order = false;
-  /// With supersampling, samples per pixel along each axis; otherwise 1. Low passes of splats are
-  /// in pixels.
+  /// With supersampling, samples per pixel along each axis; otherwise 1, also with a resolution
+  /// scale. Low passes of splats are in pixels with supersampling, and in samples with a scale.
   double samples_per_pixel = 1;
 };
 

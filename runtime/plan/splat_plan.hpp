@@ -32,7 +32,8 @@ inline constexpr std::array<const char*, 3> splat_blending_names{"auto", "raster
 
 /// The texture in which splats are blended by raster.
 enum class SplatFormat {
-  automatic,  // rgba16 if device and colours allow it; otherwise rgba32f if the device blends it
+  automatic,  // rgba16 if device and colours allow it and min_alpha is at least 1/255; otherwise
+              // rgba32f if the device blends it, or rgba16f
   rgba32f,
   rgba16,   // fractions of the largest colour: 57 dB and more
   rgba16f,  // about 52 dB: near an alpha of 1 its step is 1/2048, and faint splats vanish
@@ -52,7 +53,8 @@ struct SplatPlan {
   int colors_per_splat = 1;  // or 3, with SplatColor::per_corner
   /// No drawn splat has a larger colour, seen from any direction. At least 1.
   float largest_color = 1;
-  /// Drawn splats, in the scene's order: those whose opacity reaches the profile's min_alpha.
+  /// Drawn splats, in the scene's order: all, or with transparent_splats those whose opacity
+  /// reaches the profile's min_alpha.
   std::vector<std::uint32_t> drawn;
   /// bounds() of each chunk of `drawn`: splats_per_chunk splats, the last one fewer. Readers sort
   /// splats along the Morton curve, so chunks are small in space.

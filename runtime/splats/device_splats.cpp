@@ -105,7 +105,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
       harmonics_degree_(plan.harmonics_degree),
       colors_per_splat_(plan.colors_per_splat),
       largest_color_(plan.largest_color),
-      may_leave_out_hidden_(plan.applies(Specialisation::hidden_splats)),
+      may_skip_hidden_(plan.applies(Specialisation::hidden_splats)),
       centers_(std::move(source.centers)),
       chunks_(plan.chunks),
       layout_(source.layout),
@@ -207,7 +207,7 @@ void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLu
   if (tests_depth() || drawing.output == SplatOutput::sample)
     program.set_texture("depth_texture", unit++, target.depth_texture());
   if (drawing.bounds) program.set_texture("bounds", unit++, drawing.bounds);
-  program.set("leaves_out_hidden", drawing.hidden ? 1 : 0);
+  program.set("skips_hidden", drawing.hidden ? 1 : 0);
   // Also without tiles: samplers of different types may not share a unit.
   program.set_texture("hidden", unit, drawing.hidden ? drawing.hidden->texture() : 0);
   set_view(program, frame);

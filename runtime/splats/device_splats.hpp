@@ -59,7 +59,7 @@ class DeviceSplats {
   const SplatProfile& profile() const { return profile_; }
   float largest_color() const { return largest_color_; }  // SplatPlan::largest_color
   /// Specialisation::hidden_splats
-  bool may_leave_out_hidden() const { return may_leave_out_hidden_; }
+  bool may_skip_hidden() const { return may_skip_hidden_; }
 
   /// Centres of the drawn splats, in layer coordinates.
   std::span<const glm::vec3> centers() const { return centers_; }
@@ -100,7 +100,7 @@ class DeviceSplats {
   bool as_published_;
   int harmonics_degree_, colors_per_splat_;
   float largest_color_;
-  bool may_leave_out_hidden_;
+  bool may_skip_hidden_;
   std::size_t layer_ = 0;
   std::vector<glm::vec3> centers_;
   std::vector<Bounds> chunks_;

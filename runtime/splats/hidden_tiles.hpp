@@ -14,7 +14,9 @@ namespace tureen {
 
 class HiddenTiles {
  public:
-  /// Of the finest tiles, in pixels. Each further level has tiles of twice the side.
+  /// Of the finest tiles, in pixels. Each further level has tiles of twice the side. On llvmpipe,
+  /// tiles of 4 take as long. The coarsest are 128 pixels wide; few splats are as large as 3 of
+  /// them.
   static constexpr int side = 8;
   static constexpr int levels = 5;
 

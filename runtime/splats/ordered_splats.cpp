@@ -188,9 +188,9 @@ void OrderedSplats::draw(const Frame& frame, FrameTarget& target,
   }
 }
 
-bool OrderedSplats::may_leave_out_hidden() const {
+bool OrderedSplats::may_skip_hidden() const {
   return std::all_of(layers_.begin(), layers_.end(),
-                     [](DeviceSplats* layer) { return layer->may_leave_out_hidden(); });
+                     [](DeviceSplats* layer) { return layer->may_skip_hidden(); });
 }
 
 float OrderedSplats::largest_color() const {

@@ -64,7 +64,7 @@ class OrderedSplats {
   }
 
   /// Whether Specialisation::hidden_splats applies to all layers.
-  bool may_leave_out_hidden() const;
+  bool may_skip_hidden() const;
   /// No splat has a larger colour.
   float largest_color() const;
   /// The smallest of the layers' SplatProfile::min_alpha.

@@ -32,11 +32,11 @@ bool serves(std::span<const SplatsInView> sorted, std::span<const SplatsInView> 
 bool has_visible_splats_of(std::span<const SplatsInView> sorted,
                            std::span<const SplatsInView> views);
 
-/// Whether the viewing axes differ at most `max_order_lag`.
-bool lags_little(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
 /// In radians: 2 degrees. The image of a dense scene differs by 50 to 55 dB from that in its own
 /// order; with 5 degrees it is 44 dB, which is visible.
 inline constexpr double max_order_lag = 0.0349;
+/// Whether the viewing axes differ by at most max_order_lag.
+bool lags_little(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
 
 /// Consecutive splats of one layer in an order.
 struct SplatRun {

@@ -22,7 +22,7 @@ SplatPass::SplatPass(const gl::Capabilities& device,
     : splats_(layers, fraction),
       format_(blend_format(format, device, splats_.min_alpha(), splats_.largest_color())),
       blended_(device.api, format_) {
-  if (splats_.may_leave_out_hidden()) hidden_.emplace(device.api, splats_.largest_color());
+  if (splats_.may_skip_hidden()) hidden_.emplace(device.api, splats_.largest_color());
 }
 
 void SplatPass::resize(const FrameTarget& target) {
@@ -55,11 +55,7 @@ void SplatPass::draw(const Frame& frame, FrameTarget& target) {
 }
 
 std::vector<glm::vec4> SplatPass::read_blended() const {
-  const auto read =
-      format_.texture.type == GL_UNSIGNED_SHORT ? read_fraction_pixels : read_float_pixels;
-  std::vector<glm::vec4> pixels = read(framebuffers_.with_depth.id(), blended_.size());
-  for (glm::vec4& pixel : pixels) pixel = {glm::vec3(pixel) / format_.color_unit, pixel.a};
-  return pixels;
+  return blended_.read(framebuffers_.with_depth);
 }
 
 std::size_t SplatPass::target_bytes() const {

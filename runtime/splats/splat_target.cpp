@@ -10,7 +10,8 @@ BlendFormat blend_format(SplatFormat requested, const gl::Capabilities& device, 
                          float largest_color) {
   // With fractions of 16 bits, splats vanish where alpha times transmittance is below half a step.
   // From alpha 1/255 on, the colour loses at most half an 8-bit step. Each blending rounds colours
-  // to 1/65536 of the largest: 200 times add up to an eighth of an 8-bit step if it is 8.
+  // to 1/65536 of the largest. If that is 8, roundings of random signs in 200 blendings typically
+  // add up to an eighth of an 8-bit step; all in one direction, to 3 steps.
   constexpr float smallest_alpha = 1.0f / 255, largest = 8;
   const bool fits = device.norm16_targets && largest_color <= largest;
   if (fits && (requested == SplatFormat::rgba16 ||
@@ -51,6 +52,14 @@ void SplatTarget::composite_over(FrameTarget& target) {
   else
     resolve->set("background", target.background());
   full_screen_.draw(*resolve);
+}
+
+std::vector<glm::vec4> SplatTarget::read(const gl::Framebuffer& framebuffer) const {
+  const auto read =
+      format_.texture.type == GL_UNSIGNED_SHORT ? read_fraction_pixels : read_float_pixels;
+  std::vector<glm::vec4> pixels = read(framebuffer.id(), size_);
+  for (glm::vec4& pixel : pixels) pixel = {glm::vec3(pixel) / format_.color_unit, pixel.a};
+  return pixels;
 }
 
 std::size_t SplatTarget::bytes() const {

@@ -42,6 +42,10 @@ class SplatTarget {
   /// Composites the texture over the colours of the frame, or over its background.
   void composite_over(FrameTarget& target);
 
+  /// The colours of `framebuffer`, whose first target is the texture: premultiplied RGBA, row 0 on
+  /// top. Waits for the device.
+  std::vector<glm::vec4> read(const gl::Framebuffer& framebuffer) const;
+
   /// Bytes of the textures, by their formats.
   std::size_t bytes() const;
   /// See Renderer::leave_context(). resize() must follow.

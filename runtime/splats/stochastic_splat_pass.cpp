@@ -65,11 +65,7 @@ void StochasticSplatPass::draw(const Frame& frame, FrameTarget& target) {
 }
 
 std::vector<glm::vec4> StochasticSplatPass::read_blended() const {
-  const auto read =
-      format_.texture.type == GL_UNSIGNED_SHORT ? read_fraction_pixels : read_float_pixels;
-  std::vector<glm::vec4> pixels = read(framebuffer_.id(), sampled_.size());
-  for (glm::vec4& pixel : pixels) pixel = {glm::vec3(pixel) / format_.color_unit, pixel.a};
-  return pixels;
+  return sampled_.read(framebuffer_);
 }
 
 std::size_t StochasticSplatPass::target_bytes() const {

@@ -1,11 +1,11 @@
 // Whether earlier splats hide a part of the image (runtime/splats/hidden_tiles.hpp).
 #if OUTPUT == OUTPUT_COLOR
-uniform bool leaves_out_hidden;
+uniform bool skips_hidden;
 uniform sampler2D hidden;  // 1 where a tile is hidden; HIDDEN_LEVELS levels
 
 // For the pixels from `low` to `high`. `half_size`: of the image, in pixels.
 bool is_hidden(vec2 low, vec2 high, vec2 half_size) {
-  if (!leaves_out_hidden) return false;
+  if (!skips_hidden) return false;
   vec2 last_pixel = 2.0 * half_size - 1.0;
   ivec2 first = ivec2(clamp(low, vec2(0.0), last_pixel)) / HIDDEN_TILE_SIDE;
   ivec2 last = ivec2(clamp(high, vec2(0.0), last_pixel)) / HIDDEN_TILE_SIDE;
