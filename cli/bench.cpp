@@ -109,6 +109,9 @@ BenchResult run(const BenchOptions& options) {
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is skipped: " + each.reason);
   result.load = load_of(cases, read_ms.count());
+  constexpr double bytes_per_mib = 1 << 20;
+  result.load.disk_mib = double(bytes_on_disk(options.scene.path)) / bytes_per_mib;
+  result.load.memory_mib = double(byte_size(scene)) / bytes_per_mib;
   Progress progress("timing");
   MeasureOptions measuring{.rounds = options.rounds, .max_seconds = options.seconds};
   measuring.clock = clock.now;

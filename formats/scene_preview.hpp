@@ -1,7 +1,7 @@
 // A preview of a partially loaded file, for a first image while the rest arrives. No state is kept
 // between calls: call for the size until it is known, and for the scene once as many bytes are
-// available. formats/tureen_glb/tureen_glb_preview.hpp and formats/splat/splat_preview.hpp say what
-// it shows.
+// available. formats/tureen_glb/tureen_glb_preview.hpp and formats/splat/splat_preview.hpp describe
+// the previews of each format.
 #pragma once
 
 #include <cstddef>

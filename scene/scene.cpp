@@ -162,6 +162,14 @@ void keep_layer(Scene& scene, const std::string& name) {
   scene.layers.push_back(std::move(kept));
 }
 
+std::size_t byte_size(const Scene& scene) {
+  std::size_t bytes = 0;
+  for (const Layer& layer : scene.layers)
+    bytes +=
+        std::visit([](const auto& primitives) { return byte_size(primitives); }, layer.primitives);
+  return bytes;
+}
+
 bool has_visible_layer(const Scene& scene) {
   return std::any_of(scene.layers.begin(), scene.layers.end(),
                      [](const Layer& layer) { return layer.visible; });

@@ -102,6 +102,9 @@ void choose_profile(Scene& scene, std::string_view name);
 /// Whether a layer is visible.
 bool has_visible_layer(const Scene& scene);
 
+/// Bytes in the vectors of all layers.
+std::size_t byte_size(const Scene& scene);
+
 /// One scene with all layers, in order. Needs at least one scene; a single scene stays as it is.
 /// Cameras, quality and info are those of the first scene, except:
 /// - Layers without a name get the name of their scene. Equal names get numbers: "fox", "fox 2".

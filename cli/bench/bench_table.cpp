@@ -84,10 +84,14 @@ std::vector<std::string> bench_table(const BenchResult& result) {
   if (load.peak_mib > 0)
     peaks += fmt::format("; peak {:.0f} MiB before the first frame", load.peak_mib);
   if (result.peak_mib) peaks += fmt::format("; peak {:.0f} MiB after all frames", *result.peak_mib);
+  std::string sizes;  // unknown in browsers
+  if (load.disk_mib > 0)
+    sizes =
+        fmt::format("{:.1f} MiB on disk, {:.1f} MiB in memory, ", load.disk_mib, load.memory_mib);
   lines.push_back(fmt::format(
-      "{}: read {} ms, plan {} ms, upload {} ms{}; on the device {:.1f} MiB",
+      "{}: read {} ms, plan {} ms, upload {} ms{}; {}{:.1f} MiB on the device",
       primitives_text(result.scene.triangles, result.scene.splats), ms_text(load.read_ms),
-      ms_text(load.plan_ms), ms_text(load.upload_ms), peaks, load.device_mib));
+      ms_text(load.plan_ms), ms_text(load.upload_ms), peaks, sizes, load.device_mib));
   lines.push_back("Times: " + result.protocol.clock);
   const std::vector<BenchMeasurement>& all = result.measurements;
   for (std::size_t i = 0; i < all.size();) {

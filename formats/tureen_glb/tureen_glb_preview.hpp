@@ -21,7 +21,7 @@
 
 namespace tureen {
 
-/// What a preview needs, from the available first bytes `prefix`. Returns nullopt until they
+/// The size of a preview, from the available first bytes `prefix`. Returns nullopt until they
 /// contain the JSON chunk and the next chunk's header, a few kilobytes in most files. There is no
 /// preview for other formats, compressed files, several layers, soups without faces and layers
 /// without splats. Errors print `name` as the file. Throws InputError if the available bytes are

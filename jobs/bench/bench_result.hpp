@@ -52,6 +52,8 @@ struct BenchLoad {
   double upload_ms = 0;  // buffers, textures and shaders, until the device has finished
   double peak_mib = 0;   // largest resident set of the process, without targets; 0: unknown
   double device_mib = 0;
+  double disk_mib = 0;    // of the scene's files; 0: unknown
+  double memory_mib = 0;  // of the scene's arrays; 0: unknown
 };
 
 struct BenchConfiguration {

@@ -134,6 +134,12 @@ BenchMeasurement measurement(const JsonView& view) {
           .image = unless_null(view["picture"], text)};
 }
 
+/// A number that results of earlier versions lack.
+double number_or_0(const JsonView& view, const char* key) {
+  const std::optional<JsonView> found = view.find(key);
+  return found ? found->number() : 0;
+}
+
 }  // namespace
 
 Json to_json(const BenchResult& result) {
@@ -158,7 +164,9 @@ Json to_json(const BenchResult& result) {
               {"plan_ms", result.load.plan_ms},
               {"upload_ms", result.load.upload_ms},
               {"peak_mib", result.load.peak_mib},
-              {"device_mib", result.load.device_mib}}},
+              {"device_mib", result.load.device_mib},
+              {"disk_mib", result.load.disk_mib},
+              {"memory_mib", result.load.memory_mib}}},
             {"configurations", configurations},
             {"measurements", measurements},
             {"notes", result.notes}};
@@ -192,7 +200,9 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
                    .plan_ms = load["plan_ms"].number(),
                    .upload_ms = load["upload_ms"].number(),
                    .peak_mib = load["peak_mib"].number(),
-                   .device_mib = load["device_mib"].number()},
+                   .device_mib = load["device_mib"].number(),
+                   .disk_mib = number_or_0(load, "disk_mib"),
+                   .memory_mib = number_or_0(load, "memory_mib")},
           .configurations = list(root["configurations"], configuration),
           .measurements = list(root["measurements"], measurement),
           .notes = texts(root["notes"]),

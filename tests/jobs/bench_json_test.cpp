@@ -69,7 +69,13 @@ BenchResult example() {
                      .version = "4.5",
                      .software = true},
           .protocol = {.clock = "steady", .rounds = 5, .aa_spread = 0.02},
-          .load = {.read_ms = 1, .plan_ms = 2, .upload_ms = 3, .peak_mib = 4, .device_mib = 5},
+          .load = {.read_ms = 1,
+                   .plan_ms = 2,
+                   .upload_ms = 3,
+                   .peak_mib = 4,
+                   .device_mib = 5,
+                   .disk_mib = 6,
+                   .memory_mib = 7},
           .configurations = {{.name = "tureen",
                               .options = {},
                               .plan = {"color-mlp: the color MLP does not run"},
@@ -167,8 +173,10 @@ TEST(BenchResult, MissesEveryKeyThatAllHave) {
   const nlohmann::json complete = to_json(example());
   const auto keys = all_keys(complete);
   ASSERT_GT(keys.size(), 60u);
-  const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads", "/peak_mib",
-                                       "/protocol/processor_time", "/scene/splats"};
+  const std::set<std::string> optional{"/program/build",  "/machine/rasteriser_threads",
+                                       "/peak_mib",       "/protocol/processor_time",
+                                       "/scene/splats",   "/load/disk_mib",
+                                       "/load/memory_mib"};
   for (const auto& key : keys) {
     // Files of earlier versions have no list of specialisations, no kind of gap, no splats.
     if (optional.contains(key.to_string()) || key.back() == "specialisations" ||
