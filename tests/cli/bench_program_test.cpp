@@ -61,7 +61,8 @@ TEST_F(Bench, MeasuresTheSceneThatItNames) {
   EXPECT_EQ(json["protocol"]["rounds"], 1);
   EXPECT_GE(json["peak_mib"], json["load"]["peak_mib"]) << "with the render targets";
   EXPECT_THAT(json["program"].value("build", ""), AnyOf("release", "debug", "sanitized"));
-  for (const char* time : {"read_ms", "upload_ms", "peak_mib", "device_mib", "disk_mib", "memory_mib"})
+  for (const char* time :
+       {"read_ms", "upload_ms", "peak_mib", "device_mib", "disk_mib", "memory_mib"})
     EXPECT_GT(json["load"][time], 0) << time;
   for (const auto& each : json["measurements"]) {
     EXPECT_EQ(each["width"], 64);
