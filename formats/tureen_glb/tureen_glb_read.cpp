@@ -73,7 +73,10 @@ class Reader {
     };
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      const auto count = node(i)["extensions"][tureen_extension].find("splat_count");
+      // A layer without them is rejected when it is read.
+      const auto extensions = node(i).find("extensions");
+      const auto extension = extensions ? extensions->find(tureen_extension) : std::nullopt;
+      const auto count = extension ? extension->find("splat_count") : std::nullopt;
       if (!count) continue;
       all_splats_ += count->natural(GlbArrays::max_count);
       bytes += splat_bytes(arrays_, node(i), *count);
