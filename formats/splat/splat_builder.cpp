@@ -63,10 +63,10 @@ SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, Kind kind, 
 
 void SplatBuilder::take(std::uint64_t bytes, const std::string& what) {
   MemoryBudget budget = input_.budget();
-  if (!budget.take(bytes))
-    input_.fail(budget.refusal(what), std::string(max_memory_hint) +
-                                          ", or read fewer: --max-splats " +
-                                          std::to_string(std::max<std::uint64_t>(fitting_, 1)));
+  if (budget.take(bytes)) return;
+  std::string hint = max_memory_hint;
+  if (fitting_ > 0) hint += ", or read fewer: --max-splats " + std::to_string(fitting_);
+  input_.fail(budget.refusal(what), hint);
 }
 
 void SplatBuilder::keep_largest() {
