@@ -86,8 +86,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       command, [&options](Quality::SplatOrder order) { options.splat_order = order; },
       "order of splats at a pixel; the scene's own by default. centre: by their centres. exact: "
       "along the pixel's ray; by the processor, several times slower. stochastic: by their "
-      "centres, "
-      "without blending; noisy, but the mean of many samples is right");
+      "centres, without blending; noisy, but the mean of many samples is right");
   command
       .add_option("--supersample", options.supersampling,
                   "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "

@@ -131,7 +131,7 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
         "the layer has " + std::to_string(centers_.size()) + " splats; this device draws at most " +
             std::to_string(std::size_t(device.max_texture_size) * std::size_t(projected_columns) /
                            std::size_t(colors_per_splat_)),
-        "read fewer: --max-splats");
+        "read fewer splats: --max-splats N");
   for (std::size_t i = 0; i < 1 + files.projected.size(); ++i)
     projected_.push_back(make_target(projected_format, projected_columns, std::max(rows, 1)));
   gl::check("DeviceSplats");

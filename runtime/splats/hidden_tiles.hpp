@@ -14,9 +14,8 @@ namespace tureen {
 
 class HiddenTiles {
  public:
-  /// Of the finest tiles, in pixels. Each further level has tiles of twice the side. On llvmpipe,
-  /// tiles of 4 take as long. The coarsest are 128 pixels wide; few splats are as large as 3 of
-  /// them.
+  /// Of the finest tiles, in pixels. Each further level has tiles of twice the side, so the
+  /// coarsest have 128 pixels. Splats larger than three of these are drawn untested.
   static constexpr int side = 8;
   static constexpr int levels = 5;
 
