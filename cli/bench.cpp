@@ -109,7 +109,6 @@ BenchResult run(const BenchOptions& options) {
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is skipped: " + each.reason);
   result.load = load_of(cases, read_ms.count());
-  constexpr double bytes_per_mib = 1 << 20;
   result.load.disk_mib = double(bytes_on_disk(options.scene.path)) / bytes_per_mib;
   result.load.memory_mib = double(byte_size(scene)) / bytes_per_mib;
   Progress progress("timing");

@@ -27,8 +27,6 @@ constexpr const char* copy = "copy";
 const std::vector<std::string> all_names{ours,    in_fragments, as_compute, by_raster, in_tiles,
                                          generic, "baseline",   baseline,   triangles, copy};
 
-constexpr double bytes_per_mib = 1 << 20;
-
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();

@@ -45,6 +45,9 @@ struct BenchProtocol {
   double aa_spread = 0;         // the largest of all measurements
 };
 
+/// Divides bytes for the members "_mib".
+inline constexpr double bytes_per_mib = 1 << 20;
+
 /// Work before the first frame of the first configuration; never part of a frame's time.
 struct BenchLoad {
   double read_ms = 0;    // the file, until the soup is in memory
