@@ -43,13 +43,22 @@ Legend difference_legend() {
   return entries;
 }
 
+Image8 side_by_side(std::span<const Image8> images) {
+  int width = 0;
+  for (const Image8& image : images) width += image.width;
+  Image8 result(width, images.front().height);
+  int x = 0;
+  for (const Image8& image : images) {
+    for (int y = 0; y < image.height; ++y)
+      std::copy_n(&image.at(0, y), image.width, &result.at(x, y));
+    x += image.width;
+  }
+  return result;
+}
+
 Image8 side_by_side(const ImageF& a, const ImageF& b) {
   const Image8 images[] = {quantised(a), quantised(b), difference(a, b)};
-  Image8 result(3 * a.width, a.height);
-  for (int y = 0; y < a.height; ++y)
-    for (int i = 0; i < 3; ++i)
-      std::copy_n(&images[i].at(0, y), a.width, &result.at(i * a.width, y));
-  return result;
+  return side_by_side(images);
 }
 
 }  // namespace tureen

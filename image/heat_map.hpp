@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ Image8 difference(const ImageF& a, const ImageF& b);
 
 /// Legend of heat(): differences from 0/255 to 255/255, mostly doubling from entry to entry.
 Legend difference_legend();
+
+/// Images of the same height in a row. At least one.
+Image8 side_by_side(std::span<const Image8> images);
 
 /// Left, middle and right: a, b and their difference. Throws UsageError if the sizes differ.
 Image8 side_by_side(const ImageF& a, const ImageF& b);

@@ -9,6 +9,7 @@
 #include "cli/files/image_file.hpp"
 #include "image/contact_sheet.hpp"
 #include "image/heat_map.hpp"
+#include "image/specks.hpp"
 
 namespace tureen::cli {
 
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* sheet_name = "contact_sheet.png";
-constexpr int thumbnail_side = 640;  // larger than the default: it has three images side by side
+constexpr int thumbnail_side = 640;  // larger than the default: it has four images side by side
 
 /// Throws UsageError if a file in `spared` would be replaced: it may be a photograph.
 void check_spared(const fs::path& spared, const fs::path& folder,
@@ -60,7 +61,10 @@ EvalImages::EvalImages(const fs::path& folder, const fs::path& spared,
 }
 
 void EvalImages::write(std::size_t view, const ImageF& photograph, const ImageF& rendering) {
-  Image8 image = side_by_side(photograph, rendering);
+  const Image8 images[] = {quantised(photograph), quantised(rendering),
+                           difference(photograph, rendering),
+                           marked_defects(photograph, rendering)};
+  Image8 image = side_by_side(images);
   // The photograph is already composited over the background.
   for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
   write_image(image, folder_ / names_[view]);

@@ -1,5 +1,5 @@
-// The images of an evaluation: one PNG per view with the photograph, the rendering and a heat map
-// of their differences side by side, and a contact sheet of them.
+// The images of an evaluation, and a contact sheet of them: one PNG per view with the photograph,
+// the rendering, a heat map of their differences, and holes and specks side by side.
 #pragma once
 
 #include <filesystem>

@@ -4,14 +4,38 @@
 #include <cassert>
 #include <deque>
 #include <future>
+#include <numeric>
 #include <thread>
 
+#include "image/specks.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 
 namespace tureen {
 
 namespace {
+
+double mean_of(std::span<const float> values, std::size_t count) {
+  return count == 0 ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / double(count);
+}
+
+double hole_fraction(const ImageF& photograph, const ImageF& drawn) {
+  const auto opaque = std::count_if(photograph.pixels.begin(), photograph.pixels.end(),
+                                    [](const glm::vec4& pixel) { return pixel.a >= 1.0f; });
+  return mean_of(hole_map(photograph, drawn), std::size_t(opaque));
+}
+
+/// The colours over the opaque background, with coverage as alpha.
+Image8 drawn_view(Renderer& renderer, const Camera& camera, const glm::vec3& background) {
+  renderer.set_background({background, 1.0f});
+  renderer.draw({camera});
+  Image8 image = renderer.read_color();
+  renderer.set_background({background, 0.0f});
+  renderer.draw({camera});
+  const Image8 covered = renderer.read_color();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i].a = covered.pixels[i].a;
+  return image;
+}
 
 /// The errors of a drawn view. Runs on any thread.
 ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8& rendering,
@@ -20,7 +44,12 @@ ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8
   const ImageF drawn = to_float(rendering);
   const Metrics metrics = compare(truth, drawn, options.metrics);
   if (options.on_view) options.on_view(view, truth, drawn);
-  return {photograph.camera.name, metrics.psnr_db, metrics.ssim, metrics.flip};
+  return {.name = photograph.camera.name,
+          .psnr_db = metrics.psnr_db,
+          .ssim = metrics.ssim,
+          .flip = metrics.flip,
+          .holes = hole_fraction(truth, drawn),
+          .specks = mean_of(speck_map(truth, drawn), drawn.pixels.size())};
 }
 
 ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
@@ -29,9 +58,15 @@ ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
     sum.psnr_db += view.psnr_db;
     sum.ssim += view.ssim;
     sum.flip += view.flip;
+    sum.holes += view.holes;
+    sum.specks += view.specks;
   }
   const double n = double(views.size());
-  return {"", sum.psnr_db / n, sum.ssim / n, sum.flip / n};
+  return {.psnr_db = sum.psnr_db / n,
+          .ssim = sum.ssim / n,
+          .flip = sum.flip / n,
+          .holes = sum.holes / n,
+          .specks = sum.specks / n};
 }
 
 RenderOptions render_options(const EvaluationOptions& options) {
@@ -55,9 +90,9 @@ Evaluation measured(const gl::Context& context, Renderer renderer,
   };
   for (std::size_t i = 0; i < photographs.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(photographs.size()));
-    renderer.draw({photographs[i].camera});
     running.push_back(std::async(std::launch::async, measure, i, std::cref(photographs[i]),
-                                 renderer.read_color(), std::cref(options)));
+                                 drawn_view(renderer, photographs[i].camera, options.background),
+                                 std::cref(options)));
     if (running.size() == most) take_first();
   }
   while (!running.empty()) take_first();

@@ -4,7 +4,7 @@
 // Protocol: the device's 8-bit rendering is compared with the photograph over the background, which
 // is not rounded again. PSNR comes from the mean squared error of a view, SSIM uses the requested
 // border, FLIP 67 pixels per degree. Each is computed view by view and averaged over the views, as
-// in papers.
+// in papers. Holes and specks (image/specks.hpp) are counted in the same rendering.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,8 @@ struct EvaluationOptions {
   /// Colour behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};
-  /// Called with each view's index, its photograph over the background, and its rendering. Calls
+  /// Called with each view's index, its photograph over the background, and its rendering, whose
+  /// alpha is its coverage. Calls
   /// come in any order and from several threads; they may throw to cancel.
   std::function<void(std::size_t view, const ImageF& photograph, const ImageF& rendering)> on_view =
       {};
@@ -38,10 +39,13 @@ struct EvaluationOptions {
 };
 
 struct ViewMetrics {
-  std::string name;  // of the photograph
+  std::string name = {};  // of the photograph
   double psnr_db = 0;
   double ssim = 0;
   double flip = 0;  // 0 if MetricOptions disable it
+  /// Mean of hole_map() over the pixels where the photograph is opaque; 0 without such pixels.
+  double holes = 0;
+  double specks = 0;  // mean of speck_map()
 };
 
 struct Evaluation {

@@ -8,6 +8,8 @@ Json to_json(const ViewMetrics& metrics, bool with_flip) {
   json["psnr_db"] = metrics.psnr_db;
   json["ssim"] = metrics.ssim;
   if (with_flip) json["flip"] = metrics.flip;
+  json["holes"] = metrics.holes;
+  json["specks"] = metrics.specks;
   return json;
 }
 

@@ -6,7 +6,7 @@
 
 namespace tureen::results {
 
-/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; "name" only if it is not empty, "flip" only
+/// {"name": .., "psnr_db": .., "ssim": .., "flip": .., "holes": .., "specks": ..}; "name" only if it is not empty, "flip" only
 /// if `with_flip`.
 Json to_json(const ViewMetrics& metrics, bool with_flip);
 

@@ -38,7 +38,8 @@ TEST_F(Eval, TheScenesOwnImagesAreMetExactly) {
   EXPECT_THAT(keys(json), ElementsAre("views", "mean", "scene", "dataset", "split", "ssim_border",
                                       "context", "renderer", "plan", "specialisations", "output"));
   ASSERT_EQ(json["views"].size(), 2u);
-  EXPECT_THAT(keys(json["views"][0]), ElementsAre("name", "psnr_db", "ssim", "flip"));
+  EXPECT_THAT(keys(json["views"][0]),
+              ElementsAre("name", "psnr_db", "ssim", "flip", "holes", "specks"));
   EXPECT_EQ(json["views"][1]["name"], "test/r_1.png");
   for (const auto& view : json["views"]) {
     EXPECT_EQ(view["psnr_db"], 100);
@@ -53,12 +54,13 @@ TEST_F(Eval, TheScenesOwnImagesAreMetExactly) {
                                                     "views/report.html"}));
   for (const auto& file : json["output"]) EXPECT_TRUE(exists(file)) << file;
   const Image8 sheet = read_png("views/test_r_1.png"), photograph = read_png("data/test/r_1.png");
-  EXPECT_EQ(sheet.width, 3 * width);
+  EXPECT_EQ(sheet.width, 4 * width);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       ASSERT_EQ(sheet.at(x, y), photograph.at(x, y));
       ASSERT_EQ(sheet.at(width + x, y), photograph.at(x, y));
       ASSERT_EQ(sheet.at(2 * width + x, y), glm::u8vec4(0, 0, 0, 255));
+      ASSERT_NE(sheet.at(3 * width + x, y), glm::u8vec4(255, 255, 0, 255));
     }
   EXPECT_THAT(result.err, Names("test/r_1.png", "100.00"));
 }

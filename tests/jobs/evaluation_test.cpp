@@ -44,10 +44,27 @@ TEST(Evaluate, GivesEachViewItsNumbersAndTheirMean) {
   EXPECT_GT(result.views[1].flip, 0);
   // A transparent photograph shows the white background.
   EXPECT_NEAR(result.views[2].psnr_db, -20 * std::log10(155.0 / 255), 1e-5);
+  for (const ViewMetrics& view : result.views) {
+    EXPECT_EQ(view.holes, 0);
+    EXPECT_EQ(view.specks, 0);
+  }
   for (double ViewMetrics::*value : {&ViewMetrics::psnr_db, &ViewMetrics::ssim, &ViewMetrics::flip})
     EXPECT_NEAR(result.mean.*value,
                 (result.views[0].*value + result.views[1].*value + result.views[2].*value) / 3,
                 1e-12);
+}
+
+TEST(Evaluate, CountsHolesInsideTheSilhouette) {
+  TriangleSoup half = grey_wall({100, 100, 100, 255});
+  half.positions = {{-50, -50, 0}, {0, -50, 0}, {0, 50, 0}};  // right of the middle is nothing
+  std::vector<Photograph> photographs{photograph("opaque", {100, 100, 100, 255}),
+                                      photograph("upper half", {100, 100, 100, 255})};
+  for (int i = 32 * 12; i < 32 * 24; ++i) photographs[1].image.pixels[std::size_t(i)].a = 0;
+  const Evaluation result = evaluate(half, glm::dvec3(0), photographs,
+                                     {.backend = gl::Backend::osmesa, .background = glm::vec3(1)});
+  EXPECT_EQ(result.views[0].holes, 0.5);
+  EXPECT_EQ(result.views[1].holes, 0.5);
+  EXPECT_EQ(result.mean.holes, 0.5);
 }
 
 TEST(Evaluate, EndsWhereItsProgressThrows) {
