@@ -25,6 +25,7 @@ constexpr std::array debug_views{
     DebugViewName{DebugView::features, "features", "features", "stored texel values"},
     DebugViewName{DebugView::overdraw, "overdraw", "overdraw", "fragments a pixel"},
     DebugViewName{DebugView::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
+    DebugViewName{DebugView::holes, "holes", "holes", "uncovered among covered pixels"},
     DebugViewName{DebugView::median_depth, "median-depth", "median depth",
                   "where half of the light is blocked"},
     DebugViewName{DebugView::opacity, "opacity", "opacity", "weighted mean of the splats"},
@@ -148,6 +149,7 @@ std::optional<std::string> why_not(DebugView what, const Splats& splats) {
     case DebugView::mlp_weight:
     case DebugView::features:
     case DebugView::wireframe:
+    case DebugView::holes:
       return "It shows triangles, not splats.";
     case DebugView::opacity:
       if (!std::holds_alternative<NeuralDensities>(splats.kernel)) break;
@@ -217,6 +219,8 @@ Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choi
     case DebugView::overdraw:
     case DebugView::contributions:
       return overdraw_legend();
+    case DebugView::holes:
+      return {{bytes(hole_color), "hole"}};
     case DebugView::opacity:
       return {{black, "0"}, {white, "1"}};
     case DebugView::sigma:

@@ -26,6 +26,7 @@ enum class DebugView {
   features,       // the stored values, before any network
   overdraw,       // fragments a pixel
   wireframe,      // edges over the dimmed final colour
+  holes,          // pixels without a triangle among covered ones, over the dimmed final colour
   median_depth,   // of splats: at a transmittance of 1/2; of soups as depth
   opacity,        // of splats, their weighted mean
   sigma,          // of triangle windows, their weighted mean
@@ -92,6 +93,9 @@ inline constexpr float shown_fraction = 0.25f;
 /// The colour of a fragment count: heat_ramp(log2(count) / 8). A count of 0 has the background's
 /// colour.
 glm::vec3 overdraw_color(int count);
+
+/// The colour of a pixel that shows no triangle, although most of the 5x5 pixels around it do.
+inline constexpr glm::vec3 hole_color{1.0f, 0.0f, 1.0f};
 
 /// The colour of a fragment that the alpha test rejects: violets, distinct from the greys of kept
 /// fragments. `part_of_threshold` is alpha / threshold, 0..1.

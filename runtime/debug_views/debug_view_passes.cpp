@@ -14,7 +14,7 @@ namespace tureen {
 
 namespace {
 
-/// Factor of the colours below the wireframe's lines.
+/// Factor of the colours below the wireframe's lines and between holes.
 constexpr const char* dimmed = "0.4";
 
 /// The shader constant of a debug view: SHOW_DEPTH for "depth".
@@ -31,7 +31,8 @@ gl::Program shown_program(const DeviceSoup& soup, const DebugViewSubject& subjec
   constants["SHOW_SURFACE"] = "-1";
   if (surface) constants["SHOWN"] = "SHOW_SURFACE";
   constants["NO_FACE"] = "0xffffffffu";
-  constants["COLOR_SCALE"] = what == DebugView::wireframe ? dimmed : "1.0";
+  constants["COLOR_SCALE"] =
+      what == DebugView::wireframe || what == DebugView::holes ? dimmed : "1.0";
   const gl::Api api = soup.device().api;
   return gl::Program(
       assemble({.file = "full_screen.vert"}, api),
@@ -128,6 +129,29 @@ class EdgePass final : public Pass {
  private:
   DeviceSoup& soup_;
   gl::Program program_;
+};
+
+/// Marks holes, over the colours of all layers.
+class HolePass final : public Pass {
+ public:
+  explicit HolePass(gl::Api api)
+      : program_(assemble({.file = "full_screen.vert"}, api),
+                 assemble({.file = "holes.frag", .constants = {{"NO_FACE", "0xffffffffu"}}}, api)) {
+  }
+  const char* name() const override { return "holes"; }
+  void draw(const Frame&, FrameTarget& target) override {
+    target.draw_color();
+    glDisable(GL_DEPTH_TEST);
+    program_.use();
+    target.bind_visibility(program_, 0);
+    program_.set("hole_color", glm::vec4(hole_color, 1.0f));
+    full_screen_.draw(program_);
+  }
+  void leave_context() override { full_screen_.leave_context(); }
+
+ private:
+  gl::Program program_;
+  FullScreen full_screen_;
 };
 
 /// Colours the fragment counts.
@@ -294,6 +318,7 @@ DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> a
   for (DeviceSoup* soup : soups) add(std::make_unique<ValuePass>(*soup, subjects, shown));
   if (shown.what == DebugView::wireframe)
     for (DeviceSoup* soup : soups) add(std::make_unique<EdgePass>(*soup));
+  if (shown.what == DebugView::holes) add(std::make_unique<HolePass>(soups.front()->device().api));
   if (has_splats)
     add(splat_color_pass(splats, shown.what == DebugView::quarter ? shown_fraction : 1.0f));
   return result;

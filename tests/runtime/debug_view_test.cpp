@@ -242,8 +242,9 @@ TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
       std::size_t off = 0;
       for (std::size_t i = 0; i < expected.size(); ++i)
         off += (image.pixels[i].a == 255) != (expected[i] != no_face);
-      // Lines also outline what the alpha test discards.
-      const bool same = off == 0 || name.what == DebugView::wireframe;
+      // Lines also outline what the alpha test discards, and holes are drawn where no face is.
+      const bool same =
+          off == 0 || name.what == DebugView::wireframe || name.what == DebugView::holes;
       EXPECT_TRUE(same) << name.name << ", seed " << seed << ": " << off << " pixels";
     }
   }
@@ -412,6 +413,30 @@ TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
   shown.renderer().draw({look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 16, 16)});
   for (const std::uint8_t count : shown.read_fragment_counts())
     ASSERT_EQ(int(count), max_counted_fragments);
+}
+
+TEST_P(DebugViews, HolesAreUncoveredPixelsAmongCoveredOnes) {
+  const Scenery scenery(16, Kind::face_colors, 0.5);
+  const DebugViewRenderer shown = debug_renderer(scenery, DebugView::holes);
+  const Image8 image = shown.renderer().read_color();
+  const auto faces = faces_of(shown.renderer());
+  std::size_t holes = 0, background = 0;
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      if (faces[pixel_index(column, row)] != no_face) continue;
+      int covered = 0;
+      for (int y = row - 2; y <= row + 2; ++y)
+        for (int x = column - 2; x <= column + 2; ++x)
+          covered +=
+              faces[pixel_index(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1))] !=
+              no_face;
+      const bool hole = covered > 12;
+      EXPECT_EQ(image.at(column, row), hole ? glm::u8vec4(255, 0, 255, 255) : glm::u8vec4(0))
+          << column << ", " << row;
+      (hole ? holes : background) += 1;
+    }
+  EXPECT_GT(holes, 10u);
+  EXPECT_GT(background, 1000u);
 }
 
 TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
