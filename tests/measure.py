@@ -161,6 +161,34 @@ class Bench:
                 self.tureen(f'frames-cloud-{coverage}', 'bench', path, '--cameras', path,
                             *self.size('1280x720'), *self.timing(300))
 
+    def splats(self):
+        """The time of a frame against the number of splats, the size of the image and the cores."""
+        middle = 1000 if self.quick else 100000
+        scenes = {n: self.soup(f'gaussians-{n}', 'make_gaussians', '--splats', n)
+                  for n in ([100, middle] if self.quick else [1000, 10000, middle, 1000000])}
+        one_size = self.size('1280x720')
+        sweep = ['--size', '160x90,320x180'] if self.quick else \
+            ['--size', '640x360,1280x720,1920x1080,2560x1440,3840x2160']
+        tables = {
+            'splats': [{'splats': n, **row} for n, path in scenes.items() for row in self.splat_rows(path, one_size)],
+            'pixels': self.splat_rows(scenes[middle], sweep),
+            'cores': [{'cores': n, **row} for n in (1, 2)
+                      for row in self.splat_rows(scenes[middle], one_size, 'taskset', '-c', '0' if n == 1 else '0,1')]}
+        columns = [f'{name}_ms' for name in ('tureen', 'raster', 'generic', 'published')]
+        self.keep('splats', tables, [{'table': table, 'x': x, 'y': columns}
+                                     for table, x in (('splats', 'splats'), ('pixels', 'pixels'), ('cores', 'cores'))])
+
+    def splat_rows(self, path, size, *wrapper):
+        """A row for each size, with the time of each case."""
+        text = path and self.run('splats', *wrapper, TUREEN, 'bench', path, '--cameras', 'orbit:3', *size,
+                                 *self.timing(60), '--json')
+        rows = {}
+        for measured in json.loads(text)['measurements'] if text else []:
+            row = rows.setdefault(measured['size'], {'size': measured['size'],
+                                                     'pixels': measured['width'] * measured['height']})
+            row[f"{measured['configuration']}_ms"] = measured['frame_ms']['min_of_medians']
+        return list(rows.values())
+
     def dense(self):
         """Two million opaque triangles, compared with a minimal renderer."""
         if soup := self.dense_soup():
@@ -347,7 +375,7 @@ def fit(kind, rows):
 
 
 # The first two run only when named.
-PARTS = ['training', 'viewers', 'frames', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
+PARTS = ['training', 'viewers', 'frames', 'splats', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
 
 # Removed parts and options of `./dev bench`, and their replacements.
 RETIRED = {
