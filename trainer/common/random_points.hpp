@@ -3,8 +3,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "scene/region.hpp"
 #include "trainer/common/random.hpp"
-#include "trainer/common/region.hpp"
 
 namespace tureen::trainer {
 

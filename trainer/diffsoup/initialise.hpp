@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "scene/photographs.hpp"
+#include "scene/region.hpp"
 #include "scene/scene.hpp"
 #include "trainer/common/random.hpp"
-#include "trainer/common/region.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/model.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "scene/camera.hpp"
 #include "scene/photographs.hpp"
-#include "trainer/common/region.hpp"
+#include "scene/region.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/model.hpp"
 

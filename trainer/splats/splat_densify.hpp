@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/region.hpp"
 #include "trainer/common/random.hpp"
-#include "trainer/common/region.hpp"
 #include "trainer/splats/draw_by_weight.hpp"
 #include "trainer/splats/splat_memory.hpp"
 #include "trainer/splats/splat_order.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "scene/photographs.hpp"
-#include "trainer/common/region.hpp"
+#include "scene/region.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/splats/splat_state.hpp"
 

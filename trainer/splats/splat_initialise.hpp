@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "scene/photographs.hpp"
+#include "scene/region.hpp"
 #include "scene/scene.hpp"
 #include "trainer/common/random.hpp"
 #include "trainer/common/random_points.hpp"
-#include "trainer/common/region.hpp"
 #include "trainer/splats/splat_config.hpp"
 
 namespace tureen::trainer {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/radix_sort.hpp"
+#include "scene/region.hpp"
 #include "splatting/parameter_rows.hpp"
-#include "trainer/common/region.hpp"
 
 namespace tureen::trainer {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "scene/region.hpp"
 #include "scene/scene.hpp"
 #include "trainer/common/cpu/image_loss.hpp"
-#include "trainer/common/region.hpp"
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/splats/splat_densify.hpp"

@@ -3,16 +3,22 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
+#include <span>
 
+#include "scene/camera.hpp"
 #include "scene/photographs.hpp"
 
-namespace tureen::trainer {
+namespace tureen {
 
 /// An axis-parallel cube in world coordinates.
 struct Region {
   glm::dvec3 centre{0.0};
   double half_side = 1.0;
 };
+
+/// Case 1 of region_of_interest(); nullopt if it does not apply.
+std::optional<Region> region_looked_at(std::span<const Camera> cameras);
 
 /// The region for the training cameras and points, from the first of these that applies:
 ///
@@ -31,4 +37,4 @@ struct Region {
 /// Throws InputError if there is no training view, or the region is not finite.
 Region region_of_interest(const Dataset& dataset);
 
-}  // namespace tureen::trainer
+}  // namespace tureen

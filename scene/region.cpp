@@ -1,4 +1,4 @@
-#include "trainer/common/region.hpp"
+#include "scene/region.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace tureen::trainer {
+namespace tureen {
 
 namespace {
 
@@ -30,15 +30,15 @@ double median(std::vector<double> values) {
 glm::dvec3 forward(const Camera& camera) { return -camera.world_from_view_rotation()[2]; }
 
 /// The c with the smallest sum of |(I - d d^T)(c - eye)|^2, if the axes (eye, d) determine it.
-std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) {
+std::optional<glm::dvec3> nearest_to_axes(std::span<const Camera> views) {
   glm::dmat3 normal(0.0);
   glm::dvec3 right(0.0);
   const double weight = 1.0 / double(views.size());
-  for (const Photograph& view : views) {
-    const glm::dvec3 d = forward(view.camera);
+  for (const Camera& view : views) {
+    const glm::dvec3 d = forward(view);
     const glm::dmat3 across = weight * (glm::dmat3(1.0) - glm::outerProduct(d, d));
     normal += across;
-    right += across * view.camera.eye();
+    right += across * view.eye();
   }
   const glm::dmat3 inverse = glm::inverse(normal);
   double squares = 0;
@@ -55,10 +55,9 @@ double half_tangent(const Camera& camera) {
 }
 
 /// The region around a centre that most cameras look at; nothing if it is behind most cameras.
-std::optional<Region> looked_at(const std::vector<Photograph>& views, glm::dvec3 centre) {
+std::optional<Region> looked_at(std::span<const Camera> views, glm::dvec3 centre) {
   std::vector<double> half_sides;
-  for (const Photograph& view : views) {
-    const Camera& camera = view.camera;
+  for (const Camera& camera : views) {
     const double depth = glm::dot(centre - camera.eye(), forward(camera));
     if (depth > rounding * glm::length(camera.eye()))
       half_sides.push_back(depth * half_tangent(camera));
@@ -81,15 +80,14 @@ Region of_points(const std::vector<DatasetPoint>& points) {
   return region;
 }
 
-Region of_eyes(const std::vector<Photograph>& views, bool outwards) {
+Region of_eyes(std::span<const Camera> views, bool outwards) {
   glm::dvec3 middle(0.0), direction(0.0);
-  for (const Photograph& view : views) {
-    middle += view.camera.eye() / double(views.size());
-    direction += forward(view.camera) / double(views.size());
+  for (const Camera& view : views) {
+    middle += view.eye() / double(views.size());
+    direction += forward(view) / double(views.size());
   }
   double extent = 0;
-  for (const Photograph& view : views)
-    extent = std::max(extent, glm::distance(view.camera.eye(), middle));
+  for (const Camera& view : views) extent = std::max(extent, glm::distance(view.eye(), middle));
   const bool coincide = extent <= rounding * glm::length(middle);
   // Axes of opposite directions have no mean direction: these cameras look outwards, too.
   const Region around{middle, coincide ? 1 : 2 * extent};
@@ -97,25 +95,31 @@ Region of_eyes(const std::vector<Photograph>& views, bool outwards) {
   const glm::dvec3 ahead = glm::normalize(direction);
   if (!coincide) return looked_at(views, middle + 8 * extent * ahead).value_or(around);
   std::vector<double> half_tangents;
-  for (const Photograph& view : views) half_tangents.push_back(half_tangent(view.camera));
+  for (const Camera& view : views) half_tangents.push_back(half_tangent(view));
   return {middle + ahead / median(std::move(half_tangents)), 1};
 }
 
 }  // namespace
 
+std::optional<Region> region_looked_at(std::span<const Camera> cameras) {
+  if (cameras.empty()) return std::nullopt;
+  const std::optional<glm::dvec3> centre = nearest_to_axes(cameras);
+  return centre ? looked_at(cameras, *centre) : std::nullopt;
+}
+
 Region region_of_interest(const Dataset& dataset) {
   if (dataset.train.empty()) throw InputError({}, "the dataset has no training views");
-  const std::optional<glm::dvec3> centre = nearest_to_axes(dataset.train);
-  if (centre)
-    if (const auto region = looked_at(dataset.train, *centre)) return *region;
+  std::vector<Camera> cameras;
+  for (const Photograph& view : dataset.train) cameras.push_back(view.camera);
+  if (const std::optional<Region> region = region_looked_at(cameras)) return *region;
   Region region;
   region.half_side = 0;
   if (!dataset.points.empty()) region = of_points(dataset.points);
-  if (!(region.half_side > 0)) region = of_eyes(dataset.train, centre.has_value());
+  if (!(region.half_side > 0)) region = of_eyes(cameras, nearest_to_axes(cameras).has_value());
   // Squares of the coordinates may overflow.
   if (!(region.half_side > 0) || !std::isfinite(region.half_side))
     throw InputError({}, "the positions of the cameras give no finite size of the scene");
   return region;
 }
 
-}  // namespace tureen::trainer
+}  // namespace tureen
