@@ -4,11 +4,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <numbers>
 #include <string>
 
 #include "scene/middle_bounds.hpp"
+#include "scene/region.hpp"
 
 namespace tureen {
 
@@ -41,7 +43,7 @@ Subject subject_of(const Scene& scene) {
   std::vector<PlacedBounds> boxes;
   for (const Layer& layer : scene.layers)
     boxes.push_back({framed_bounds(layer), layer.world_from_layer});
-  return subject_of(boxes, glm::dvec3(scene.info.up));
+  return without_surroundings(subject_of(boxes, glm::dvec3(scene.info.up)), scene.cameras);
 }
 
 Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up) {
@@ -59,6 +61,23 @@ Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up) {
   }
   if (boxes.empty()) low = high = glm::dvec3(0.0);
   return {low, high, up};
+}
+
+Subject without_surroundings(const Subject& subject, std::span<const Camera> cameras) {
+  const auto is_inside = [&](const Camera& camera) {
+    const glm::dvec3 eye = camera.eye();
+    return glm::all(glm::greaterThan(eye, subject.low)) &&
+           glm::all(glm::lessThan(eye, subject.high));
+  };
+  const auto inside = std::count_if(cameras.begin(), cameras.end(), is_inside);
+  if (2 * std::size_t(inside) <= cameras.size()) return subject;
+  const std::optional<Region> region = region_looked_at(cameras);
+  if (!region) return subject;
+  Subject result = subject;
+  result.low = glm::max(subject.low, region->centre - region->half_side);
+  result.high = glm::min(subject.high, region->centre + region->half_side);
+  // The place may lie outside of what was reconstructed.
+  return glm::all(glm::lessThan(result.low, result.high)) ? result : subject;
 }
 
 glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {

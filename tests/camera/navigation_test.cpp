@@ -122,6 +122,31 @@ TEST(Navigation, TheSubjectOmitsStraySplats) {
   EXPECT_NEAR(subject.high.y, 1, 0.1);
 }
 
+TEST(Navigation, TheSubjectEndsAroundWhatTheCamerasInsideLookAt) {
+  const Subject all{{-20, -20, -20}, {20, 20, 0.5}, {0, 0, 1}};
+  const auto ring = [](double distance) {
+    std::vector<Camera> cameras;
+    for (int i = 0; i < 12; ++i)
+      cameras.push_back(look_at({distance * std::cos(i * 0.5), distance * std::sin(i * 0.5), -1},
+                                {1, 2, 0}, {0, 0, 1}, 0.8, 80, 60));
+    return cameras;
+  };
+  const Subject near = without_surroundings(all, ring(8));
+  EXPECT_NEAR(near.centre().x, 1, 1e-6);
+  EXPECT_NEAR(near.centre().y, 2, 1e-6);
+  EXPECT_GT(near.high.x, 2);
+  EXPECT_LT(near.high.x, 6);
+  EXPECT_EQ(near.high.z, 0.5);  // not larger than the box
+  EXPECT_EQ(near.up, all.up);
+  // Cameras outside of the box see all of it, and one that looks elsewhere changes nothing.
+  EXPECT_EQ(without_surroundings(all, ring(50)).low, all.low);
+  EXPECT_EQ(without_surroundings(all, {}).low, all.low);
+  std::vector<Camera> outwards = ring(8);
+  for (Camera& camera : outwards)
+    camera = look_at(camera.eye(), 2.0 * camera.eye(), {0, 0, 1}, 0.8, 80, 60);
+  EXPECT_EQ(without_surroundings(all, outwards).low, all.low);
+}
+
 TEST(Navigation, TheSubjectOfSeveralLayersContainsAll) {
   TriangleSoup soup;
   soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};
