@@ -255,6 +255,22 @@ void expect_same_step_in_odd_cases(const MakeBackend& make) {
         fixture.state.baseline.push_back(std::uint16_t(random.below(65536)));
     expect_same_step_of(make, fixture);
   }
+  {
+    SCOPED_TRACE("a backing layer");
+    Fixture fixture(15, {.faces = 50, .min_level = 1, .max_level = 2}, 64, 48);
+    fixture.config.backing_triangles = 20;
+    expect_same_step_of(make, fixture);
+    const auto backend = make(fixture.views, fixture.config);
+    backend->upload(fixture.state);
+    backend->step(all_views(fixture), rates);
+    TrainingState after;
+    backend->download(after);
+    const auto positions = std::span(after.model.positions),
+               old = std::span(fixture.state.model.positions);
+    EXPECT_TRUE(std::ranges::equal(positions.first(60), old.first(60)));
+    EXPECT_FALSE(std::ranges::equal(positions.subspan(60), old.subspan(60)));
+    EXPECT_NE(after.model.logits[0], fixture.state.model.logits[0]);
+  }
 }
 
 void expect_state_kept(const MakeBackend& make) {

@@ -423,6 +423,7 @@ TEST(InitialModel, IsTheSameForASeed) {
 TEST(InitialModel, BeginsAtPointsWhereThereAreSome) {
   Config config = preset(Preset::scene);
   config.initial_triangles = 100;
+  config.backing_triangles = 0;
   Dataset dataset = ring(94, {0, 0, 0}, 4.0);
   const auto farthest = [](const Model& model) {
     float largest = 0;

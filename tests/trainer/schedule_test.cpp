@@ -9,6 +9,7 @@
 
 #include "tests/trainer/random_model.hpp"
 #include "tests/trainer/stages.hpp"
+#include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
@@ -106,6 +107,28 @@ TEST(Schedule, MeetsTheBudgetExactlyInEveryPreset) {
               << (kind == Preset::object ? "object" : "scene") << (compat ? ", published" : "")
               << ", " << steps << " steps from " << initial << " faces";
         }
+}
+
+TEST(Schedule, KeepsTheBackingLayer) {
+  Config config = preset(Preset::scene);
+  config.steps = 60;
+  config.triangles = 2000;
+  config.resample_every = 10;
+  config.min_level = config.max_level = 1;
+  config.turnover = 0.5f;
+  const std::size_t backing = backing_faces(config);
+  ASSERT_EQ(backing, 20u);
+  TrainingState state = first_state(2000);
+  const std::vector<glm::vec3> before(state.model.positions.begin(),
+                                      state.model.positions.begin() + 60);
+  const std::vector<TrainingView> views(
+      3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+  // Every second face is invisible, also in the backing layer.
+  Trainer trainer(config, views, std::make_unique<BlindBackend>(2), std::move(state));
+  while (!trainer.done()) trainer.step();
+  const std::vector<glm::vec3> after = trainer.state().model.positions;
+  EXPECT_EQ(trainer.faces(), 2000u);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), after.begin()));
 }
 
 TEST(Schedule, MeetsTheBudgetWhateverTheSchedule) {

@@ -105,6 +105,16 @@ TEST(GreatestErrors, OfZeroGoByLength) {
     EXPECT_TRUE(each.face == 7 || each.face >= 12) << each.face;
 }
 
+TEST(Splits, LeaveTheFirstFacesWhole) {
+  const Model model = random_model(66, {.faces = 12, .max_level = 0});
+  const std::vector<float> errors{9, 9, 9, 9, 9, 1, 1, 1, 1, 1, 0, 0};
+  for (const std::vector<Split>& splits :
+       {longest_edges(model, 60, 5), greatest_errors(model, errors, 60, 5)}) {
+    EXPECT_THAT(splits, SizeIs(48));
+    for (const Split& each : splits) EXPECT_GE(each.face, 5u);
+  }
+}
+
 /// A camera at the origin that looks along -z: at depth 1, the image of 200 x 100 pixels is 2 x 1
 /// units.
 Camera plain_camera() {

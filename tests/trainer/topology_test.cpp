@@ -298,6 +298,13 @@ TEST(SpaceOrder, KeepsFacesAndPutsNeighboursTogether) {
   EXPECT_LT(length_of_tour(ordered.model), length_of_tour(model) / 3);
 }
 
+TEST(SpaceOrder, CanLeaveTheFirstFacesInPlace) {
+  const Model model = random_model(73, {.faces = 100, .max_level = 0});
+  const std::vector<std::uint32_t> origin = in_space_order(model, 40).origin;
+  for (std::uint32_t i = 0; i < 40; ++i) EXPECT_EQ(origin[i], i);
+  EXPECT_FALSE(std::is_sorted(origin.begin() + 40, origin.end()));
+}
+
 TEST(SpaceOrder, SurvivesPositionsThatAreNotFinite) {
   Model model = random_model(72, {.faces = 10, .max_level = 0});
   model.positions[4].y = std::numeric_limits<float>::infinity();

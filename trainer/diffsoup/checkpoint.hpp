@@ -15,7 +15,7 @@
 
 namespace tureen::trainer {
 
-inline constexpr std::uint32_t checkpoint_version = 1;
+inline constexpr std::uint32_t checkpoint_version = 2;
 
 struct Checkpoint {
   Config config;                       // with training lengths, before scaled_to

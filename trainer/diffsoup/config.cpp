@@ -11,6 +11,7 @@ Config preset(Preset kind) {
     // Photographs show walls and trees behind their subject.
     config.far_points = 0.5f;
     config.around_points = 0.3f;
+    config.backing_triangles = 80;
     // A face right in front of one camera appears in no other photograph. No loss corrects it, and
     // it spoils the neighbouring views.
     config.near = 0.8f;
@@ -30,6 +31,7 @@ Config published(Preset kind) {
   Config config = preset(kind);
   config.max_level = 5;
   config.far_points = 0.0f;
+  config.backing_triangles = 0;
   config.initial_radius = 0.25f;
   config.lift_at = 0.5f;
   config.lift_keeps_opacity = false;

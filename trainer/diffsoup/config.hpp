@@ -22,7 +22,7 @@ enum class Preset {
 enum class GradientPrecision { float32, float16 };
 
 /// The unit of training lengths. vertex_rate, near and far are in world units for a region of
-/// interest (trainer/common/region.hpp) with this half side; for other regions they are multiplied
+/// interest (scene/region.hpp) with this half side; for other regions they are multiplied
 /// by half side / reference_extent. The value is close to NeRF-synthetic, the source of the
 /// published numbers.
 inline constexpr double reference_extent = 1.5;
@@ -46,6 +46,9 @@ struct Config {
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // fraction of the random points outside the box
   float far_extent = 8.0f;  // largest distance of these points, in half sides of the box
+  /// Largest number of triangles of the backing layer (trainer/diffsoup/backing.hpp). Ours for
+  /// scenes: 80; published: 0.
+  int backing_triangles = 0;
   /// With points: this fraction of all triangles starts around the box, where structure from motion
   /// found no points; published: 0.
   float around_points = 0.0f;

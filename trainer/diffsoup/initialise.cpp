@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "trainer/common/neighbours.hpp"
 #include "trainer/common/random_points.hpp"
+#include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/mlp_parameters.hpp"
 #include "trainer/diffsoup/split_choice.hpp"
 
@@ -19,6 +20,10 @@ namespace tureen::trainer {
 namespace {
 
 constexpr std::uint64_t begin_stream = 2;
+
+/// The opacity of the backing layer begins at 0.998. It is the last surface of every ray, so
+/// training has no reason to lower it.
+constexpr float backing_logit = 6.0f;
 
 double mean(std::span<const double> values) {
   double sum = 0;
@@ -118,9 +123,8 @@ Model from_mesh(const Scene& mesh, const Config& config) {
 }
 
 /// Replaces the seeds inside the region with seeds at points.
-void put_at_points(const Dataset& dataset, const Region& region, const Config& config, double far,
-                   Seeds& seeds, Random& random) {
-  const auto count = std::size_t(config.initial_triangles);
+void put_at_points(const Dataset& dataset, const Region& region, std::size_t count,
+                   const Config& config, double far, Seeds& seeds, Random& random) {
   const std::size_t at = count - std::size_t(std::llround(far * double(count)));
   seeds.centres.resize(count);
   seeds.radii.resize(count);
@@ -205,7 +209,8 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
   if (config.initialisation == Initialisation::points && !has_points)
     throw InputError({}, "the dataset has no points for the first triangles",
                      "use random initialisation");
-  const auto count = std::size_t(config.initial_triangles);
+  const std::size_t backing = backing_faces(config);
+  const std::size_t count = std::max(std::size_t(config.initial_triangles), backing + 1) - backing;
   Region region = region_of_interest(dataset);
   Random random(config.seed, begin_stream);
   const bool at_points = has_points && config.initialisation != Initialisation::random;
@@ -219,8 +224,15 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
                           .far = far,
                           .far_extent = config.far_extent},
                          random);
-  if (at_points) put_at_points(dataset, region, config, far, seeds, random);
-  return grey_model(config, region.centre, equilateral_triangles(seeds, region.centre, random));
+  if (at_points) put_at_points(dataset, region, count, config, far, seeds, random);
+  std::vector<glm::vec3> positions =
+      backing_sphere(backing, backing_radius(config, dataset, region, seeds.centres));
+  const std::vector<glm::vec3> others = equilateral_triangles(seeds, region.centre, random);
+  positions.insert(positions.end(), others.begin(), others.end());
+  Model model = grey_model(config, region.centre, std::move(positions));
+  for (std::size_t texel = 0; texel < backing * model.texels(); ++texel)
+    model.logits[texel * channels + alpha_channel] = backing_logit;
+  return model;
 }
 
 }  // namespace tureen::trainer

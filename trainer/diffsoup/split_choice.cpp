@@ -122,21 +122,21 @@ class ViewProjection {
 
 }  // namespace
 
-std::vector<Split> longest_edges(const Model& model, std::size_t budget) {
+std::vector<Split> longest_edges(const Model& model, std::size_t budget, std::size_t first) {
   Faces faces(model);
   split_longest(
-      faces, budget, [](std::size_t) { return true; },
+      faces, budget, [first](std::size_t face) { return face >= first; },
       [&](std::uint32_t face) { return faces.longest_edge(face); });
   return std::move(faces.splits);
 }
 
 std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
-                                   std::size_t budget) {
+                                   std::size_t budget, std::size_t first) {
   assert(errors.size() == model.faces());
   Faces faces(model);
   std::vector<double> error(errors.begin(), errors.end());
   split_longest(
-      faces, budget, [](std::size_t) { return true; },
+      faces, budget, [first](std::size_t face) { return face >= first; },
       [&](std::uint32_t face) {
         // Called again after a cut, first for the half in its place, then for the half at the end.
         if (face == error.size())

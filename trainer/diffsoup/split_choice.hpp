@@ -1,6 +1,6 @@
 // The choice of edges to split: two rules from DiffSoup (arXiv 2603.27151, supplement),
 // longest_edges and longest_projected_edges, and our greatest_errors. Each returns the splits of
-// faces and their children in the order for `split`.
+// faces and their children in the order for `split`. Faces before `first` are not split.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ namespace tureen::trainer {
 /// Bisects the longest edge in world units until there are `budget` faces, as published for random
 /// initialisation. Ties go to the lower face. The final number is exact unless the model has no
 /// faces.
-std::vector<Split> longest_edges(const Model& model, std::size_t budget);
+std::vector<Split> longest_edges(const Model& model, std::size_t budget, std::size_t first = 0);
 
 /// Bisects the face with the greatest error at its longest edge until there are `budget` faces.
 /// Each child has half its parent's error. `errors`: one number per face. Faces without error come
 /// after all others, the longest edge first.
 std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
-                                   std::size_t budget);
+                                   std::size_t budget, std::size_t first = 0);
 
 /// One view that chooses edges.
 struct SplitView {

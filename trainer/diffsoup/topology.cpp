@@ -165,7 +165,7 @@ void cut_face(std::vector<glm::vec3>& positions, const Split& split) {
   positions[at + to] = point;
 }
 
-Resampled in_space_order(const Model& model) {
+Resampled in_space_order(const Model& model, std::size_t first) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (const glm::vec3& p : model.positions) {
     low = glm::min(low, glm::dvec3(p));
@@ -186,7 +186,7 @@ Resampled in_space_order(const Model& model) {
   }
   std::vector<std::uint32_t> order(model.faces());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
+  std::stable_sort(order.begin() + std::ptrdiff_t(first), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return places[a] < places[b]; });
   return gathered(model, std::move(order));
 }

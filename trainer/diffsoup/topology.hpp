@@ -26,8 +26,9 @@ Resampled prune(const Model& model, std::span<const std::uint64_t> pixels, std::
 Resampled prune_unseen(const Model& model, std::span<const std::uint64_t> pixels);
 
 /// All faces in the order of a space-filling curve (Morton 1966). Neighbours on the curve are
-/// mostly neighbours in every image, so they share data in the cache.
-Resampled in_space_order(const Model& model);
+/// mostly neighbours in every image, so they share data in the cache. Faces before `first` stay in
+/// place.
+Resampled in_space_order(const Model& model, std::size_t first = 0);
 
 /// A split: the edge from corner `edge` to the next one, cut at `t` (0..1, from the first corner).
 struct Split {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "trainer/common/random.hpp"
+#include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
 #include "trainer/diffsoup/split_choice.hpp"
 #include "trainer/diffsoup/topology.hpp"
@@ -165,13 +167,16 @@ void Trainer::resample() {
   Renewal renewal(state, std::exchange(state.errors, {}));
   const std::size_t before = state.model.faces(), budget = std::size_t(config_.triangles);
   const bool last = step_ == last_resample_step();
+  const std::size_t backing = backing_faces(config_);
   const bool beyond = config_.split_beyond_budget && !config_.split_by_error;
   std::vector<Camera> cameras;
   for (const TrainingView& view : views_) cameras.push_back(half_size(view.camera));
   std::vector<std::uint64_t> pixels = evident_pixels(state.model, cameras);
   // If no face is visible yet, there is no data to choose by. The last resampling still has to meet
   // the budget.
-  const bool seen = std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
+  const auto of_surfaces = std::span(pixels).subspan(backing);
+  const bool seen = std::ranges::any_of(of_surfaces, [](auto count) { return count > 0; });
+  std::fill_n(pixels.begin(), backing, std::numeric_limits<std::uint64_t>::max());  // all stay
   if (!seen && !last) return;
   if (seen && !beyond) {  // published: only the budget removes faces of scenes
     renewal.apply(prune_unseen(state.model, pixels));
@@ -194,11 +199,11 @@ void Trainer::resample() {
   };
   // Splits beyond the budget need a later pruning, so the last resampling has none.
   if (!(last && beyond))
-    cut(config_.split_by_error ? greatest_errors(state.model, renewal.errors(), budget)
+    cut(config_.split_by_error ? greatest_errors(state.model, renewal.errors(), budget, backing)
                                : choose_splits(state, cameras));
   // Projected edges may all be short before the budget is met; the last resampling meets it.
-  if (last) cut(longest_edges(state.model, budget));
-  renewal.apply(in_space_order(state.model));
+  if (last) cut(longest_edges(state.model, budget, backing));
+  renewal.apply(in_space_order(state.model, backing));
   if (config_.reset_moments) state.moments.reset_faces(state.model);
   faces_ = state.model.faces();
   backend_->upload(state);
@@ -258,7 +263,7 @@ std::vector<Split> Trainer::choose_splits(const TrainingState& state,
         state.model, views,
         {.fraction = config_.split_fraction, .budget = budget, .near = config_.near});
   }
-  if (splits.empty()) splits = longest_edges(state.model, triangles);
+  if (splits.empty()) splits = longest_edges(state.model, triangles, backing_faces(config_));
   return splits;
 }
 

@@ -7,6 +7,7 @@
 
 #include "scene/edit/lattice_bytes.hpp"
 #include "trainer/common/training_views.hpp"
+#include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
 #include "trainer/diffsoup/trainer.hpp"
@@ -89,7 +90,8 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
                  .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
-  const Config scaled = with_empty_near_zone(scaled_to(config, region.half_side), dataset, region);
+  const Config scaled = with_visible_backing(
+      with_empty_near_zone(scaled_to(config, region.half_side), dataset, region), dataset, region);
   run.state = request.checkpoint ? std::move(request.checkpoint->state)
                                  : first_state(dataset, scaled, request.mesh);
   const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);

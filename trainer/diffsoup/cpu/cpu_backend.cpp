@@ -12,6 +12,7 @@
 #include "trainer/common/kernels/random.hpp"
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/cpu/face_stage.hpp"
 #include "trainer/diffsoup/cpu/shading.hpp"
 #include "trainer/diffsoup/cpu/visibility.hpp"
@@ -202,6 +203,7 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
                            .beta2 = config_.beta2,
                            .epsilon = config_.epsilon,
                            .slide = config_.texture_slide,
+                           .fixed_faces = backing_faces(config_),
                            .dense_updates = config_.dense_updates};
   const std::size_t faces = state_.model.faces();
   std::vector<unsigned> quarantined((faces + faces_a_task - 1) / faces_a_task);

@@ -180,6 +180,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN unsigned step_face(const FaceStep& step, std
   } else {
     ++quarantined;
   }
+  if (face < step.fixed_faces) return quarantined;
   if (all_finite(&gathered.corners[0][0], 9)) {
     const kernels::AdamStep adam =
         kernels::adam_step(step.vertex_rate, step.beta1, step.beta2, step.epsilon, t);

@@ -23,8 +23,9 @@ struct FaceStep {
   std::vector<float>* errors;  // one per face, added to
   float texture_rate, vertex_rate;
   float beta1, beta2, epsilon;
-  float slide;         // scale of the texture slide, kernels/edge_gradient.hpp
-  bool dense_updates;  // also step faces that no image touched
+  float slide;                  // scale of the texture slide, kernels/edge_gradient.hpp
+  std::size_t fixed_faces = 0;  // the corners of the first faces stay
+  bool dense_updates;           // also step faces that no image touched
 };
 
 /// Reused from face to face.

@@ -271,6 +271,7 @@ struct StepFaces {
   std::uint32_t* steps;                 // [face]
   float* errors;                        // [face]: TrainingState::errors
   float texture_rate, vertex_rate, beta1, beta2, epsilon;
+  std::size_t fixed_faces;  // the corners of the first faces stay
   bool dense_updates;
   unsigned long long* non_finite;
 
@@ -338,7 +339,7 @@ struct StepFaces {
       gradient[j] = from_fixed(sums.corners[3 * vertex + j], corner_scale);
       sums.corners[3 * vertex + j] = 0;
     }
-    if (!(shared.flags & bad_corners_flag))
+    if (face >= fixed_faces && !(shared.flags & bad_corners_flag))
       kernels::vector_adam(shared.vertex, gradient, positions + 3 * vertex,
                            vertex_first + 3 * vertex, vertex_second[vertex]);
   }

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/cpu/batch_image.hpp"
 #include "trainer/diffsoup/cuda/face_kernels.hpp"
 #include "trainer/diffsoup/cuda/loss_kernels.hpp"
@@ -435,6 +436,7 @@ void KernelBackend<Machine>::step_faces(const Rates& rates) {
                             .beta1 = config_.beta1,
                             .beta2 = config_.beta2,
                             .epsilon = config_.epsilon,
+                            .fixed_faces = backing_faces(config_),
                             .dense_updates = config_.dense_updates,
                             .non_finite = non_finite},
                   flags_.size());
