@@ -70,7 +70,7 @@ std::size_t backing_faces(const Config& config) {
   return faces;
 }
 
-double least_backing_radius(const Config& config, const Dataset& dataset, const Region& region) {
+double min_backing_radius(const Config& config, const Dataset& dataset, const Region& region) {
   return clearance *
          std::max(config.far_extent * region.half_side, farthest_camera(dataset, region));
 }
@@ -79,14 +79,14 @@ Config with_visible_backing(const Config& config, const Dataset& dataset, const 
   Config result = config;
   if (backing_faces(config) == 0) return result;
   const double needed =
-      least_backing_radius(config, dataset, region) + farthest_camera(dataset, region);
+      min_backing_radius(config, dataset, region) + farthest_camera(dataset, region);
   result.far = std::max(config.far, float(1.01 * needed));  // the factor covers rounding
   return result;
 }
 
 double backing_radius(const Config& config, const Dataset& dataset, const Region& region,
                       std::span<const glm::dvec3> centres) {
-  double radius = least_backing_radius(config, dataset, region);
+  double radius = min_backing_radius(config, dataset, region);
   for (const glm::dvec3& centre : centres)
     radius = std::max(radius, clearance * glm::distance(centre, region.centre));
   return std::min(radius, config.far / 1.01 - farthest_camera(dataset, region));

@@ -19,7 +19,7 @@ namespace tureen::trainer {
 std::size_t backing_faces(const Config& config);
 
 /// The radius around the region's centre: beyond the far random points and all training cameras.
-double least_backing_radius(const Config& config, const Dataset& dataset, const Region& region);
+double min_backing_radius(const Config& config, const Dataset& dataset, const Region& region);
 
 /// Config::far at least so large that the training cameras see the whole sphere of that radius.
 Config with_visible_backing(const Config& config, const Dataset& dataset, const Region& region);
