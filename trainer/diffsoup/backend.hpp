@@ -23,7 +23,7 @@ struct Rates {
 /// the last take_times().
 struct StageTimes {
   double visibility = 0, shading = 0, loss = 0, shading_backward = 0, faces = 0;
-  std::uint64_t fragments = 0;  // pixel centres that triangles cover, hidden or not
+  std::uint64_t fragments = 0;  // pixel centres of triangles whose depth was compared
   std::uint64_t shaded_pixels = 0, pixels = 0, steps = 0;
 };
 

@@ -36,7 +36,11 @@ struct BatchImage {
 
   std::vector<kernels::ProjectedFace> projected;  // one per face
   std::vector<std::uint32_t> bin_begin;           // one per tile, and the end
-  std::vector<std::uint32_t> bins;                // faces of each tile, in their order
+  std::vector<std::uint32_t> bins;                // faces of each tile, the nearest first
+  std::vector<float> nearest;                     // one per face: no fragment is nearer
+  /// One per face: whether one of its fragments was nearer than all that were accepted before.
+  /// Others are hidden: nothing depends on them.
+  std::vector<std::uint8_t> reached;
 
   // One per pixel, row by row from the top.
   std::vector<VisiblePixel> visible;

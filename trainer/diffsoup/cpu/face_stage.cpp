@@ -157,7 +157,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN unsigned step_face(const FaceStep& step, std
   std::fill(scratch.alpha.begin(), scratch.alpha.end(), 0.0f);
   Gathered gathered;
   for (const BatchImage& image : step.images)
-    if (!image.projected[face].empty()) gather_image(step, image, face, scratch, gathered);
+    if (image.reached[face]) gather_image(step, image, face, scratch, gathered);
   if (!gathered.touched && !step.dense_updates) return 0;
 
   (*step.errors)[face] += gathered.error;
