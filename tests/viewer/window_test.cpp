@@ -257,7 +257,7 @@ TEST_F(Window, BackFromADebugViewTheColoursAreCurrent) {
   drag(plain.wait().press(Key::digit_7).wait()).look("plain");
   looked.wait().press(Key::digit_7).wait().press(Key::v).wait();
   drag(looked);
-  for (int i = 0; i < 10; ++i) looked.press(Key::v);  // once around, back to the colours
+  for (int i = 0; i < 11; ++i) looked.press(Key::v);  // once around, back to the colours
   looked.look("back");
   EXPECT_EQ(replay(plain).exit_code, 0);
   const ChildResult result = replay(looked);
