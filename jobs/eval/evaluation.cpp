@@ -16,11 +16,13 @@ namespace {
 /// The errors of a drawn view. Runs on any thread.
 ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8& rendering,
                     const EvaluationOptions& options) {
-  const ImageF truth = composited(to_float(photograph.image), options.background);
+  ImageF truth = composited(to_float(photograph.image), options.background);
   const ImageF drawn = to_float(rendering);
+  const double counted = equate_ignored(drawn, photograph.ignored, truth);
   const Metrics metrics = compare(truth, drawn, options.metrics);
   if (options.on_view) options.on_view(view, truth, drawn);
-  return {photograph.camera.name, metrics.psnr_db, metrics.ssim, metrics.flip};
+  return {photograph.camera.name, psnr_from_mse(counted * metrics.mse),
+          metrics.ssim - (counted - 1) * (1 - metrics.ssim), counted * metrics.flip};
 }
 
 ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {

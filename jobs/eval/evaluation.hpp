@@ -3,8 +3,8 @@
 //
 // Protocol: the device's 8-bit rendering is compared with the photograph over the background, which
 // is not rounded again. PSNR comes from the mean squared error of a view, SSIM uses the requested
-// border, FLIP 67 pixels per degree. Each is computed view by view and averaged over the views, as
-// in papers.
+// border, FLIP 67 pixels per degree. Pixels that a mask excludes count as equal, and the mean is
+// that over the others. Each is computed view by view and averaged over the views, as in papers.
 #pragma once
 
 #include <functional>
@@ -29,8 +29,9 @@ struct EvaluationOptions {
   /// Colour behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};
-  /// Called with each view's index, its photograph over the background, and its rendering. Calls
-  /// come in any order and from several threads; they may throw to cancel.
+  /// Called with each view's index, its photograph over the background, and its rendering. Where
+  /// a mask excludes pixels, the photograph has those of the rendering. Calls come in any order and
+  /// from several threads; they may throw to cancel.
   std::function<void(std::size_t view, const ImageF& photograph, const ImageF& rendering)> on_view =
       {};
   /// Called with the fraction done, 0..1; may throw to cancel.

@@ -322,6 +322,11 @@ void add_cameras(Collection& all) {
   all.add("colmap_text", "cameras", with_first_byte(0, content(test::text_cameras(model))));
   all.add("colmap_text", "images", with_first_byte(1, content(test::text_images(model))));
   all.add("colmap_text", "points", with_first_byte(2, content(test::text_points(model))));
+  const std::string bundle =
+      "# Bundle file v0.3\n2 1\n10.5 -0.02 0.001\n1 0 0\n0 1 0\n0 0 1\n0 0 -5\n0 0 0\n0 0 0\n"
+      "0 0 0\n0 0 0\n0 0 0\n1 2 -3.5\n255 128 0\n1 0 7 1.5 -2.5\n";
+  all.add("bundler", "bundle.out", with_first_byte(0, content(bundle)));
+  all.add("bundler", "list.txt", with_first_byte(1, content("a.png 0 10.5\nb c.png\n")));
 }
 
 // ---- Images
