@@ -27,6 +27,7 @@ std::optional<std::string> in_folder(const std::string& folder, const std::strin
 /// TransformsDataset::points, and the remark about a missing file.
 void read_points(const CameraJson& json, const std::filesystem::path& folder,
                  const MemoryBudget& budget, TransformsDataset& dataset) {
+  const std::optional<glm::dmat4> applied = json.maybe_affine("applied_transform");
   if (const std::string name = json.text("ply_file_path"); !name.empty()) {
     std::filesystem::path file;
     try {
@@ -43,7 +44,6 @@ void read_points(const CameraJson& json, const std::filesystem::path& folder,
     dataset.points = read_points_ply(input);
     return;
   }
-  const std::optional<glm::dmat4> applied = json.maybe_affine("applied_transform");
   const std::optional<std::filesystem::path> model = colmap_folder(folder);
   if (!applied || !model) return;
   dataset.points = read_colmap_points(*model, budget);

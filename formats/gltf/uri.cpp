@@ -101,7 +101,7 @@ std::filesystem::path resolve_name_from_folder(const std::filesystem::path& fold
     refuse("is not a file in the scene's folder");
   const std::filesystem::path relative(name);
   if (relative.is_absolute() || relative.has_root_path() || name.front() == '\\')
-    refuse("is an absolute path; only paths relative to the scene's folder are opened");
+    refuse("is an absolute path; only relative paths are opened");
   return folder / relative;
 }
 

@@ -307,6 +307,14 @@ void add_cameras(Collection& all) {
   all.add("transforms", "transforms.json", transforms);
   all.add("transforms", "angle.json",
           R"({"camera_angle_x": 0.7, "frames": [)" + frame + "," + frame + "]}");
+  const std::string masked =
+      R"({"file_path": "./a.png", "mask_path": "mask.png", "k4": 0.001,
+  "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
+  all.add(
+      "transforms", "nerfstudio.json",
+      R"({"camera_model": "OPENCV_FISHEYE", "fl_x": 9, "k1": -0.02, "ply_file_path": "points.ply",
+ "applied_transform": [[1,0,0,0],[0,0,1,0],[0,-1,0,0]], "frames": [)" +
+          masked + "," + masked + "]}");
   all.add("cameras", "gaussian.json",
           R"([{"id": 0, "img_name": "0001", "width": 64, "height": 36, "position": [1, 2, 3],
  "rotation": [[1,0,0],[0,1,0],[0,0,1]], "fx": 50.0, "fy": 51}])");
