@@ -1,4 +1,4 @@
-// `tureen info`: a scene's contents, memory use and lint findings.
+// `tureen info`: a scene's contents, memory use and lint findings. Of a dataset: dataset_info.hpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +12,13 @@
 #include "base/decimal_text.hpp"
 #include "camera/navigation.hpp"
 #include "cli/commands.hpp"
+#include "cli/dataset_info.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
+#include "formats/dataset/dataset.hpp"
 #include "jobs/results/plan_json.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
@@ -33,6 +35,7 @@ struct InfoOptions {
   SceneArguments scene;
   bool strict = false;
   bool json = false;
+  std::string plot;  // of a dataset
 };
 
 Json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -404,7 +407,29 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
   return json;
 }
 
+/// Whether the arguments name a dataset. Throws UsageError for options that only the other kind
+/// has, and for several paths with a dataset among them.
+bool of_dataset(const InfoOptions& options) {
+  const std::vector<std::string>& paths = options.scene.paths;
+  const auto dataset = std::find_if(paths.begin(), paths.end(), [](const std::string& path) {
+    return is_dataset(path) && !is_scene(path);
+  });
+  if (dataset == paths.end()) {
+    if (!options.plot.empty()) throw UsageError("-o writes a plot of a dataset, not of a scene");
+    return false;
+  }
+  if (paths.size() > 1)
+    throw UsageError("'" + *dataset + "' is a dataset; info prints only one at a time");
+  if (options.strict || options.scene.choice != ReadingChoice{})
+    throw UsageError("'" + *dataset + "' is a dataset: of the options, only --json and -o apply");
+  return true;
+}
+
 ExitCode inform(const InfoOptions& options) {
+  if (of_dataset(options)) {
+    inform_of_dataset({.path = options.scene.paths[0], .plot = options.plot, .json = options.json});
+    return ExitCode::done;
+  }
   const Scene scene = read(options.scene);
   std::vector<LayerFacts> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) layers.push_back(facts_of(scene, i));
@@ -423,21 +448,26 @@ ExitCode inform(const InfoOptions& options) {
 
 void add_info(Command& program) {
   auto options = std::make_shared<InfoOptions>();
-  Command command =
-      program.add_command("info", "Print a scene's contents, memory use and lint findings");
+  Command command = program.add_command("info", "Print the contents of a scene, or of a dataset");
   command.footer(
       R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
 faces, unused vertices, and coordinates so large that floats round them visibly. It also
 reports transparent, collapsed, needle-shaped, outlying and repeated splats, and harmonics
 that are 0. Scenes with findings can still be drawn. Plan and lint are printed for each layer.
+A dataset is a folder of photographs with known cameras, as for tureen train.
 The output of --json contains the cameras; tureen render --camera can read them from it.
 
 Examples:
   tureen info soup.glb
   tureen info house.glb fox.glb               the layers of a scene from two files
   tureen info soup.glb --json | jq .triangles
-  tureen info soup.glb --strict               a check for scripts)");
+  tureen info soup.glb --strict               a check for scripts
+  tureen info photographs -o cameras.svg      a dataset: sizes, lenses, points, plot of cameras)");
   add_scene_arguments(command, options->scene);
+  command
+      .add_option("-o,--output", options->plot,
+                  "of a dataset: plot of its cameras from above and from the side")
+      .value_name("PLOT.svg");
   add_memory_option(command);
   command.add_flag("--json", options->json, "print all properties as JSON to standard output");
   command.add_flag("--strict", options->strict,

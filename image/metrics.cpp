@@ -1,6 +1,7 @@
 #include "image/metrics.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -91,6 +92,19 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
   result.ssim = ssim(a, b, options.ssim_border);
   if (options.with_flip) result.flip = flip(a, b).mean;
   return result;
+}
+
+double equate_ignored(const ImageF& from, std::span<const std::uint8_t> ignored, ImageF& to) {
+  assert(from.pixels.size() == to.pixels.size());
+  assert(ignored.empty() || ignored.size() == to.pixels.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < ignored.size(); ++i)
+    if (ignored[i]) {
+      to.pixels[i] = from.pixels[i];
+      ++count;
+    }
+  const std::size_t all = to.pixels.size();
+  return count < all ? double(all) / double(all - count) : 1.0;
 }
 
 std::vector<float> channel_differences(const ImageF& a, const ImageF& b) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "image/image.hpp"
 #include "image/ssim.hpp"
@@ -48,6 +50,11 @@ double mean_squared_error(const ImageF& a, const ImageF& b);
 /// All metrics above. Throws UsageError if the sizes differ, an image is empty, or the SSIM window
 /// does not fit.
 Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options = {});
+
+/// Copies the pixels of `from` to `to` where `ignored` is 1, so that they do not differ. `ignored`
+/// has one value per pixel, or is empty. Returns the factor from a mean error over all pixels to
+/// that over the pixels that are not ignored, at least 1; 1 if all are ignored.
+double equate_ignored(const ImageF& from, std::span<const std::uint8_t> ignored, ImageF& to);
 
 /// |a - b| of R, G and B of every pixel as in Metrics, row by row from the top, in [0, 1].
 std::vector<float> channel_differences(const ImageF& a, const ImageF& b);

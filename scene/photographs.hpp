@@ -1,6 +1,7 @@
 // Posed photographs: training data, and the reference in an evaluation.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -15,11 +16,13 @@ namespace tureen {
 ///
 /// Lens distortion has been removed by resampling (formats/dataset/lens.hpp). Focal lengths are
 /// unchanged. Border rows and columns that the photograph does not fill are cropped, and the
-/// principal point is shifted accordingly. Every pixel is therefore valid without a mask, and alpha
-/// below 255 always comes from the dataset.
+/// principal point is shifted accordingly. Alpha below 255 therefore always comes from the dataset.
 struct Photograph {
   Camera camera;
   Image8 image;  // straight alpha; camera.width x camera.height
+  /// One per pixel, in the image's order, 1 for pixels that a mask of the dataset excludes from
+  /// training and evaluation; empty if no pixel is excluded.
+  std::vector<std::uint8_t> ignored = {};
 };
 
 struct DatasetPoint {

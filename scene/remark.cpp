@@ -1,6 +1,7 @@
 #include "scene/remark.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "base/decimal_text.hpp"
 
@@ -70,6 +71,9 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "image_size_missing",
     "lens_dropped",
     "lens_undone",
+    "fisheye_undone",
+    "points_missing",
+    "pixels_masked",
 };
 
 std::string counted(std::uint64_t count, const char* one, const char* many) {
@@ -246,6 +250,14 @@ std::string sentence_of(const Remark& remark) {
                   : "; up to " + std::to_string(counts[0]) + " columns and " +
                         std::to_string(counts[1]) + " rows without source pixels were cropped") +
              ".";
+    case Kind::fisheye_undone:
+      return "Fisheye photographs were resampled to pinhole images, at most " +
+             std::to_string(std::lround(values[0])) + " degrees wide; their borders were cropped.";
+    case Kind::points_missing:
+      return "The file with the dataset's points is missing: " + names[0];
+    case Kind::pixels_masked:
+      return "Masks exclude pixels of " + std::to_string(counts[0]) + " of " +
+             counted(counts[1], "photograph", "photographs") + ".";
   }
   return "";
 }

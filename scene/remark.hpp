@@ -77,8 +77,11 @@ struct Remark {
     image_size_missing,  // counts: the assumed width and height
     lens_dropped,        // for cameras without photographs
     lens_undone,         // counts: largest number of cropped columns and rows
+    fisheye_undone,      // values: largest horizontal angle of view that remains, in degrees
+    points_missing,      // names: the file with a dataset's points
+    pixels_masked,       // counts: photographs with ignored pixels, all
   };
-  static constexpr std::size_t kinds = std::size_t(Kind::lens_undone) + 1;
+  static constexpr std::size_t kinds = std::size_t(Kind::pixels_masked) + 1;
 
   Kind kind{};
   std::vector<std::uint64_t> counts = {};

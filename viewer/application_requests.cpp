@@ -22,7 +22,8 @@ constexpr double reading_share = 0.9;
 bool looks_like_photographs(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return path.filename() == "transforms.json";
-  for (const char* mark : {"transforms.json", "transforms_train.json", "sparse", "colmap"})
+  for (const char* mark : {"transforms.json", "transforms_train.json", "sparse", "colmap",
+                           "bundle.out", "bundle/bundle.out"})
     if (fs::exists(path / mark, ignored)) return true;
   return false;
 }

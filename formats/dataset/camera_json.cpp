@@ -11,9 +11,6 @@ namespace tureen {
 
 using nlohmann::json;
 
-namespace {
-
-/// The reason why `matrix` is not a rotation, as the end of a sentence, or null.
 const char* rotation_defect(const glm::dmat3& matrix) {
   const glm::dmat3 error = glm::transpose(matrix) * matrix - glm::dmat3(1.0);
   // Structure from motion prints six digits or more; any real scale or shear exceeds this tolerance
@@ -25,8 +22,6 @@ const char* rotation_defect(const glm::dmat3& matrix) {
         return "is not a rotation: its axes are not of unit length or not perpendicular";
   return glm::determinant(matrix) < 0 ? "mirrors" : nullptr;
 }
-
-}  // namespace
 
 CameraJson::CameraJson(Source source) : source_(std::move(source)) {
   if (!source_.object.is_object()) fail("it is not an object");
@@ -107,7 +102,7 @@ std::vector<glm::dvec4> CameraJson::rows(const char* key, int columns) const {
   return result;
 }
 
-glm::dmat4 CameraJson::rigid(const char* key) const {
+glm::dmat4 CameraJson::affine(const char* key) const {
   if (const std::size_t count = list(key).size(); count != 3 && count != 4)
     fail(std::string(key) + " does not have 3 or 4 rows");
   glm::dmat4 transposed(1.0);
@@ -115,7 +110,16 @@ glm::dmat4 CameraJson::rigid(const char* key) const {
   if (found.size() == 4 && found[3] != glm::dvec4(0, 0, 0, 1))
     fail(std::string(key) + " has a last row other than 0 0 0 1");
   for (int row = 0; row < 3; ++row) transposed[row] = found[std::size_t(row)];
-  const glm::dmat4 result = glm::transpose(transposed);
+  return glm::transpose(transposed);
+}
+
+std::optional<glm::dmat4> CameraJson::maybe_affine(const char* key) const {
+  if (!source_.object.contains(key)) return {};
+  return affine(key);
+}
+
+glm::dmat4 CameraJson::rigid(const char* key) const {
+  const glm::dmat4 result = affine(key);
   if (const char* defect = rotation_defect(glm::dmat3(result)))
     fail(std::string(key) + " " + defect);
   return result;

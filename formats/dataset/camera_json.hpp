@@ -37,6 +37,8 @@ class CameraJson {
   /// Whether the value is true or a number other than 0.
   bool truth(const char* key) const;
 
+  /// An affine map from 3 or 4 rows of 4 numbers in `object` itself, or nullopt without the key.
+  std::optional<glm::dmat4> maybe_affine(const char* key) const;
   /// A rotation and a translation, from 3 or 4 rows of 4 numbers in `object` itself. Throws if the
   /// axes are not orthonormal to three digits, or if they mirror.
   glm::dmat4 rigid(const char* key) const;
@@ -50,11 +52,15 @@ class CameraJson {
  private:
   const nlohmann::json* find(const char* key) const;
   const nlohmann::json& list(const char* key) const;
+  glm::dmat4 affine(const char* key) const;
   double element(const char* key, const nlohmann::json& value) const;
   std::vector<glm::dvec4> rows(const char* key, int columns) const;
 
   Source source_;
 };
+
+/// The reason why `matrix` is not a rotation to three digits, as the end of a sentence, or null.
+const char* rotation_defect(const glm::dmat3& matrix);
 
 /// The inverse of a pose. Axes printed with six digits are slightly off, so they are
 /// orthonormalised first; the inverse is exactly rigid.

@@ -12,16 +12,16 @@ namespace tureen {
 namespace {
 
 constexpr std::array<ColmapLensModel, 11> lens_models{{
-    {"SIMPLE_PINHOLE", 3, true},          // f, cx, cy
-    {"PINHOLE", 4, true},                 // fx, fy, cx, cy
-    {"SIMPLE_RADIAL", 4, true},           // f, cx, cy, k1
-    {"RADIAL", 5, true},                  // f, cx, cy, k1, k2
-    {"OPENCV", 8, true},                  // fx, fy, cx, cy, k1, k2, p1, p2
-    {"OPENCV_FISHEYE", 8, false},         //
-    {"FULL_OPENCV", 12, false},           //
-    {"FOV", 5, false},                    //
-    {"SIMPLE_RADIAL_FISHEYE", 4, false},  //
-    {"RADIAL_FISHEYE", 5, false},         //
+    {"SIMPLE_PINHOLE", 3, true},         // f, cx, cy
+    {"PINHOLE", 4, true},                // fx, fy, cx, cy
+    {"SIMPLE_RADIAL", 4, true},          // f, cx, cy, k1
+    {"RADIAL", 5, true},                 // f, cx, cy, k1, k2
+    {"OPENCV", 8, true},                 // fx, fy, cx, cy, k1, k2, p1, p2
+    {"OPENCV_FISHEYE", 8, true},         // fx, fy, cx, cy, k1, k2, k3, k4
+    {"FULL_OPENCV", 12, false},          //
+    {"FOV", 5, false},                   //
+    {"SIMPLE_RADIAL_FISHEYE", 4, true},  // f, cx, cy, k1
+    {"RADIAL_FISHEYE", 5, true},         // f, cx, cy, k1, k2
     {"THIN_PRISM_FISHEYE", 12, false},
 }};
 
@@ -74,16 +74,22 @@ ColmapCamera to_camera(const ColmapCameraRecord& record) {
   Camera& camera = result.pinhole;
   camera.width = side(record.width);
   camera.height = side(record.height);
-  // PINHOLE and OPENCV begin with two focal lengths, the others with one.
+  // PINHOLE, OPENCV and OPENCV_FISHEYE begin with two focal lengths, the others with one.
   const std::string_view name = record.model->name;
-  const std::size_t focal_lengths = name == "PINHOLE" || name == "OPENCV" ? 2 : 1;
+  const std::size_t focal_lengths =
+      name == "PINHOLE" || name == "OPENCV" || name == "OPENCV_FISHEYE" ? 2 : 1;
   camera.fx = p[0];
   camera.fy = p[focal_lengths - 1];
   if (!(camera.fx > 0 && camera.fy > 0)) throw ColmapRefusal{"a focal length is not positive"};
   camera.cx = p[focal_lengths];
   camera.cy = p[focal_lengths + 1];
-  double* const lens[] = {&result.lens.k1, &result.lens.k2, &result.lens.p1, &result.lens.p2};
-  for (std::size_t i = focal_lengths + 2; i < p.size(); ++i) *lens[i - focal_lengths - 2] = p[i];
+  Lens& lens = result.lens;
+  if (name.ends_with("_FISHEYE")) lens.model = LensModel::fisheye;
+  const bool fisheye = lens.model == LensModel::fisheye;
+  double* const coefficients[] = {&lens.k1, &lens.k2, fisheye ? &lens.k3 : &lens.p1,
+                                  fisheye ? &lens.k4 : &lens.p2};
+  for (std::size_t i = focal_lengths + 2; i < p.size(); ++i)
+    *coefficients[i - focal_lengths - 2] = p[i];
   return result;
 }
 
@@ -139,13 +145,17 @@ ColmapModel read_colmap_poses(const std::filesystem::path& folder, const MemoryB
   return model;
 }
 
+std::vector<DatasetPoint> read_colmap_points(const std::filesystem::path& folder,
+                                             const MemoryBudget& budget) {
+  const ModelFile points = model_file(folder, "points3D");
+  if (!points.exists) return {};
+  Input input = Input::open(points.path, budget);
+  return points.binary ? read_colmap_points_binary(input) : read_colmap_points_text(input);
+}
+
 ColmapModel read_colmap(const std::filesystem::path& folder, const MemoryBudget& budget) {
   ColmapModel model = read_colmap_poses(folder, budget);
-  if (const ModelFile points = model_file(folder, "points3D"); points.exists) {
-    Input input = Input::open(points.path, budget);
-    model.points =
-        points.binary ? read_colmap_points_binary(input) : read_colmap_points_text(input);
-  }
+  model.points = read_colmap_points(folder, budget);
   return model;
 }
 

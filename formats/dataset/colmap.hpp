@@ -46,14 +46,19 @@ bool is_colmap_model(const std::filesystem::path& folder);
 
 /// Reads cameras, images and points3D from `folder`, binary if both variants exist. Throws
 /// InputError with the file and the byte or line: an unsupported camera model, by its name
-/// (supported: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV), a pose that is not a
-/// rotation, counts that do not match the bytes, or an image with a missing camera.
+/// (supported: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, OPENCV_FISHEYE,
+/// SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE), a pose that is not a rotation, counts that do not match
+/// the bytes, or an image with a missing camera.
 ColmapModel read_colmap(const std::filesystem::path& folder,
                         const MemoryBudget& budget = MemoryBudget());
 
 /// The same without the points, which may number millions.
 ColmapModel read_colmap_poses(const std::filesystem::path& folder,
                               const MemoryBudget& budget = MemoryBudget());
+
+/// Only the points; none if their file is missing.
+std::vector<DatasetPoint> read_colmap_points(const std::filesystem::path& folder,
+                                             const MemoryBudget& budget = MemoryBudget());
 
 // The individual files, from untrusted bytes.
 

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <string>
 
 #include "base/existing_path.hpp"
+#include "formats/dataset/bundler.hpp"
 #include "formats/dataset/colmap.hpp"
 #include "formats/dataset/photograph.hpp"
 #include "formats/dataset/transforms_dataset.hpp"
 #include "formats/gltf/uri.hpp"
+#include "image/png.hpp"
 
 namespace tureen {
 
@@ -50,12 +54,19 @@ void take_transforms_up(Dataset& dataset) {
   dataset.remarks.push_back({Remark::Kind::up_of_transforms});
 }
 
+void take_points(TransformsDataset& read, Dataset& dataset) {
+  dataset.points = std::move(read.points);
+  dataset.remarks.insert(dataset.remarks.end(), read.remarks.begin(), read.remarks.end());
+}
+
 Outline one_transforms_file(const fs::path& path, const DatasetOptions& options,
                             const MemoryBudget& budget) {
   Outline outline;
   outline.file = path.string();
-  split(read_transforms_dataset(path, options.images_folder, budget), options, outline);
+  TransformsDataset read = read_transforms_dataset(path, options.images_folder, budget);
+  split(std::move(read.frames), options, outline);
   take_transforms_up(outline.dataset);
+  take_points(read, outline.dataset);
   return outline;
 }
 
@@ -71,9 +82,12 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
           "is missing, but the other half of the dataset's split exists",
           "to read the other half alone, pass its file instead of the folder; every n-th "
           "photograph then becomes a test view");
-    Frames frames = read_transforms_dataset(folder / name, options.images_folder, budget);
-    sort_by_name(frames);
-    return frames;
+    TransformsDataset part = read_transforms_dataset(folder / name, options.images_folder, budget);
+    sort_by_name(part.frames);
+    // Both files name the same points.
+    if (outline.dataset.points.empty() && outline.dataset.remarks.empty())
+      take_points(part, outline.dataset);
+    return std::move(part.frames);
   };
   if (options.part != DatasetPart::test) outline.train = read("transforms_train.json");
   if (options.part != DatasetPart::train) outline.test = read("transforms_test.json");
@@ -127,6 +141,63 @@ Outline colmap_outline(const fs::path& folder, const fs::path& model_folder,
   return outline;
 }
 
+/// Where a photograph of a Bundler dataset is: as listed from the dataset's folder, otherwise in
+/// its folder of images.
+std::string bundler_image(const fs::path& folder, const std::string& name, int images_folder) {
+  const std::string bare = name.starts_with("images/") ? name.substr(7) : name;
+  if (images_folder != 1) return "images_" + std::to_string(images_folder) + "/" + bare;
+  std::error_code ignored;
+  return !fs::exists(folder / name, ignored) && fs::exists(folder / "images" / bare, ignored)
+             ? "images/" + bare
+             : name;
+}
+
+Outline bundler_outline(const fs::path& folder, const BundlerFiles& files,
+                        const DatasetOptions& options, const MemoryBudget& budget) {
+  Outline outline;
+  outline.file = files.model.string();
+  if (files.list.empty())
+    throw InputError({files.model.string(), {}, {}},
+                     "the list of its images is missing: list.txt or bundle.out.list.txt");
+  Input list = Input::open(files.list, budget);
+  const std::vector<std::string> names = read_bundler_list(list);
+  Input input = Input::open(files.model, budget);
+  BundlerModel model = read_bundler(input);
+  if (names.size() != model.cameras.size())
+    throw InputError({files.list.string(), {}, {}},
+                     "it lists " + std::to_string(names.size()) + " images, but " +
+                         files.model.string() + " has " + std::to_string(model.cameras.size()) +
+                         " cameras");
+  Frames frames;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const BundlerCamera& found = model.cameras[i];
+    if (found.focal == 0) continue;  // the reconstruction does not have this image
+    DatasetFrame frame;
+    frame.name = names[i];
+    frame.folder = folder;
+    const std::string relative = names[i].starts_with("./") ? names[i].substr(2) : names[i];
+    frame.file = bundler_image(folder, relative, options.images_folder);
+    frame.any_size = true;
+    frame.lens = found.lens;
+    frame.view_from_world = found.view_from_world;
+    frame.camera = [found](int width, int height) {
+      Camera camera;
+      camera.width = width;
+      camera.height = height;
+      camera.fx = camera.fy = found.focal;
+      camera.cx = 0.5 * width;
+      camera.cy = 0.5 * height;
+      camera.view_from_world = found.view_from_world;
+      return camera;
+    };
+    frames.push_back(std::move(frame));
+  }
+  take_mean_up(frames, outline.dataset);
+  outline.dataset.points = std::move(model.points);
+  split(std::move(frames), options, outline);
+  return outline;
+}
+
 Outline make_outline(const fs::path& path, const DatasetOptions& options,
                      const MemoryBudget& budget) {
   require_there(path);
@@ -137,9 +208,11 @@ Outline make_outline(const fs::path& path, const DatasetOptions& options,
   if (fs::exists(path / "transforms.json", ignored))
     return one_transforms_file(path / "transforms.json", options, budget);
   if (const auto model = colmap_folder(path)) return colmap_outline(path, *model, options, budget);
+  if (const auto files = bundler_files(path)) return bundler_outline(path, *files, options, budget);
   throw InputError({path.string(), {}, {}},
                    "not a supported dataset: it has neither transforms_train.json nor "
-                   "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0");
+                   "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0, "
+                   "nor Bundler's bundle.out");
 }
 
 /// Rejects a part without photographs. All of a dataset may have no test views.
@@ -165,6 +238,7 @@ std::vector<fs::path> find_images(const std::string& file,
   std::size_t missing_count = 0;
   for (const DatasetFrame* frame : frames) {
     try {
+      find_mask(*frame);
       const std::optional<fs::path> image = find_image(*frame, options.images_folder);
       if (image)
         images.push_back(*image);
@@ -199,31 +273,105 @@ void require_budget(const std::string& file, const std::vector<const DatasetFram
                      std::string(max_memory_hint) + ", --scale makes them smaller");
 }
 
+/// Between the left and the right edge, in degrees.
+double angle_of_view(const Camera& camera) {
+  return glm::degrees(std::atan(camera.cx / camera.fx) +
+                      std::atan((camera.width - camera.cx) / camera.fx));
+}
+
 bool transparent_somewhere(const Image8& image) {
   return std::any_of(image.pixels.begin(), image.pixels.end(),
                      [](const glm::u8vec4& pixel) { return pixel.a < 255; });
 }
 
+/// The frames of the requested part, train first, and their images.
+struct FoundDataset {
+  Outline outline;
+  std::vector<const DatasetFrame*> frames;  // in `outline`
+  std::vector<fs::path> images;
+};
+
+FoundDataset find_dataset(const fs::path& path, const DatasetOptions& options,
+                          const MemoryBudget& budget) {
+  FoundDataset found{make_outline(path, options, budget), {}, {}};
+  Outline& outline = found.outline;
+  require_photographs(outline, options);
+  if (options.part == DatasetPart::test) outline.train.clear();
+  if (options.part == DatasetPart::train) outline.test.clear();
+  // Moving a vector keeps the addresses of its elements.
+  for (const DatasetFrame& frame : outline.train) found.frames.push_back(&frame);
+  for (const DatasetFrame& frame : outline.test) found.frames.push_back(&frame);
+  found.images = find_images(outline.file, found.frames, options);
+  return found;
+}
+
+LensKind kind_of(const Lens& lens) {
+  if (lens.model == LensModel::fisheye) return LensKind::fisheye;
+  return lens.is_pinhole() ? LensKind::pinhole : LensKind::distorted;
+}
+
+/// The camera of the image as it is stored.
+Camera stored_camera(const DatasetFrame& frame, const fs::path& image, int images_folder,
+                     const MemoryBudget& budget, std::optional<glm::ivec2>& common_size) {
+  glm::ivec2 size = frame.size.value_or(common_size.value_or(glm::ivec2(0)));
+  if (size.x == 0) {
+    PassingMemory passing(budget);
+    Input input = Input::open(image, budget);
+    const Image8 pixels = read_image(input);
+    size = glm::ivec2(pixels.width, pixels.height) * images_folder;
+    if (!frame.any_size) common_size = size;
+  }
+  Camera camera = frame.camera(size.x, size.y);
+  if (images_folder > 1)
+    camera = stretched(std::move(camera), scaled_side(size.x, 1.0 / images_folder),
+                       scaled_side(size.y, 1.0 / images_folder));
+  camera.name = frame.name;
+  return camera;
+}
+
 }  // namespace
+
+DatasetSummary read_dataset_summary(const fs::path& path, const DatasetOptions& options) {
+  const MemoryBudget budget;
+  auto [outline, frames, images] = find_dataset(path, options, budget);
+  DatasetSummary summary;
+  std::optional<glm::ivec2> common_size;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i == outline.train.size()) common_size.reset();
+    (i < outline.train.size() ? summary.train : summary.test)
+        .push_back(
+            {stored_camera(*frames[i], images[i], options.images_folder, budget, common_size),
+             kind_of(frames[i]->lens), !frames[i]->mask.empty()});
+  }
+  summary.points = std::move(outline.dataset.points);
+  summary.up = outline.dataset.up;
+  summary.remarks = std::move(outline.dataset.remarks);
+  return summary;
+}
+
+bool is_dataset(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    for (const char* name : {"transforms_train.json", "transforms_test.json", "transforms.json"})
+      if (fs::exists(path / name, ignored)) return true;
+    return colmap_folder(path) || bundler_files(path);
+  }
+  return fs::is_regular_file(path, ignored) && path.extension() == ".json" &&
+         path.filename().string().starts_with("transforms");
+}
 
 Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   assert(options.scale > 0 && options.scale <= 1);
   assert(options.images_folder >= 1 && options.test_every >= 1);
   const MemoryBudget budget;
-  Outline outline = make_outline(path, options, budget);
-  require_photographs(outline, options);
-  if (options.part == DatasetPart::test) outline.train.clear();
-  if (options.part == DatasetPart::train) outline.test.clear();
-
-  std::vector<const DatasetFrame*> frames;
-  for (const DatasetFrame& frame : outline.train) frames.push_back(&frame);
-  for (const DatasetFrame& frame : outline.test) frames.push_back(&frame);
-  const std::vector<fs::path> images = find_images(outline.file, frames, options);
+  auto [outline, frames, images] = find_dataset(path, options, budget);
   require_budget(outline.file, frames, options, budget);
 
   Dataset dataset = std::move(outline.dataset);
   bool distorted = false;
-  glm::ivec2 first_size(0);  // of images whose size the dataset does not give
+  double widest_fisheye = 0;  // between the left and the right edge, in degrees
+  std::uint64_t masked = 0;   // photographs with ignored pixels
+  glm::ivec2 first_size(0);   // of images whose size the dataset does not give
   int lost_columns = 0, lost_rows = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(frames.size()));
@@ -231,7 +379,7 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
     // Without sizes, an angle of view is meaningful only if all images of a split have the same
     // size.
     if (i == outline.train.size()) first_size = glm::ivec2(0);
-    if (!frames[i]->size) {
+    if (!frames[i]->size && !frames[i]->any_size) {
       const Camera& camera = read.photograph.camera;
       if (first_size.x == 0) first_size = glm::ivec2(camera.width, camera.height);
       if (first_size != glm::ivec2(camera.width, camera.height))
@@ -242,7 +390,11 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
                              (options.scale == 1 ? "" : " (after scaling)") +
                              "; the dataset gives no sizes, so all must be equal");
     }
-    distorted = distorted || !frames[i]->lens.is_pinhole();
+    if (frames[i]->lens.model == LensModel::fisheye)
+      widest_fisheye = std::max(widest_fisheye, angle_of_view(read.photograph.camera));
+    else
+      distorted = distorted || !frames[i]->lens.is_pinhole();
+    masked += !read.photograph.ignored.empty();
     lost_columns = std::max(lost_columns, read.lost_columns);
     lost_rows = std::max(lost_rows, read.lost_rows);
     dataset.has_alpha = dataset.has_alpha || transparent_somewhere(read.photograph.image);
@@ -251,6 +403,9 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   if (distorted)
     dataset.remarks.push_back(
         {Remark::Kind::lens_undone, {std::uint64_t(lost_columns), std::uint64_t(lost_rows)}});
+  if (widest_fisheye > 0)
+    dataset.remarks.push_back({Remark::Kind::fisheye_undone, {}, {widest_fisheye}});
+  if (masked > 0) dataset.remarks.push_back({Remark::Kind::pixels_masked, {masked, frames.size()}});
   if (options.progress) options.progress(1.0);
   return dataset;
 }

@@ -1,12 +1,16 @@
 // Reads posed photographs:
-//   transforms.json           instant-ngp: one file, intrinsics for all frames or frame by frame
+//   transforms.json           instant-ngp, Nerfstudio: one file, intrinsics for all frames or frame
+//   by frame
 //   transforms_{train,test}.json   NeRF-synthetic: one file per split (transforms_val.json is not
 //   read) sparse/0, sparse or colmap/sparse/0 with cameras, images and points3D as .bin or .txt,
 //   and images/                   COLMAP, https://colmap.github.io/format.html
+//   bundle.out and list.txt   Bundler, see formats/dataset/bundler.hpp
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "scene/photographs.hpp"
 
@@ -30,13 +34,39 @@ struct DatasetOptions {
 };
 
 /// Reads a folder, or a transforms.json. Photographs are sorted by the bytes of their names: r_10
-/// precedes r_2. No file outside the dataset's folder is opened. JPEG's EXIF orientation is not
-/// applied, since cameras refer to the stored pixels.
+/// precedes r_2. Their names are relative to the dataset's folder; ".." and symbolic links may lead
+/// out of it. JPEG's EXIF orientation is not applied, since cameras refer to the stored pixels.
 ///
 /// Throws InputError with the file and the reason: missing images (all are named, up to a dozen),
 /// an image size that differs from the camera's, a camera model whose distortion cannot be removed,
 /// a pose whose matrix differs from a rotation by more than about 0.001, a part without
 /// photographs, or photographs that exceed the memory budget (base/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
+
+/// What read_dataset() removes from a photograph: nothing, distortion, or a fisheye's projection.
+enum class LensKind { pinhole, distorted, fisheye };
+
+/// A dataset without the pixels of its photographs.
+struct DatasetSummary {
+  struct View {
+    Camera camera;  // for the stored image, without its distortion
+    LensKind lens = LensKind::pinhole;
+    bool has_mask = false;
+  };
+  std::vector<View> train, test;  // in the order of Dataset
+  std::vector<DatasetPoint> points;
+  glm::vec3 up{0.0f, 1.0f, 0.0f};
+  std::vector<Remark> remarks;  // without those about pixels
+};
+
+/// Finds all photographs, but decodes only those whose size the dataset does not store; of images
+/// that must be of equal size, the first. Ignores `options.scale` and `options.progress`. Throws
+/// InputError for missing images and the reasons of read_dataset() that need no pixels.
+DatasetSummary read_dataset_summary(const std::filesystem::path& path,
+                                    const DatasetOptions& options = {});
+
+/// Whether `path` is a folder with the files of one of the forms above, or a file whose name begins
+/// with "transforms" and ends in ".json". Opens no file.
+bool is_dataset(const std::filesystem::path& path);
 
 }  // namespace tureen

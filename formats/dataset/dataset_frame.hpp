@@ -14,14 +14,17 @@
 namespace tureen {
 
 struct DatasetFrame {
-  std::string name;              // in the dataset, as spelled in its file; the sort key
-  std::filesystem::path folder;  // no file outside of it is opened
-  std::string file;              // below `folder`; may lack its extension
+  std::string name;  // in the dataset, as spelled in its file; the sort key
+  std::filesystem::path folder;
+  std::string file;  // relative to `folder`; may lack its extension
   /// Size of the image in the folder of full-sized images, if the dataset stores it.
   std::optional<glm::ivec2> size;
+  /// Without `size`: whether images may differ in size, because lengths are in pixels.
+  bool any_size = false;
   /// The camera for a full-sized image with this width and height (`size` if known).
   std::function<Camera(int width, int height)> camera;
   Lens lens;
+  std::string mask;  // likewise; empty if there is none. Its dark pixels are not used
   glm::dmat4 view_from_world{1.0};  // the camera's
 };
 

@@ -9,7 +9,38 @@
 
 namespace tureen {
 
+namespace {
+
+/// theta_d(theta) / theta, for a squared angle.
+double fisheye_radial(const Lens& lens, double t2) {
+  return 1 + t2 * (lens.k1 + t2 * (lens.k2 + t2 * (lens.k3 + t2 * lens.k4)));
+}
+
+glm::dvec2 distorted_by_fisheye(const Lens& lens, glm::dvec2 point) {
+  const double r = std::hypot(point.x, point.y);
+  if (r == 0) return point;
+  const double theta = std::atan(r);
+  return point * (theta * fisheye_radial(lens, theta * theta) / r);
+}
+
+/// Whether theta_d increases from the axis to the point, and stays positive with it.
+bool fisheye_sees(const Lens& lens, glm::dvec2 point) {
+  const double theta = std::atan(std::hypot(point.x, point.y));
+  // The derivative has at most four changes of sign.
+  constexpr int steps = 16;
+  for (int i = 1; i <= steps; ++i) {
+    const double t2 = theta * theta * i * i / (steps * steps);
+    const double slope =
+        1 + t2 * (3 * lens.k1 + t2 * (5 * lens.k2 + t2 * (7 * lens.k3 + t2 * 9 * lens.k4)));
+    if (!(slope > 0)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 glm::dvec2 Lens::distorted(glm::dvec2 point) const {
+  if (model == LensModel::fisheye) return distorted_by_fisheye(*this, point);
   const double x = point.x, y = point.y, r2 = x * x + y * y;
   const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
   return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
@@ -17,6 +48,7 @@ glm::dvec2 Lens::distorted(glm::dvec2 point) const {
 }
 
 bool Lens::sees(glm::dvec2 point) const {
+  if (model == LensModel::fisheye) return fisheye_sees(*this, point);
   // The image folds where the determinant of the Jacobian is not positive. Its radial part
   // along r is 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6, whose first root may lie anywhere between the
   // axis and the point. This polynomial changes direction at most three times, so a few steps find

@@ -1,11 +1,17 @@
-// Lens distortion of a pinhole image, and its removal.
+// Lens distortion of a photograph, and its removal.
 //
-// The model is D. C. Brown's, "Close-range camera calibration", Photogrammetric Engineering 1971,
-// with the letters of OpenCV, COLMAP and instant-ngp. Let (x, y) be a scene point in the camera's
-// plane at depth 1, x to the right and y down, and r^2 = x^2 + y^2. It appears at
+// The model LensModel::brown is D. C. Brown's, "Close-range camera calibration", Photogrammetric
+// Engineering 1971, with the letters of OpenCV, COLMAP and instant-ngp. Let (x, y) be a scene point
+// in the camera's plane at depth 1, x to the right and y down, and r^2 = x^2 + y^2. It appears at
 //   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 //   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p2 x y + p1 (r^2 + 2 y^2)
 // and in the photograph at (fx x' + cx, fy y' + cy).
+//
+// The model LensModel::fisheye is J. Kannala and S. S. Brandt's, "A generic camera model and
+// calibration method for conventional, wide-angle, and fish-eye lenses", PAMI 2006, as OpenCV and
+// COLMAP's OPENCV_FISHEYE have it. With the angle theta = atan(r) from the axis, in radians,
+//   (x', y') = (x, y) theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) / r
+// Points beside or behind the camera, at 90 degrees or more, have no (x, y).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,11 +21,16 @@
 
 namespace tureen {
 
+enum class LensModel { brown, fisheye };
+
 struct Lens {
+  LensModel model = LensModel::brown;
   double k1 = 0, k2 = 0, k3 = 0;  // radial
-  double p1 = 0, p2 = 0;          // tangential
+  double k4 = 0;                  // radial, of fisheye; brown ignores it
+  double p1 = 0, p2 = 0;          // tangential, of brown; fisheye ignores them
 
   bool operator==(const Lens&) const = default;
+  /// False for every fisheye.
   bool is_pinhole() const { return *this == Lens{}; }
 
   /// The image position of the scene point (x, y).
@@ -49,6 +60,9 @@ struct Undistorted {
 /// The cubic preserves sharpness that bilinear interpolation would lose. There is no area
 /// averaging: undoing barrel distortion magnifies, and undoing pincushion distortion shrinks by
 /// only a few per cent.
+///
+/// A fisheye's image is cropped by this: a pinhole with the same focal lengths, which keep the
+/// detail at the axis, sees 2 atan(w / 2 fx) of it, always less than 180 degrees.
 ///
 /// Time: about 0.1 s for 1080 x 1920 on one core.
 Undistorted undistorted(const Image8& photograph, const Camera& camera, const Lens& lens);

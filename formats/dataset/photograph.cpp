@@ -17,18 +17,6 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// The camera after its image was resized to width x height.
-Camera stretched(Camera camera, int width, int height) {
-  const double x = double(width) / camera.width, y = double(height) / camera.height;
-  camera.fx *= x;
-  camera.cx *= x;
-  camera.fy *= y;
-  camera.cy *= y;
-  camera.width = width;
-  camera.height = height;
-  return camera;
-}
-
 /// The camera for an image from a folder whose images are `shrunk` times smaller than the dataset's
 /// full size. Throws InputError if the sizes do not match.
 Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
@@ -63,13 +51,48 @@ Image8 cropped(const Image8& image, const PixelRectangle& area) {
   return result;
 }
 
+/// The mask in black and white, without grey and alpha. Throws InputError if its size differs.
+Image8 read_mask(const std::filesystem::path& file, glm::ivec2 size, const MemoryBudget& budget) {
+  Input input = Input::open(file, budget);
+  Image8 mask = read_image(input);
+  if (mask.width != size.x || mask.height != size.y)
+    throw InputError({input.name(), {}, {}}, "the mask is " + size_text(mask.width, mask.height) +
+                                                 ", but its image is " + size_text(size.x, size.y));
+  for (glm::u8vec4& pixel : mask.pixels)
+    pixel =
+        std::max({pixel.r, pixel.g, pixel.b}) < 128 ? glm::u8vec4(0, 0, 0, 255) : glm::u8vec4(255);
+  return mask;
+}
+
+/// Photograph::ignored for a mask that was resampled like the image. Throws InputError if it leaves
+/// no pixel.
+std::vector<std::uint8_t> ignored_pixels(const Image8& mask, const std::string& file) {
+  std::vector<std::uint8_t> ignored(mask.pixels.size());
+  std::transform(mask.pixels.begin(), mask.pixels.end(), ignored.begin(),
+                 [](const glm::u8vec4& pixel) { return std::uint8_t(pixel.r < 255); });
+  const auto count = std::size_t(std::count(ignored.begin(), ignored.end(), 1));
+  if (count == ignored.size())
+    throw InputError({file, {}, {}}, "the mask leaves no pixel of its photograph");
+  if (count == 0) ignored.clear();
+  return ignored;
+}
+
 }  // namespace
+
+std::optional<std::filesystem::path> find_mask(const DatasetFrame& frame) {
+  if (frame.mask.empty()) return {};
+  const std::filesystem::path path = resolve_name_from_folder(frame.folder, frame.mask);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw InputError({path.string(), {}, {}}, "the mask of " + frame.name + " is missing");
+  return path;
+}
 
 std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int images_folder) {
   std::error_code ignored;
   if (!frame.folder.empty() && !std::filesystem::is_directory(frame.folder, ignored)) return {};
   const auto exists = [&](const std::string& name) -> std::optional<std::filesystem::path> {
-    const std::filesystem::path path = resolve_name_in_folder(frame.folder, name);
+    const std::filesystem::path path = resolve_name_from_folder(frame.folder, name);
     if (std::filesystem::is_regular_file(path, ignored)) return path;
     return {};
   };
@@ -83,6 +106,17 @@ std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int i
   return {};
 }
 
+Camera stretched(Camera camera, int width, int height) {
+  const double x = double(width) / camera.width, y = double(height) / camera.height;
+  camera.fx *= x;
+  camera.cx *= x;
+  camera.fy *= y;
+  camera.cy *= y;
+  camera.width = width;
+  camera.height = height;
+  return camera;
+}
+
 int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
 
 ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& file,
@@ -93,6 +127,9 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   Camera camera = camera_for(frame, image, options.images_folder, input.name());
   const glm::ivec2 full(image.width, image.height);
   PixelRectangle known{0, 0, full.x, full.y};
+  const std::optional<std::filesystem::path> mask_file = find_mask(frame);
+  Image8 mask;
+  if (mask_file) mask = read_mask(*mask_file, full, budget);
   if (!frame.lens.is_pinhole()) {
     // The image in floats with a border, and the undistorted image.
     input.take_memory(std::uint64_t(full.x + 4) * std::uint64_t(full.y + 4),
@@ -100,6 +137,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
     Undistorted without_lens = undistorted(image, camera, frame.lens);
     image = std::move(without_lens.image);
     known = without_lens.known;
+    if (mask_file) mask = undistorted(mask, camera, frame.lens).image;
     if (known.right == 0)
       throw InputError({input.name(), {}, {}},
                        "the distortion of its lens cannot be undone: less than half of the "
@@ -115,6 +153,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
                     "the scaled image");
   image = box_scaled(image, size.x, size.y);
+  if (mask_file) mask = box_scaled(mask, size.x, size.y);
 
   ReadPhotograph result;
   Photograph& photograph = result.photograph;
@@ -126,9 +165,12 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   photograph.camera.cy -= known.top;
   result.lost_columns = size.x - photograph.camera.width;
   result.lost_rows = size.y - photograph.camera.height;
-  photograph.image =
-      result.lost_columns + result.lost_rows > 0 ? cropped(image, known) : std::move(image);
-  passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0]);
+  const bool crop = result.lost_columns + result.lost_rows > 0;
+  photograph.image = crop ? cropped(image, known) : std::move(image);
+  if (mask_file)
+    photograph.ignored = ignored_pixels(crop ? cropped(mask, known) : mask, mask_file->string());
+  passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0] +
+               photograph.ignored.size());
   return result;
 }
 

@@ -4,25 +4,57 @@
 
 #include "base/input.hpp"
 #include "base/json/json_file.hpp"
+#include "formats/dataset/camera_json.hpp"
+#include "formats/dataset/colmap.hpp"
+#include "formats/dataset/points_ply.hpp"
 #include "formats/dataset/transforms_json.hpp"
+#include "formats/gltf/uri.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// "./images/a.jpg" as "images_4/a.jpg"; nullopt if the name begins with another folder.
-std::optional<std::string> in_images_folder(const std::string& name, int images_folder) {
+/// "./images/a.jpg" as "images_4/a.jpg" for the folder "images"; nullopt if the name begins with
+/// another folder.
+std::optional<std::string> in_folder(const std::string& folder, const std::string& name,
+                                     int images_folder) {
   if (images_folder == 1) return name;
-  const std::string_view rest = std::string_view(name).substr(name.starts_with("./") ? 2 : 0);
-  constexpr std::string_view images = "images/";
-  if (!rest.starts_with(images)) return {};
-  return "images_" + std::to_string(images_folder) + "/" + std::string(rest.substr(images.size()));
+  const std::string rest = name.substr(name.starts_with("./") ? 2 : 0);
+  if (!rest.starts_with(folder + "/")) return {};
+  return folder + "_" + std::to_string(images_folder) + rest.substr(folder.size());
+}
+
+/// TransformsDataset::points, and the remark about a missing file.
+void read_points(const CameraJson& json, const std::filesystem::path& folder,
+                 const MemoryBudget& budget, TransformsDataset& dataset) {
+  const std::optional<glm::dmat4> applied = json.maybe_affine("applied_transform");
+  if (const std::string name = json.text("ply_file_path"); !name.empty()) {
+    std::filesystem::path file;
+    try {
+      file = resolve_name_from_folder(folder, name);
+    } catch (const UriError& error) {
+      json.fail("ply_file_path: " + error.reason);
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+      dataset.remarks.push_back({.kind = Remark::Kind::points_missing, .names = {name}});
+      return;
+    }
+    Input input = Input::open(file, budget);
+    dataset.points = read_points_ply(input);
+    return;
+  }
+  const std::optional<std::filesystem::path> model = colmap_folder(folder);
+  if (!applied || !model) return;
+  dataset.points = read_colmap_points(*model, budget);
+  for (DatasetPoint& point : dataset.points)
+    point.position = glm::dvec3(*applied * glm::dvec4(point.position, 1));
 }
 
 }  // namespace
 
-std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& path,
-                                                  int images_folder, const MemoryBudget& budget) {
+TransformsDataset read_transforms_dataset(const std::filesystem::path& path, int images_folder,
+                                          const MemoryBudget& budget) {
   Input input = Input::open(path, budget);
   const nlohmann::json root = read_json(input);
   const auto fail = [&](std::size_t frame, const std::string& reason,
@@ -32,7 +64,8 @@ std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& p
   };
   if (!root.is_object() || !root.contains("frames"))
     throw InputError({input.name(), {}, {}}, "it has no \"frames\": not a transforms.json");
-  std::vector<DatasetFrame> result;
+  TransformsDataset dataset;
+  std::vector<DatasetFrame>& result = dataset.frames;
   for (const TransformsFrame& frame : read_transforms(root, input.name())) {
     const std::size_t number = result.size();
     if (frame.file_path.empty()) fail(number, "file_path is missing");
@@ -40,7 +73,7 @@ std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& p
       fail(number,
            "the lens (" + frame.other_lens + ") is not described by k1, k2, k3, p1 and p2 alone",
            "undistort the images first");
-    const std::optional<std::string> file = in_images_folder(frame.file_path, images_folder);
+    const std::optional<std::string> file = in_folder("images", frame.file_path, images_folder);
     if (!file)
       fail(number, "\"" + frame.file_path + "\" is not in images/, so there is none in images_" +
                        std::to_string(images_folder) + "/");
@@ -51,10 +84,15 @@ std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& p
     if (frame.width && frame.height) made.size = glm::ivec2(*frame.width, *frame.height);
     made.camera = [frame](int width, int height) { return pinhole(frame, width, height); };
     made.lens = frame.lens;
+    // Folders of smaller masks are named like those of smaller images.
+    if (!frame.mask_path.empty())
+      made.mask = in_folder("masks", frame.mask_path, images_folder).value_or(frame.mask_path);
     made.view_from_world = frame.view_from_world;
     result.push_back(std::move(made));
   }
-  return result;
+  read_points(CameraJson({.object = root, .file = input.name(), .where = ""}), path.parent_path(),
+              budget, dataset);
+  return dataset;
 }
 
 }  // namespace tureen

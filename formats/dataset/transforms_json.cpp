@@ -26,17 +26,21 @@ std::optional<double> angle(const CameraJson& json, const char* key) {
 }
 
 /// Models that Lens describes, as nerfstudio names them.
-constexpr std::array described{"",       "OPENCV",        "PINHOLE",    "SIMPLE_PINHOLE",
-                               "RADIAL", "SIMPLE_RADIAL", "PERSPECTIVE"};
+constexpr std::array described{"",       "OPENCV",        "PINHOLE",     "SIMPLE_PINHOLE",
+                               "RADIAL", "SIMPLE_RADIAL", "PERSPECTIVE", "OPENCV_FISHEYE"};
+
+bool is_fisheye(const CameraJson& json) {
+  return json.truth("is_fisheye") || json.text("camera_model") == "OPENCV_FISHEYE";
+}
 
 std::string other_lens(const CameraJson& json) {
-  for (const char* key : {"is_fisheye", "ftheta_p0", "latlong", "equirectangular"})
+  for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
     if (json.truth(key)) return key;
   std::string model = json.text("camera_model");
   if (std::find(described.begin(), described.end(), model) == described.end()) return model;
   // The fourth radial number is ambiguous: in OpenCV it belongs to a quotient of polynomials,
   // elsewhere to r^8.
-  if (json.maybe_number("k4").value_or(0) != 0) return "k4";
+  if (!is_fisheye(json) && json.maybe_number("k4").value_or(0) != 0) return "k4";
   return {};
 }
 
@@ -59,6 +63,12 @@ TransformsFrame read_frame(const CameraJson& json) {
                 .k3 = coefficient("k3"),
                 .p1 = coefficient("p1"),
                 .p2 = coefficient("p2")};
+  if (is_fisheye(json)) {
+    frame.lens.model = LensModel::fisheye;
+    frame.lens.k4 = coefficient("k4");
+    frame.lens.p1 = frame.lens.p2 = 0;
+  }
+  frame.mask_path = json.text("mask_path");
   frame.other_lens = other_lens(json);
   frame.view_from_world = rigid_inverse(json.rigid("transform_matrix"));
   return frame;

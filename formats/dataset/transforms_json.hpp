@@ -21,7 +21,9 @@ struct TransformsFrame {
   std::optional<double> fl_x, fl_y, cx, cy;
   std::optional<double> camera_angle_x, camera_angle_y;
   Lens lens;
-  /// The file's name for a lens property that Lens does not support: "is_fisheye".
+  /// The mask of the image, as spelled in the file; empty if missing. Dark pixels are not used.
+  std::string mask_path;
+  /// The file's name for a lens property that Lens does not support: "latlong".
   std::string other_lens;
   glm::dmat4 view_from_world{1.0};  // rigid to the last digit
 };

@@ -88,9 +88,8 @@ std::filesystem::path resolve_in_folder(const std::filesystem::path& folder, std
   return resolve_name_in_folder(folder, percent_decoded(uri));
 }
 
-std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
-                                             const std::string& name) {
-  namespace fs = std::filesystem;
+std::filesystem::path resolve_name_from_folder(const std::filesystem::path& folder,
+                                               const std::string& name) {
   const auto refuse = [&](const std::string& reason) {
     throw UriError{"\"" + name + "\" " + reason};
   };
@@ -100,9 +99,19 @@ std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder
   if (const std::size_t colon = name.find(':');
       colon != std::string::npos && name.find_first_of("/\\") >= colon)
     refuse("is not a file in the scene's folder");
-  const fs::path relative(name);
+  const std::filesystem::path relative(name);
   if (relative.is_absolute() || relative.has_root_path() || name.front() == '\\')
-    refuse("is an absolute path; only files in the scene's folder are opened");
+    refuse("is an absolute path; only relative paths are opened");
+  return folder / relative;
+}
+
+std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
+                                             const std::string& name) {
+  namespace fs = std::filesystem;
+  const auto refuse = [&](const std::string& reason) {
+    throw UriError{"\"" + name + "\" " + reason};
+  };
+  resolve_name_from_folder(folder, name);
   // Windows accepts both slashes as separators.
   std::string slashes = name;
   std::replace(slashes.begin(), slashes.end(), '\\', '/');
@@ -112,7 +121,7 @@ std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder
   std::error_code error;
   const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
   if (error) refuse("cannot be looked up: " + error.message());
-  fs::path target = fs::weakly_canonical(root / relative, error);
+  fs::path target = fs::weakly_canonical(root / fs::path(name), error);
   if (error) refuse("cannot be looked up: " + error.message());
   if (!lies_in(target, root)) refuse("is a link that leads out of the scene's folder");
   return target;

@@ -27,6 +27,12 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
                                              const std::string& name);
 
+/// The file with the relative path `name`, taken literally, from `folder`; ".." and links may lead
+/// out of it. For photographs, which are often stored apart from the cameras. Throws UriError for
+/// an absolute path or a scheme. The file may be missing.
+std::filesystem::path resolve_name_from_folder(const std::filesystem::path& folder,
+                                               const std::string& name);
+
 /// Opens a file whose name the format fixes. Rejects it as above, with an InputError: an untrusted
 /// folder may contain links.
 Input open_in_folder(const std::filesystem::path& folder, const std::string& name,

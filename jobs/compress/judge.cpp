@@ -63,7 +63,10 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
   std::vector<double> errors;
   draw(only_soup(scene), [&](std::size_t i, const ImageF& image) {
     images_.push_back(image);
-    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], image));
+    if (photographs_.empty()) return;
+    // Where a mask excludes pixels, the photograph takes those of the model.
+    const double counted = equate_ignored(image, photographs[i].ignored, photographs_[i]);
+    errors.push_back(counted * mean_squared_error(photographs_[i], image));
   });
   if (photographs_.empty()) return;
   model_db_ = model_db(errors);

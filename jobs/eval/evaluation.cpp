@@ -40,16 +40,17 @@ Image8 drawn_view(Renderer& renderer, const Camera& camera, const glm::vec3& bac
 /// The errors of a drawn view. Runs on any thread.
 ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8& rendering,
                     const EvaluationOptions& options) {
-  const ImageF truth = composited(to_float(photograph.image), options.background);
+  ImageF truth = composited(to_float(photograph.image), options.background);
   const ImageF drawn = to_float(rendering);
+  const double counted = equate_ignored(drawn, photograph.ignored, truth);
   const Metrics metrics = compare(truth, drawn, options.metrics);
   if (options.on_view) options.on_view(view, truth, drawn);
   return {.name = photograph.camera.name,
-          .psnr_db = metrics.psnr_db,
-          .ssim = metrics.ssim,
-          .flip = metrics.flip,
+          .psnr_db = psnr_from_mse(counted * metrics.mse),
+          .ssim = metrics.ssim - (counted - 1) * (1 - metrics.ssim),
+          .flip = counted * metrics.flip,
           .holes = hole_fraction(truth, drawn),
-          .specks = mean_of(speck_map(truth, drawn), drawn.pixels.size())};
+          .specks = counted * mean_of(speck_map(truth, drawn), drawn.pixels.size())};
 }
 
 ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {

@@ -307,6 +307,14 @@ void add_cameras(Collection& all) {
   all.add("transforms", "transforms.json", transforms);
   all.add("transforms", "angle.json",
           R"({"camera_angle_x": 0.7, "frames": [)" + frame + "," + frame + "]}");
+  const std::string masked =
+      R"({"file_path": "./a.png", "mask_path": "mask.png", "k4": 0.001,
+  "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
+  all.add(
+      "transforms", "nerfstudio.json",
+      R"({"camera_model": "OPENCV_FISHEYE", "fl_x": 9, "k1": -0.02, "ply_file_path": "points.ply",
+ "applied_transform": [[1,0,0,0],[0,0,1,0],[0,-1,0,0]], "frames": [)" +
+          masked + "," + masked + "]}");
   all.add("cameras", "gaussian.json",
           R"([{"id": 0, "img_name": "0001", "width": 64, "height": 36, "position": [1, 2, 3],
  "rotation": [[1,0,0],[0,1,0],[0,0,1]], "fx": 50.0, "fy": 51}])");
@@ -322,6 +330,11 @@ void add_cameras(Collection& all) {
   all.add("colmap_text", "cameras", with_first_byte(0, content(test::text_cameras(model))));
   all.add("colmap_text", "images", with_first_byte(1, content(test::text_images(model))));
   all.add("colmap_text", "points", with_first_byte(2, content(test::text_points(model))));
+  const std::string bundle =
+      "# Bundle file v0.3\n2 1\n10.5 -0.02 0.001\n1 0 0\n0 1 0\n0 0 1\n0 0 -5\n0 0 0\n0 0 0\n"
+      "0 0 0\n0 0 0\n0 0 0\n1 2 -3.5\n255 128 0\n1 0 7 1.5 -2.5\n";
+  all.add("bundler", "bundle.out", with_first_byte(0, content(bundle)));
+  all.add("bundler", "list.txt", with_first_byte(1, content("a.png 0 10.5\nb c.png\n")));
 }
 
 // ---- Images

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -65,6 +66,24 @@ TEST(Evaluate, CountsHolesInsideTheSilhouette) {
   EXPECT_EQ(result.views[0].holes, 0.5);
   EXPECT_EQ(result.views[1].holes, 0.5);
   EXPECT_EQ(result.mean.holes, 0.5);
+}
+
+TEST(Evaluate, SkipsPixelsThatAMaskExcludes) {
+  // The upper half is wrong by one fifth. Without it, the lower half is the same; without the lower
+  // half, all counted pixels are wrong.
+  Photograph upper = photograph("upper", {100, 100, 100, 255});
+  const std::size_t half = upper.image.pixels.size() / 2;
+  std::fill_n(upper.image.pixels.begin(), half, glm::u8vec4(151, 151, 151, 255));
+  upper.ignored.assign(2 * half, 0);
+  std::fill_n(upper.ignored.begin(), half, 1);
+  Photograph lower = upper;
+  for (std::uint8_t& pixel : lower.ignored) pixel = pixel ? 0 : 1;
+  const Evaluation result = evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0),
+                                     std::vector{upper, lower}, {.backend = gl::Backend::osmesa});
+  EXPECT_EQ(result.views[0].psnr_db, 100);
+  EXPECT_NEAR(result.views[0].ssim, 1, 1e-12);
+  EXPECT_EQ(result.views[0].flip, 0);
+  EXPECT_NEAR(result.views[1].psnr_db, 13.979400086720377, 1e-5);
 }
 
 TEST(Evaluate, EndsWhereItsProgressThrows) {

@@ -49,6 +49,10 @@ TEST(Remark, InEnglish) {
   EXPECT_EQ(describe({.kind = Kind::splat_extensions_ignored, .names = {"0xADBE0002", "0x1"}}),
             "extensions of the file that are not supported are ignored: 0xADBE0002, 0x1");
   EXPECT_EQ(describe({Kind::lens_undone, {0, 0}}), "Lens distortion was removed by resampling.");
+  EXPECT_EQ(describe({Kind::fisheye_undone, {}, {104.6}}),
+            "Fisheye photographs were resampled to pinhole images, at most 105 degrees wide; their "
+            "borders were cropped.");
+  EXPECT_EQ(describe({Kind::pixels_masked, {2, 7}}), "Masks exclude pixels of 2 of 7 photographs.");
 }
 
 TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {

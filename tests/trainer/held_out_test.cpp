@@ -60,6 +60,11 @@ TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
   const double off = -10 * std::log10(0.2 * 0.2 * 2 / 3);
   // Float rounding of the values is 6e-8.
   EXPECT_NEAR(mean_psnr_db(run, views), (100 + off) / 2, 1e-5);
+  // A mask that excludes half of the wrong pixels: their number does not matter.
+  std::vector<Photograph> masked{views[1]};
+  masked[0].ignored.assign(masked[0].image.pixels.size(), 0);
+  std::fill_n(masked[0].ignored.begin(), 96, 1);
+  EXPECT_NEAR(mean_psnr_db(run, masked), off, 1e-5);
   const Image8 image = drawn(run, views[0].camera);
   EXPECT_EQ(image.at(15, 11), glm::u8vec4(0, 51, 51, 255));
   const Image8 both = preview(run, views[1]);

@@ -49,6 +49,17 @@ TEST(TrainingViews, AreThePhotographsOverTheBackgroundPlaneByPlane) {
   }
 }
 
+TEST(TrainingViews, IgnoreThePixelsThatAMaskExcludes) {
+  std::vector<Photograph> photographs{random_photograph(1), random_photograph(2)};
+  photographs[1].ignored.assign(photographs[1].image.pixels.size(), 0);
+  photographs[1].ignored[8] = 1;
+  const std::vector<std::uint8_t> mask = photographs[1].ignored;
+  const std::vector<TrainingView> views = take_training_views(photographs, Config{}.background);
+  EXPECT_TRUE(views[0].ignored.empty());
+  EXPECT_EQ(views[1].ignored, mask);
+  EXPECT_TRUE(photographs[1].ignored.empty());
+}
+
 TEST(TrainingViews, AreTakenOutOfTheDataset) {
   std::vector<Photograph> photographs{random_photograph(1), random_photograph(2)};
   const TrainingView expected = training_view(photographs[1], Config{}.background);

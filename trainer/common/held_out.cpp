@@ -35,8 +35,10 @@ double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
   double sum = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (progress) progress(double(i) / double(views.size()));
-    sum += psnr_from_mse(
-        mean_squared_error(truth(run, views[i]), to_float(drawn(run, views[i].camera))));
+    const ImageF rendering = to_float(drawn(run, views[i].camera));
+    ImageF target = truth(run, views[i]);
+    const double counted = equate_ignored(rendering, views[i].ignored, target);
+    sum += psnr_from_mse(counted * mean_squared_error(target, rendering));
   }
   return sum / double(views.size());
 }

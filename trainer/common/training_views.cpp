@@ -18,7 +18,8 @@ TrainingView training_view(const Photograph& photograph, std::span<const float, 
   const Image8& image = photograph.image;
   assert(image.width == photograph.camera.width && image.height == photograph.camera.height);
   const std::size_t pixels = image.pixels.size();
-  TrainingView view{.camera = photograph.camera, .target = {}, .ignored = {}};
+  assert(photograph.ignored.empty() || photograph.ignored.size() == pixels);
+  TrainingView view{.camera = photograph.camera, .target = {}, .ignored = photograph.ignored};
   view.target.resize(3 * pixels);
   for (std::size_t p = 0; p < pixels; ++p) {
     const glm::u8vec4 pixel = image.pixels[p];
@@ -36,6 +37,7 @@ std::vector<TrainingView> take_training_views(std::vector<Photograph>& photograp
   for (Photograph& photograph : photographs) {
     views.push_back(training_view(photograph, background));
     photograph.image = {};
+    photograph.ignored = {};
   }
   return views;
 }

@@ -18,12 +18,11 @@ struct TrainingView {
   std::vector<std::uint8_t> ignored;
 };
 
-/// The photograph over a background (red, green, blue in [0, 1]), rounded to the nearest byte; no
-/// pixel is ignored.
+/// The photograph over a background (red, green, blue in [0, 1]), rounded to the nearest byte.
 TrainingView training_view(const Photograph& photograph, std::span<const float, 3> background);
 
-/// All photographs, in their order. Clears the images in `photographs` and keeps the cameras, so no
-/// image is in memory twice.
+/// All photographs, in their order. Clears the images and masks in `photographs` and keeps the
+/// cameras, so no image is in memory twice.
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
                                               std::span<const float, 3> background);
 

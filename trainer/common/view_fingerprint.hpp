@@ -16,7 +16,7 @@ struct ViewFingerprint {
   std::string name;
   std::int32_t width = 0, height = 0;
   std::uint32_t camera = 0;  // CRC-32 of the intrinsics and the pose
-  std::uint32_t pixels = 0;  // CRC-32 of the RGBA bytes
+  std::uint32_t pixels = 0;  // CRC-32 of the RGBA bytes and the mask
 };
 
 std::vector<ViewFingerprint> fingerprint(std::span<const Photograph> photographs);

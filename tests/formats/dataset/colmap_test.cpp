@@ -152,8 +152,7 @@ std::array<std::optional<Refusal>, 2> camera_errors(const ColmapFixture::CameraR
 
 TEST(Colmap, RefusesOtherModelsByName) {
   const std::pair<int, const char*> others[] = {
-      {5, "OPENCV_FISHEYE"},        {6, "FULL_OPENCV"},    {7, "FOV"},
-      {8, "SIMPLE_RADIAL_FISHEYE"}, {9, "RADIAL_FISHEYE"}, {10, "THIN_PRISM_FISHEYE"}};
+      {6, "FULL_OPENCV"}, {7, "FOV"}, {10, "THIN_PRISM_FISHEYE"}};
   for (const auto& [number, name] : others) {
     const auto errors = camera_errors({1, number, name, 8, 8, {1, 1, 1, 1, 0, 0, 0, 0}});
     EXPECT_THAT(errors[0], ErrorAt("cameras.bin@8"));
@@ -165,6 +164,27 @@ TEST(Colmap, RefusesOtherModelsByName) {
   EXPECT_THAT(camera_errors({1, 99, "MYSTERY", 8, 8, {1}})[0], ErrorAt("cameras.bin@8", 99));
   EXPECT_THAT(camera_errors({1, -1, "MYSTERY", 8, 8, {1}})[0], ErrorAt("cameras.bin@8", -1));
   EXPECT_THAT(camera_errors({1, 99, "MYSTERY", 8, 8, {1}})[1], ErrorAt("cameras.txt:3", "MYSTERY"));
+}
+
+TEST(Colmap, ReadsFisheyes) {
+  ColmapFixture model;
+  model.cameras = {{1, 5, "OPENCV_FISHEYE", 8, 6, {10, 9, 4, 3, 0.1, 0.2, 0.3, 0.4}},
+                   {2, 8, "SIMPLE_RADIAL_FISHEYE", 8, 6, {10, 4, 3, 0.1}},
+                   {3, 9, "RADIAL_FISHEYE", 8, 6, {10, 4, 3, 0.1, 0.2}}};
+  const auto bytes = binary_cameras(model);
+  const std::string text = text_cameras(model);
+  Input binary_input = input_of_bytes(bytes, "c"), text_input = input_of(text);
+  for (const ColmapCameras& cameras :
+       {read_colmap_cameras_binary(binary_input), read_colmap_cameras_text(text_input)}) {
+    constexpr LensModel fisheye = LensModel::fisheye;
+    EXPECT_EQ(cameras.at(1).lens,
+              (Lens{.model = fisheye, .k1 = 0.1, .k2 = 0.2, .k3 = 0.3, .k4 = 0.4}));
+    EXPECT_EQ(cameras.at(1).pinhole.fy, 9);
+    EXPECT_EQ(cameras.at(1).pinhole.cy, 3);
+    EXPECT_EQ(cameras.at(2).lens, (Lens{.model = fisheye, .k1 = 0.1}));
+    EXPECT_EQ(cameras.at(2).pinhole.fy, 10);
+    EXPECT_EQ(cameras.at(3).lens, (Lens{.model = fisheye, .k1 = 0.1, .k2 = 0.2}));
+  }
 }
 
 TEST(Colmap, RefusesBadCameras) {

@@ -1,8 +1,11 @@
 #include "formats/dataset/dataset.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "image/box_scale.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
@@ -149,6 +152,25 @@ TEST(Dataset, AFrameHasItsOwnIntrinsicsAndSize) {
   EXPECT_EQ(dataset.train[0].image.height, 7);
 }
 
+TEST(Dataset, AFrameHasItsOwnLens) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "b.png"})
+    write_image(folder / name, Image8(80, 60, glm::u8vec4(200, 100, 50, 255)));
+  const auto with = [&](const std::string& head, const std::string& lens) {
+    write_text(folder / "transforms.json", transforms("\"fl_x\": 70, \"w\": 80, \"h\": 60, " + head,
+                                                      {frame("a.png"), frame("b.png", 1, lens)}));
+    return read_dataset(folder / "");
+  };
+  // Barrel distortion removes columns of the photograph that has it.
+  const Dataset own = with("", "\"k1\": 0.1, ");
+  EXPECT_EQ(own.test[0].camera.width, 80);
+  EXPECT_LT(own.train[0].camera.width, 80);
+  const Dataset none = with("\"k1\": 0.1, \"camera_model\": \"OPENCV\", ",
+                            "\"k1\": 0, \"camera_model\": \"PINHOLE\", ");
+  EXPECT_LT(none.test[0].camera.width, 80);
+  EXPECT_EQ(none.train[0].camera.width, 80);
+}
+
 TEST(Dataset, ReadsColmap) {
   const TemporaryFolder folder;
   write_colmap(folder, 9);
@@ -273,6 +295,151 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
 }
 
+TEST(Dataset, FisheyesBecomePinholes) {
+  const TemporaryFolder folder;
+  // A photograph of 80 pixels for 160 degrees, in which each pixel has its angle to the left or
+  // right of the axis as its colour.
+  Image8 photograph(80, 60);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 80; ++x)
+      photograph.at(x, y) = glm::u8vec4(glm::u8(128 + (x + 0.5 - 40) * 2), 0, 0, 255);
+  for (const char* name : {"images/0.png", "images/1.png"}) write_image(folder / name, photograph);
+  const double focal = 40 / glm::radians(80.0);
+  for (const char* lens : {"\"is_fisheye\": true, ", "\"camera_model\": \"OPENCV_FISHEYE\", "}) {
+    write_text(folder / "transforms.json",
+               transforms(lens + ("\"fl_x\": " + std::to_string(focal)) + ", \"k4\": 0.0, ",
+                          {frame("images/0.png"), frame("images/1.png")}));
+    const Dataset dataset = read_dataset(folder / "");
+    const Photograph& pinhole = dataset.train[0];
+    ASSERT_EQ(pinhole.camera.width, 80);
+    for (const int x : {5, 20, 40, 60, 75}) {
+      const double angle = std::atan((x + 0.5 - 40) / pinhole.camera.fx);
+      EXPECT_NEAR(pinhole.image.at(x, 30).r, 128 + angle * focal * 2, 1.0) << x;
+    }
+    const double degrees = glm::degrees(2 * std::atan(40 / focal));
+    ASSERT_EQ(dataset.remarks.size(), 2u);
+    EXPECT_EQ(dataset.remarks[1].kind, Remark::Kind::fisheye_undone);
+    EXPECT_NEAR(dataset.remarks[1].values[0], degrees, 1e-3);
+  }
+  std::filesystem::remove(folder / "transforms.json");
+  ColmapFixture model = upright_colmap(2);
+  model.cameras[0] = {1, 5, "OPENCV_FISHEYE", 8, 6, {10, 9, 4, 3, 0, 0, 0, 0}};
+  write_text(folder / "sparse/0", model);
+  for (const auto& image : model.images)
+    write_image(folder / ("images/" + image.name), an_image(8, 6));
+  EXPECT_EQ(read_dataset(folder / "").remarks.back().kind, Remark::Kind::fisheye_undone);
+}
+
+// ---- Nerfstudio -----------------------------------------------------------------------------
+
+const char* const cloud =
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+    "property float z\nproperty uint8 red\nproperty uint8 green\nproperty uint8 blue\n"
+    "end_header\n0.5 -1 2 255 128 0\n1 2 3 4 5 6\n";
+
+TEST(Dataset, ReadsThePointsOfNerfstudio) {
+  const TemporaryFolder folder;
+  const std::string applied = "\"applied_transform\": [[1,0,0,0],[0,0,1,0.5],[0,-1,0,0]], ";
+  write_transforms(folder, 2, applied + "\"ply_file_path\": \"sparse_pc.ply\", ");
+  // The file of points is in the frames' coordinates already, so nothing is applied.
+  write_text(folder / "sparse_pc.ply", cloud);
+  Dataset dataset = read_dataset(folder / "");
+  ASSERT_EQ(dataset.points.size(), 2u);
+  EXPECT_EQ(dataset.points[0].position, glm::dvec3(0.5, -1, 2));
+  EXPECT_EQ(dataset.points[0].color, glm::u8vec3(255, 128, 0));
+  EXPECT_THAT(dataset.remarks, ElementsAre(Remark{Remark::Kind::up_of_transforms}));
+
+  std::filesystem::remove(folder / "sparse_pc.ply");
+  dataset = read_dataset(folder / "");
+  EXPECT_TRUE(dataset.points.empty());
+  EXPECT_THAT(dataset.remarks, ::testing::Contains(Remark{.kind = Remark::Kind::points_missing,
+                                                          .names = {"sparse_pc.ply"}}));
+  // COLMAP's points (1, 2, 3) are in its own coordinates.
+  write_transforms(folder, 2, applied);
+  write_binary(folder / "colmap/sparse/0", upright_colmap(2));
+  dataset = read_dataset(folder / "");
+  ASSERT_EQ(dataset.points.size(), 1u);
+  EXPECT_EQ(dataset.points[0].position, glm::dvec3(1, 3.5, -2));
+  // Without the matrix, their place is unknown.
+  write_transforms(folder, 2);
+  EXPECT_TRUE(read_dataset(folder / "").points.empty());
+  write_transforms(folder, 2, "\"applied_transform\": [[1,0],[0,0,1,0],[0,-1,0,0]], ");
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms.json", "applied_transform"));
+  write_transforms(folder, 2, "\"ply_file_path\": \"/points.ply\", ");
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms.json", "ply_file_path", "/points.ply"));
+}
+
+TEST(Dataset, RefusesFilesThatAreNoPoints) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 2, "\"ply_file_path\": \"points.ply\", ");
+  const auto with = [&](std::string text, const std::string& from, const std::string& to) {
+    if (const std::size_t at = text.find(from); at != std::string::npos)
+      text.replace(at, from.size(), to);
+    write_text(folder / "points.ply", text);
+    return refusal(folder / "");
+  };
+  EXPECT_EQ(with(cloud, "", ""), std::nullopt);
+  EXPECT_THAT(with(cloud, "0.5 -1", "nan -1"), ErrorIn("points.ply", "finite"));
+  EXPECT_THAT(with(cloud, "property float y", "property float w"), ErrorIn("points.ply", "'y'"));
+  EXPECT_THAT(with(cloud, "uint8 red", "float red"), ErrorIn("points.ply", "'red'"));
+  EXPECT_THAT(with(cloud, "vertex 2", "vertex 2000000000"), ErrorIn("points.ply"));
+  EXPECT_THAT(with(cloud, "element vertex", "element corner"), ErrorIn("points.ply", "vertex"));
+  const std::vector<std::byte> whole = [&] {
+    const auto bytes = std::as_bytes(std::span(std::string_view(cloud)));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  }();
+  survive_truncation(whole, [&](std::span<const std::byte> bytes) {
+    write_bytes(folder / "points.ply", bytes);
+    read_dataset(folder / "");
+  });
+}
+
+TEST(Dataset, MasksExcludePixels) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 2);
+  Image8 mask(8, 6, glm::u8vec4(255));
+  for (int y = 0; y < 6; ++y) mask.at(3, y) = glm::u8vec4(0, 0, 60, 255);
+  mask.at(7, 5) = glm::u8vec4(200, 200, 200, 0);  // grey that is light, and alpha does not matter
+  write_image(folder / "masks/1.png", mask);
+  const auto write = [&](const std::string& head) {
+    write_text(folder / "transforms.json",
+               transforms(intrinsics + std::string("\"w\": 8, \"h\": 6, ") + head,
+                          {frame("images/0.png"),
+                           frame("images/1.png", 1, "\"mask_path\": \"masks/1.png\", ")}));
+  };
+  write("");
+  Dataset dataset = read_dataset(folder / "");
+  EXPECT_TRUE(dataset.test[0].ignored.empty());
+  ASSERT_EQ(dataset.train[0].ignored.size(), 48u);
+  for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(dataset.train[0].ignored[i], i % 8 == 3) << i;
+  EXPECT_FALSE(dataset.has_alpha);
+  EXPECT_EQ(dataset.train[0].image.pixels, an_image(8, 6, 1).pixels);
+  EXPECT_THAT(dataset.remarks, ::testing::Contains(Remark{Remark::Kind::pixels_masked, {1, 2}}));
+  // Half the size: the second column of four has an excluded pixel.
+  dataset = read_dataset(folder / "", {.scale = 0.5});
+  ASSERT_EQ(dataset.train[0].ignored.size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(dataset.train[0].ignored[i], i % 4 == 1) << i;
+  // The mask follows the lens.
+  write("\"k1\": 0.02, ");
+  dataset = read_dataset(folder / "");
+  EXPECT_EQ(dataset.train[0].ignored.size(), dataset.train[0].image.pixels.size());
+  EXPECT_THAT(dataset.train[0].ignored, ::testing::Contains(1));
+  EXPECT_THAT(dataset.train[0].ignored, ::testing::Contains(0));
+
+  write("");
+  write_image(folder / "images_2/0.png", an_image(4, 3));
+  write_image(folder / "images_2/1.png", an_image(4, 3));
+  EXPECT_THAT(refusal(folder / "", {.images_folder = 2}), ErrorIn("masks_2/1.png"));
+  write_image(folder / "masks_2/1.png", Image8(4, 3, glm::u8vec4(255)));
+  EXPECT_TRUE(read_dataset(folder / "", {.images_folder = 2}).train[0].ignored.empty());
+  write_image(folder / "masks/1.png", Image8(8, 6, glm::u8vec4(0, 0, 0, 255)));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("masks/1.png"));
+  write_image(folder / "masks/1.png", Image8(7, 6, glm::u8vec4(255)));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("masks/1.png", 7, 6, 8));
+  std::filesystem::remove(folder / "masks/1.png");
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("masks/1.png", "images/1.png"));
+}
+
 // ---- Errors ---------------------------------------------------------------------------------
 
 TEST(Dataset, NamesTheImagesThatAreMissing) {
@@ -309,8 +476,7 @@ TEST(Dataset, RefusesLensesThatItCannotUndo) {
     write_transforms(folder, 2, head);
     return refusal(folder / "");
   };
-  EXPECT_THAT(with("\"is_fisheye\": true, "), Names(0, "is_fisheye"));
-  EXPECT_THAT(with("\"camera_model\": \"OPENCV_FISHEYE\", "), Names("OPENCV_FISHEYE"));
+  EXPECT_THAT(with("\"camera_model\": \"EQUIRECTANGULAR\", "), Names("EQUIRECTANGULAR"));
   EXPECT_THAT(with("\"ftheta_p0\": 0.5, "), Names("ftheta_p0"));
   EXPECT_THAT(with("\"k4\": 0.5, "), Names("k4"));
   EXPECT_THAT(with("\"k1\": \"much\", "), Names(0, "k1"));
@@ -318,10 +484,10 @@ TEST(Dataset, RefusesLensesThatItCannotUndo) {
   EXPECT_EQ(with("\"is_fisheye\": false, \"k4\": 0, \"camera_model\": \"OPENCV\", "), std::nullopt);
 
   ColmapFixture model = upright_colmap(2);
-  model.cameras[0] = {1, 5, "OPENCV_FISHEYE", 8, 6, {10, 9, 4, 3, 0, 0, 0, 0}};
+  model.cameras[0] = {1, 7, "FOV", 8, 6, {10, 9, 4, 3, 0.1}};
   std::filesystem::remove(folder / "transforms.json");
   write_text(folder / "sparse/0", model);
-  EXPECT_THAT(refusal(folder / ""), ErrorIn("cameras.txt", "OPENCV_FISHEYE"));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("cameras.txt", "FOV"));
 }
 
 TEST(Dataset, RefusesPosesThatAreNoRotations) {
@@ -393,30 +559,48 @@ TEST(Dataset, RefusesWhatIsNoDataset) {
               Names(0, "train/0.png", "images/", "images_2/"));
 }
 
-TEST(Dataset, OpensNothingOutsideOfItsFolder) {
+TEST(Dataset, FollowsParentsAndLinksToPhotographs) {
   const TemporaryFolder folder;
-  write_image(folder / "secret.png", an_image(8, 6));
+  write_image(folder / "apart/b.png", an_image(8, 6, 2));
   write_image(folder / "set/images/a.png", an_image(8, 6));
-  std::filesystem::create_symlink(folder / "secret.png", folder / "set/images/link.png");
+  std::filesystem::create_symlink(folder / "apart/b.png", folder / "set/images/link.png");
+  std::filesystem::create_directory_symlink(folder / "apart", folder / "set/all");
+  std::filesystem::create_symlink(folder / "nowhere.png", folder / "set/images/broken.png");
   const auto with = [&](const std::string& name) {
     write_text(folder / "set/transforms.json",
                transforms(intrinsics, {frame(name), frame("images/a.png")}));
     return refusal(folder / "set");
   };
   EXPECT_EQ(with("./images/a.png"), std::nullopt);
-  EXPECT_THAT(with("../secret.png"), Names("../secret.png"));
-  EXPECT_THAT(with("images/../../secret.png"), Names("images/../../secret.png"));
-  EXPECT_THAT(with((folder / "secret.png").string()), Names((folder / "secret.png").string()));
-  EXPECT_THAT(with("images/link.png"), Names("images/link.png"));
+  for (const char* name : {"images/link.png", "all/b.png", "../apart/b.png", "../apart/b",
+                           "images/../../apart/b.png"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(with(name), std::nullopt);
+    const Dataset dataset = read_dataset(folder / "set");
+    EXPECT_THAT(names({dataset.test[0], dataset.train[0]}), ::testing::Contains(name));
+    EXPECT_THAT((std::array{dataset.test[0].image.pixels, dataset.train[0].image.pixels}),
+                ::testing::Contains(an_image(8, 6, 2).pixels));
+  }
+  EXPECT_THAT(with("images/broken.png"), Names("images/broken.png"));
+  EXPECT_THAT(with("images"), Names("images"));
+  const std::string absolute = (folder / "apart/b.png").string();
+  EXPECT_THAT(with(absolute), Names(absolute));
+  EXPECT_THAT(with("file:b.png"), Names("file:b.png"));
   // A name is not a URI: escapes in it are plain text.
   write_image(folder / "set/images/a%20b.png", an_image(8, 6));
   EXPECT_EQ(with("images/a%20b.png"), std::nullopt);
+}
 
-  ColmapFixture model = upright_colmap(2);
-  model.images[1].name = "../transforms.json";
-  std::filesystem::remove(folder / "set/transforms.json");
-  write_binary(folder / "set/sparse/0", model);
-  EXPECT_THAT(refusal(folder / "set"), Names("../transforms.json"));
+TEST(Dataset, ReadsColmapWithLinksAsNerfstudioMakesIt) {
+  const TemporaryFolder folder;
+  const ColmapFixture model = upright_colmap(2);
+  write_binary(folder / "set/colmap/sparse/0", model);
+  write_image(folder / "apart/a.png", an_image(8, 6));
+  write_image(folder / "apart/b.png", an_image(8, 6, 1));
+  std::filesystem::create_directory_symlink(folder / "apart", folder / "set/images");
+  const Dataset dataset = read_dataset(folder / "set");
+  EXPECT_EQ(dataset.train[0].image.pixels, an_image(8, 6, 1).pixels);
+  EXPECT_EQ(dataset.points.size(), 1u);
 }
 
 TEST(Dataset, RefusesMorePhotographsThanMemoryBeforeItDecodesThem) {

@@ -114,6 +114,42 @@ void expect_the_scene(const Lens& lens) {
 TEST(Lens, ABarrelIsUndone) { expect_the_scene(barrel); }
 TEST(Lens, APincushionIsUndone) { expect_the_scene(pincushion); }
 
+const Lens fisheye{.model = LensModel::fisheye, .k1 = -0.03, .k2 = 0.01, .k3 = -0.004, .k4 = 0.001};
+
+TEST(Lens, AFisheyeMapsAnglesByTheFormula) {
+  // Without coefficients, the distance from the axis is the angle: atan(3/4) in direction (3, 4)/5.
+  const Lens plain{.model = LensModel::fisheye};
+  EXPECT_FALSE(plain.is_pinhole());
+  const glm::dvec2 place = plain.distorted({0.45, 0.6});
+  EXPECT_NEAR(place.x, 0.6 * std::atan(0.75), 1e-15);
+  EXPECT_NEAR(place.y, 0.8 * std::atan(0.75), 1e-15);
+  EXPECT_EQ(plain.distorted({0, 0}), glm::dvec2(0));
+  EXPECT_TRUE(plain.sees({1e6, 0}));
+  // At 45 degrees along x, term by term.
+  const double t = std::atan(1.0), t2 = t * t;
+  EXPECT_NEAR(fisheye.distorted({1, 0}).x,
+              t - 0.03 * t * t2 + 0.01 * t * t2 * t2 - 0.004 * t * std::pow(t2, 3) +
+                  0.001 * t * std::pow(t2, 4),
+              1e-15);
+  // theta - theta^3 / 3 decreases beyond 1 radian.
+  const Lens folds{.model = LensModel::fisheye, .k1 = -1.0 / 3};
+  EXPECT_TRUE(folds.sees({std::tan(0.97), 0}));
+  EXPECT_FALSE(folds.sees({0, std::tan(1.05)}));
+}
+
+TEST(Lens, AFisheyeIsUndone) {
+  expect_the_scene(fisheye);
+  // A camera of about 180 degrees: the pinhole image is a part of it, of 115 degrees, all known.
+  Camera camera = a_camera();
+  camera.fx = camera.fy = 200 / 3.14;
+  const Image8 photograph(camera.width, camera.height, glm::u8vec4(10, 20, 30, 255));
+  const PixelRectangle known = undistorted(photograph, camera, {.model = LensModel::fisheye}).known;
+  EXPECT_EQ(known.left, 0);
+  EXPECT_EQ(known.top, 0);
+  EXPECT_EQ(known.right, camera.width);
+  EXPECT_EQ(known.bottom, camera.height);
+}
+
 TEST(Lens, WithoutDistortionNothingChanges) {
   const unsigned seed = 3;
   SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -189,8 +225,10 @@ TEST(Lens, WhatLeavesTooLittleKnowsNothing) {
   const Camera camera = a_camera();
   const Image8 photograph(camera.width, camera.height, glm::u8vec4(255));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Lens& lens : {Lens{.k1 = 30}, Lens{.k1 = -8}, Lens{.k1 = 1e300, .k2 = -1e300},
-                           Lens{.p1 = 40}, Lens{.k3 = nan}}) {
+  for (const Lens& lens :
+       {Lens{.k1 = 30}, Lens{.k1 = -8}, Lens{.k1 = 1e300, .k2 = -1e300}, Lens{.p1 = 40},
+        Lens{.k3 = nan}, Lens{.model = LensModel::fisheye, .k1 = -40},
+        Lens{.model = LensModel::fisheye, .k4 = nan}}) {
     const PixelRectangle known = undistorted(photograph, camera, lens).known;
     EXPECT_EQ(known.right - known.left, 0) << lens.k1 << ' ' << lens.p1;
     EXPECT_EQ(known.right, 0);

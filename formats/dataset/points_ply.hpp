@@ -1,0 +1,17 @@
+// A cloud of coloured points in a PLY file, as Nerfstudio's transforms.json names it.
+#pragma once
+
+#include <vector>
+
+#include "base/input.hpp"
+#include "scene/photographs.hpp"
+
+namespace tureen {
+
+/// The rows of the element "vertex": x, y and z, and red, green and blue as integers from 0 to 255.
+/// Without colours, points are grey. Other properties and elements are skipped. Throws InputError
+/// with the line or byte: no vertices, a missing or non-finite coordinate, a colour of another
+/// type.
+std::vector<DatasetPoint> read_points_ply(Input& input);
+
+}  // namespace tureen
