@@ -37,47 +37,65 @@ Camera camera_at(const Subject& subject, const Bearing& bearing, const Lens& len
   return look_at(eye, subject.centre(), unit_up(subject.up), lens.fov_y, lens.width, lens.height);
 }
 
+struct Box {
+  glm::dvec3 low, high;
+};
+
+Box in_world(const PlacedBounds& placed) {
+  const auto& [box, world_from_layer] = placed;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box result{glm::dvec3(infinity), glm::dvec3(-infinity)};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 position(corner & 1 ? box.high.x : box.low.x,
+                              corner & 2 ? box.high.y : box.low.y,
+                              corner & 4 ? box.high.z : box.low.z, 1.0);
+    const glm::dvec3 world(world_from_layer * position);
+    result.low = glm::min(result.low, world);
+    result.high = glm::max(result.high, world);
+  }
+  return result;
+}
+
+/// The part of the box in the region of the cameras, if most cameras are inside the box. Otherwise,
+/// or if the region is elsewhere, the whole box.
+Box without_surroundings(const Box& box, std::span<const Camera> cameras) {
+  const auto is_inside = [&](const Camera& camera) {
+    const glm::dvec3 eye = camera.eye();
+    return glm::all(glm::greaterThan(eye, box.low)) && glm::all(glm::lessThan(eye, box.high));
+  };
+  const auto inside = std::count_if(cameras.begin(), cameras.end(), is_inside);
+  if (2 * std::size_t(inside) <= cameras.size()) return box;
+  const std::optional<Region> region = region_of_cameras(cameras);
+  if (!region) return box;
+  const Box part{glm::max(box.low, region->centre - region->half_side),
+                 glm::min(box.high, region->centre + region->half_side)};
+  return glm::all(glm::lessThan(part.low, part.high)) ? part : box;
+}
+
 }  // namespace
 
-Subject subject_of(const Scene& scene) {
+std::vector<PlacedBounds> boxes_of(const Scene& scene) {
   std::vector<PlacedBounds> boxes;
   for (const Layer& layer : scene.layers)
     boxes.push_back({framed_bounds(layer), layer.world_from_layer});
-  return without_surroundings(subject_of(boxes, glm::dvec3(scene.info.up)), scene.cameras);
+  return boxes;
 }
 
-Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up) {
+Subject subject_of(const Scene& scene) {
+  return subject_of(boxes_of(scene), glm::dvec3(scene.info.up), scene.cameras);
+}
+
+Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up,
+                   std::span<const Camera> cameras) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   glm::dvec3 low(infinity), high(-infinity);
-  for (const auto& [box, world_from_layer] : boxes) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec4 position(corner & 1 ? box.high.x : box.low.x,
-                                corner & 2 ? box.high.y : box.low.y,
-                                corner & 4 ? box.high.z : box.low.z, 1.0);
-      const glm::dvec3 world(world_from_layer * position);
-      low = glm::min(low, world);
-      high = glm::max(high, world);
-    }
+  for (const PlacedBounds& each : boxes) {
+    const Box box = without_surroundings(in_world(each), cameras);
+    low = glm::min(low, box.low);
+    high = glm::max(high, box.high);
   }
   if (boxes.empty()) low = high = glm::dvec3(0.0);
   return {low, high, up};
-}
-
-Subject without_surroundings(const Subject& subject, std::span<const Camera> cameras) {
-  const auto is_inside = [&](const Camera& camera) {
-    const glm::dvec3 eye = camera.eye();
-    return glm::all(glm::greaterThan(eye, subject.low)) &&
-           glm::all(glm::lessThan(eye, subject.high));
-  };
-  const auto inside = std::count_if(cameras.begin(), cameras.end(), is_inside);
-  if (2 * std::size_t(inside) <= cameras.size()) return subject;
-  const std::optional<Region> region = region_looked_at(cameras);
-  if (!region) return subject;
-  Subject result = subject;
-  result.low = glm::max(subject.low, region->centre - region->half_side);
-  result.high = glm::min(subject.high, region->centre + region->half_side);
-  // The place may lie outside of what was reconstructed.
-  return glm::all(glm::lessThan(result.low, result.high)) ? result : subject;
 }
 
 glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {

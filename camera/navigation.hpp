@@ -22,17 +22,18 @@ struct Subject {
   glm::dvec3 centre() const { return 0.5 * (low + high); }
 };
 
-/// The box in world coordinates around the framed_bounds() of all layers, also of invisible ones,
-/// without_surroundings(), and the scene's up axis. A layer without triangles counts as its origin.
-/// O(data).
+/// The framed_bounds() of all layers, also of invisible ones.
+std::vector<PlacedBounds> boxes_of(const Scene& scene);
+
+/// The box in world coordinates around boxes_of() the scene, and its up axis. A layer without
+/// triangles counts as its origin. O(data).
+///
+/// If most of the scene's cameras are inside the box of a layer, this box ends at the cameras'
+/// region (region_of_cameras): what surrounds the cameras would hide it from an eye outside.
 Subject subject_of(const Scene& scene);
 /// The same for boxes that are known. O(boxes).
-Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up);
-
-/// The subject of a scene with these cameras. If most of them are inside the box and look at a
-/// common place (region_looked_at), the box ends around that place: what surrounds the cameras
-/// would hide it from an eye that sees all of the box. Otherwise, the whole box.
-Subject without_surroundings(const Subject& subject, std::span<const Camera> cameras);
+Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up,
+                   std::span<const Camera> cameras = {});
 
 /// The optics of a view.
 struct Lens {

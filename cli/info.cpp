@@ -433,7 +433,7 @@ ExitCode inform(const InfoOptions& options) {
   const Scene scene = read(options.scene);
   std::vector<LayerFacts> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) layers.push_back(facts_of(scene, i));
-  const Subject subject = subject_of(scene);
+  const Subject subject = subject_of(boxes_of(scene), glm::dvec3(scene.info.up));
   const DeviceFit devices(layers);
   say_scene(options, scene, subject, layers, devices);
   if (options.json) print_json(to_json(options, scene, subject, layers, devices));

@@ -101,21 +101,25 @@ Region of_eyes(std::span<const Camera> views, bool outwards) {
 
 }  // namespace
 
-std::optional<Region> region_looked_at(std::span<const Camera> cameras) {
+std::optional<Region> region_of_cameras(std::span<const Camera> cameras) {
   if (cameras.empty()) return std::nullopt;
   const std::optional<glm::dvec3> centre = nearest_to_axes(cameras);
-  return centre ? looked_at(cameras, *centre) : std::nullopt;
+  std::optional<Region> region = centre ? looked_at(cameras, *centre) : std::nullopt;
+  if (!region) region = of_eyes(cameras, centre.has_value());
+  return region->half_side > 0 && std::isfinite(region->half_side) ? region : std::nullopt;
 }
 
 Region region_of_interest(const Dataset& dataset) {
   if (dataset.train.empty()) throw InputError({}, "the dataset has no training views");
   std::vector<Camera> cameras;
   for (const Photograph& view : dataset.train) cameras.push_back(view.camera);
-  if (const std::optional<Region> region = region_looked_at(cameras)) return *region;
+  const std::optional<glm::dvec3> centre = nearest_to_axes(cameras);
+  if (centre)
+    if (const std::optional<Region> region = looked_at(cameras, *centre)) return *region;
   Region region;
   region.half_side = 0;
   if (!dataset.points.empty()) region = of_points(dataset.points);
-  if (!(region.half_side > 0)) region = of_eyes(cameras, nearest_to_axes(cameras).has_value());
+  if (!(region.half_side > 0)) region = of_eyes(cameras, centre.has_value());
   // Squares of the coordinates may overflow.
   if (!(region.half_side > 0) || !std::isfinite(region.half_side))
     throw InputError({}, "the positions of the cameras give no finite size of the scene");

@@ -17,9 +17,6 @@ struct Region {
   double half_side = 1.0;
 };
 
-/// Case 1 of region_of_interest(); nullopt if it does not apply.
-std::optional<Region> region_looked_at(std::span<const Camera> cameras);
-
 /// The region for the training cameras and points, from the first of these that applies:
 ///
 /// 1. The optical axes meet in front of most cameras: the centre is the point nearest to all axes
@@ -36,5 +33,9 @@ std::optional<Region> region_looked_at(std::span<const Camera> cameras);
 ///
 /// Throws InputError if there is no training view, or the region is not finite.
 Region region_of_interest(const Dataset& dataset);
+
+/// The same for cameras without points (cases 1, 3 and 4); nullopt without cameras, and if the
+/// region is not finite.
+std::optional<Region> region_of_cameras(std::span<const Camera> cameras);
 
 }  // namespace tureen

@@ -73,8 +73,7 @@ void update_subject(StageSource& source) {
   std::vector<PlacedBounds> boxes;
   for (const StageLayer& layer : source.layers)
     boxes.push_back({layer.box, layer.world_from_layer});
-  source.subject =
-      without_surroundings(subject_of(boxes, source.up.axis), source.files.front().header->cameras);
+  source.subject = subject_of(boxes, source.up.axis, source.files.front().header->cameras);
 }
 
 bool has_layer(const StageSource& source, std::size_t file, std::size_t index) {

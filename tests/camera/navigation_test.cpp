@@ -123,7 +123,8 @@ TEST(Navigation, TheSubjectOmitsStraySplats) {
 }
 
 TEST(Navigation, TheSubjectEndsAroundWhatTheCamerasInsideLookAt) {
-  const Subject all{{-20, -20, -20}, {20, 20, 0.5}, {0, 0, 1}};
+  const PlacedBounds around{{{-20, -20, -20}, {20, 20, 0.5}}, glm::dmat4(1.0)};
+  const PlacedBounds beside{{{30, 30, 0}, {31, 31, 0.2}}, glm::dmat4(1.0)};
   const auto ring = [](double distance) {
     std::vector<Camera> cameras;
     for (int i = 0; i < 12; ++i)
@@ -131,20 +132,25 @@ TEST(Navigation, TheSubjectEndsAroundWhatTheCamerasInsideLookAt) {
                                 {1, 2, 0}, {0, 0, 1}, 0.8, 80, 60));
     return cameras;
   };
-  const Subject near = without_surroundings(all, ring(8));
+  const auto subject = [](std::vector<PlacedBounds> boxes, const std::vector<Camera>& cameras) {
+    return subject_of(boxes, {0, 0, 1}, cameras);
+  };
+  const Subject near = subject({around}, ring(8));
   EXPECT_NEAR(near.centre().x, 1, 1e-6);
   EXPECT_NEAR(near.centre().y, 2, 1e-6);
   EXPECT_GT(near.high.x, 2);
   EXPECT_LT(near.high.x, 6);
   EXPECT_EQ(near.high.z, 0.5);  // not larger than the box
-  EXPECT_EQ(near.up, all.up);
-  // Cameras outside of the box see all of it, and one that looks elsewhere changes nothing.
-  EXPECT_EQ(without_surroundings(all, ring(50)).low, all.low);
-  EXPECT_EQ(without_surroundings(all, {}).low, all.low);
-  std::vector<Camera> outwards = ring(8);
+  EXPECT_EQ(near.up, glm::dvec3(0, 0, 1));
+  // A box without the cameras is whole.
+  EXPECT_EQ(subject({around, beside}, ring(8)).high.x, 31);
+  EXPECT_EQ(subject({around}, ring(50)).low, glm::dvec3(-20));
+  EXPECT_EQ(subject({around}, {}).low, glm::dvec3(-20));
+  // Cameras that look outwards: the box around them, of twice their extent.
+  std::vector<Camera> outwards = ring(4);
   for (Camera& camera : outwards)
     camera = look_at(camera.eye(), 2.0 * camera.eye(), {0, 0, 1}, 0.8, 80, 60);
-  EXPECT_EQ(without_surroundings(all, outwards).low, all.low);
+  EXPECT_NEAR(subject({around}, outwards).high.x, 8, 1);
 }
 
 TEST(Navigation, TheSubjectOfSeveralLayersContainsAll) {
