@@ -257,6 +257,30 @@ void expect_same_step_in_odd_cases(const MakeBackend& make) {
     expect_same_step_of(make, fixture);
   }
   {
+    SCOPED_TRACE("faces behind an opaque one, which the processor skips");
+    Fixture fixture(16, {.faces = 300, .min_level = 1, .max_level = 2}, 64, 48);
+    // A wall in front of the first camera, between it and all other faces.
+    const Camera& camera = fixture.views[0].camera;
+    const glm::dmat3 axes = camera.world_from_view_rotation();
+    const glm::dvec3 middle = camera.eye() - origin - 0.2 * axes[2];
+    glm::vec3* corners = fixture.state.model.positions.data();
+    corners[0] = middle - 2.0 * axes[0] - 2.0 * axes[1];
+    corners[1] = middle + 2.0 * axes[0] - 2.0 * axes[1];
+    corners[2] = middle + 4.0 * axes[1];
+    const std::size_t texels = fixture.state.model.texels();
+    for (std::size_t i = 0; i < texels; ++i)
+      fixture.state.model.logits[i * channels + alpha_channel] = 20;
+    fixture.views.resize(1);
+    fixture.config.near = 0.1f;
+    const auto backend = make_cpu_backend(fixture.views, fixture.config, 1);
+    backend->upload(fixture.state);
+    backend->step(all_views(fixture), rates);
+    const StageTimes times = backend->take_times();
+    EXPECT_EQ(times.shaded_pixels, times.pixels);
+    EXPECT_LT(times.fragments, 3 * times.pixels);  // about 30 times as many without the wall
+    expect_same_step_of(make, fixture);
+  }
+  {
     SCOPED_TRACE("a backing layer");
     Fixture fixture(15, {.faces = 50, .min_level = 1, .max_level = 2}, 64, 48);
     fixture.config.backing_triangles = 20;

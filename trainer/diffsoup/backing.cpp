@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 namespace tureen::trainer {
 
@@ -47,11 +48,19 @@ std::vector<Triangle> subdivided(const std::vector<Triangle>& faces) {
   return result;
 }
 
+/// Cameras farther than this multiple of the distance that 90 % do not exceed are errors of
+/// structure from motion: they see the sphere from outside.
+constexpr double outlier = 4;
+
+/// The distance of the farthest camera from the region's centre, without outliers.
 double farthest_camera(const Dataset& dataset, const Region& region) {
-  double farthest = 0;
+  std::vector<double> distances;
   for (const Photograph& view : dataset.train)
-    farthest = std::max(farthest, glm::distance(view.camera.eye(), region.centre));
-  return farthest;
+    distances.push_back(glm::distance(view.camera.eye(), region.centre));
+  if (distances.empty()) return 0;
+  std::ranges::sort(distances);
+  const double most = outlier * distances[distances.size() * 9 / 10];
+  return *std::prev(std::upper_bound(distances.begin(), distances.end(), most));
 }
 
 /// The middle of a large triangle is nearer to the centre than its corners: with 20 triangles, at
@@ -71,8 +80,8 @@ std::size_t backing_faces(const Config& config) {
 }
 
 double min_backing_radius(const Config& config, const Dataset& dataset, const Region& region) {
-  return clearance *
-         std::max(config.far_extent * region.half_side, farthest_camera(dataset, region));
+  const double half_side = std::max(region.half_side, double(config.box));
+  return clearance * std::max(config.far_extent * half_side, farthest_camera(dataset, region));
 }
 
 Config with_visible_backing(const Config& config, const Dataset& dataset, const Region& region) {

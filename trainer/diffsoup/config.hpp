@@ -46,8 +46,8 @@ struct Config {
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // fraction of the random points outside the box
   float far_extent = 8.0f;  // largest distance of these points, in half sides of the box
-  /// Largest number of triangles of the backing layer (trainer/diffsoup/backing.hpp). Ours for
-  /// scenes: 80; published: 0.
+  /// Largest number of triangles of the backing layer (trainer/diffsoup/backing.hpp). If there is
+  /// one, `far` is raised to contain it. Ours for scenes: 80; published: 0.
   int backing_triangles = 0;
   /// With points: this fraction of all triangles starts around the box, where structure from motion
   /// found no points; published: 0.

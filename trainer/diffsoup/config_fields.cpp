@@ -78,7 +78,8 @@ const ConfigField fields[] = {
      &Config::backing_triangles,
      {0, 1e5, {}, "it is a coarse layer"},
      {},
-     "Largest number of triangles in a sphere around the scene, which closes holes"},
+     "Largest number of triangles in a sphere around the scene, behind all others: 20, 80, 320 and "
+     "so on, at most a hundredth of the triangles; 0: no sphere"},
     {"around_points",
      &Config::around_points,
      fraction,

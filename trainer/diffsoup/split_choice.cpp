@@ -173,7 +173,10 @@ std::vector<Split> longest_projected_edges(const Model& model, std::span<const S
       return best;
     };
     split_longest(
-        faces, rule.budget, [&](std::size_t face) { return view.visible[faces.origin[face]] != 0; },
+        faces, rule.budget,
+        [&](std::size_t face) {
+          return face >= rule.first && view.visible[faces.origin[face]] != 0;
+        },
         longest);
   }
   return std::move(faces.splits);

@@ -34,6 +34,7 @@ struct SplitView {
 struct ProjectedSplits {
   double fraction = 0.2;   // of the image's height: longer edges are split
   std::size_t budget = 0;  // maximum number of faces
+  std::size_t first = 0;   // faces before it are not split
   double near = 0.01;      // near plane: distance from the camera's plane, world units
 };
 

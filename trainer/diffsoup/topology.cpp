@@ -166,6 +166,7 @@ void cut_face(std::vector<glm::vec3>& positions, const Split& split) {
 }
 
 Resampled in_space_order(const Model& model, std::size_t first) {
+  assert(first <= model.faces());
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (const glm::vec3& p : model.positions) {
     low = glm::min(low, glm::dvec3(p));

@@ -184,8 +184,9 @@ void Trainer::resample() {
   }
   last_resample_ = {.unseen = before - state.model.faces()};
   const bool renews = step_ < double(config_.turnover_until) * config_.steps;
-  const std::size_t kept =
-      budget - (renews ? std::size_t(double(config_.turnover) * double(budget)) : 0);
+  const std::size_t renewed = renews ? std::size_t(double(config_.turnover) * double(budget)) : 0;
+  // At least one face besides the backing layer can be split.
+  const std::size_t kept = std::max(budget - renewed, backing + 1);
   if (state.model.faces() > kept) {
     last_resample_.pruned = state.model.faces() - kept;
     renewal.apply(prune(state.model, pixels, kept));
@@ -259,9 +260,11 @@ std::vector<Split> Trainer::choose_splits(const TrainingState& state,
         visible[i].push_back(pixels > 0);
       views.push_back({camera, visible[i]});
     }
-    splits = longest_projected_edges(
-        state.model, views,
-        {.fraction = config_.split_fraction, .budget = budget, .near = config_.near});
+    splits = longest_projected_edges(state.model, views,
+                                     {.fraction = config_.split_fraction,
+                                      .budget = budget,
+                                      .first = backing_faces(config_),
+                                      .near = config_.near});
   }
   if (splits.empty()) splits = longest_edges(state.model, triangles, backing_faces(config_));
   return splits;

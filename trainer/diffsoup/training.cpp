@@ -73,10 +73,12 @@ class SoupRun final : public Trainable {
   Checkpoint run_;  // without a state
 };
 
-bool shows_something(Backend& backend, std::span<const TrainingView> views) {
+/// Whether any view shows a face from `first` on.
+bool shows_something(Backend& backend, std::span<const TrainingView> views, std::size_t first) {
   return std::any_of(views.begin(), views.end(), [&](const TrainingView& view) {
     const std::vector<std::uint64_t> pixels = backend.visible_pixels({&view.camera, 1});
-    return std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
+    return std::ranges::any_of(std::span(pixels).subspan(std::min(first, pixels.size())),
+                               [](auto count) { return count > 0; });
   });
 }
 
@@ -98,7 +100,7 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.run.threads),
                   run.state);
   TrainingResult result;
-  result.visible_at_start = shows_something(trainer.backend(), views);
+  result.visible_at_start = shows_something(trainer.backend(), views, backing_faces(config));
   if (request.begun) request.begun(trainer.backend(), result.visible_at_start);
 
   request.run.session.seconds_before = run.seconds;

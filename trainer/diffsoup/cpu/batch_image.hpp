@@ -38,9 +38,10 @@ struct BatchImage {
   std::vector<std::uint32_t> bin_begin;           // one per tile, and the end
   std::vector<std::uint32_t> bins;                // faces of each tile, the nearest first
   std::vector<float> nearest;                     // one per face: no fragment is nearer
-  /// One per face: whether one of its fragments was nearer than all that were accepted before.
-  /// Others are hidden: nothing depends on them.
+  /// One per face: whether one of its fragments was nearer than all that were accepted before it.
+  /// Nothing depends on the others, which are hidden.
   std::vector<std::uint8_t> reached;
+  std::vector<std::uint8_t> reached_in_tile;  // the same for each entry of bins
 
   // One per pixel, row by row from the top.
   std::vector<VisiblePixel> visible;

@@ -128,6 +128,7 @@ void CpuBackend::find_visible_faces(std::span<BatchImage> images, Masking maskin
       fragments[task] += find_visible(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x,
                                       store_.alpha.data(), model.max_level, masking);
   });
+  pool_.run(images.size(), [&](std::size_t i) { find_reached(images[i]); });
   for (const std::uint64_t count : fragments) times_.fragments += count;
 }
 

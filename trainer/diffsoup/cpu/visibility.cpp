@@ -1,7 +1,6 @@
 #include "trainer/diffsoup/cpu/visibility.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -36,7 +35,8 @@ float nearest_of(const kernels::ProjectedFace& face, double near) {
   }
   // for_each_fragment rounds each term at most six times, by 6e-8 of its size.
   const float nearest = sum + std::max(across, 0.0f) + std::max(down, 0.0f) + 1e-6f * magnitude;
-  return std::min(nearest, float(1 / near));
+  const float limit = float(1 / near);
+  return nearest < limit ? nearest : limit;  // also if overflow made it NaN
 }
 
 /// Faces of the image, those with the nearest parts first.
@@ -55,7 +55,6 @@ void bin_faces(BatchImage& image, const Model& model) {
   const std::size_t faces = model.faces();
   image.projected.resize(faces);
   image.nearest.resize(faces);
-  image.reached.assign(faces, 0);
   image.bin_begin.assign(std::size_t(image.tiles_x) * image.tiles_y + 1, 0);
   for (std::size_t face = 0; face < faces; ++face) {
     image.projected[face] = kernels::project(image.view, &model.positions[3 * face].x);
@@ -66,6 +65,7 @@ void bin_faces(BatchImage& image, const Model& model) {
   for (std::size_t tile = 1; tile < image.bin_begin.size(); ++tile)
     image.bin_begin[tile] += image.bin_begin[tile - 1];
   image.bins.resize(image.bin_begin.back());
+  image.reached_in_tile.assign(image.bins.size(), 0);
   std::vector<std::uint32_t> next(image.bin_begin.begin(), image.bin_begin.end() - 1);
   for (const KeyedIndex& item : front_to_back(image))
     for_each_tile(image, image.projected[item.index],
@@ -116,10 +116,15 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN std::uint64_t find_visible(BatchImage& image
           if (!(a >= needed)) return;
           visible = {face, fragment.inverse_depth, fragment.b0, fragment.b1};
         });
-    // A face may lie in tiles of several threads.
-    if (reached) std::atomic_ref(image.reached[face]).store(1, std::memory_order_relaxed);
+    image.reached_in_tile[i] = reached;
   }
   return fragments;
+}
+
+void find_reached(BatchImage& image) {
+  image.reached.assign(image.projected.size(), 0);
+  for (std::size_t i = 0; i < image.bins.size(); ++i)
+    image.reached[image.bins[i]] |= image.reached_in_tile[i];
 }
 
 }  // namespace tureen::trainer

@@ -15,4 +15,7 @@ void bin_faces(BatchImage& image, const Model& model);
 std::uint64_t find_visible(BatchImage& image, std::size_t tile, const float* alpha, int level,
                            Masking masking);
 
+/// Fills image.reached, after find_visible() in all tiles.
+void find_reached(BatchImage& image);
+
 }  // namespace tureen::trainer

@@ -350,8 +350,9 @@ struct StepFaces {
     sums.flags[face] = 0;
     errors[face] += from_fixed(sums.errors[face], loss_scale);
     sums.errors[face] = 0;
-    const unsigned quarantined = unsigned((shared.flags & bad_texture_flag) != 0) +
-                                 unsigned((shared.flags & bad_corners_flag) != 0);
+    const unsigned quarantined =
+        unsigned((shared.flags & bad_texture_flag) != 0) +
+        unsigned((shared.flags & bad_corners_flag) != 0 && face >= fixed_faces);
     if (quarantined) Atomics::add(*non_finite, static_cast<unsigned long long>(quarantined));
   }
 };
