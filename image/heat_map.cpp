@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -45,7 +46,10 @@ Legend difference_legend() {
 
 Image8 side_by_side(std::span<const Image8> images) {
   int width = 0;
-  for (const Image8& image : images) width += image.width;
+  for (const Image8& image : images) {
+    assert(image.height == images.front().height);
+    width += image.width;
+  }
   Image8 result(width, images.front().height);
   int x = 0;
   for (const Image8& image : images) {

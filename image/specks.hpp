@@ -1,4 +1,5 @@
-// Holes and specks: single wrong pixels, which spoil an image more than its PSNR shows.
+// Holes, where the background shows through, and specks, which are single wrong pixels. Both spoil
+// an image more than its PSNR shows.
 #pragma once
 
 #include <vector>

@@ -10,6 +10,7 @@ import math
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -167,20 +168,22 @@ class Bench:
         scenes = {n: self.soup(f'gaussians-{n}', 'make_gaussians', '--splats', n)
                   for n in ([100, middle] if self.quick else [1000, 10000, middle, 1000000])}
         one_size = self.size('1280x720')
+        cores = [str(core) for core in sorted(os.sched_getaffinity(0))] if hasattr(os, 'sched_getaffinity') else []
         sweep = ['--size', '160x90,320x180'] if self.quick else \
             ['--size', '640x360,1280x720,1920x1080,2560x1440,3840x2160']
         tables = {
             'splats': [{'splats': n, **row} for n, path in scenes.items() for row in self.splat_rows(path, one_size)],
             'pixels': self.splat_rows(scenes[middle], sweep),
-            'cores': [{'cores': n, **row} for n in (1, 2)
-                      for row in self.splat_rows(scenes[middle], one_size, 'taskset', '-c', '0' if n == 1 else '0,1')]}
+            'cores': [{'cores': n, **row} for n in (1, 2) if shutil.which('taskset') and n <= len(cores)
+                      for row in self.splat_rows(scenes[middle], one_size, 'taskset', '-c', ','.join(cores[:n]))]}
         columns = [f'{name}_ms' for name in ('tureen', 'raster', 'generic', 'published')]
         self.keep('splats', tables, [{'table': table, 'x': x, 'y': columns}
                                      for table, x in (('splats', 'splats'), ('pixels', 'pixels'), ('cores', 'cores'))])
 
     def splat_rows(self, path, size, *wrapper):
         """A row for each size, with the time of each case."""
-        text = path and self.run('splats', *wrapper, TUREEN, 'bench', path, '--cameras', 'orbit:3', *size,
+        name = '-'.join(['splats', path.stem, *map(str, size[1:]), *wrapper[2:]]) if path else ''
+        text = path and self.run(name, *wrapper, TUREEN, 'bench', path, '--cameras', 'orbit:3', *size,
                                  *self.timing(60), '--json')
         rows = {}
         for measured in json.loads(text)['measurements'] if text else []:

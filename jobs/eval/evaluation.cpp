@@ -43,6 +43,8 @@ ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8
   ImageF truth = composited(to_float(photograph.image), options.background);
   const ImageF drawn = to_float(rendering);
   const double counted = equate_ignored(drawn, photograph.ignored, truth);
+  for (std::size_t i = 0; i < photograph.ignored.size(); ++i)
+    if (photograph.ignored[i]) truth.pixels[i].a = 0;  // not among the opaque pixels
   const Metrics metrics = compare(truth, drawn, options.metrics);
   if (options.on_view) options.on_view(view, truth, drawn);
   return {.name = photograph.camera.name,

@@ -417,13 +417,18 @@ TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
 
 TEST_P(DebugViews, HolesAreUncoveredPixelsAmongCoveredOnes) {
   const Scenery scenery(16, Kind::face_colors, 0.5);
+  const Image8 colors = debug_renderer(scenery, DebugView::color).renderer().read_color();
   const DebugViewRenderer shown = debug_renderer(scenery, DebugView::holes);
   const Image8 image = shown.renderer().read_color();
   const auto faces = faces_of(shown.renderer());
   std::size_t holes = 0, background = 0;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
-      if (faces[pixel_index(column, row)] != no_face) continue;
+      if (faces[pixel_index(column, row)] != no_face) {
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(image.at(column, row)[c], 0.4 * colors.at(column, row)[c], 1);
+        continue;
+      }
       int covered = 0;
       for (int y = row - 2; y <= row + 2; ++y)
         for (int x = column - 2; x <= column + 2; ++x)
