@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 
 #include "base/error.hpp"
@@ -36,6 +37,19 @@ void require_comparable(const ImageF& a, const ImageF& b) {
   if (a.width != b.width || a.height != b.height)
     throw UsageError("the images differ in size: " + size(a) + " and " + size(b));
   if (a.pixels.empty()) throw UsageError("the images are empty");
+}
+
+double mean_flip(const ImageF& a, const ImageF& b, std::span<const std::uint8_t> ignored) {
+  const FlipResult result = flip(a, b);
+  if (ignored.empty()) return result.mean;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < ignored.size(); ++i) {
+    if (ignored[i]) continue;
+    sum += double(result.map[i]);
+    ++count;
+  }
+  return count > 0 ? sum / double(count) : 0;
 }
 
 /// The 99.9th percentile by nearest rank.
@@ -83,14 +97,18 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
     mismatched += (p.a >= options.alpha_threshold) != (q.a >= options.alpha_threshold);
     result.non_finite += !is_finite(p) || !is_finite(q);
   }
-  result.mae = sum / (3.0 * double(pixels));
-  result.mse = sum_of_squares / (3.0 * double(pixels));
+  const std::size_t counted = pixels - std::size_t(std::ranges::count_if(
+                                           options.ignored, [](auto each) { return each != 0; }));
+  // Ignored pixels are equal: they add nothing to the sums.
+  const double values = 3.0 * double(std::max<std::size_t>(counted, 1));
+  result.mae = sum / values;
+  result.mse = sum_of_squares / values;
   result.psnr_db = psnr_from_mse(result.mse);
   result.p999_abs = percentile_999(channel_differences(a, b));
   result.coverage_mismatch = double(mismatched) / double(pixels);
   result.failing_fraction = double(failing) / double(pixels);
-  result.ssim = ssim(a, b, options.ssim_border);
-  if (options.with_flip) result.flip = flip(a, b).mean;
+  result.ssim = ssim(a, b, options.ssim_border, options.ignored);
+  if (options.with_flip) result.flip = mean_flip(a, b, options.ignored);
   return result;
 }
 

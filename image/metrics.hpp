@@ -20,6 +20,9 @@ struct MetricOptions {
   float alpha_threshold = 0.5f;
   /// Whether FLIP is computed. It takes most of the time; if false, `flip` is 0.
   bool with_flip = true;
+  /// One per pixel, not 0 for pixels that do not count in mae, mse, psnr_db, ssim and flip; empty:
+  /// all count. The images should be equal there (equate_ignored).
+  std::span<const std::uint8_t> ignored = {};
 };
 
 /// Over R, G and B, clamped to [0, 1], summed in double precision. Alpha affects only

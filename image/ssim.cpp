@@ -48,13 +48,20 @@ Plane product(const Plane& a, const Plane& b) {
   return result;
 }
 
-double mean_similarity(const Plane& a, const Plane& b, const Window& window) {
+/// The mean over the windows that `counts` accepts, which gets the column and row of their middle.
+template <class Counts>
+double mean_similarity(const Plane& a, const Plane& b, const Window& window, const Counts& counts) {
   constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
   const Plane mean_a = blurred(a, window), mean_b = blurred(b, window);
   const Plane aa = blurred(product(a, a), window), bb = blurred(product(b, b), window);
   const Plane ab = blurred(product(a, b), window);
+  const int right = (a.width - mean_a.width) / 2, down = (a.height - mean_a.height) / 2;
   double sum = 0;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < mean_a.values.size(); ++i) {
+    const int x = int(i % std::size_t(mean_a.width)), y = int(i / std::size_t(mean_a.width));
+    if (!counts(x + right, y + down)) continue;
+    ++count;
     const double m = mean_a.values[i], n = mean_b.values[i];
     // In flat areas E[x^2] - E[x]^2 cancels and may be negative.
     const double var_a = window.variance_scale * std::max(aa.values[i] - m * m, 0.0);
@@ -62,7 +69,7 @@ double mean_similarity(const Plane& a, const Plane& b, const Window& window) {
     const double covariance = window.variance_scale * (ab.values[i] - m * n);
     sum += (2 * m * n + c1) * (2 * covariance + c2) / ((m * m + n * n + c1) * (var_a + var_b + c2));
   }
-  return sum / double(mean_a.values.size());
+  return count > 0 ? sum / double(count) : 1;
 }
 
 }  // namespace
@@ -79,7 +86,8 @@ const char* name(SsimBorder border) {
   return "";
 }
 
-double ssim(const ImageF& a, const ImageF& b, SsimBorder border) {
+double ssim(const ImageF& a, const ImageF& b, SsimBorder border,
+            std::span<const std::uint8_t> ignored) {
   assert(a.width == b.width && a.height == b.height);
   const Window window = window_of(border);
   const int side = window.border == Border::valid ? int(window.weights.size()) : 1;
@@ -88,8 +96,11 @@ double ssim(const ImageF& a, const ImageF& b, SsimBorder border) {
                      " needs images of at least " + std::to_string(side) + " x " +
                      std::to_string(side) + " pixels; these have " + std::to_string(a.width) +
                      " x " + std::to_string(a.height));
+  const auto counts = [&](int x, int y) {
+    return ignored.empty() || !ignored[std::size_t(y) * std::size_t(a.width) + std::size_t(x)];
+  };
   double sum = 0;
-  for (int c = 0; c < 3; ++c) sum += mean_similarity(channel(a, c), channel(b, c), window);
+  for (int c = 0; c < 3; ++c) sum += mean_similarity(channel(a, c), channel(b, c), window, counts);
   return sum / 3;
 }
 

@@ -2,6 +2,9 @@
 // quality assessment: from error visibility to structural similarity", 2004, equation 13).
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "image/image.hpp"
 
 namespace tureen {
@@ -20,6 +23,10 @@ const char* name(SsimBorder border);
 /// The mean over all windows and over R, G and B, clamped to [0, 1] (NaN becomes 0), with C1 =
 /// 0.01^2 and C2 = 0.03^2. Alpha is ignored. Range -1..1; 1 for equal images. The images have equal
 /// sizes. Throws UsageError if no window fits inside them.
-double ssim(const ImageF& a, const ImageF& b, SsimBorder border = SsimBorder::zero_pad);
+///
+/// Windows around pixels with a value other than 0 in `ignored` (one a pixel, or empty) do not
+/// count; 1 if none counts.
+double ssim(const ImageF& a, const ImageF& b, SsimBorder border = SsimBorder::zero_pad,
+            std::span<const std::uint8_t> ignored = {});
 
 }  // namespace tureen

@@ -45,12 +45,14 @@ ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8
   const double counted = equate_ignored(drawn, photograph.ignored, truth);
   for (std::size_t i = 0; i < photograph.ignored.size(); ++i)
     if (photograph.ignored[i]) truth.pixels[i].a = 0;  // not among the opaque pixels
-  const Metrics metrics = compare(truth, drawn, options.metrics);
+  MetricOptions metric_options = options.metrics;
+  metric_options.ignored = photograph.ignored;
+  const Metrics metrics = compare(truth, drawn, metric_options);
   if (options.on_view) options.on_view(view, truth, drawn);
   return {.name = photograph.camera.name,
-          .psnr_db = psnr_from_mse(counted * metrics.mse),
-          .ssim = metrics.ssim - (counted - 1) * (1 - metrics.ssim),
-          .flip = counted * metrics.flip,
+          .psnr_db = metrics.psnr_db,
+          .ssim = metrics.ssim,
+          .flip = metrics.flip,
           .holes = hole_fraction(truth, drawn),
           .specks = counted * mean_of(speck_map(truth, drawn), drawn.pixels.size())};
 }

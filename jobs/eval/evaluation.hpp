@@ -3,9 +3,9 @@
 //
 // Protocol: the device's 8-bit rendering is compared with the photograph over the background, which
 // is not rounded again. PSNR comes from the mean squared error of a view, SSIM uses the requested
-// border, FLIP 67 pixels per degree. Pixels that a mask excludes count as equal, and the mean is
-// that over the others. Each is computed view by view and averaged over the views, as in papers.
-// Holes and specks (image/specks.hpp) are counted in the same rendering.
+// border, FLIP 67 pixels per degree. Pixels that a mask excludes count as equal, and means
+// are those over the others. Each is computed view by view and averaged over the views, as in
+// papers. Holes and specks (image/specks.hpp) are counted in the same rendering.
 #pragma once
 
 #include <functional>
@@ -31,8 +31,8 @@ struct EvaluationOptions {
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};
   /// Called with each view's index, its photograph over the background, and its rendering, whose
-  /// alpha is its coverage. Where a mask excludes pixels, the photograph has those of the rendering.
-  /// Calls come in any order and from several threads; they may throw to cancel.
+  /// alpha is its coverage. Where a mask excludes pixels, the photograph has those of the
+  /// rendering. Calls come in any order and from several threads; they may throw to cancel.
   std::function<void(std::size_t view, const ImageF& photograph, const ImageF& rendering)> on_view =
       {};
   /// Called with the fraction done, 0..1; may throw to cancel.

@@ -231,5 +231,27 @@ TEST(Metrics, DifferenceMapHoldsTheLargestChannel) {
   EXPECT_THAT(difference_map(a, b), testing::ElementsAre(0.0f, 0.25f));
 }
 
+TEST(Metrics, SkipIgnoredPixels) {
+  ImageF a(40, 30, glm::vec4(0.5f)), b = a;
+  // The left half differs. Without it all is equal; without the right half, the error is that of
+  // the left half alone.
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 20; ++x) b.at(x, y) = glm::vec4(0.6f, 0.6f, 0.6f, 1.0f);
+  std::vector<std::uint8_t> right(a.pixels.size(), 1), left(a.pixels.size(), 0);
+  for (std::size_t i = 0; i < right.size(); ++i)
+    if (i % 40 < 20) right[i] = 0, left[i] = 1;
+  const Metrics of_left = compare(a, b, {.ignored = right});
+  EXPECT_NEAR(of_left.mse, 0.01, 1e-6);
+  EXPECT_NEAR(of_left.mae, 0.1, 1e-6);
+  EXPECT_LT(of_left.ssim, compare(a, b).ssim);
+  EXPECT_GT(of_left.flip, compare(a, b).flip);
+  ImageF equal = b;
+  EXPECT_EQ(equate_ignored(a, left, equal), 2);
+  const Metrics of_right = compare(a, equal, {.ignored = left});
+  EXPECT_EQ(of_right.mse, 0);
+  EXPECT_EQ(of_right.ssim, 1);
+  EXPECT_EQ(of_right.flip, 0);
+}
+
 }  // namespace metrics_test
 }  // namespace tureen

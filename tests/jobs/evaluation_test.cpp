@@ -84,6 +84,10 @@ TEST(Evaluate, SkipsPixelsThatAMaskExcludes) {
   EXPECT_NEAR(result.views[0].ssim, 1, 1e-12);
   EXPECT_EQ(result.views[0].flip, 0);
   EXPECT_NEAR(result.views[1].psnr_db, 13.979400086720377, 1e-5);
+  EXPECT_GT(result.views[1].ssim, 0);
+  EXPECT_LT(result.views[1].ssim, 0.999);
+  EXPECT_GT(result.views[1].flip, 0.1);
+  EXPECT_LE(result.views[1].flip, 1);
 }
 
 TEST(Evaluate, EndsWhereItsProgressThrows) {
