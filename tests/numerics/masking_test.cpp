@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -123,6 +124,8 @@ TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
     for (std::size_t tile = 0; tile + 1 < backwards.bin_begin.size(); ++tile)
       std::reverse(backwards.bins.begin() + backwards.bin_begin[tile],
                    backwards.bins.begin() + backwards.bin_begin[tile + 1]);
+    // Skipping hidden faces needs the order from front to back.
+    std::ranges::fill(backwards.nearest, std::numeric_limits<float>::infinity());
     for (std::size_t tile = backwards.bin_begin.size() - 1; tile-- > 0;)
       trainer::find_visible(backwards, tile, faces.store.alpha.data(), 0,
                             trainer::Masking::stochastic);

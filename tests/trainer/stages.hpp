@@ -71,6 +71,7 @@ struct Faces {
     bin_faces(image, model);
     for (std::size_t tile = 0; tile + 1 < image.bin_begin.size(); ++tile)
       find_visible(image, tile, store.alpha.data(), model.max_level, masking);
+    find_reached(image);
   }
 
   /// Gathers the face's gradient from the images. It is stored in the moments of a first step: with
