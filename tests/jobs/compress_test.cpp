@@ -87,8 +87,8 @@ TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
 TEST(Compress, MaskedPixelsAreNotJudged) {
   const Scene scene = part_of_the_example(500);
   const TriangleSoup& soup = only_soup(scene);
-  const gl::Context context = gl::Context::create({});
   std::vector<Photograph> photographs = own_photographs(scene, 20);
+  const gl::Context context = gl::Context::create({});
   const CompressJudge whole(context, scene, photographs);
   // The upper half shows something else, which the masks exclude.
   for (Photograph& photograph : photographs) {
