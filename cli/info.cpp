@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/decimal_text.hpp"
+#include "base/existing_path.hpp"
 #include "camera/navigation.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_info.hpp"
@@ -415,13 +416,15 @@ bool of_dataset(const InfoOptions& options) {
     return is_dataset(path) && !is_scene(path);
   });
   if (dataset == paths.end()) {
-    if (!options.plot.empty()) throw UsageError("-o writes a plot of a dataset, not of a scene");
-    return false;
+    if (options.plot.empty()) return false;
+    for (const std::string& path : paths) require_there(path);
+    throw UsageError("-o writes a plot of a dataset, not of a scene");
   }
   if (paths.size() > 1)
     throw UsageError("'" + *dataset + "' is a dataset; info prints only one at a time");
   if (options.strict || options.scene.choice != ReadingChoice{})
-    throw UsageError("'" + *dataset + "' is a dataset: of the options, only --json and -o apply");
+    throw UsageError("'" + *dataset +
+                     "' is a dataset: of the options, only --json, -o and --max-memory apply");
   return true;
 }
 

@@ -122,7 +122,7 @@ std::string sentence_of(const Remark& remark) {
     case Kind::up_of_cameras:
       return "The up axis is assumed to be the mean of the cameras' up axes.";
     case Kind::up_of_no_camera:
-      return "The cameras' up axes disagree; -y is assumed.";
+      return "The cameras' up axes disagree; " + names[0] + " is assumed.";
     case Kind::polygons_split:
       return counted(counts[0], "polygon", "polygons") +
              " with more than three corners split into triangles.";

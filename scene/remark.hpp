@@ -22,7 +22,7 @@ struct Remark {
     up_of_synthetic_scene,     // no flip_z: +z, and a white background
     up_of_transforms,          // of a dataset: z, as in the scenes of NeRF
     up_of_cameras,             // of a dataset: the mean of its cameras' up axes
-    up_of_no_camera,           // of a dataset whose cameras disagree: -y
+    up_of_no_camera,           // of a dataset whose cameras disagree: names[0]
     // Faces and vertices.
     polygons_split,          // counts: polygons
     small_faces_dropped,     // counts: faces with fewer than three corners

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "base/extension.hpp"
+#include "formats/dataset/dataset.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 
@@ -18,22 +19,12 @@ constexpr double watch_seconds = 1.0;
 /// Fraction of the progress bar for reading; the rest is for preparation.
 constexpr double reading_share = 0.9;
 
-/// Whether read_dataset() reads this path. Scenes in folders have no photographs.
-bool looks_like_photographs(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return path.filename() == "transforms.json";
-  for (const char* mark : {"transforms.json", "transforms_train.json", "sparse", "colmap",
-                           "bundle.out", "bundle/bundle.out"})
-    if (fs::exists(path / mark, ignored)) return true;
-  return false;
-}
-
 /// Whether the path is no scene, but photographs or a camera path; then asks for them.
 bool open_other(const fs::path& path, State& state) {
   const std::string name = path.filename().string();
   if (name == "transforms_train.json" || name == "transforms_test.json")
     state.ask(OpenPhotographs{fs::absolute(path).parent_path()});
-  else if (looks_like_photographs(path))
+  else if (is_dataset(path))
     state.ask(OpenPhotographs{path});
   else if (extension_of(path) == ".json")
     state.ask(LoadPath{path});

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/extension.hpp"
 #include "base/memory_budget.hpp"
 #include "base/memory_help.hpp"
 #include "base/shown_text.hpp"
+#include "formats/dataset/dataset.hpp"
 #include "formats/scene_file.hpp"
 #include "viewer/application.hpp"
 
@@ -132,15 +132,10 @@ std::optional<glm::ivec2> parse_size(const std::string& text) {
   return size;
 }
 
-/// Whether a path after the first is a dataset.
-bool is_dataset(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored) ? !is_scene(path) : extension_of(path) == ".json";
-}
-
 void take_paths(const std::vector<std::string>& paths, ApplicationOptions& options) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (i == 0 || !is_dataset(paths[i])) {
+    // The first path opens as whatever it is; a later one may be a dataset to compare with.
+    if (i == 0 || !is_dataset(paths[i]) || is_scene(paths[i])) {
       options.scenes.emplace_back(paths[i]);
       continue;
     }

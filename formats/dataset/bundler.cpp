@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "base/text_scanner.hpp"
 #include "formats/dataset/camera_json.hpp"
@@ -10,15 +11,29 @@ namespace tureen {
 
 namespace {
 
-/// The double nearest to the next word, on this line or a later one.
-double read_finite(TextScanner& text, const char* what) {
-  text.next_content();
-  const std::string word = text.read_word(what);
+/// The longest line of a list of images, in bytes.
+constexpr std::uint64_t max_list_line = 4096;
+
+std::optional<double> parse_finite(const std::string& word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    text.fail("'" + word.substr(0, 40) + "' where " + what + " is expected: not a finite number");
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return {};
   return value;
+}
+
+/// The double nearest to the next word on this line.
+double read_finite_here(TextScanner& text, const char* what) {
+  const std::string word = text.read_word(what);
+  const std::optional<double> value = parse_finite(word);
+  if (!value)
+    text.fail("'" + word.substr(0, 40) + "' where " + what + " is expected: not a finite number");
+  return *value;
+}
+
+/// As read_finite_here, on this line or a later one.
+double read_finite(TextScanner& text, const char* what) {
+  text.next_content();
+  return read_finite_here(text, what);
 }
 
 /// A number of records of at least `bytes` bytes each.
@@ -54,10 +69,10 @@ DatasetPoint read_bundler_point(TextScanner& text) {
   for (int i = 0; i < 3; ++i) point.position[i] = read_finite(text, "a point's position");
   text.next_content();
   for (int i = 0; i < 3; ++i) point.color[i] = glm::u8(text.read_integer("a colour", 0, 255));
-  // The images that show it, four numbers each.
-  text.next_line();
-  text.next_content();
-  text.next_line();
+  // The images that show it, four numbers each, all on one line.
+  const std::uint64_t views = read_record_count(text, 2 * 4, "views of a point");
+  for (std::uint64_t i = 0; i < 4 * views; ++i) read_finite_here(text, "a view of a point");
+  text.expect_line_end("the views of a point");
   return point;
 }
 
@@ -83,12 +98,22 @@ std::vector<std::string> read_bundler_list(Input& input) {
   TextScanner text(input);
   std::vector<std::string> names;
   while (text.next_content()) {
-    std::vector<std::string> words;
-    while (!text.at_line_end()) words.push_back(text.read_word("an image's name"));
+    const std::uint64_t start = text.position();
+    std::string name, last, before_last;
+    // The length of the name without its last word, and without its last two.
+    std::size_t without_one = 0, without_two = 0;
+    while (!text.at_line_end()) {
+      before_last = std::move(last);
+      last = text.read_word("an image's name");
+      if (text.position() - start > max_list_line)
+        text.fail("the line has more than " + std::to_string(max_list_line) + " bytes");
+      without_two = without_one;
+      without_one = name.size();
+      name += (name.empty() ? "" : " ") + last;
+    }
     // "0" and an estimate of the focal length may follow the name, which is not quoted.
-    if (words.size() >= 3 && words[words.size() - 2] == "0") words.resize(words.size() - 2);
-    std::string name = words[0];
-    for (std::size_t i = 1; i < words.size(); ++i) name += " " + words[i];
+    if (without_two > 0 && before_last == "0" && parse_finite(last)) name.resize(without_two);
+    name.shrink_to_fit();
     input.take_memory(1, name.capacity(), "the names of images");
     input.make_room_in(names, 1, "the names of images");
     names.push_back(std::move(name));

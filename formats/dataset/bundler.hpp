@@ -31,12 +31,13 @@ struct BundlerModel {
 };
 
 /// Throws InputError with the line: another version, a number missing or not finite, a negative
-/// focal length, a rotation that is not one to three digits. A text after the last point is
-/// ignored.
+/// focal length, a rotation that is not one to three digits, a list of views that does not have
+/// four numbers for each view. A text after the last point is ignored.
 BundlerModel read_bundler(Input& input);
 
 /// The names of images, one a line, without blank lines. A "0" and a focal length after a name are
-/// an estimate, and ignored. Two blanks in a row within a name become one.
+/// an estimate, and ignored. Two blanks in a row within a name become one. Throws InputError with
+/// the line if it has more than 4,096 bytes.
 std::vector<std::string> read_bundler_list(Input& input);
 
 struct BundlerFiles {

@@ -96,19 +96,21 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
   return outline;
 }
 
-/// Up is the mean of the cameras' up axes, because most cameras are held upright.
-void take_mean_up(const Frames& frames, Dataset& dataset) {
+/// Up is the mean of the cameras' up axes, because most cameras are held upright. Without one, it
+/// is y, or -y with `y_down`.
+void take_mean_up(const Frames& frames, bool y_down, Dataset& dataset) {
   glm::dvec3 sum(0);
   for (const DatasetFrame& frame : frames)
     sum += glm::dvec3(frame.view_from_world[0][1], frame.view_from_world[1][1],
                       frame.view_from_world[2][1]);
-  // The mean of scattered axes is short. In this case y points down, as in the first camera.
+  // The mean of scattered axes is short.
   if (glm::length(sum) > 0.1 * double(frames.size())) {
     dataset.up = glm::vec3(glm::normalize(sum));
     dataset.remarks.push_back({Remark::Kind::up_of_cameras});
   } else {
-    dataset.up = glm::vec3(0, -1, 0);
-    dataset.remarks.push_back({Remark::Kind::up_of_no_camera});
+    dataset.up = glm::vec3(0, y_down ? -1 : 1, 0);
+    dataset.remarks.push_back(
+        {.kind = Remark::Kind::up_of_no_camera, .names = {y_down ? "-y" : "y"}});
   }
 }
 
@@ -135,7 +137,7 @@ Outline colmap_outline(const fs::path& folder, const fs::path& model_folder,
     };
     frames.push_back(std::move(frame));
   }
-  take_mean_up(frames, outline.dataset);
+  take_mean_up(frames, true, outline.dataset);
   outline.dataset.points = std::move(model.points);
   split(std::move(frames), options, outline);
   return outline;
@@ -192,7 +194,7 @@ Outline bundler_outline(const fs::path& folder, const BundlerFiles& files,
     };
     frames.push_back(std::move(frame));
   }
-  take_mean_up(frames, outline.dataset);
+  take_mean_up(frames, false, outline.dataset);
   outline.dataset.points = std::move(model.points);
   split(std::move(frames), options, outline);
   return outline;

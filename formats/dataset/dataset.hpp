@@ -1,10 +1,13 @@
 // Reads posed photographs:
-//   transforms.json           instant-ngp, Nerfstudio: one file, intrinsics for all frames or frame
-//   by frame
-//   transforms_{train,test}.json   NeRF-synthetic: one file per split (transforms_val.json is not
-//   read) sparse/0, sparse or colmap/sparse/0 with cameras, images and points3D as .bin or .txt,
-//   and images/                   COLMAP, https://colmap.github.io/format.html
-//   bundle.out and list.txt   Bundler, see formats/dataset/bundler.hpp
+//   transforms.json
+//       instant-ngp, Nerfstudio: one file, intrinsics for all frames or frame by frame
+//   transforms_{train,test}.json
+//       NeRF-synthetic: one file per split (transforms_val.json is not read)
+//   sparse/0, sparse or colmap/sparse/0 with cameras, images and points3D as .bin or .txt, and
+//   images/
+//       COLMAP, https://colmap.github.io/format.html
+//   bundle.out and list.txt
+//       Bundler, see formats/dataset/bundler.hpp
 #pragma once
 
 #include <filesystem>

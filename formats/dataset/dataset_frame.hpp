@@ -24,7 +24,9 @@ struct DatasetFrame {
   /// The camera for a full-sized image with this width and height (`size` if known).
   std::function<Camera(int width, int height)> camera;
   Lens lens;
-  std::string mask;  // likewise; empty if there is none. Its dark pixels are not used
+  /// The mask of the image, relative to `folder`; empty if there is none. Its black pixels are not
+  /// used.
+  std::string mask;
   glm::dmat4 view_from_world{1.0};  // the camera's
 };
 

@@ -76,6 +76,19 @@ std::array<float, 4> catmull_rom(float t) {
           0.5f * (t3 - t2)};
 }
 
+/// The four pixels along one axis that an interpolation reads, and their weights.
+struct Taps {
+  int first = 0;  // from -2 up to the side + 1: the edge repeats there
+  std::array<float, 4> weights{};
+};
+
+Taps taps(double place, int side) {
+  // Far outside, a cast to int would be undefined; such places and NaN use the edge.
+  const double at = (place > 0 ? std::min(place, double(side)) : 0.0) + 0.5;
+  const int left = int(at);
+  return {left - 2, catmull_rom(float(at - left))};
+}
+
 /// Interpolates a photograph between its pixels. Outside, the nearest edge pixel repeats.
 class Sampler {
  public:
@@ -96,13 +109,10 @@ class Sampler {
   /// Writes colour times alpha, and alpha, at a place in pixels (centres at one half) to `sums`.
   /// Compilers vectorise the four channels because the sums go to memory.
   void operator()(glm::dvec2 place, float* sums) const {
-    // Far outside, a cast to int would be undefined; such places and NaN use the edge.
-    const double x = (place.x > 0 ? std::min(place.x, double(width_)) : 0.0) - 0.5 + border;
-    const double y = (place.y > 0 ? std::min(place.y, double(height_)) : 0.0) - 0.5 + border;
-    const int left = int(x), top = int(y);
-    const std::array<float, 4> columns = catmull_rom(float(x - left));
-    const std::array<float, 4> rows = catmull_rom(float(y - top));
-    const float* pixels = &pixels_[std::size_t(top - 1) * stride_ + std::size_t(left - 1)].x;
+    const auto [left, columns] = taps(place.x, width_);
+    const auto [top, rows] = taps(place.y, height_);
+    const float* pixels =
+        &pixels_[std::size_t(top + border) * stride_ + std::size_t(left + border)].x;
     const float* row[4];
     for (std::size_t j = 0; j < 4; ++j) row[j] = pixels + 4 * j * stride_;
     for (std::size_t c = 0; c < 4; ++c) {
@@ -229,6 +239,32 @@ Undistorted undistorted(const Image8& photograph, const Camera& camera, const Le
     }
   }
   result.known = Crop(known, width, height).known_pixels();
+  return result;
+}
+
+std::vector<std::uint8_t> undistorted_marks(const std::vector<std::uint8_t>& marked,
+                                            const Camera& camera, const Lens& lens) {
+  const int width = camera.width, height = camera.height;
+  assert(marked.size() == std::size_t(width) * std::size_t(height));
+  const glm::dvec2 focal(camera.fx, camera.fy), center(camera.cx, camera.cy);
+  const auto reads_marked = [&](const Taps& columns, const Taps& rows) {
+    for (int j = 0; j < 4; ++j) {
+      const auto row = std::size_t(std::clamp(rows.first + j, 0, height - 1)) * std::size_t(width);
+      for (int i = 0; i < 4; ++i)
+        if (columns.weights[std::size_t(i)] != 0 && rows.weights[std::size_t(j)] != 0 &&
+            marked[row + std::size_t(std::clamp(columns.first + i, 0, width - 1))])
+          return true;
+    }
+    return false;
+  };
+  std::vector<std::uint8_t> result;
+  result.reserve(marked.size());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec2 point = (glm::dvec2(x + 0.5, y + 0.5) - center) / focal;
+      const glm::dvec2 place = lens.distorted(point) * focal + center;
+      result.push_back(reads_marked(taps(place.x, width), taps(place.y, height)));
+    }
   return result;
 }
 

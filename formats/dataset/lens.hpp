@@ -14,7 +14,9 @@
 // Points beside or behind the camera, at 90 degrees or more, have no (x, y).
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "image/image.hpp"
 #include "scene/camera.hpp"
@@ -66,5 +68,10 @@ struct Undistorted {
 ///
 /// Time: about 0.1 s for 1080 x 1920 on one core.
 Undistorted undistorted(const Image8& photograph, const Camera& camera, const Lens& lens);
+
+/// Which pixels of undistorted() depend on a pixel of the photograph where `marked` is 1: 1 for
+/// each such pixel, 0 for the others. `marked` has one value per pixel.
+std::vector<std::uint8_t> undistorted_marks(const std::vector<std::uint8_t>& marked,
+                                            const Camera& camera, const Lens& lens);
 
 }  // namespace tureen

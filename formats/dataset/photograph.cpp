@@ -51,25 +51,56 @@ Image8 cropped(const Image8& image, const PixelRectangle& area) {
   return result;
 }
 
-/// The mask in black and white, without grey and alpha. Throws InputError if its size differs.
-Image8 read_mask(const std::filesystem::path& file, glm::ivec2 size, const MemoryBudget& budget) {
+/// A value for each pixel of an image: 1 if a mask excludes it, otherwise 0.
+using Marks = std::vector<std::uint8_t>;
+
+/// Throws InputError if the size of the mask differs.
+Marks read_mask(const std::filesystem::path& file, glm::ivec2 size, const MemoryBudget& budget) {
   Input input = Input::open(file, budget);
-  Image8 mask = read_image(input);
+  const Image8 mask = read_image(input);
   if (mask.width != size.x || mask.height != size.y)
     throw InputError({input.name(), {}, {}}, "the mask is " + size_text(mask.width, mask.height) +
                                                  ", but its image is " + size_text(size.x, size.y));
-  for (glm::u8vec4& pixel : mask.pixels)
-    pixel =
-        std::max({pixel.r, pixel.g, pixel.b}) < 128 ? glm::u8vec4(0, 0, 0, 255) : glm::u8vec4(255);
-  return mask;
+  input.take_memory(mask.pixels.size(), 2, "the mask");
+  Marks marks(mask.pixels.size());
+  std::transform(mask.pixels.begin(), mask.pixels.end(), marks.begin(),
+                 [](const glm::u8vec4& pixel) { return !(pixel.r | pixel.g | pixel.b); });
+  return marks;
 }
 
-/// Photograph::ignored for a mask that was resampled like the image. Throws InputError if it leaves
-/// no pixel.
-std::vector<std::uint8_t> ignored_pixels(const Image8& mask, const std::string& file) {
-  std::vector<std::uint8_t> ignored(mask.pixels.size());
-  std::transform(mask.pixels.begin(), mask.pixels.end(), ignored.begin(),
-                 [](const glm::u8vec4& pixel) { return std::uint8_t(pixel.r < 255); });
+/// The pixels of box_scaled() that have a marked pixel in their area.
+Marks scaled_marks(const Marks& marks, glm::ivec2 from, glm::ivec2 to) {
+  if (from == to) return marks;
+  // The source pixels [begin, end) of an output pixel. 64 bits: sides are at most 2^16.
+  const auto begin = [](int i, int source, int target) {
+    return int(std::int64_t(i) * source / target);
+  };
+  const auto end = [](int i, int source, int target) {
+    return int((std::int64_t(i + 1) * source + target - 1) / target);
+  };
+  Marks result;
+  result.reserve(std::size_t(to.x) * std::size_t(to.y));
+  for (int y = 0; y < to.y; ++y)
+    for (int x = 0; x < to.x; ++x) {
+      const int left = begin(x, from.x, to.x), right = end(x, from.x, to.x);
+      bool marked = false;
+      for (int row = begin(y, from.y, to.y); row < end(y, from.y, to.y); ++row) {
+        const auto first = marks.begin() + std::ptrdiff_t(row) * from.x;
+        marked = marked || std::find(first + left, first + right, 1) != first + right;
+      }
+      result.push_back(marked);
+    }
+  return result;
+}
+
+/// Photograph::ignored: the marks within `area`. Throws InputError if they leave no pixel.
+Marks ignored_pixels(const Marks& marks, int width, const PixelRectangle& area,
+                     const std::string& file) {
+  Marks ignored;
+  for (int y = area.top; y < area.bottom; ++y) {
+    const auto row = marks.begin() + std::ptrdiff_t(y) * width;
+    ignored.insert(ignored.end(), row + area.left, row + area.right);
+  }
   const auto count = std::size_t(std::count(ignored.begin(), ignored.end(), 1));
   if (count == ignored.size())
     throw InputError({file, {}, {}}, "the mask leaves no pixel of its photograph");
@@ -128,7 +159,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   const glm::ivec2 full(image.width, image.height);
   PixelRectangle known{0, 0, full.x, full.y};
   const std::optional<std::filesystem::path> mask_file = find_mask(frame);
-  Image8 mask;
+  Marks mask;
   if (mask_file) mask = read_mask(*mask_file, full, budget);
   if (!frame.lens.is_pinhole()) {
     // The image in floats with a border, and the undistorted image.
@@ -137,7 +168,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
     Undistorted without_lens = undistorted(image, camera, frame.lens);
     image = std::move(without_lens.image);
     known = without_lens.known;
-    if (mask_file) mask = undistorted(mask, camera, frame.lens).image;
+    if (mask_file) mask = undistorted_marks(mask, camera, frame.lens);
     if (known.right == 0)
       throw InputError({input.name(), {}, {}},
                        "the distortion of its lens cannot be undone: less than half of the "
@@ -153,7 +184,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
                     "the scaled image");
   image = box_scaled(image, size.x, size.y);
-  if (mask_file) mask = box_scaled(mask, size.x, size.y);
+  if (mask_file) mask = scaled_marks(mask, full, size);
 
   ReadPhotograph result;
   Photograph& photograph = result.photograph;
@@ -167,8 +198,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   result.lost_rows = size.y - photograph.camera.height;
   const bool crop = result.lost_columns + result.lost_rows > 0;
   photograph.image = crop ? cropped(image, known) : std::move(image);
-  if (mask_file)
-    photograph.ignored = ignored_pixels(crop ? cropped(mask, known) : mask, mask_file->string());
+  if (mask_file) photograph.ignored = ignored_pixels(mask, size.x, known, mask_file->string());
   passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0] +
                photograph.ignored.size());
   return result;

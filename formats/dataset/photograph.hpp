@@ -32,9 +32,9 @@ struct ReadPhotograph {
   int lost_columns = 0, lost_rows = 0;
 };
 
-/// Decodes `image` and scales it by `options.scale`. A pixel whose area, or whose surroundings for
-/// the resampling, has a dark pixel in the frame's mask is ignored; dark is less than half of white
-/// in all channels. Throws InputError with the image: it cannot be decoded, its size is not the
+/// Decodes `image` and scales it by `options.scale`. A pixel is ignored if any pixel
+/// of the photograph that contributes to it is excluded: 0 in the red, green and blue of the
+/// frame's mask. Throws InputError with the image: it cannot be decoded, its size is not the
 /// camera's, the lens leaves less than half of it, the mask has another size or leaves no pixel, or
 /// the budget is exceeded. Charges the photograph's memory to the budget.
 ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& image,

@@ -1,5 +1,6 @@
 #include "formats/dataset/transforms_dataset.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/input.hpp"
@@ -47,8 +48,12 @@ void read_points(const CameraJson& json, const std::filesystem::path& folder,
   const std::optional<std::filesystem::path> model = colmap_folder(folder);
   if (!applied || !model) return;
   dataset.points = read_colmap_points(*model, budget);
-  for (DatasetPoint& point : dataset.points)
+  for (DatasetPoint& point : dataset.points) {
     point.position = glm::dvec3(*applied * glm::dvec4(point.position, 1));
+    for (int i = 0; i < 3; ++i)
+      if (!std::isfinite(point.position[i]))
+        json.fail("applied_transform maps a point to infinity");
+  }
 }
 
 }  // namespace

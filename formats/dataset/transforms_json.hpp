@@ -21,7 +21,8 @@ struct TransformsFrame {
   std::optional<double> fl_x, fl_y, cx, cy;
   std::optional<double> camera_angle_x, camera_angle_y;
   Lens lens;
-  /// The mask of the image, as spelled in the file; empty if missing. Dark pixels are not used.
+  /// The mask of the image, as spelled in the file; empty if missing. Black pixels (0) are not
+  /// used.
   std::string mask_path;
   /// The file's name for a lens property that Lens does not support: "latlong".
   std::string other_lens;

@@ -98,7 +98,7 @@ std::filesystem::path resolve_name_from_folder(const std::filesystem::path& fold
   // A colon before any slash is a scheme, or a drive on Windows.
   if (const std::size_t colon = name.find(':');
       colon != std::string::npos && name.find_first_of("/\\") >= colon)
-    refuse("is not a file in the scene's folder");
+    refuse("is a URL or has a drive; only relative paths are opened");
   const std::filesystem::path relative(name);
   if (relative.is_absolute() || relative.has_root_path() || name.front() == '\\')
     refuse("is an absolute path; only relative paths are opened");

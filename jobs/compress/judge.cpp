@@ -51,6 +51,7 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
   for (const Photograph& photograph : photographs) {
     cameras_.push_back(photograph.camera);
     photographs_.push_back(composited(to_float(photograph.image), background_));
+    ignored_.push_back(photograph.ignored);
   }
   if (!photographs_.empty()) {
     views_.photographs = photographs_.size();
@@ -63,10 +64,7 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
   std::vector<double> errors;
   draw(only_soup(scene), [&](std::size_t i, const ImageF& image) {
     images_.push_back(image);
-    if (photographs_.empty()) return;
-    // Where a mask excludes pixels, the photograph takes those of the model.
-    const double counted = equate_ignored(image, photographs[i].ignored, photographs_[i]);
-    errors.push_back(counted * mean_squared_error(photographs_[i], image));
+    if (!photographs_.empty()) errors.push_back(photograph_error(i, image));
   });
   if (photographs_.empty()) return;
   model_db_ = model_db(errors);
@@ -85,13 +83,21 @@ CompressLoss CompressJudge::loss(const TriangleSoup& soup) const {
     const auto weight = double(cameras_[i].width) * cameras_[i].height;
     squared += weight * mean_squared_error(images_[i], image);
     pixels += weight;
-    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], image));
+    if (!photographs_.empty()) errors.push_back(photograph_error(i, image));
   });
   CompressLoss result;
   result.render_psnr_db = psnr_from_mse(squared / pixels);
   result.db = photographs_.empty() ? decibels_lost(model_db_, result.render_psnr_db)
                                    : model_db_ - model_db(errors);
   return result;
+}
+
+double CompressJudge::photograph_error(std::size_t view, const ImageF& image) const {
+  const std::vector<std::uint8_t>& ignored = ignored_[view];
+  if (ignored.empty()) return mean_squared_error(photographs_[view], image);
+  ImageF equated = photographs_[view];
+  const double counted = equate_ignored(image, ignored, equated);
+  return counted * mean_squared_error(equated, image);
 }
 
 double CompressJudge::model_db(const std::vector<double>& squared_errors) const {

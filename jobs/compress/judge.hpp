@@ -2,6 +2,7 @@
 // scene's own images.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -58,6 +59,8 @@ class CompressJudge {
   /// Calls visit(view, image) for each view.
   void draw(const TriangleSoup& soup,
             const std::function<void(std::size_t, const ImageF&)>& visit) const;
+  /// Mean squared error against the photograph, over the pixels that its mask does not exclude.
+  double photograph_error(std::size_t view, const ImageF& image) const;
   double model_db(const std::vector<double>& squared_errors) const;
 
   const gl::Context& context_;
@@ -65,8 +68,9 @@ class CompressJudge {
   glm::dvec3 origin_;
   glm::vec3 background_;
   std::vector<Camera> cameras_;
-  std::vector<ImageF> photographs_;  // composited over the background
-  std::vector<ImageF> images_;       // of the original scene
+  std::vector<ImageF> photographs_;                 // composited over the background
+  std::vector<std::vector<std::uint8_t>> ignored_;  // Photograph::ignored of each photograph
+  std::vector<ImageF> images_;                      // of the original scene
   CompressViews views_;
   double model_db_ = assumed_model_db;
 };

@@ -74,9 +74,10 @@ TEST_F(DatasetInfo, NamesWhatIsWrong) {
     EXPECT_THAT(result.err, HasSubstr(word));
   };
   expect({"info", "scene.off", "-o", "plot.svg"}, 2, "dataset");
+  expect({"info", "dat", "-o", "plot.svg"}, 3, "dat");
   expect({"info", "data", "scene.off"}, 2, "'data' is a dataset");
-  expect({"info", "data", "--strict"}, 2, "--json and -o");
-  expect({"info", "data", "--up", "0,1,0"}, 2, "--json and -o");
+  expect({"info", "data", "--strict"}, 2, "--json, -o and --max-memory");
+  expect({"info", "data", "--up", "0,1,0"}, 2, "--json, -o and --max-memory");
   expect({"info", "data", "-o", "plot.png"}, 2, ".svg");
   expect({"info", "data", "-o", "nowhere/plot.svg"}, 5, "nowhere");
   std::filesystem::remove(folder / "data/images/2.png");

@@ -84,6 +84,35 @@ TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
   EXPECT_LT(result.loss.render_psnr_db, 45);
 }
 
+TEST(Compress, MaskedPixelsAreNotJudged) {
+  const Scene scene = part_of_the_example(500);
+  const TriangleSoup& soup = only_soup(scene);
+  std::vector<Photograph> photographs = own_photographs(scene, 20);
+  const gl::Context context = gl::Context::create({});
+  const CompressJudge whole(context, scene, photographs);
+  // The upper half shows something else, which the masks exclude.
+  for (Photograph& photograph : photographs) {
+    const std::size_t half = photograph.image.pixels.size() / 2;
+    photograph.ignored.assign(photograph.image.pixels.size(), 0);
+    std::fill_n(photograph.ignored.begin(), half, std::uint8_t(1));
+    std::fill_n(photograph.image.pixels.begin(), half, glm::u8vec4(255, 0, 255, 255));
+  }
+  const CompressJudge masked(context, scene, photographs);
+  // Each channel differs by 20.
+  EXPECT_NEAR(masked.model_db(), whole.model_db(), 0.1);
+  EXPECT_EQ(masked.loss(soup).db, 0);
+  EXPECT_EQ(whole.loss(soup).db, 0);
+  // Images of another soup differ from the model's there, too.
+  const CompressedSoup coarse =
+      encode_compressed(soup, {.position_bits = 20, .texels = {.alpha_step = 85}});
+  const TriangleSoup other = decode_compressed(coarse, soup);
+  const double loss = masked.loss(other).db;
+  for (Photograph& photograph : photographs)
+    std::fill_n(photograph.image.pixels.begin(), photograph.image.pixels.size() / 2,
+                glm::u8vec4(0, 255, 0, 255));
+  EXPECT_EQ(CompressJudge(context, scene, photographs).loss(other).db, loss);
+}
+
 TEST(Compress, OmitsWhatNoViewSees) {
   Scene scene = part_of_the_example(300);
   auto& soup = only_soup(scene);

@@ -46,9 +46,21 @@ TEST(Bundler, ReadsCamerasAndPoints) {
 }
 
 TEST(Bundler, ReadsListsWithAndWithoutFocalLengths) {
-  const std::string list = "a.jpg 0 2100.5\r\n\nsub/b c.jpg\nd.jpg 0 1\n";
+  const std::string list = "a.jpg 0 2100.5\r\n\nsub/b c.jpg\nd.jpg 0 1\n0 1\nmy 0 e.jpg\nf 0 inf\n";
   Input input = input_of(list, "list.txt");
-  EXPECT_THAT(read_bundler_list(input), ElementsAre("a.jpg", "sub/b c.jpg", "d.jpg"));
+  EXPECT_THAT(read_bundler_list(input),
+              ElementsAre("a.jpg", "sub/b c.jpg", "d.jpg", "0 1", "my 0 e.jpg", "f 0 inf"));
+}
+
+TEST(Bundler, LinesOfAListHaveALimit) {
+  const auto read_list = [](const std::string& text) {
+    Input input = input_of(text, "list.txt");
+    return read_bundler_list(input);
+  };
+  std::string words;
+  for (int i = 0; i < 2048; ++i) words += "a ";
+  EXPECT_EQ(read_list(words + "\nb").size(), 2u);
+  EXPECT_THAT(error_of([&] { read_list("b\n" + words + "a a"); }), ErrorAt("list.txt:2", 4096));
 }
 
 TEST(Bundler, NamesTheLineOfEachError) {
@@ -67,6 +79,10 @@ TEST(Bundler, NamesTheLineOfEachError) {
   EXPECT_THAT(with("1 0 0\n0 1 0\n", "2 0 0\n0 1 0\n"), ErrorAt("bundle.out:7", "rotation"));
   EXPECT_THAT(with("1 0 0\n0 1 0\n", "-1 0 0\n0 1 0\n"), ErrorAt("bundle.out:7", "mirrors"));
   EXPECT_THAT(with("255 128", "256 128"), ErrorAt("bundle.out:19", 256));
+  EXPECT_THAT(with("2 0 7", "1 0 7"), ErrorAt("bundle.out:20", "views"));
+  EXPECT_THAT(with("2 0 7", "3 0 7"), ErrorAt("bundle.out:20", "view"));
+  EXPECT_THAT(with("2 0 7", "4000000 0 7"), ErrorAt("bundle.out:20", 4000000));
+  EXPECT_THAT(with("2 0 7", "2 x 7"), ErrorAt("bundle.out:20", "x"));
 }
 
 TEST(Bundler, SurvivesTruncation) {
@@ -76,6 +92,20 @@ TEST(Bundler, SurvivesTruncation) {
     Input input = Input::memory("bundle.out", part);
     read_bundler(input);
   });
+}
+
+TEST(Bundler, UpIsYIfItsCamerasDisagree) {
+  const TemporaryFolder folder;
+  std::string text = model;
+  const std::string sideways = "0 0 -1\n0 1 0\n1 0 0\n";
+  text.replace(text.find(sideways), sideways.size(), "-1 0 0\n0 -1 0\n0 0 1\n");
+  write_text(folder / "bundle.out", text);
+  write_text(folder / "list.txt", "a.png\nlost.png\nb.png\n");
+  for (const char* name : {"a.png", "b.png"}) write_image(folder / name, an_image(8, 6));
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_EQ(dataset.up, glm::vec3(0, 1, 0));
+  EXPECT_THAT(dataset.remarks,
+              ::testing::Contains(Remark{.kind = Remark::Kind::up_of_no_camera, .names = {"y"}}));
 }
 
 TEST(Bundler, IsADataset) {

@@ -360,6 +360,8 @@ TEST(Dataset, ReadsThePointsOfNerfstudio) {
   dataset = read_dataset(folder / "");
   ASSERT_EQ(dataset.points.size(), 1u);
   EXPECT_EQ(dataset.points[0].position, glm::dvec3(1, 3.5, -2));
+  write_transforms(folder, 2, "\"applied_transform\": [[1e308,0,0,1e308],[0,0,1,0],[0,-1,0,0]], ");
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms.json", "applied_transform", "infinity"));
   // Without the matrix, their place is unknown.
   write_transforms(folder, 2);
   EXPECT_TRUE(read_dataset(folder / "").points.empty());
@@ -398,8 +400,10 @@ TEST(Dataset, MasksExcludePixels) {
   const TemporaryFolder folder;
   write_transforms(folder, 2);
   Image8 mask(8, 6, glm::u8vec4(255));
-  for (int y = 0; y < 6; ++y) mask.at(3, y) = glm::u8vec4(0, 0, 60, 255);
-  mask.at(7, 5) = glm::u8vec4(200, 200, 200, 0);  // grey that is light, and alpha does not matter
+  for (int y = 0; y < 6; ++y) mask.at(3, y) = glm::u8vec4(0, 0, 0, 255);
+  // Any other value is valid, and alpha does not matter.
+  mask.at(7, 5) = glm::u8vec4(1, 1, 1, 0);
+  mask.at(6, 5) = glm::u8vec4(0, 0, 1, 255);
   write_image(folder / "masks/1.png", mask);
   const auto write = [&](const std::string& head) {
     write_text(folder / "transforms.json",
@@ -419,13 +423,6 @@ TEST(Dataset, MasksExcludePixels) {
   dataset = read_dataset(folder / "", {.scale = 0.5});
   ASSERT_EQ(dataset.train[0].ignored.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(dataset.train[0].ignored[i], i % 4 == 1) << i;
-  // The mask follows the lens.
-  write("\"k1\": 0.02, ");
-  dataset = read_dataset(folder / "");
-  EXPECT_EQ(dataset.train[0].ignored.size(), dataset.train[0].image.pixels.size());
-  EXPECT_THAT(dataset.train[0].ignored, ::testing::Contains(1));
-  EXPECT_THAT(dataset.train[0].ignored, ::testing::Contains(0));
-
   write("");
   write_image(folder / "images_2/0.png", an_image(4, 3));
   write_image(folder / "images_2/1.png", an_image(4, 3));
@@ -438,6 +435,45 @@ TEST(Dataset, MasksExcludePixels) {
   EXPECT_THAT(refusal(folder / ""), ErrorIn("masks/1.png", 7, 6, 8));
   std::filesystem::remove(folder / "masks/1.png");
   EXPECT_THAT(refusal(folder / ""), ErrorIn("masks/1.png", "images/1.png"));
+}
+
+/// Reads two photographs of 64 x 48 pixels with a lens and scale. The second one has the mask,
+/// which excludes the pixel `at`, and is grey, except for this pixel with the red `value`.
+Photograph masked_pixel(const std::string& lens, double scale, glm::ivec2 at, std::uint8_t value) {
+  const TemporaryFolder folder;
+  Image8 image(64, 48, glm::u8vec4(128, 128, 128, 255)), mask(64, 48, glm::u8vec4(255));
+  write_image(folder / "a.png", image);
+  image.at(at.x, at.y).r = value;
+  write_image(folder / "b.png", image);
+  mask.at(at.x, at.y) = glm::u8vec4(0, 0, 0, 255);
+  write_image(folder / "mask.png", mask);
+  write_text(folder / "transforms.json",
+             transforms("\"fl_x\": 60, \"w\": 64, \"h\": 48, " + lens,
+                        {frame("a.png"), frame("b.png", 1, "\"mask_path\": \"mask.png\", ")}));
+  return read_dataset(folder / "", {.scale = scale}).train[0];
+}
+
+TEST(Dataset, NoPixelThatIsUsedDependsOnAnExcludedOne) {
+  for (const char* lens : {"", "\"k1\": 0.1, ", "\"k1\": -0.1, ", "\"is_fisheye\": true, "})
+    for (const double scale : {1.0, 0.7, 1.0 / 32})
+      for (const glm::ivec2 at : {glm::ivec2(20, 30), glm::ivec2(37, 11)}) {
+        if (scale < 0.1 && lens != std::string()) continue;  // no row is left beside the border
+        SCOPED_TRACE(lens + std::to_string(scale));
+        const Photograph black = masked_pixel(lens, scale, at, 0);
+        const Photograph white = masked_pixel(lens, scale, at, 255);
+        ASSERT_EQ(black.ignored.size(), black.image.pixels.size());
+        std::size_t differ = 0;
+        for (std::size_t i = 0; i < black.ignored.size(); ++i) {
+          const bool differs = black.image.pixels[i] != white.image.pixels[i];
+          EXPECT_TRUE(black.ignored[i] == 1 || !differs) << i;
+          differ += differs;
+        }
+        // The others that are ignored have small weights.
+        const auto ignored = std::count(black.ignored.begin(), black.ignored.end(), 1);
+        EXPECT_GE(ignored, 1);
+        EXPECT_LE(ignored, 36);
+        EXPECT_TRUE(differ >= 1 || scale < 0.1);
+      }
 }
 
 // ---- Errors ---------------------------------------------------------------------------------
