@@ -135,7 +135,7 @@ TEST_F(Eval, TakesTheSplitTheScaleAndTheBackground) {
   const ChildResult all = eval({"--split", "all", "--scale", "0.5", "-o", "views"});
   ASSERT_EQ(all.exit_code, 0) << all.err;
   EXPECT_EQ(nlohmann::json::parse(all.out)["views"].size(), 3u);
-  EXPECT_EQ(read_png("views/train_r_0.png").width, 3 * width / 2);
+  EXPECT_EQ(read_png("views/train_r_0.png").width, 4 * width / 2);
 
   // Only the background is visible on both sides, so they are equal on any background.
   write("far.off", "COFF\n3 1 0\n900 900 0\n901 900 0\n900 901 0\n3 0 1 2 255 0 0\n");

@@ -479,7 +479,7 @@ TEST_F(Window, ThePanelPlacesHidesAndRemovesLayers) {
   // The image alone: as it is saved, as a debug view, and after the files were read again.
   person.press(Key::h).look("alone").press_with_control(Key::s).wait().press(Key::v).wait();
   person.without_notes().press_with_control(Key::s).wait().without_notes().look("depth");
-  for (int i = 0; i < 7; ++i) person.press(Key::v);  // once around those that the square has
+  for (int i = 0; i < 8; ++i) person.press(Key::v);  // once around those that the square has
   person.press(Key::f5).wait().without_notes().look("again");
   person.press(Key::h).wait().click(second_visible).press(Key::h).look("hidden");
   // Also in a debug view, whose passes refer to the layers.
