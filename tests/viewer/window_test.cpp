@@ -238,8 +238,9 @@ TEST_F(Window, PlaysACameraPath) {
 TEST_F(Window, ShowsDebugViews) {
   Person person;
   person.wait().press(Key::digit_7);
-  const std::vector<std::string> looks = {"depth",  "normals",  "triangle_id", "texels",   "alpha",
-                                          "weight", "features", "overdraw",    "wireframe"};
+  const std::vector<std::string> looks = {"depth",     "normals", "triangle_id", "texels",
+                                          "alpha",     "weight",  "features",    "overdraw",
+                                          "wireframe", "holes"};
   for (const std::string& look : looks) person.press(Key::v).look(look);
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
