@@ -1,6 +1,6 @@
 // A preview of a partially loaded file whose splats are stored one after the other: its first
-// splats. Supported: binary PLY of splats and .splat. Not supported: compressed PLY, whose harmonics
-// follow all splats, and SPZ, where each value of all splats precedes the next value.
+// splats. Supported: binary PLY of splats and .splat. Not supported: compressed PLY, whose
+// harmonics follow all splats, and SPZ, where each value of all splats precedes the next value.
 #pragma once
 
 #include <cstddef>
