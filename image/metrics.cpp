@@ -97,8 +97,9 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
     mismatched += (p.a >= options.alpha_threshold) != (q.a >= options.alpha_threshold);
     result.non_finite += !is_finite(p) || !is_finite(q);
   }
-  const std::size_t counted = pixels - std::size_t(std::ranges::count_if(
-                                           options.ignored, [](auto each) { return each != 0; }));
+  const auto skipped = std::count_if(options.ignored.begin(), options.ignored.end(),
+                                     [](std::uint8_t each) { return each != 0; });
+  const std::size_t counted = pixels - std::size_t(skipped);
   // Ignored pixels are equal: they add nothing to the sums.
   const double values = 3.0 * double(std::max<std::size_t>(counted, 1));
   result.mae = sum / values;

@@ -125,8 +125,7 @@ void PageView::follow_layers(Stage& stage) {
   std::vector<PlacedBounds> boxes;
   for (const ShownLayer& layer : stage.layers)
     if (layer.visible || !any) boxes.push_back(layer.box);
-  stage.scene.subject =
-      without_surroundings(subject_of(boxes, stage.scene.subject.up), stage.scene.cameras);
+  stage.scene.subject = subject_of(boxes, stage.scene.subject.up, stage.scene.cameras);
   stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
 }
 
