@@ -67,7 +67,7 @@ test('several layers agree with the oracle on llvmpipe', drawing(llvmpipe, async
 
 test('every debug view on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(scenes, ['debug_views.glb']);
-  for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe'])
+  for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe', 'holes'])
     assertSame(`debug_view_${look}`, golden(`debug_view_${look}`),
                await image({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
 }));
