@@ -46,7 +46,7 @@ struct DatasetOptions {
 /// photographs, or photographs that exceed the memory budget (base/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
-/// What read_dataset() removes from a photograph: nothing, distortion, or a fisheye's projection.
+/// The lens of a photograph before read_dataset() resamples it to a pinhole image.
 enum class LensKind { pinhole, distorted, fisheye };
 
 /// A dataset without the pixels of its photographs.

@@ -1,3 +1,5 @@
+// Datasets of every kind: folders that the tests write, and what the reader makes of them. The file
+// exceeds 600 lines: all kinds share one fixture, and must give the same photographs.
 #include "formats/dataset/dataset.hpp"
 
 #include <algorithm>
