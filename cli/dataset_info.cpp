@@ -78,9 +78,10 @@ std::string sizes_text(const DatasetFacts& facts) {
 
 std::string lenses_text(const DatasetFacts& facts) {
   std::string text;
-  for (const auto& [count, what] : {std::pair{facts.pinhole, "without distortion"},
-                                    std::pair{facts.distorted, "with distortion, to be removed"},
-                                    std::pair{facts.fisheye, "by a fisheye, to become pinholes"}})
+  for (const auto& [count, what] :
+       {std::pair{facts.pinhole, "without distortion"},
+        std::pair{facts.distorted, "with distortion, to be removed"},
+        std::pair{facts.fisheye, "of a fisheye, to become pinhole images"}})
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : "; ", count, what);
   return text;
 }

@@ -35,7 +35,7 @@ struct Dataset {
   std::vector<Photograph> test;
   std::vector<DatasetPoint> points;  // from structure from motion; may be empty
   /// Most likely up axis: z for transforms.json, as in the scenes of NeRF and instant-ngp; the mean
-  /// of the cameras' up axes for COLMAP.
+  /// of the cameras' up axes for COLMAP and Bundler.
   glm::vec3 up{0.0f, 1.0f, 0.0f};
   bool has_alpha = false;       // whether any photograph has transparent pixels
   std::vector<Remark> remarks;  // assumptions and corrections of the reader
