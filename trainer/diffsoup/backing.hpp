@@ -18,13 +18,15 @@ namespace tureen::trainer {
 /// config.backing_triangles and a hundredth of the budget; 0 if the first triangles are a mesh.
 std::size_t backing_faces(const Config& config);
 
-/// The radius around the region's centre: beyond the far random points and all training cameras.
+/// The radius around the region's centre, in world units: beyond the far random points and all
+/// training cameras, except those that are much farther away than nine tenths of them.
 double min_backing_radius(const Config& config, const Dataset& dataset, const Region& region);
 
 /// Config::far at least so large that the training cameras see the whole sphere of that radius.
 Config with_visible_backing(const Config& config, const Dataset& dataset, const Region& region);
 
-/// The radius for these first triangles: beyond all of them, as far as the far plane allows.
+/// The radius for first triangles at these centres (both in world units): beyond all of them, as
+/// far as the far plane allows.
 double backing_radius(const Config& config, const Dataset& dataset, const Region& region,
                       std::span<const glm::dvec3> centres);
 
