@@ -628,8 +628,10 @@ TEST_F(Window, TheBaselineRefusesAFurtherLayer) {
 }
 
 TEST_F(Window, ComparesWithOneDataset) {
-  fs::create_directories(folder_ / "a");
-  fs::create_directories(folder_ / "b");
+  for (const char* dataset : {"a", "b"}) {
+    fs::create_directories(folder_ / dataset);
+    std::ofstream(folder_ / dataset / "transforms.json") << "{}";
+  }
   const ChildResult result = Child({"soup.glb", "a", "b"}, folder_).wait();
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, Names("two datasets"));
