@@ -294,7 +294,7 @@ class Bench:
 
     def step(self):
         """Time of a training step, stage by stage."""
-        text = self.run('step', PROGRAMS / 'training_benchmark', *([64, 64, 1] if self.quick else [400, 400, 12]))
+        text = self.run('step', PROGRAMS / 'training_benchmark', *(['--width', 64, '--height', 64, '--steps', 1] if self.quick else ['--steps', 12]))
         self.keep('step', {'step': rows_of(text or '')})
 
     def browser(self):

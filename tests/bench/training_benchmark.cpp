@@ -2,17 +2,23 @@
 // one thread and with all threads alternate, so that other programs affect both equally. Only the
 // ratios apply to other machines. Prints one stage per line, as JSON.
 //
-//   training_benchmark [WIDTH] [HEIGHT] [STEPS] [LEVEL]
+// The soup is a cut-out cloud that learns the images of another one, or with --soup a trained soup
+// with its photographs.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "formats/dataset/dataset.hpp"
+#include "formats/scene_file.hpp"
 #include "tests/support/cutout_cloud.hpp"
+#include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/model.hpp"
 #include "trainer/diffsoup/trainer.hpp"
 
@@ -71,15 +77,47 @@ std::vector<trainer::TrainingView> images(const Scene& scene, const trainer::Con
   return views;
 }
 
-int run(int width, int height, int steps, int level) {
-  const Scene learned = cutout_cloud({.width = width, .height = height});
-  const Scene shown = cutout_cloud({.seed = 2, .width = width, .height = height});
-  trainer::Config config = trainer::preset(trainer::Preset::object);
-  config.background[0] = config.background[1] = config.background[2] = 0;
-  const std::vector<trainer::TrainingView> views = images(shown, config);
+struct Options {
+  int width = 400, height = 400, level = 3;  // of the cloud
+  std::string soup, dataset;
+  double scale = 1;
+  int steps = 20;
+};
+
+struct Training {
+  trainer::Config config;
+  std::vector<trainer::TrainingView> views;
   trainer::TrainingState state;
-  state.model = trainer::from_scene(learned, {.min_level = std::min(2, level), .max_level = level});
+};
+
+Training cloud_training(const Options& options) {
+  const CutoutCloudOptions learned{.width = options.width, .height = options.height};
+  CutoutCloudOptions shown = learned;
+  shown.seed = 2;
+  Training training{trainer::preset(trainer::Preset::object), {}, {}};
+  std::ranges::fill(training.config.background, 0.0f);
+  training.views = images(cutout_cloud(shown), training.config);
+  training.state.model = trainer::from_scene(
+      cutout_cloud(learned), {.min_level = std::min(2, options.level), .max_level = options.level});
+  return training;
+}
+
+Training trained_soup(const Options& options) {
+  Dataset dataset = read_dataset(options.dataset, {.scale = options.scale});
+  const Region region = region_of_interest(dataset);
+  Training training{
+      trainer::scaled_to(trainer::preset(trainer::Preset::object), region.half_side), {}, {}};
+  training.views = trainer::take_training_views(dataset.train, training.config.background);
+  training.state.model =
+      trainer::from_scene(read_scene(options.soup), {.min_level = 2, .max_level = options.level});
+  return training;
+}
+
+int run(const Options& options) {
+  Training training = options.soup.empty() ? cloud_training(options) : trained_soup(options);
+  auto& [config, views, state] = training;
   state.moments.reset_faces(state.model);
+  const int steps = options.steps;
 
   Contender contenders[2] = {{trainer::make_cpu_backend(views, config, 1), {}},
                              {trainer::make_cpu_backend(views, config, 0), {}}};
@@ -116,11 +154,18 @@ int run(int width, int height, int steps, int level) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  const auto number = [&](int index, int otherwise) {
-    return argc > index ? std::max(1, std::atoi(argv[index])) : otherwise;
-  };
+  CLI::App app("Measures the stages of a training step.");
+  tureen::test::Options options;
+  app.add_option("--width", options.width)->capture_default_str();
+  app.add_option("--height", options.height)->capture_default_str();
+  app.add_option("--level", options.level)->capture_default_str();
+  app.add_option("--steps", options.steps)->capture_default_str();
+  auto* dataset = app.add_option("--dataset", options.dataset, "photographs of the soup");
+  app.add_option("--soup", options.soup, "trained soup")->needs(dataset);
+  app.add_option("--scale", options.scale, "of the photographs")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
   try {
-    return tureen::test::run(number(1, 400), number(2, 400), number(3, 20), number(4, 3));
+    return tureen::test::run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "training_benchmark: %s\n", error.what());
     return 1;
