@@ -97,10 +97,9 @@ std::vector<Corners> gathered(test::Faces& faces, const Shade& shade, int phases
     for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
       const std::size_t column = pixel % side, row = pixel / side;
       const glm::dvec2 place(double(column) + 0.5 - shift.x, double(row) + 0.5 - shift.y);
-      PixelGradient& gradient = image.gradient[pixel];
-      gradient = {};
-      gradient.color[1] = float(shade(image.visible[pixel].face, place));
-      gradient.by_color[1] = float(at(loss_weight, place));
+      const std::size_t green = image.pixels() + pixel;
+      image.color[green] = float(shade(image.visible[pixel].face, place));
+      image.by_color[green] = float(at(loss_weight, place));
     }
     for (std::size_t face = 0; face < sum.size(); ++face) {
       faces.gather(images, face);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trainer/diffsoup/cpu/batch_image.hpp"
+#include "trainer/diffsoup/cpu/corner_gradient.hpp"
 #include "trainer/diffsoup/cpu/face_stage.hpp"
 #include "trainer/diffsoup/cpu/visibility.hpp"
 #include "trainer/diffsoup/levels.hpp"
@@ -34,7 +35,7 @@ inline BatchImage make_image(const Camera& camera, double near = 0.01, double fa
   image.color.resize(3 * image.pixels());
   image.by_color.resize(3 * image.pixels());
   image.loss.resize(image.pixels());
-  image.gradient.resize(image.pixels());
+  image.features.resize(image.pixels());
   return image;
 }
 
@@ -60,7 +61,7 @@ struct Faces {
   /// Call after changes of the logits.
   void refresh() {
     moments.reset_faces(model);
-    store.values.resize(model.faces() * pyramid.fine_texels() * channels);
+    store.values.resize(model.faces() * pyramid.fine_texels());
     store.alpha.resize(model.faces() * pyramid.fine_texels());
     FaceScratch scratch(pyramid);
     for (std::size_t face = 0; face < model.faces(); ++face)
@@ -69,14 +70,19 @@ struct Faces {
 
   void find(BatchImage& image, Masking masking) const {
     bin_faces(image, model);
-    for (std::size_t tile = 0; tile + 1 < image.bin_begin.size(); ++tile)
+    for (std::size_t tile = 0; tile < image.tiles(); ++tile)
       find_visible(image, tile, store.alpha.data(), model.max_level, masking);
-    find_reached(image);
+    list_faces(image);
   }
 
-  /// Gathers the face's gradient from the images. It is stored in the moments of a first step: with
+  /// Gathers the face's gradient from the images, with their gradient by features. It is stored in the moments of a first step: with
   /// beta1 = 0 the first moment is the gradient. Rates are 0, so nothing moves.
-  unsigned gather(std::span<const BatchImage> images, std::size_t face) {
+  unsigned gather(std::span<BatchImage> images, std::size_t face) {
+    for (BatchImage& image : images)
+      for (std::size_t tile = 0; tile < image.tiles(); ++tile) {
+        find_corner_gradients(image, tile, 0.5f);
+        collect_fragments(image, tile);
+      }
     moments.reset_faces(model);
     errors.assign(model.faces(), 0.0f);
     const FaceStep step{.images = images,
@@ -90,7 +96,6 @@ struct Faces {
                         .beta1 = 0,
                         .beta2 = 0.999f,
                         .epsilon = 1e-8f,
-                        .slide = 0.5f,
                         .dense_updates = false};
     FaceScratch scratch(pyramid);
     return step_face(step, face, scratch);

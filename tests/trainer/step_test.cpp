@@ -395,8 +395,7 @@ TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsSkipped) {
   test::Faces faces({{-2, -2, -2}, {2, -2, -2}, {0, 3, -2}});
   std::vector<BatchImage> images{test::make_image(test::axis_camera(32, 32, 32))};
   faces.find(images[0], Masking::threshold);
-  for (PixelGradient& gradient : images[0].gradient) gradient = {};
-  images[0].gradient[16 * 32 + 16].features[0] = 1e25f;
+  images[0].features[16 * 32 + 16].values[0] = 1e25f;
   EXPECT_EQ(faces.gather(images, 0), 1u);
   for (const float second : faces.moments.second) EXPECT_EQ(second, 0);
   for (const float logit : faces.model.logits) EXPECT_TRUE(std::isfinite(logit));

@@ -98,7 +98,7 @@ TEST_P(PyramidOfLevels, TheStoreHoldsTheTextureOfTheModel) {
   const Model model = random_model(6, {.faces = 3, .min_level = low(), .max_level = high()});
   const Pyramid pyramid(low(), high());
   TextureStore store;
-  store.values.resize(model.faces() * pyramid.fine_texels() * channels);
+  store.values.resize(model.faces() * pyramid.fine_texels());
   store.alpha.resize(model.faces() * pyramid.fine_texels());
   FaceScratch scratch(pyramid);
   std::vector<float> expected;
@@ -106,7 +106,7 @@ TEST_P(PyramidOfLevels, TheStoreHoldsTheTextureOfTheModel) {
     refresh_texture(pyramid, model, face, store, scratch);
   for (std::size_t face = 0; face < model.faces(); ++face) {
     fine_texture(model, face, expected);
-    const float* values = &store.values[face * expected.size()];
+    const float* values = store.values[face * pyramid.fine_texels()].values;
     // Logits agree to 16 / 2^19 (above), and the sigmoid's slope is at most 1/4. Its exponential
     // has a relative error of 3e-7.
     for (std::size_t i = 0; i < expected.size(); ++i)

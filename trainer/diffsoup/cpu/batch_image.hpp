@@ -2,14 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/camera.hpp"
 #include "scene/triangle_soup.hpp"
 #include "trainer/common/kernels/fragments.hpp"
+#include "trainer/diffsoup/kernels/texel_pack.hpp"
 #include "trainer/diffsoup/model.hpp"
 
 namespace tureen::trainer {
+
+static_assert(kernels::max_image_side < 1 << 15);  // GradientFragment stores 15 bits
 
 /// Square tiles of this side: a tile's depths and winners stay in the first-level cache.
 inline constexpr int tile_side = 32;
@@ -21,12 +25,24 @@ struct VisiblePixel {
   float b0 = 0, b1 = 0;  // barycentrics
 };
 
-/// The gradients of a pixel for its visible face. One cache line holds all of them.
-struct alignas(64) PixelGradient {
-  float features[channels];  // dL/dfeature 0..6, and 0
-  float color[3];
-  float by_color[3];  // dL/dcolour
-  float error;        // sum over channels of |C - G|
+/// A fragment with a gradient: it is visible, or in front of the visible one and rejected.
+struct GradientFragment {
+  std::uint32_t visible : 1, x : 15, y : 16;
+  float b0, b1;         // barycentrics
+  float inverse_depth;  // replaced by the score's factor in collect_fragments()
+};
+
+/// The gradient of a face's corners from its visible pixels in one tile.
+struct CornerGradient {
+  float corners[3][3];  // in the view's axes right, down, forward
+  float error;          // sum over pixels and channels of |C - G|
+};
+
+/// A face in a tile.
+struct TileFace {
+  std::uint32_t tile, entry;  // entry of BatchImage::bins
+  std::uint32_t begin, end;   // in the fragments of the tile
+  std::uint32_t visible;      // in its by_features
 };
 
 struct BatchImage {
@@ -38,20 +54,35 @@ struct BatchImage {
   std::vector<std::uint32_t> bin_begin;           // one per tile, and the end
   std::vector<std::uint32_t> bins;                // faces of each tile, the nearest first
   std::vector<float> nearest;                     // one per face: no fragment is nearer
-  /// One per face: whether one of its fragments was nearer than all that were accepted before it.
-  /// Nothing depends on the others, which are hidden.
-  std::vector<std::uint8_t> reached;
-  std::vector<std::uint8_t> reached_in_tile;  // the same for each entry of bins
+
+  // What the gradient needs, and nothing of hidden faces.
+  bool keeps_fragments = true;  // otherwise the rest of this group stays empty
+  std::vector<std::vector<GradientFragment>> fragments;  // of each tile, in the order of its faces
+  std::vector<std::vector<Texel>> by_features;           // of their visible ones
+  std::vector<std::uint32_t> fragments_end;     // one per entry of bins, in its tile's list
+  std::vector<std::uint32_t> visible_end;       // the same in by_features
+  std::vector<CornerGradient> corner_gradient;  // one per entry of bins
+  std::vector<std::uint32_t> tiles_begin;  // one per face, and the end: its part of tiles_of_faces
+  std::vector<TileFace> tiles_of_faces;    // with fragments only
 
   // One per pixel, row by row from the top.
   std::vector<VisiblePixel> visible;
   std::vector<float> color;     // three planes
   std::vector<float> by_color;  // three planes: dL/dcolour
   std::vector<float> loss;      // sum over channels of |C - G|; later the score's factor
-  std::vector<PixelGradient> gradient;
+  /// Of the visible face: features and alpha after the forward pass, dL/dfeature and 0 after the
+  /// backward pass. Empty if there is no backward pass.
+  std::vector<Texel> features;
 
   std::size_t pixels() const { return std::size_t(view.width) * view.height; }
+  std::size_t tiles() const { return std::size_t(tiles_x) * tiles_y; }
   kernels::Rectangle tile(std::size_t index) const;
+  std::size_t pixel_of(const GradientFragment& fragment) const {
+    return std::size_t(fragment.y) * std::size_t(view.width) + fragment.x;
+  }
+  std::span<const GradientFragment> fragments_of(const TileFace& face) const {
+    return std::span(fragments[face.tile]).subspan(face.begin, face.end - face.begin);
+  }
 };
 
 /// The camera relative to a model's origin.

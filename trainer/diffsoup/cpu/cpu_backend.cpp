@@ -13,6 +13,7 @@
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/diffsoup/backend.hpp"
 #include "trainer/diffsoup/backing.hpp"
+#include "trainer/diffsoup/cpu/corner_gradient.hpp"
 #include "trainer/diffsoup/cpu/face_stage.hpp"
 #include "trainer/diffsoup/cpu/shading.hpp"
 #include "trainer/diffsoup/cpu/visibility.hpp"
@@ -22,6 +23,7 @@ namespace tureen::trainer {
 namespace {
 
 constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of starting a task
+constexpr std::size_t faces_ahead = 3;    // for prefetch_face(): a few microseconds
 
 class CpuBackend final : public Backend {
  public:
@@ -95,7 +97,7 @@ void CpuBackend::upload(const TrainingState& state) {
   const Model& model = state_.model;
   state_.errors.resize(model.faces());
   pyramid_ = std::make_unique<Pyramid>(model.min_level, model.max_level);
-  store_.values.resize(model.faces() * pyramid_->fine_texels() * channels);
+  store_.values.resize(model.faces() * pyramid_->fine_texels());
   store_.alpha.resize(model.faces() * pyramid_->fine_texels());
   pool_.run((model.faces() + faces_a_task - 1) / faces_a_task, [&](std::size_t task) {
     FaceScratch scratch(*pyramid_);
@@ -128,7 +130,9 @@ void CpuBackend::find_visible_faces(std::span<BatchImage> images, Masking maskin
       fragments[task] += find_visible(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x,
                                       store_.alpha.data(), model.max_level, masking);
   });
-  pool_.run(images.size(), [&](std::size_t i) { find_reached(images[i]); });
+  pool_.run(images.size(), [&](std::size_t i) {
+    if (images[i].keeps_fragments) list_faces(images[i]);
+  });
   for (const std::uint64_t count : fragments) times_.fragments += count;
 }
 
@@ -152,7 +156,7 @@ StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& r
     image.draw_key = kernels::draw_key(config_.seed, step_number, views[i]);
     image.by_color.resize(3 * image.pixels());
     image.loss.resize(image.pixels());
-    image.gradient.resize(image.pixels());
+    image.features.resize(image.pixels());
   }
   find_visible_faces(images_, Masking::stochastic);
   shade(images_);
@@ -179,7 +183,12 @@ void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport
     const Band& band = tasks[task];
     BatchImage& image = images_[band.image];
     shade_rows_backward(image, input, band.y0, band.y1, mlp_gradients_[task]);
+    for (int x = 0; x < image.tiles_x; ++x)
+      find_corner_gradients(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x,
+                            config_.texture_slide);
     reports[task] = take_advantage(image, views[band.image], band.y0, band.y1);
+    for (int x = 0; x < image.tiles_x; ++x)
+      collect_fragments(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x);
   });
   std::size_t pixels = 0;
   for (const BatchImage& image : images_) pixels += image.pixels();
@@ -203,7 +212,6 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
                            .beta1 = config_.beta1,
                            .beta2 = config_.beta2,
                            .epsilon = config_.epsilon,
-                           .slide = config_.texture_slide,
                            .fixed_faces = backing_faces(config_),
                            .dense_updates = config_.dense_updates};
   const std::size_t faces = state_.model.faces();
@@ -211,8 +219,10 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
   pool_.run(quarantined.size(), [&](std::size_t task) {
     FaceScratch scratch(*pyramid_);
     const std::size_t end = std::min(faces, (task + 1) * faces_a_task);
-    for (std::size_t face = task * faces_a_task; face < end; ++face)
+    for (std::size_t face = task * faces_a_task; face < end; ++face) {
+      if (face + faces_ahead < end) prefetch_face(images_, face + faces_ahead);
       quarantined[task] += step_face(face_step, face, scratch);
+    }
   });
   for (const unsigned count : quarantined) report.non_finite += count;
 }
@@ -262,7 +272,6 @@ CpuBackend::BandReport CpuBackend::take_advantage(BatchImage& image, std::uint32
     for (std::size_t c = 0; c < 3; ++c)
       counts = counts && std::isfinite(image.color[c * pixels + p]);
     float loss = image.loss[p];
-    image.gradient[p].error = loss;
     // An ignored pixel has a loss of 0, which must not change the running mean.
     if (config_.baseline && counts) {
       std::uint16_t& stored = state_.baseline[first_pixel_[view_index] + p];
@@ -300,7 +309,10 @@ std::vector<std::uint64_t> CpuBackend::visible_pixels(std::span<const Camera> ca
   const std::size_t at_once = 2 * std::size_t(pool_.threads());
   for (std::size_t begin = 0; begin < cameras.size(); begin += at_once) {
     std::vector<BatchImage> images(std::min(at_once, cameras.size() - begin));
-    for (std::size_t i = 0; i < images.size(); ++i) prepare(images[i], cameras[begin + i]);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      prepare(images[i], cameras[begin + i]);
+      images[i].keeps_fragments = false;
+    }
     find_visible_faces(images, Masking::threshold);
     for (const BatchImage& image : images)
       for (const VisiblePixel& pixel : image.visible)
@@ -312,6 +324,7 @@ std::vector<std::uint64_t> CpuBackend::visible_pixels(std::span<const Camera> ca
 std::vector<float> CpuBackend::render(const Camera& camera) {
   std::vector<BatchImage> image(1);
   prepare(image[0], camera);
+  image[0].keeps_fragments = false;
   find_visible_faces(image, Masking::threshold);
   shade(image);
   return std::move(image[0].color);

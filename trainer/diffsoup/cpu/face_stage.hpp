@@ -23,19 +23,21 @@ struct FaceStep {
   std::vector<float>* errors;  // one per face, added to
   float texture_rate, vertex_rate;
   float beta1, beta2, epsilon;
-  float slide;                  // scale of the texture slide, kernels/edge_gradient.hpp
   std::size_t fixed_faces = 0;  // the corners of the first faces stay
   bool dense_updates;           // also step faces that no image touched
 };
 
 /// Reused from face to face.
 struct FaceScratch {
-  std::vector<float> gradient;  // [fine texel][channels], by the features
+  std::vector<Texel> gradient;  // [fine texel], by the features
   std::vector<float> alpha;     // [fine texel], by the logit of alpha
   std::vector<float> levels;    // [texel of all levels][channels]
   std::vector<float> refine;    // [fine texel][channels]
   explicit FaceScratch(const Pyramid& pyramid);
 };
+
+/// Loads what the images have of a face into the cache, while other faces are stepped.
+void prefetch_face(std::span<const BatchImage> images, std::size_t face);
 
 /// Gathers the gradient, steps the face and refreshes its texture. Returns the number of skipped
 /// updates because of gradients that are not finite: 1 for the texture plus 1 for the corners.

@@ -25,25 +25,32 @@ struct Batch {
   int count = 0;
 };
 
-/// The network's input: features of the winner's texture, harmonics of the direction to the eye.
-/// Lanes without a pixel repeat the first one.
-[[gnu::always_inline]] inline void gather(const BatchImage& image, const ShadingInput& input,
-                                          const Batch& batch, State& state) {
-  const std::size_t texels = lattice::texel_count(input.level);
+/// The features of a pixel's visible face.
+[[gnu::always_inline]] inline kernels::TexelPack features_at(const BatchImage& image,
+                                                             const ShadingInput& input,
+                                                             std::size_t pixel) {
+  const VisiblePixel& visible = image.visible[pixel];
+  const auto at = lattice::footprint(input.level, visible.b0, visible.b1);
+  const Texel* texture =
+      input.texture + visible.face * std::size_t(lattice::texel_count(input.level));
+  const auto texel = [&](std::size_t j) __attribute__((always_inline)) {
+    return kernels::load_texel(texture[at.texels[j]].values);
+  };
+  return lattice::interpolated(at.weights, texel(0), texel(1), texel(2));
+}
+
+/// The network's input: features of the pixels, harmonics of the direction to the eye. Lanes
+/// without a pixel repeat the first one. `features`: of a pixel.
+template <class Features>
+[[gnu::always_inline]] inline void gather(const BatchImage& image, const Batch& batch,
+                                          const Features& features, State& state) {
   const kernels::View& view = image.view;
   alignas(64) float inputs[channels][lanes];
   alignas(64) float pixel_x[lanes], pixel_y[lanes];
   for (int l = 0; l < lanes; ++l) {
     const int source = l < batch.count ? l : 0;
     const std::size_t pixel = batch.pixel[source];
-    const VisiblePixel& visible = image.visible[pixel];
-    const auto at = lattice::footprint(input.level, visible.b0, visible.b1);
-    const float* texture = input.texture + visible.face * texels * channels;
-    const auto texel = [&](std::size_t j) __attribute__((always_inline)) {
-      return kernels::load_texel(texture + std::size_t(at.texels[j]) * channels);
-    };
-    const kernels::TexelPack values =
-        lattice::interpolated(at.weights, texel(0), texel(1), texel(2));
+    const kernels::TexelPack values = features(pixel);
     for (int f = 0; f < channels; ++f) inputs[f][l] = values[f];
     pixel_x[l] = float(batch.x[source]);
     pixel_y[l] = float(batch.y[source]);
@@ -103,10 +110,18 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows(BatchImage& image, const Sha
   const std::size_t end = std::size_t(y1) * image.view.width;
   for (int c = 0; c < 3; ++c)
     for (std::size_t p = begin; p < end; ++p) image.color[c * pixels + p] = input.background[c];
+  const bool keeps = !image.features.empty();
   for_each_batch(
       image, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
         State state;
-        gather(image, input, batch, state);
+        gather(
+            image, batch,
+            [&](std::size_t pixel) __attribute__((always_inline)) {
+              const kernels::TexelPack features = features_at(image, input, pixel);
+              if (keeps) kernels::store_texel(image.features[pixel].values, features);
+              return features;
+            },
+            state);
         Pack color[3];
         kernels::shade(input.mlp->data(), state, color);
         for (int c = 0; c < 3; ++c)
@@ -119,17 +134,16 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(BatchImage& image,
                                                              const ShadingInput& input, int y0,
                                                              int y1, MlpParameters& mlp_gradient) {
   const std::size_t pixels = image.pixels();
-  for (std::size_t p = std::size_t(y0) * image.view.width; p < std::size_t(y1) * image.view.width;
-       ++p)
-    for (std::size_t c = 0; c < 3; ++c) {
-      image.gradient[p].color[c] = image.color[c * pixels + p];
-      image.gradient[p].by_color[c] = image.by_color[c * pixels + p];
-    }
   Pack sums[mlp_parameters] = {};
   for_each_batch(
       image, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
         State state;
-        gather(image, input, batch, state);
+        gather(
+            image, batch,
+            [&](std::size_t pixel) __attribute__((always_inline)) {
+              return kernels::load_texel(image.features[pixel].values);
+            },
+            state);
         kernels::IntPack finite;
         quarantine(state, finite);
         Pack color[3], dcolor[3];
@@ -144,7 +158,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(BatchImage& image,
         Pack dfeatures[kernels::features];
         kernels::shade_backward(input.mlp->data(), state, dcolor, sums, dfeatures);
         for (int l = 0; l < batch.count; ++l) {
-          float* out = image.gradient[batch.pixel[l]].features;
+          float* out = image.features[batch.pixel[l]].values;
           for (int f = 0; f < kernels::features; ++f) out[f] = dfeatures[f][l];
           if (input.half_scale != 0)
             for (int f = 0; f < kernels::features; ++f)

@@ -9,7 +9,7 @@ namespace tureen::trainer {
 
 /// The inputs of shading.
 struct ShadingInput {
-  const float* texture;  // TextureStore::values
+  const Texel* texture;  // TextureStore::values
   int level;
   const MlpParameters* mlp;
   const float* background;  // 3
@@ -17,11 +17,11 @@ struct ShadingInput {
   float half_scale = 0;
 };
 
-/// Fills rows [y0, y1) of image.color.
+/// Fills rows [y0, y1) of image.color, and of image.features unless it is empty.
 void shade_rows(BatchImage& image, const ShadingInput& input, int y0, int y1);
 
-/// Fills image.gradient in rows [y0, y1) from image.by_color. `mlp_gradient`: output, the part of
-/// these rows in the network's gradient.
+/// Replaces image.features in rows [y0, y1) by the gradient from image.by_color. `mlp_gradient`:
+/// output, the part of these rows in the network's gradient.
 void shade_rows_backward(BatchImage& image, const ShadingInput& input, int y0, int y1,
                          MlpParameters& mlp_gradient);
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "trainer/diffsoup/kernels/texel_pack.hpp"
 #include "trainer/diffsoup/kernels/texture.hpp"
 #include "trainer/diffsoup/model.hpp"
 
@@ -34,7 +35,7 @@ class Pyramid {
 };
 
 struct TextureStore {
-  std::vector<float> values;  // [face][fine texel][channels]
+  std::vector<Texel> values;  // [face][fine texel]
   std::vector<float> alpha;   // [face][fine texel]: a copy of channel 7, for the visibility test
 };
 

@@ -5,9 +5,7 @@
 #include <limits>
 
 #include "base/radix_sort.hpp"
-#include "scene/lattice.hpp"
-#include "trainer/common/cpu/vector_clones.hpp"
-#include "trainer/common/kernels/random.hpp"
+#include "trainer/diffsoup/cpu/visibility_kernels.hpp"
 
 namespace tureen::trainer {
 
@@ -22,9 +20,10 @@ void for_each_tile(const BatchImage& image, const kernels::ProjectedFace& face, 
       visit(std::size_t(y) * std::size_t(image.tiles_x) + std::size_t(x));
 }
 
-/// The inverse depth that no fragment of the face exceeds: that of its plane at a corner of its
-/// rectangle.
-float nearest_of(const kernels::ProjectedFace& face, double near) {
+/// The inverse depth that no fragment of the face exceeds: that of its nearest corner, or of its
+/// plane at a corner of its rectangle.
+float nearest_of(const kernels::View& view, const kernels::ProjectedFace& face,
+                 const float* corners) {
   const float width = float(face.x1 - 1 - face.x0), height = float(face.y1 - 1 - face.y0);
   float sum = 0, across = 0, down = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
@@ -33,9 +32,17 @@ float nearest_of(const kernels::ProjectedFace& face, double near) {
     down += face.dy[k] * height;
     magnitude += std::abs(face.c[k]) + std::abs(face.dx[k]) * width + std::abs(face.dy[k]) * height;
   }
-  // for_each_fragment rounds each term at most six times, by 6e-8 of its size.
-  const float nearest = sum + std::max(across, 0.0f) + std::max(down, 0.0f) + 1e-6f * magnitude;
-  const float limit = float(1 / near);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    double at[3];
+    kernels::view_coordinates(view, corners + 3 * k, at);
+    least = at[2] < least ? at[2] : least;
+  }
+  const float of_plane = sum + std::max(across, 0.0f) + std::max(down, 0.0f);
+  const float of_corner = float(1 / std::max(least, view.near));
+  // draw_tile rounds each term at most six times, by 6e-8 of its size.
+  const float nearest = std::min(of_plane, of_corner) + 1e-6f * magnitude;
+  const float limit = float(1 / view.near);
   return nearest < limit ? nearest : limit;  // also if overflow made it NaN
 }
 
@@ -49,82 +56,91 @@ std::vector<KeyedIndex> front_to_back(const BatchImage& image) {
   return order;
 }
 
+/// Removes the fragments behind the visible ones from the tile's list, and marks the visible ones.
+/// Faces from `end` on were skipped.
+void keep_gradient_fragments(BatchImage& image, std::size_t tile, std::uint32_t end) {
+  std::vector<GradientFragment>& list = image.fragments[tile];
+  std::size_t kept = 0, from = 0;
+  std::uint32_t visible = 0;
+  for (std::uint32_t i = image.bin_begin[tile]; i < end; ++i) {
+    const std::uint32_t face = image.bins[i];
+    for (; from < image.fragments_end[i]; ++from) {
+      GradientFragment fragment = list[from];
+      const VisiblePixel& shown = image.visible[image.pixel_of(fragment)];
+      // At equal depths the lower face is in front.
+      if (fragment.inverse_depth < shown.inverse_depth ||
+          (fragment.inverse_depth == shown.inverse_depth && face > shown.face))
+        continue;
+      fragment.visible = face == shown.face;
+      visible += fragment.visible;
+      list[kept++] = fragment;
+    }
+    image.fragments_end[i] = std::uint32_t(kept);
+    image.visible_end[i] = visible;
+  }
+  for (std::uint32_t i = end; i < image.bin_begin[tile + 1]; ++i) {
+    image.fragments_end[i] = std::uint32_t(kept);
+    image.visible_end[i] = visible;
+  }
+}
+
 }  // namespace
 
 void bin_faces(BatchImage& image, const Model& model) {
   const std::size_t faces = model.faces();
   image.projected.resize(faces);
   image.nearest.resize(faces);
-  image.bin_begin.assign(std::size_t(image.tiles_x) * image.tiles_y + 1, 0);
+  image.bin_begin.assign(image.tiles() + 1, 0);
   for (std::size_t face = 0; face < faces; ++face) {
     image.projected[face] = kernels::project(image.view, &model.positions[3 * face].x);
-    image.nearest[face] = nearest_of(image.projected[face], image.view.near);
+    image.nearest[face] =
+        nearest_of(image.view, image.projected[face], &model.positions[3 * face].x);
     for_each_tile(image, image.projected[face],
                   [&](std::size_t tile) { ++image.bin_begin[tile + 1]; });
   }
   for (std::size_t tile = 1; tile < image.bin_begin.size(); ++tile)
     image.bin_begin[tile] += image.bin_begin[tile - 1];
   image.bins.resize(image.bin_begin.back());
-  image.reached_in_tile.assign(image.bins.size(), 0);
+  if (image.keeps_fragments) {
+    image.fragments.resize(image.tiles());
+    image.by_features.resize(image.tiles());
+    image.fragments_end.resize(image.bins.size());
+    image.visible_end.resize(image.bins.size());
+    image.corner_gradient.resize(image.bins.size());
+  }
   std::vector<std::uint32_t> next(image.bin_begin.begin(), image.bin_begin.end() - 1);
   for (const KeyedIndex& item : front_to_back(image))
     for_each_tile(image, image.projected[item.index],
                   [&](std::size_t tile) { image.bins[next[tile]++] = item.index; });
 }
 
-TUREEN_VECTOR_CLONES TUREEN_FLATTEN std::uint64_t find_visible(BatchImage& image, std::size_t tile,
-                                                               const float* alpha, int level,
-                                                               Masking masking) {
-  const kernels::Rectangle within = image.tile(tile);
-  const std::size_t width = std::size_t(image.view.width);
-  for (int y = within.y0; y < within.y1; ++y)
-    std::fill_n(image.visible.begin() + std::ptrdiff_t(std::size_t(y) * width) + within.x0,
-                within.x1 - within.x0, VisiblePixel{});
-  std::uint64_t fragments = 0;
-  const std::size_t texels = lattice::texel_count(level);
-  // The inverse depth that all pixels of the tile reach. It is updated rarely, since it takes as
-  // long as some faces.
-  float behind = 0;
-  constexpr std::uint32_t faces_an_update = 32;
-  for (std::uint32_t i = image.bin_begin[tile]; i < image.bin_begin[tile + 1]; ++i) {
-    const std::uint32_t face = image.bins[i];
-    if ((i - image.bin_begin[tile]) % faces_an_update == faces_an_update - 1) {
-      behind = std::numeric_limits<float>::infinity();
-      for (int y = within.y0; y < within.y1; ++y)
-        for (int x = within.x0; x < within.x1; ++x)
-          behind = std::min(behind, image.visible[std::size_t(y) * width + x].inverse_depth);
-    }
-    if (image.nearest[face] < behind) break;  // this face is hidden, and so are those behind it
-    const float* texture = alpha + face * texels;
-    bool reached = false;
-    kernels::for_each_fragment(
-        image.view, image.projected[face],
-        within, [&](const kernels::Fragment& fragment) __attribute__((always_inline)) {
-          ++fragments;
-          const std::size_t pixel = std::size_t(fragment.y) * width + std::size_t(fragment.x);
-          VisiblePixel& visible = image.visible[pixel];
-          if (fragment.inverse_depth < visible.inverse_depth ||
-              (fragment.inverse_depth == visible.inverse_depth && face > visible.face))
-            return;
-          reached = true;
-          const auto at = lattice::footprint(level, fragment.b0, fragment.b1);
-          const float a = lattice::interpolated(at, texture);
-          const float needed =
-              masking == Masking::threshold
-                  ? alpha_threshold
-                  : kernels::uniform_draw(image.draw_key, std::uint32_t(pixel), face);
-          if (!(a >= needed)) return;
-          visible = {face, fragment.inverse_depth, fragment.b0, fragment.b1};
-        });
-    image.reached_in_tile[i] = reached;
-  }
-  return fragments;
+std::uint64_t find_visible(BatchImage& image, std::size_t tile, const float* alpha, int level,
+                           Masking masking) {
+  const TileVisibility found = draw_tile(image, tile, {alpha, level, masking});
+  if (image.keeps_fragments) keep_gradient_fragments(image, tile, found.end);
+  return found.fragments;
 }
 
-void find_reached(BatchImage& image) {
-  image.reached.assign(image.projected.size(), 0);
-  for (std::size_t i = 0; i < image.bins.size(); ++i)
-    image.reached[image.bins[i]] |= image.reached_in_tile[i];
+void list_faces(BatchImage& image) {
+  image.tiles_begin.assign(image.projected.size() + 1, 0);
+  const auto for_each_entry = [&](auto&& visit) {
+    for (std::uint32_t tile = 0; tile < image.tiles(); ++tile) {
+      std::uint32_t begin = 0, visible = 0;
+      for (std::uint32_t i = image.bin_begin[tile]; i < image.bin_begin[tile + 1]; ++i) {
+        const std::uint32_t end = image.fragments_end[i];
+        if (end > begin) visit(TileFace{tile, i, begin, end, visible});
+        begin = end;
+        visible = image.visible_end[i];
+      }
+    }
+  };
+  for_each_entry([&](const TileFace& at) { ++image.tiles_begin[image.bins[at.entry] + 1]; });
+  for (std::size_t face = 1; face < image.tiles_begin.size(); ++face)
+    image.tiles_begin[face] += image.tiles_begin[face - 1];
+  image.tiles_of_faces.resize(image.tiles_begin.back());
+  std::vector<std::uint32_t> next(image.tiles_begin.begin(), image.tiles_begin.end() - 1);
+  for_each_entry(
+      [&](const TileFace& at) { image.tiles_of_faces[next[image.bins[at.entry]]++] = at; });
 }
 
 }  // namespace tureen::trainer

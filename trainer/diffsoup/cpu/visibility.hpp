@@ -10,12 +10,12 @@ namespace tureen::trainer {
 /// Projects all faces and sorts them into tiles.
 void bin_faces(BatchImage& image, const Model& model);
 
-/// Fills image.visible in one tile. At equal depths the lower face wins. Returns the number of
-/// fragments.
+/// Fills image.visible in one tile, and its fragments with a gradient. At equal depths the lower
+/// face wins. Returns the number of fragments.
 std::uint64_t find_visible(BatchImage& image, std::size_t tile, const float* alpha, int level,
                            Masking masking);
 
-/// Fills image.reached, after find_visible() in all tiles.
-void find_reached(BatchImage& image);
+/// Lists the tiles of each face with fragments, after find_visible() in all tiles.
+void list_faces(BatchImage& image);
 
 }  // namespace tureen::trainer

@@ -6,6 +6,15 @@
 #include "trainer/common/kernels/host_device.hpp"
 #include "trainer/diffsoup/model.hpp"
 
+namespace tureen::trainer {
+
+/// The channels of one texel or pixel; never across two cache lines.
+struct alignas(sizeof(float) * channels) Texel {
+  float values[channels];
+};
+
+}  // namespace tureen::trainer
+
 namespace tureen::trainer::kernels {
 
 #if defined(__GNUC__) && !defined(__CUDACC__)
