@@ -65,6 +65,7 @@ class Application {
   void frame();
   std::vector<Event> gather();
   std::vector<Event> gather_live();
+  void update_gui();
   void lay_out(glm::ivec2 points, glm::ivec2 pixels);
   void dispatch(const std::vector<Event>& events);
   void handle(const Event& event);
@@ -102,6 +103,8 @@ class Application {
   void carry_out(const LoadPath& request);
   void carry_out(const WriteAnimation& request);
   void carry_out(const TellTraining& request);
+  void carry_out(const CancelJob& request);
+  void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
   /// The relation of a loaded scene to the one that is shown.
@@ -153,7 +156,7 @@ class Application {
   Window window_;
   State state_;  // its GL objects are destroyed before the window
   std::unique_ptr<Gui> gui_;
-  double gui_scale_ = 1;
+  double gui_scale_ = 1, gui_density_ = 1;
   FrameClock frame_clock_;
   NavigationInput navigation_;
   DoubleClick double_click_;

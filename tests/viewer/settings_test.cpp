@@ -28,6 +28,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   Settings settings{.window = {999, 777},
                     .vsync = false,
                     .smooth_motion = false,
+                    .theme = Theme::light,
                     .recent = {},
                     .images = "/some where"};
   remember(settings, "/b.glb");
@@ -38,6 +39,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   EXPECT_EQ(read.window, settings.window);
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
+  EXPECT_EQ(read.theme, Theme::light);
   EXPECT_EQ(read.images, "/some where");
   EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder"))
       << "newest first, no duplicates";
@@ -68,8 +70,8 @@ TEST(Settings, AWindowIsOneThatCanBeSeenAndThatScreensHold) {
 
 TEST(Settings, AFileThatIsNotOursIsRefusedWithItsName) {
   const fs::path file = folder() / "viewer.json";
-  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{\"window\": [1]}",
-                           "{\"window\": [1e300, 1]}", "{"}) {
+  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{\"theme\": \"red\"}",
+                           "{\"window\": [1]}", "{\"window\": [1e300, 1]}", "{"}) {
     std::ofstream(file) << text;
     EXPECT_THAT(test::error_of([&] { read_settings(file); }), test::ErrorIn("viewer.json")) << text;
   }

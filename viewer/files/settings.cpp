@@ -73,6 +73,13 @@ Settings read_settings(const fs::path& file) {
   }
   take(json, "vsync", settings.vsync, name);
   take(json, "smooth_motion", settings.smooth_motion, name);
+  if (std::string theme; json.contains("theme")) {
+    take(json, "theme", theme, name);
+    const auto found = std::find(theme_names.begin(), theme_names.end(), theme);
+    if (found == theme_names.end())
+      throw InputError({name, {}, {}}, "theme is neither \"dark\" nor \"light\"");
+    settings.theme = Theme(found - theme_names.begin());
+  }
   take(json, "recent", settings.recent, name);
   settings.recent.resize(std::min(settings.recent.size(), most_recent));
   take(json, "pictures", settings.images, name);
@@ -83,6 +90,7 @@ void write_settings(const Settings& settings, const fs::path& file) {
   const Json json = {{"window", {settings.window.x, settings.window.y}},
                      {"vsync", settings.vsync},
                      {"smooth_motion", settings.smooth_motion},
+                     {"theme", theme_names[std::size_t(settings.theme)]},
                      {"recent", settings.recent},
                      {"pictures", settings.images}};
   make_folder(file.parent_path());

@@ -8,12 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "viewer/theme.hpp"
+
 namespace tureen::viewer {
 
 struct Settings {
   glm::ivec2 window{1280, 800};  // in points
   bool vsync = true;
   bool smooth_motion = true;
+  Theme theme = Theme::dark;
   std::vector<std::string> recent;  // scenes, latest first; at most most_recent
   std::string images;               // folder for images; empty: images_folder()
 };
