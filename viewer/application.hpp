@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/background_program.hpp"
 #include "viewer/files/file_watch.hpp"
 #include "viewer/files/session.hpp"
 #include "viewer/frame_clock.hpp"
@@ -104,6 +105,7 @@ class Application {
   void carry_out(const WriteAnimation& request);
   void carry_out(const TellTraining& request);
   void carry_out(const CancelJob& request);
+  void carry_out(const StartTraining& request);
   void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
@@ -142,6 +144,9 @@ class Application {
   void compare_when_needed();
   void prepare_debug_view_when_needed();
   void watch_files();
+  void watch_training_program();
+  /// The arguments of tureen that train a scene from the photographs.
+  std::vector<std::string> training_arguments() const;
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
   bool has_scene();
@@ -165,6 +170,7 @@ class Application {
   std::vector<Event> pending_;
   std::vector<FileWatch> watches_;  // of the scene's files
   std::optional<Loading> loading_;
+  std::optional<BackgroundProgram> training_program_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
   bool image_is_current_ = false;

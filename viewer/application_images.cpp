@@ -148,15 +148,4 @@ void Application::carry_out(const CopyCommand&) {
   state_.messages.note("Copied the command for this image to the clipboard.", state_.now);
 }
 
-void Application::carry_out(const CopyTrainingCommand&) {
-  if (!state_.photographs) return;
-  std::error_code ignored;
-  const fs::path dataset = fs::absolute(state_.photographs->path, ignored);
-  const std::string name = short_name(dataset);
-  window_.set_clipboard("tureen train " + quoted(dataset.string()) + " -o " +
-                        quoted((name.empty() ? "scene" : name) + ".glb") + " --watch");
-  state_.messages.note("Copied the training command to the clipboard: paste it into a terminal.",
-                       state_.now);
-}
-
 }  // namespace tureen::viewer

@@ -319,6 +319,7 @@ void Application::carry_out(const CloseDataset&) {
 void Application::watch_files() {
   if (state_.now - watched_ < watch_seconds) return;
   watched_ = state_.now;
+  watch_training_program();
   if (state_.training && state_.training->update()) frames_wanted_ = std::max(frames_wanted_, 1);
   // Not while another scene is loading: a reload of this one would replace it.
   if (!state_.stage || state_.busy) return;

@@ -25,6 +25,8 @@ void view_panel(State& state);
 void debug_view_panel(State& state);
 void drawing_panel(State& state);
 void comparison_panel(State& state);
+/// Buttons that train a scene from the photographs, and that close them.
+void dataset_buttons(State& state);
 void image_panel(State& state);
 void path_panel(State& state);
 void times_panel(State& state, const FrameClock& clock);

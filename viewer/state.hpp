@@ -86,6 +86,8 @@ struct TellTraining {
 struct CancelJob {
   JobKind kind = JobKind::scene;
 };
+/// Starts a program that trains a scene from the photographs.
+struct StartTraining {};
 /// Copies the command that trains a scene from the photographs to the clipboard.
 struct CopyTrainingCommand {};
 /// Stops writing images and animations.
@@ -96,7 +98,7 @@ using Request =
     std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset, ReloadScene,
                  ChooseDrawing, ShowRecorded, FocusAt, TakeImage, CopyCommand, ToggleFullscreen,
                  AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath, WriteAnimation,
-                 TellTraining, CancelJob, CopyTrainingCommand, StopWriting, Quit>;
+                 TellTraining, CancelJob, StartTraining, CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -138,6 +140,8 @@ struct State {
   DebugViewChoice debug_view;
   std::optional<Photographs> photographs;
   std::optional<FollowedTraining> training;
+  /// The scene of the training that this window has started; empty if none is in progress.
+  std::filesystem::path trained_scene;
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;

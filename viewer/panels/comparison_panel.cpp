@@ -4,16 +4,21 @@
 
 namespace tureen::viewer {
 
-namespace {
-
 void dataset_buttons(State& state) {
-  if (button("Close the dataset")) state.ask(CloseDataset{});
+  if (state.trained_scene.empty()) {
+    if (strong_button("Train a scene")) state.ask(StartTraining{});
+    tip("tureen train with these photographs. The scene is written beside them, and another window "
+        "shows the progress");
+    ImGui::SameLine();
+  } else {
+    aside("Training " + state.trained_scene.string());
+  }
+  if (button("Copy the command")) state.ask(CopyTrainingCommand{});
+  tip("The command that trains a scene, for a terminal");
   ImGui::SameLine();
-  if (button("Copy the training command")) state.ask(CopyTrainingCommand{});
-  tip("tureen train with these photographs; a window shows its progress");
+  if (button("Close")) state.ask(CloseDataset{});
+  tip("Closes the dataset");
 }
-
-}  // namespace
 
 void comparison_panel(State& state) {
   if (!state.photographs) {

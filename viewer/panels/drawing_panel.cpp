@@ -134,7 +134,7 @@ void drawing_panel(State& state) {
   if (changed) state.ask(ChooseDrawing{choice});
   if (stage.debug_views) return;  // the plan is not that of the choice
   heading("Drawing plan and specialisations");
-  for (const std::string& sentence : describe(stage.renderer.plan())) aside(sentence);
+  for (const std::string& each : describe(stage.renderer.plan())) sentence(each);
 }
 
 }  // namespace tureen::viewer

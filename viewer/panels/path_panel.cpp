@@ -5,6 +5,7 @@
 // clang-format on
 
 #include <algorithm>
+#include <cfloat>
 #include <glm/common.hpp>
 #include <optional>
 #include <span>
@@ -26,7 +27,7 @@ void play_row(Animation& animation) {
   tip("Space: play or stop the camera path");
   ImGui::SameLine();
   auto seconds = static_cast<float>(animation.seconds);
-  ImGui::SetNextItemWidth(-ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::SliderFloat("##seconds", &seconds, 0, static_cast<float>(duration), "%.2f s",
                          ImGuiSliderFlags_AlwaysClamp))
     animation.seconds = seconds;
@@ -49,6 +50,7 @@ void keyframe_row(State& state, std::size_t index) {
   Animation& animation = state.animation;
   const CameraKeyframe& keyframe = animation.path.data().keyframes[index];
   ImGui::PushID(static_cast<int>(index));
+  ImGui::AlignTextToFramePadding();
   if (ImGui::Selectable(fmt::format("{}", index + 1).c_str(), animation.selected == int(index), 0,
                         {2 * ImGui::GetFontSize(), 0})) {
     animation.selected = int(index);

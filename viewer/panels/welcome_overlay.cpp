@@ -28,10 +28,7 @@ void dataset_rows(State& state) {
   }
   paragraph(counted(photographs.list.size(), "photograph") +
             " and no scene. Train a scene from them, or open one to compare it with them.");
-  if (strong_button("Copy the training command")) state.ask(CopyTrainingCommand{});
-  tip("Paste it into a terminal. Another window then shows the progress of the training");
-  ImGui::SameLine();
-  if (button("Close the dataset")) state.ask(CloseDataset{});
+  dataset_buttons(state);
   ImGui::Spacing();
 }
 

@@ -57,6 +57,11 @@ void aside(const std::string& words) {
   ImGui::PopStyleColor();
 }
 
+void sentence(std::string words) {
+  if (!words.empty() && words.front() >= 'a' && words.front() <= 'z') words.front() -= 'a' - 'A';
+  aside(words);
+}
+
 void heading(const std::string& words) {
   const Bold bold;
   aside(words);

@@ -26,6 +26,8 @@ void text(fmt::format_string<Args...> format, Args&&... args) {
 void paragraph(const std::string& words);
 /// The same, dimmed: explanations and missing data.
 void aside(const std::string& words);
+/// The same, with a capital letter at the beginning.
+void sentence(std::string words);
 /// A bold line above a group of controls.
 void heading(const std::string& words);
 /// A dimmed name and its value, which wraps.
