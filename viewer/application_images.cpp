@@ -145,7 +145,7 @@ void Application::carry_out(const CopyCommand&) {
   }
   window_.set_clipboard(
       render_command(*state_.stage, state_.stage->choice, state_.debug_view, camera, file));
-  state_.messages.note("Copied the command for this image to the clipboard.", state_.now);
+  state_.messages.note("Copied the command for this image to the clipboard", state_.now);
 }
 
 }  // namespace tureen::viewer

@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/program_folder.hpp"
@@ -17,9 +18,9 @@ namespace tureen::viewer {
 
 #ifdef _WIN32
 
-BackgroundProgram::BackgroundProgram(const std::string& program, const std::vector<std::string>&)
-    : program_(program) {
-  throw OutputError({program, {}, {}}, "cannot be started by the window on Windows",
+BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std::string>&)
+    : program_(std::move(program)) {
+  throw OutputError({program_, {}, {}}, "cannot be started by the window on Windows",
                     "copy the command into a terminal");
 }
 
@@ -27,9 +28,8 @@ bool BackgroundProgram::ended() { return true; }
 
 #else
 
-BackgroundProgram::BackgroundProgram(const std::string& program,
-                                     const std::vector<std::string>& arguments)
-    : program_(program), errors_(std::tmpfile()) {
+BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std::string>& arguments)
+    : program_(std::move(program)), errors_(std::tmpfile()) {
   // No function here changes the strings.
   std::vector<char*> argv{const_cast<char*>(program_.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

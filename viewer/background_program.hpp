@@ -14,7 +14,7 @@ class BackgroundProgram {
  public:
   /// `program`: a path, or a name that is searched on PATH. Its standard output is discarded.
   /// Throws OutputError with the program if it cannot be started; on Windows always.
-  BackgroundProgram(const std::string& program, const std::vector<std::string>& arguments);
+  BackgroundProgram(std::string program, const std::vector<std::string>& arguments);
 
   /// Whether it has ended.
   bool ended();

@@ -25,10 +25,10 @@ fs::path folder() {
 
 TEST(Settings, ComeBackAsTheyWereLeft) {
   const fs::path file = folder() / "tureen" / "viewer.json";
-  Settings settings{.window = {999, 777},
+  Settings settings{.theme = Theme::light,
+                    .window = {999, 777},
                     .vsync = false,
                     .smooth_motion = false,
-                    .theme = Theme::light,
                     .recent = {},
                     .images = "/some where"};
   remember(settings, "/b.glb");
@@ -36,10 +36,10 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   remember(settings, "/b.glb");
   write_settings(settings, file);
   const Settings read = read_settings(file);
+  EXPECT_EQ(read.theme, Theme::light);
   EXPECT_EQ(read.window, settings.window);
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
-  EXPECT_EQ(read.theme, Theme::light);
   EXPECT_EQ(read.images, "/some where");
   EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder"))
       << "newest first, no duplicates";

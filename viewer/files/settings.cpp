@@ -66,13 +66,6 @@ Settings read_settings(const fs::path& file) {
   const Json json = read_json(input);
   const std::string name = file.string();
   if (!json.is_object()) throw InputError({name, {}, {}}, "the file is not a JSON object");
-  if (const auto window = json.find("window"); window != json.end()) {
-    // Clamped as floats, because an int cannot hold every number.
-    const std::vector<float> sides = json_floats(*window, 2, name, "window");
-    settings.window = glm::clamp(glm::vec2(sides[0], sides[1]), min_window, max_window);
-  }
-  take(json, "vsync", settings.vsync, name);
-  take(json, "smooth_motion", settings.smooth_motion, name);
   if (std::string theme; json.contains("theme")) {
     take(json, "theme", theme, name);
     const auto found = std::find(theme_names.begin(), theme_names.end(), theme);
@@ -80,6 +73,13 @@ Settings read_settings(const fs::path& file) {
       throw InputError({name, {}, {}}, "theme is neither \"dark\" nor \"light\"");
     settings.theme = Theme(found - theme_names.begin());
   }
+  if (const auto window = json.find("window"); window != json.end()) {
+    // Clamped as floats, because an int cannot hold every number.
+    const std::vector<float> sides = json_floats(*window, 2, name, "window");
+    settings.window = glm::clamp(glm::vec2(sides[0], sides[1]), min_window, max_window);
+  }
+  take(json, "vsync", settings.vsync, name);
+  take(json, "smooth_motion", settings.smooth_motion, name);
   take(json, "recent", settings.recent, name);
   settings.recent.resize(std::min(settings.recent.size(), most_recent));
   take(json, "pictures", settings.images, name);
@@ -87,10 +87,10 @@ Settings read_settings(const fs::path& file) {
 }
 
 void write_settings(const Settings& settings, const fs::path& file) {
-  const Json json = {{"window", {settings.window.x, settings.window.y}},
+  const Json json = {{"theme", theme_names[std::size_t(settings.theme)]},
+                     {"window", {settings.window.x, settings.window.y}},
                      {"vsync", settings.vsync},
                      {"smooth_motion", settings.smooth_motion},
-                     {"theme", theme_names[std::size_t(settings.theme)]},
                      {"recent", settings.recent},
                      {"pictures", settings.images}};
   make_folder(file.parent_path());

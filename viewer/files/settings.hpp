@@ -13,10 +13,10 @@
 namespace tureen::viewer {
 
 struct Settings {
+  Theme theme = Theme::dark;
   glm::ivec2 window{1280, 800};  // in points
   bool vsync = true;
   bool smooth_motion = true;
-  Theme theme = Theme::dark;
   std::vector<std::string> recent;  // scenes, latest first; at most most_recent
   std::string images;               // folder for images; empty: images_folder()
 };
