@@ -131,7 +131,8 @@ class Application {
     std::vector<Failure> failures;  // of files that are not shown
   };
   void load(const Loading& loading);
-  Worker::Completion load_in_background(const Loading& loading, std::shared_ptr<StageSource> before,
+  Worker::Completion load_in_background(const Loading& loading,
+                                        const std::shared_ptr<StageSource>& before,
                                         const StageRequest& request,
                                         const std::shared_ptr<Reading>& files);
   void end_loading(const Reading& files);

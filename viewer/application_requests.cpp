@@ -109,7 +109,7 @@ void Application::end_loading(const Reading& files) {
 
 /// Runs in the worker's thread; its result runs in the main thread.
 Worker::Completion Application::load_in_background(const Loading& loading,
-                                                   std::shared_ptr<StageSource> before,
+                                                   const std::shared_ptr<StageSource>& before,
                                                    const StageRequest& request,
                                                    const std::shared_ptr<Reading>& files) {
   const ReadRequest reading{
