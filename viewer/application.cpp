@@ -72,11 +72,10 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
   return result;
 }
 
-/// Scale of the layout. Points that are larger than pixels already include a part of it.
-double layout_scale(const Window& window) {
-  if (window.pixels().x < 1 || window.size().x < 1) return window.content_scale();  // minimised
-  const double pixels_per_point = double(window.pixels().x) / window.size().x;
-  return window.content_scale() / std::max(pixels_per_point, 1.0);
+/// Framebuffer pixels in a point, at least 1.
+double density(const Window& window) {
+  if (window.pixels().x < 1 || window.size().x < 1) return 1;  // minimised
+  return std::max(double(window.pixels().x) / window.size().x, 1.0);
 }
 
 /// Throws OutputError with both paths.
@@ -214,12 +213,7 @@ void Application::frame() {
   state_.messages.age(now);
   if (state_.messages.fading()) frames_wanted_ = std::max(frames_wanted_, 1);
 
-  if (const double scale = layout_scale(window_);
-      !gui_ || std::abs(scale / gui_scale_ - 1) > min_rescaling) {
-    gui_.reset();
-    gui_ = std::make_unique<Gui>(window_, GuiOptions{.scale = scale, .machine_font = !replay_});
-    gui_scale_ = scale;
-  }
+  update_gui();
   const bool moves = state_.controls.moving() || navigation_.flying() || state_.animation.plays;
   if (frames_wanted_ <= 0 && !moves && !state_.draw_continuously && state_.requests.empty()) return;
   --frames_wanted_;
@@ -232,6 +226,24 @@ void Application::frame() {
   move(step);
   carry_out();
   draw(events, seconds_since_start() - began);
+}
+
+/// Creates the interface anew if the screen's scale has changed.
+void Application::update_gui() {
+  const double dense = density(window_);
+  // Points that are larger than pixels already include a part of the scale.
+  const double scale = window_.content_scale() / dense;
+  const auto differ = [](double a, double b) { return std::abs(a / b - 1) > min_rescaling; };
+  if (!gui_ || differ(scale, gui_scale_) || differ(dense, gui_density_)) {
+    gui_.reset();
+    gui_ = std::make_unique<Gui>(
+        window_, GuiOptions{.scale = scale,
+                            .density = dense,
+                            .font = replay_ ? FontChoice::fixed : FontChoice::machine});
+    gui_scale_ = scale;
+    gui_density_ = dense;
+  }
+  gui_->set_theme(state_.settings.theme);
 }
 
 void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
@@ -254,6 +266,10 @@ void Application::dispatch(const std::vector<Event>& events) {
     if (const auto* key = std::get_if<KeyChanged>(&event); key && key->down && !taken.keys)
       run_shortcut(key->key, navigation_.held(Key::control) || navigation_.held(Key::super),
                    state_);
+    // Not a key: its place differs between keyboards.
+    if (const auto* typed = std::get_if<TextTyped>(&event);
+        typed && typed->code_point == '?' && !taken.keys)
+      run_shortcut(Key::f1, false, state_);
     handle(event);
   }
 }
@@ -305,7 +321,9 @@ void Application::draw(const std::vector<Event>& events, double busy_seconds) {
 void Application::draw_image() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gl::use_plain_rasterisation(1, 1);  // clearing depends on masks and scissor, not on the viewport
-  const float empty[4] = {0.06f, 0.06f, 0.07f, 1.0f};
+  const std::uint32_t page = palette(state_.settings.theme).page;
+  const float empty[4] = {float(page >> 16 & 0xff) / 255, float(page >> 8 & 0xff) / 255,
+                          float(page & 0xff) / 255, 1};
   glClearBufferfv(GL_COLOR, 0, empty);
   if (!state_.stage) return;
   try {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/background_program.hpp"
 #include "viewer/files/file_watch.hpp"
 #include "viewer/files/session.hpp"
 #include "viewer/frame_clock.hpp"
@@ -65,6 +66,7 @@ class Application {
   void frame();
   std::vector<Event> gather();
   std::vector<Event> gather_live();
+  void update_gui();
   void lay_out(glm::ivec2 points, glm::ivec2 pixels);
   void dispatch(const std::vector<Event>& events);
   void handle(const Event& event);
@@ -102,6 +104,9 @@ class Application {
   void carry_out(const LoadPath& request);
   void carry_out(const WriteAnimation& request);
   void carry_out(const TellTraining& request);
+  void carry_out(const CancelJob& request);
+  void carry_out(const StartTraining& request);
+  void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
   /// The relation of a loaded scene to the one that is shown.
@@ -126,7 +131,8 @@ class Application {
     std::vector<Failure> failures;  // of files that are not shown
   };
   void load(const Loading& loading);
-  Worker::Completion load_in_background(const Loading& loading, std::shared_ptr<StageSource> before,
+  Worker::Completion load_in_background(const Loading& loading,
+                                        const std::shared_ptr<StageSource>& before,
                                         const StageRequest& request,
                                         const std::shared_ptr<Reading>& files);
   void end_loading(const Reading& files);
@@ -139,6 +145,9 @@ class Application {
   void compare_when_needed();
   void prepare_debug_view_when_needed();
   void watch_files();
+  void watch_training_program();
+  /// The arguments of tureen that train a scene from the photographs.
+  std::vector<std::string> training_arguments() const;
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
   bool has_scene();
@@ -153,7 +162,7 @@ class Application {
   Window window_;
   State state_;  // its GL objects are destroyed before the window
   std::unique_ptr<Gui> gui_;
-  double gui_scale_ = 1;
+  double gui_scale_ = 1, gui_density_ = 1;
   FrameClock frame_clock_;
   NavigationInput navigation_;
   DoubleClick double_click_;
@@ -162,6 +171,7 @@ class Application {
   std::vector<Event> pending_;
   std::vector<FileWatch> watches_;  // of the scene's files
   std::optional<Loading> loading_;
+  std::optional<BackgroundProgram> training_program_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
   bool image_is_current_ = false;

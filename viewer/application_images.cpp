@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// Shows a note if there is no scene.
 bool Application::has_scene() {
-  if (!state_.stage) state_.messages.note("There is no scene: open one first", state_.now);
+  if (!state_.stage) state_.messages.note("There is no scene: open one first.", state_.now);
   return state_.stage != nullptr;
 }
 
@@ -74,7 +74,7 @@ void Application::write(const std::string& what, const fs::path& path,
                       choice = state_.stage->choice](const Worker::Progress& progress) {
                        work({window_.context(), choice, progress});
                        return Worker::Completion([this, path] {
-                         state_.messages.note("Saved " + path.string(), state_.now);
+                         state_.messages.note("Saved as " + path.string() + ".", state_.now);
                        });
                      },
                  .failed =
@@ -86,7 +86,7 @@ void Application::write(const std::string& what, const fs::path& path,
 
 void Application::carry_out(const StopWriting&) {
   writer_.abandon(JobKind::writing);
-  state_.messages.note("Stopped writing", state_.now);
+  state_.messages.note("Cancelled.", state_.now);
 }
 
 void Application::carry_out(const AddKeyframe&) {
@@ -120,7 +120,7 @@ void Application::carry_out(const MakeTurntable&) {
 
 void Application::carry_out(const SavePath& request) {
   write_file(request.file, path_to_json(state_.animation.path.data()));
-  state_.messages.note("Saved " + request.file.string(), state_.now);
+  state_.messages.note("Saved as " + request.file.string() + ".", state_.now);
 }
 
 void Application::carry_out(const LoadPath& request) {
@@ -133,7 +133,7 @@ void Application::carry_out(const LoadPath& request) {
 void Application::carry_out(const CopyCommand&) {
   if (!has_scene()) return;
   if (!state_.stage->is_as_read()) {
-    state_.messages.note("No command draws this image: layers were changed. Ctrl+S saves the image",
+    state_.messages.note("No command draws this image: layers were changed. P saves the image.",
                          state_.now);
     return;
   }

@@ -109,7 +109,7 @@ void Application::end_loading(const Reading& files) {
 
 /// Runs in the worker's thread; its result runs in the main thread.
 Worker::Completion Application::load_in_background(const Loading& loading,
-                                                   std::shared_ptr<StageSource> before,
+                                                   const std::shared_ptr<StageSource>& before,
                                                    const StageRequest& request,
                                                    const std::shared_ptr<Reading>& files) {
   const ReadRequest reading{
@@ -299,7 +299,7 @@ void Application::carry_out(const OpenPhotographs& request) {
                state_.recorded = -1;
                state_.comparison = {};
                state_.messages.note(std::to_string(state_.photographs->list.size()) +
-                                        " photographs: [ and ] select their cameras, C compares",
+                                        " photographs: [ and ] select their cameras, C compares.",
                                     state_.now);
              });
            },
@@ -319,6 +319,7 @@ void Application::carry_out(const CloseDataset&) {
 void Application::watch_files() {
   if (state_.now - watched_ < watch_seconds) return;
   watched_ = state_.now;
+  watch_training_program();
   if (state_.training && state_.training->update()) frames_wanted_ = std::max(frames_wanted_, 1);
   // Not while another scene is loading: a reload of this one would replace it.
   if (!state_.stage || state_.busy) return;
@@ -326,9 +327,20 @@ void Application::watch_files() {
   for (FileWatch& watch : watches_) changed |= watch.changed();
   if (!changed) return;
   if (!state_.training)  // changes every few seconds
-    state_.messages.note(short_names(state_.stage->paths()) + " has changed: reading it again",
+    state_.messages.note(short_names(state_.stage->paths()) + " has changed: reading it again.",
                          state_.now);
   state_.ask(ReloadScene{});
+}
+
+void Application::carry_out(const CancelJob& request) {
+  if (!can_be_cancelled(request.kind)) return;
+  worker_.abandon(request.kind);
+  if (request.kind == JobKind::scene) loading_.reset();
+  if (request.kind == JobKind::drawing) {
+    preparing_drawing_ = false;
+    if (state_.stage) state_.wanted = state_.stage->choice;
+  }
+  state_.messages.note("Cancelled.", state_.now);
 }
 
 void Application::carry_out(const ChooseDrawing& request) {

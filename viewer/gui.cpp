@@ -3,12 +3,13 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <glm/common.hpp>
 #include <string>
 #include <type_traits>
 
+#include "viewer/font.hpp"
 #include "viewer/gui_drawing.hpp"
+#include "viewer/theme.hpp"
 
 namespace tureen::viewer {
 
@@ -48,46 +49,6 @@ void map_keys(ImGuiIO& io) {
   map(ImGuiKey_X, Key::x);
   map(ImGuiKey_Y, Key::y);
   map(ImGuiKey_Z, Key::z);
-}
-
-/// Common sans-serif fonts of desktops, the likelier first.
-std::optional<std::string> machine_font() {
-  for (const char* path :
-       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-        "/usr/share/fonts/TTF/DejaVuSans.ttf", "/System/Library/Fonts/Supplemental/Arial.ttf",
-        "C:/Windows/Fonts/segoeui.ttf"})
-    if (std::error_code ignored; std::filesystem::exists(path, ignored)) return path;
-  return std::nullopt;
-}
-
-void load_font(ImGuiIO& io, const GuiOptions& options) {
-  const auto scale = static_cast<float>(std::clamp(options.scale, 1.0, 4.0));
-  // 15 points of a proportional font are as readable as 13 points of the built-in font.
-  const auto path = options.machine_font ? machine_font() : std::nullopt;
-  if (path && io.Fonts->AddFontFromFileTTF(path->c_str(), 15.0f * scale)) return;
-  ImFontConfig config;
-  config.SizePixels = 13.0f * scale;
-  io.Fonts->AddFontDefault(&config);
-}
-
-/// Grey styles, so that only the image has colour.
-void dress(double scale) {
-  ImGui::StyleColorsDark();
-  ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowRounding = 4;
-  style.FrameRounding = 3;
-  style.GrabRounding = 3;
-  style.WindowBorderSize = 0;
-  style.FramePadding = {6, 3};
-  style.ItemSpacing = {7, 5};
-  style.Colors[ImGuiCol_WindowBg] = {0.09f, 0.09f, 0.10f, 0.92f};
-  style.Colors[ImGuiCol_PopupBg] = {0.11f, 0.11f, 0.12f, 0.97f};
-  style.Colors[ImGuiCol_FrameBg] = {0.20f, 0.20f, 0.22f, 1.0f};
-  style.Colors[ImGuiCol_TitleBgActive] = {0.15f, 0.15f, 0.17f, 1.0f};
-  style.Colors[ImGuiCol_Header] = {0.20f, 0.21f, 0.23f, 1.0f};
-  style.ScaleAllSizes(static_cast<float>(std::clamp(scale, 1.0, 4.0)));
 }
 
 /// Passes each kind of event to Dear ImGui.
@@ -136,8 +97,12 @@ Gui::Gui(Window& window, const GuiOptions& options) : context_(ImGui::CreateCont
   io.SetClipboardTextFn = write_clipboard;
   io.ClipboardUserData = &window;
   map_keys(io);
-  dress(options.scale);
-  load_font(io, options);
+  const double scale = std::clamp(options.scale, 1.0, 4.0);
+  const double density = std::clamp(options.density, 1.0, 4.0);
+  set_shapes(scale);
+  set_colors(options.theme);
+  add_fonts(*io.Fonts, options.font, {.scale = scale * density});
+  io.FontGlobalScale = static_cast<float>(1 / density);
   drawing_ = std::make_unique<GuiDrawing>(window.context().capabilities().api);
 }
 
@@ -147,6 +112,8 @@ void Gui::feed(const Event& event) { std::visit(Feeder{ImGui::GetIO()}, event); 
 
 bool Gui::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::takes_keys() const { return ImGui::GetIO().WantTextInput; }
+
+void Gui::set_theme(Theme theme) { set_colors(theme); }
 
 void Gui::begin(const Frame& frame) {
   ImGuiIO& io = ImGui::GetIO();

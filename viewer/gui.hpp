@@ -5,9 +5,10 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
-#include <optional>
 
+#include "viewer/font.hpp"
 #include "viewer/input/event.hpp"
+#include "viewer/theme.hpp"
 #include "viewer/window.hpp"
 
 struct ImGuiContext;
@@ -20,9 +21,10 @@ class GuiDrawing;
 struct GuiOptions {
   /// Scale of texts and spacing, 1..4, for high-DPI screens.
   double scale = 1;
-  /// Whether to use a font of the machine, if there is one. Dear ImGui's own font is identical
-  /// everywhere, for golden images.
-  bool machine_font = true;
+  /// Framebuffer pixels in a point, 1..4. Fonts have this resolution.
+  double density = 1;
+  FontChoice font = FontChoice::machine;
+  Theme theme = Theme::dark;
 };
 
 class Gui {
@@ -37,6 +39,8 @@ class Gui {
   /// Whether the interface uses the pointer or the keyboard; the scene then ignores their events.
   bool takes_pointer() const;
   bool takes_keys() const;
+
+  void set_theme(Theme theme);
 
   struct Frame {
     glm::ivec2 points, pixels;  // of the window

@@ -189,7 +189,8 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   using namespace tureen::viewer;
   CLI::App program("Shows triangle soups and splats in a window.", "tureen view");
-  program.footer(R"(Without SCENE, drop scenes on the window or press Ctrl+O. F1 lists the keys.
+  program.footer(
+      R"(Without SCENE, the window offers the example and recent scenes. F1 lists the keys.
 
 Examples:
   tureen view soup.glb

@@ -25,12 +25,16 @@ void view_panel(State& state);
 void debug_view_panel(State& state);
 void drawing_panel(State& state);
 void comparison_panel(State& state);
+/// Buttons that train a scene from the photographs, and that close them.
+void dataset_buttons(State& state);
 void image_panel(State& state);
 void path_panel(State& state);
 void times_panel(State& state, const FrameClock& clock);
+void window_panel(State& state);
 
 void photograph_overlay(State& state);
 void status_overlay(const State& state);
+void progress_overlay(State& state);
 void message_overlay(State& state);
 void keys_overlay(State& state);
 void files_overlay(State& state);

@@ -82,6 +82,14 @@ struct WriteAnimation {};
 struct TellTraining {
   trainer::RunCommand command = trainer::RunCommand::run;
 };
+/// Cancels the running job of this kind and those that wait.
+struct CancelJob {
+  JobKind kind = JobKind::scene;
+};
+/// Starts a program that trains a scene from the photographs.
+struct StartTraining {};
+/// Copies the command that trains a scene from the photographs to the clipboard.
+struct CopyTrainingCommand {};
 /// Stops writing images and animations.
 struct StopWriting {};
 struct Quit {};
@@ -90,7 +98,7 @@ using Request =
     std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset, ReloadScene,
                  ChooseDrawing, ShowRecorded, FocusAt, TakeImage, CopyCommand, ToggleFullscreen,
                  AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath, WriteAnimation,
-                 TellTraining, StopWriting, Quit>;
+                 TellTraining, CancelJob, StartTraining, CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -112,9 +120,18 @@ struct LayerEditing {
 /// The fields of the panel *Images*.
 struct ImageWish {
   bool window_size = true;
+  bool other_size = false;  // numbers instead of a size of the list
   glm::ivec2 size{3840, 2160};
   bool transparent = false;
 };
+
+/// Whether the user can cancel jobs of this kind. The others end soon.
+constexpr bool can_be_cancelled(JobKind kind) {
+  return kind == JobKind::scene || kind == JobKind::dataset || kind == JobKind::drawing;
+}
+
+/// A shorter job shows no progress.
+inline constexpr double progress_delay_seconds = 0.5;
 
 struct State {
   Settings settings;
@@ -123,6 +140,8 @@ struct State {
   DebugViewChoice debug_view;
   std::optional<Photographs> photographs;
   std::optional<FollowedTraining> training;
+  /// The scene of the training that this window has started; empty if none is in progress.
+  std::filesystem::path trained_scene;
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;

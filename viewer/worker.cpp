@@ -59,7 +59,11 @@ bool Worker::collect() {
 
 std::optional<Worker::Status> Worker::status() const {
   const std::lock_guard lock(mutex_);
-  return running_;
+  std::optional<Status> status = running_;
+  if (status)
+    status->seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  return status;
 }
 
 bool Worker::idle() const {
@@ -75,7 +79,8 @@ void Worker::run() {
     if (ending_) break;
     Job job = std::move(waiting_.front());
     waiting_.erase(waiting_.begin());
-    running_ = Status{job.what, 0, job.kind};
+    running_ = Status{.what = job.what, .fraction = 0, .kind = job.kind};
+    began_ = std::chrono::steady_clock::now();
     abandoned_ = false;
     lock.unlock();
     run(job);
@@ -114,6 +119,13 @@ void Worker::report(double fraction) {
     running_->fraction = std::clamp(fraction, 0.0, 1.0);
   }
   if (!shown) Window::wake();
+}
+
+std::optional<double> seconds_left(const Worker::Status& status) {
+  // Earlier, the forecast would jump: the first percents include opening files.
+  constexpr double least_fraction = 0.03, least_seconds = 1;
+  if (status.fraction < least_fraction || status.seconds < least_seconds) return {};
+  return status.seconds * (1 - status.fraction) / status.fraction;
 }
 
 }  // namespace tureen::viewer

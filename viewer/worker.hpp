@@ -2,6 +2,7 @@
 // window never waits. Jobs run one after another. The main thread collects their results.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -47,6 +48,7 @@ class Worker {
     std::string what;
     double fraction = 0;
     JobKind kind = JobKind::scene;
+    double seconds = 0;  // since the job began
   };
   /// The status of the running job, or nullopt.
   std::optional<Status> status() const;
@@ -65,7 +67,8 @@ class Worker {
   std::condition_variable changed_;
   std::vector<Job> waiting_;
   std::optional<Status> running_;
-  bool abandoned_ = false;  // the running job
+  std::chrono::steady_clock::time_point began_;  // the running job
+  bool abandoned_ = false;                       // the running job
   bool ending_ = false;
   struct Done {
     JobKind kind;
@@ -74,5 +77,9 @@ class Worker {
   std::vector<Done> done_;
   std::thread thread_;  // last: it uses all of the above
 };
+
+/// Forecast for a job, in seconds, if its progress goes on as before; nullopt while too little is
+/// done for a forecast.
+std::optional<double> seconds_left(const Worker::Status& status);
 
 }  // namespace tureen::viewer

@@ -102,9 +102,12 @@ function placeEngine(folder, engine, parts) {
   cpSync(join(engine, 'tureen.wasm'), join(folder, 'tureen.wasm'));
 }
 
+/** A page without the indentation of its lines: a hundred bytes less by brotli. */
+const unindented = (html) => html.replace(/\n\s+/g, '\n');
+
 async function makeSite(folder, engine, parts) {
   for (const { html, script, style, engine: its } of pages) {
-    write(folder, basename(html), text(from(html)));
+    write(folder, basename(html), unindented(text(from(html))));
     write(folder, basename(script, '.ts') + '.js', await module(script, its));
     write(folder, basename(style), await bundle(from(style)));
   }

@@ -11,7 +11,7 @@
 #endif
 
 #include "base/error.hpp"
-#include "cli/files/program_folder.hpp"
+#include "base/program_folder.hpp"
 
 namespace tureen::cli {
 

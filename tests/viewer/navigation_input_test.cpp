@@ -48,6 +48,29 @@ TEST_F(NavigationTest, ARightDragAndShiftWithTheLeftMoveAlong) {
   }
 }
 
+TEST_F(NavigationTest, ArrowsTurnAndWithShiftMove) {
+  const glm::dvec3 eye = controls.eye(), target = controls.target();
+  send(KeyChanged{Key::left, true});
+  send(KeyChanged{Key::left, false});
+  EXPECT_GT(glm::distance(controls.eye(), eye), 0.001);
+  EXPECT_EQ(controls.target(), target);
+  send(KeyChanged{Key::right, true});
+  EXPECT_LT(glm::distance(controls.eye(), eye), 1e-9);
+  send(KeyChanged{Key::shift, true});
+  send(KeyChanged{Key::up, true});
+  EXPECT_GT(glm::distance(controls.target(), target), 0.001);
+}
+
+TEST_F(NavigationTest, PlusAndMinusZoom) {
+  const double distance = controls.distance();
+  send(KeyChanged{Key::equal, true});
+  EXPECT_LT(controls.distance(), distance);
+  send(KeyChanged{Key::minus, true});
+  EXPECT_NEAR(controls.distance(), distance, 1e-9 * distance);
+  send(KeyChanged{Key::minus, true}, {.pointer = false, .keys = true});
+  EXPECT_NEAR(controls.distance(), distance, 1e-9 * distance) << "a text field has the keys";
+}
+
 TEST(DoubleClicks, AreTwoPressesAtOnePlaceInHalfASecond) {
   struct Press {
     Button button;

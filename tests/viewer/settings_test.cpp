@@ -25,7 +25,8 @@ fs::path folder() {
 
 TEST(Settings, ComeBackAsTheyWereLeft) {
   const fs::path file = folder() / "tureen" / "viewer.json";
-  Settings settings{.window = {999, 777},
+  Settings settings{.theme = Theme::light,
+                    .window = {999, 777},
                     .vsync = false,
                     .smooth_motion = false,
                     .recent = {},
@@ -35,6 +36,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   remember(settings, "/b.glb");
   write_settings(settings, file);
   const Settings read = read_settings(file);
+  EXPECT_EQ(read.theme, Theme::light);
   EXPECT_EQ(read.window, settings.window);
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
@@ -68,8 +70,8 @@ TEST(Settings, AWindowIsOneThatCanBeSeenAndThatScreensHold) {
 
 TEST(Settings, AFileThatIsNotOursIsRefusedWithItsName) {
   const fs::path file = folder() / "viewer.json";
-  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{\"window\": [1]}",
-                           "{\"window\": [1e300, 1]}", "{"}) {
+  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{\"theme\": \"red\"}",
+                           "{\"window\": [1]}", "{\"window\": [1e300, 1]}", "{"}) {
     std::ofstream(file) << text;
     EXPECT_THAT(test::error_of([&] { read_settings(file); }), test::ErrorIn("viewer.json")) << text;
   }

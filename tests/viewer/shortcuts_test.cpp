@@ -3,7 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "viewer/state.hpp"
@@ -15,6 +22,33 @@ TEST(Shortcuts, EachKeyHasOneMeaning) {
   std::set<std::pair<Key, bool>> keys;
   for (const Shortcut& each : shortcuts())
     EXPECT_TRUE(keys.insert({each.key, each.control}).second) << each.text;
+}
+
+/// The lines of the page's table: key -> meaning.
+std::map<std::string, std::string> page_keys() {
+  std::ifstream file(TUREEN_SOURCE_DIR "/web/page/viewer_page.ts");
+  const std::string source{std::istreambuf_iterator<char>(file), {}};
+  const std::regex line("\\{ key: '(.)', meaning: '([^']*)'");
+  std::map<std::string, std::string> keys;
+  for (std::sregex_iterator each(source.begin(), source.end(), line), end; each != end; ++each)
+    keys[(*each)[1]] = (*each)[2];
+  return keys;
+}
+
+TEST(Shortcuts, HaveTheWordsOfThePage) {
+  const auto keys = page_keys();
+  ASSERT_GE(keys.size(), 12u) << "the page's table has another form";
+  for (const auto& [name, meaning] : keys) {
+    // K adds to the camera path, which the page lacks; the page has links; ? is no key.
+    if (name == "k" || name == "l" || name == "?") continue;
+    const std::string upper(1, char(std::toupper(static_cast<unsigned char>(name.front()))));
+    const auto found = std::find_if(shortcuts().begin(), shortcuts().end(), [&](const auto& each) {
+      return !each.control && name_of(each.key) == upper;
+    });
+    ASSERT_NE(found, shortcuts().end()) << upper;
+    ASSERT_NE(found->text, nullptr) << upper;
+    EXPECT_EQ(found->text, meaning) << upper;
+  }
 }
 
 TEST(Shortcuts, ITurnsTheSceneUpsideDown) {

@@ -180,6 +180,26 @@ TEST_F(Window, WithoutASceneAsksForOne) {
   expect_golden(image("keys"), "window_keys");
 }
 
+TEST_F(Window, OpensTheExample) {
+  const glm::dvec2 example_button{300, 200};
+  const ChildResult result = replay(Person().wait().click(example_button).look("example"), {});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(replay(Person().look("loaded"), {"soup.glb"}).exit_code, 0);
+  // The panels differ: the name of the file.
+  const Image8 example = image("example"), loaded = image("loaded");
+  for (const glm::ivec2 at : {glm::ivec2(180, 200), glm::ivec2(100, 250), glm::ivec2(250, 150)}) {
+    const std::size_t index = std::size_t(at.y) * std::size_t(example.width) + std::size_t(at.x);
+    EXPECT_EQ(example.pixels[index], loaded.pixels[index]);
+  }
+}
+
+TEST_F(Window, HasALightTheme) {
+  const ChildResult result =
+      replay(Person().wait().press(Key::digit_7).press(Key::t).look("light"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("light"), "window_light");
+}
+
 // Without panels, the window shows exactly the pixels of `tureen render`.
 TEST_F(Window, ShowsTheImageOfTureenRender) {
   const ChildResult result = replay(Person({640, 400})
@@ -207,15 +227,21 @@ TEST_F(Window, SavesImagesUnderNewNames) {
   expect_equal(image("soup-2"), expected);
 }
 
-/// Positions in the column of panels in a window 720 points wide, from the goldens.
-constexpr glm::dvec2 images_header{560, 443}, as_large_as_the_window{419, 467};
+/// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
+/// above are closed first, from the lowest to the highest.
+constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{560, 286},
+    image_size{590, 322}, size_of_4k{540, 427};
 
 TEST_F(Window, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
                                         .wait()
                                         .press(Key::right_bracket)
-                                        .click(images_header)
-                                        .click(as_large_as_the_window)
+                                        .click(view_header)
+                                        .click(scene_header)
+                                        .click(image_header)
+                                        .click(image_size)
+                                        .click(size_of_4k)
+                                        .point({200, 300})
                                         .look("panel")
                                         .press_with_control(Key::s)
                                         .wait());
@@ -368,9 +394,12 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
   const ChildResult result = replay(Person({320, 240})
                                         .wait()
                                         .press(Key::h)
+                                        .without_notes()
                                         .look("before")
                                         .replace("scene.off", "next.off")
                                         .hold(Key::super, 4)  // the file is checked once a second
+                                        .wait()
+                                        .without_notes()
                                         .look("after"),
                                     {"scene.off"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -469,8 +498,8 @@ TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
 
 /// Positions in the panel Layers of a scene of two layers in a window of 720 x 640, from the
 /// golden.
-constexpr glm::dvec2 second_visible{417, 283}, second_name{500, 283}, degrees_x{445, 332},
-    remove_button{568, 380};
+constexpr glm::dvec2 second_visible{391, 448}, second_name{500, 448}, degrees_x{514, 512},
+    remove_button{637, 618};
 
 TEST_F(Window, ThePanelPlacesHidesAndRemovesLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
@@ -527,7 +556,8 @@ TEST_F(Window, EveryFileOfALayerIsWatched) {
 }
 
 /// Positions in the panel Training in a window of 720 x 640, from the golden.
-constexpr glm::dvec2 pause_button{430, 416}, stop_button{510, 416}, stop_now_button{505, 453};
+constexpr glm::dvec2 pause_button{411, 570}, stop_button{510, 570}, stop_now_button{492, 544},
+    pause_without_log{411, 306};
 
 /// A run of 1,000 steps in its 250th.
 void write_run(const fs::path& folder,
@@ -605,7 +635,8 @@ TEST_F(Window, FollowsATrainingWhoseSplatsBecomeASoup) {
 }
 
 TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
-  const Person person = Person({720, 640}).wait().click(pause_button).look("training");
+  const Person person =
+      Person({720, 640}).wait().click(pause_without_log).click(pause_button).look("training");
   const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
   EXPECT_EQ(replay(person, arguments).exit_code, 0);
   const Image8 none = image("training");

@@ -107,5 +107,11 @@ TEST_F(WorkerTest, EndsWhileItWorks) {
   wait_for_start();
 }
 
+TEST(Workers, ForecastTheTimeLeftOnceEnoughIsDone) {
+  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.25, .seconds = 10}), 30.0);
+  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0.5, .seconds = 0.1}), std::nullopt);
+  EXPECT_EQ(seconds_left({.what = {}, .fraction = 0, .seconds = 10}), std::nullopt);
+}
+
 }  // namespace worker_test
 }  // namespace tureen::viewer

@@ -66,6 +66,13 @@ Settings read_settings(const fs::path& file) {
   const Json json = read_json(input);
   const std::string name = file.string();
   if (!json.is_object()) throw InputError({name, {}, {}}, "the file is not a JSON object");
+  if (std::string theme; json.contains("theme")) {
+    take(json, "theme", theme, name);
+    const auto found = std::find(theme_names.begin(), theme_names.end(), theme);
+    if (found == theme_names.end())
+      throw InputError({name, {}, {}}, "theme is neither \"dark\" nor \"light\"");
+    settings.theme = Theme(found - theme_names.begin());
+  }
   if (const auto window = json.find("window"); window != json.end()) {
     // Clamped as floats, because an int cannot hold every number.
     const std::vector<float> sides = json_floats(*window, 2, name, "window");
@@ -80,7 +87,8 @@ Settings read_settings(const fs::path& file) {
 }
 
 void write_settings(const Settings& settings, const fs::path& file) {
-  const Json json = {{"window", {settings.window.x, settings.window.y}},
+  const Json json = {{"theme", theme_names[std::size_t(settings.theme)]},
+                     {"window", {settings.window.x, settings.window.y}},
                      {"vsync", settings.vsync},
                      {"smooth_motion", settings.smooth_motion},
                      {"recent", settings.recent},

@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "viewer/theme.hpp"
+
 namespace tureen::viewer {
 
 struct Settings {
+  Theme theme = Theme::dark;
   glm::ivec2 window{1280, 800};  // in points
   bool vsync = true;
   bool smooth_motion = true;

@@ -18,6 +18,26 @@ const std::array<Push, 6> pushes = {{{Key::w, {0, 0, -1.0}},
                                      {Key::q, {0, -1.0, 0}},
                                      {Key::e, {0, 1.0, 0}}}};
 
+/// A press of an arrow is a drag by this many points, about as on the page (a 60th of the height of
+/// a window of 720 points).
+constexpr double arrow_points = 12;
+
+/// The drag of an arrow; (0, 0) for other keys.
+glm::dvec2 way_of(Key key) {
+  switch (key) {
+    case Key::left:
+      return {-arrow_points, 0};
+    case Key::right:
+      return {arrow_points, 0};
+    case Key::up:
+      return {0, -arrow_points};
+    case Key::down:
+      return {0, arrow_points};
+    default:
+      return {0, 0};
+  }
+}
+
 bool pushes_anywhere(Key key) {
   for (const Push& push : pushes)
     if (push.key == key) return true;
@@ -58,8 +78,12 @@ void NavigationInput::move(const PointerMoved& event, CameraControls& controls) 
 void NavigationInput::change(const KeyChanged& event, bool taken, CameraControls& controls) {
   const bool modified = held(Key::control) || held(Key::super);  // Ctrl+S does not fly back
   held_[static_cast<std::size_t>(event.key)] = event.down && !taken;
-  if (event.down && !taken && !modified && pushes_anywhere(event.key))
-    controls.set_mode(NavigationMode::fly);
+  if (!event.down || taken || modified) return;
+  if (pushes_anywhere(event.key)) controls.set_mode(NavigationMode::fly);
+  if (const glm::dvec2 way = way_of(event.key); way != glm::dvec2(0.0))
+    held(Key::shift) ? controls.pan(way.x, way.y) : controls.drag(way.x, way.y);
+  if (event.key == Key::equal) controls.dolly(1);
+  if (event.key == Key::minus) controls.dolly(-1);
 }
 
 Flight NavigationInput::flight() const {

@@ -12,7 +12,7 @@ struct Shortcut {
   Key key;
   bool control;       // with Ctrl
   const char* group;  // of the list of keys
-  const char* text;
+  const char* text;   // null if another row of the list has the key
   void (*run)(State& state);
 };
 

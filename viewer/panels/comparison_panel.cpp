@@ -4,6 +4,22 @@
 
 namespace tureen::viewer {
 
+void dataset_buttons(State& state) {
+  if (state.trained_scene.empty()) {
+    if (strong_button("Train a scene")) state.ask(StartTraining{});
+    tip("tureen train with these photographs. The scene is written beside them, and another window "
+        "shows the progress");
+    ImGui::SameLine();
+  } else {
+    aside("Training " + state.trained_scene.string());
+  }
+  if (button("Copy the command")) state.ask(CopyTrainingCommand{});
+  tip("The command that trains a scene, for a terminal");
+  ImGui::SameLine();
+  if (button("Close")) state.ask(CloseDataset{});
+  tip("Closes the dataset");
+}
+
 void comparison_panel(State& state) {
   if (!state.photographs) {
     aside(
@@ -12,19 +28,16 @@ void comparison_panel(State& state) {
     return;
   }
   Comparison& comparison = state.comparison;
+  static constexpr const char* choices[] = {"Off", "Split", "Photograph", "Difference"};
   int show = static_cast<int>(comparison.show);
-  ImGui::RadioButton("off", &show, 0);
-  ImGui::SameLine();
-  ImGui::RadioButton("split", &show, 1);
-  ImGui::SameLine();
-  ImGui::RadioButton("photograph", &show, 2);
-  ImGui::SameLine();
-  ImGui::RadioButton("difference", &show, 3);
+  segments("show", choices, show);
+  tip("C changes it");
   comparison.show = static_cast<Comparison::Show>(show);
 
   const Photograph* photograph = state.photograph();
   if (!photograph) {
     aside("Select a recorded camera with [ and ] to compare with its photograph.");
+    dataset_buttons(state);
     return;
   }
   const bool training = std::size_t(state.recorded) < state.photographs->train_count;
@@ -32,13 +45,13 @@ void comparison_panel(State& state) {
   if (comparison.result) {
     const Metrics& metrics = comparison.result->metrics;
     text("PSNR {:.2f} dB, SSIM {:.4f}", metrics.psnr_db, metrics.ssim);
-    aside(fmt::format("at the photograph's {} x {} pixels", photograph->camera.width,
+    aside(fmt::format("at the photograph's {} \u00d7 {} pixels", photograph->camera.width,
                       photograph->camera.height));
   } else if (comparison.show != Comparison::Show::off) {
     aside("comparing ..");
   }
   if (comparison.show == Comparison::Show::difference) legend_rows(difference_legend());
-  if (ImGui::Button("Close the dataset")) state.ask(CloseDataset{});
+  dataset_buttons(state);
 }
 
 }  // namespace tureen::viewer

@@ -9,11 +9,10 @@ namespace tureen::viewer {
 namespace {
 
 void feature_choice(FeatureChoice& choice, int count) {
-  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-  ImGui::SliderInt("first", &choice.first, 0, count - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-  ImGui::SliderInt("at once", &choice.count, 1, 3, "%d", ImGuiSliderFlags_AlwaysClamp);
+  field("First");
+  ImGui::SliderInt("##first", &choice.first, 0, count - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+  field("Count");
+  ImGui::SliderInt("##count", &choice.count, 1, 3, "%d", ImGuiSliderFlags_AlwaysClamp);
   tip("One feature as grey, two or three as red, green and blue");
   choice.count = std::min(choice.count, count - choice.first);
 }
@@ -24,8 +23,8 @@ void debug_view_panel(State& state) {
   const StageSource& source = *state.stage;
   DebugViewChoice& debug_view = state.debug_view;
   const DebugViewName& current = debug_view_names()[std::size_t(debug_view.what)];
-  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
-  if (ImGui::BeginCombo("shown", current.title, ImGuiComboFlags_HeightLarge)) {
+  field("View");
+  if (ImGui::BeginCombo("##view", current.title, ImGuiComboFlags_HeightLarge)) {
     for (const DebugViewName& each : debug_view_names()) {
       const std::optional<std::string> reason = why_not(each.what, source);
       {
@@ -38,7 +37,7 @@ void debug_view_panel(State& state) {
     }
     ImGui::EndCombo();
   }
-  tip("V selects the next one");
+  tip("V: next debug view");
   aside(current.meaning);
   if (debug_view.what == DebugView::features)
     feature_choice(debug_view.features, feature_count(source));

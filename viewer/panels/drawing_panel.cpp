@@ -17,22 +17,22 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
     const char* name;
     double scale;
     int supersampling;
-  } samplings[] = {{"a quarter of the resolution", 0.25, 1},
-                   {"half the resolution", 0.5, 1},
-                   {"three quarters of the resolution", 0.75, 1},
-                   {"once a pixel", 1, 1},
-                   {"2 x 2 a pixel", 1, 2},
-                   {"3 x 3 a pixel", 1, 3},
-                   {"4 x 4 a pixel", 1, 4},
-                   {"8 x 8 a pixel", 1, 8}};
+  } samplings[] = {{"0.25 \u00d7 screen", 0.25, 1},
+                   {"0.5 \u00d7 screen", 0.5, 1},
+                   {"0.75 \u00d7 screen", 0.75, 1},
+                   {"screen", 1, 1},
+                   {"2 \u00d7 screen (4 samples per pixel)", 1, 2},
+                   {"3 \u00d7 screen (9 samples per pixel)", 1, 3},
+                   {"4 \u00d7 screen (16 samples per pixel)", 1, 4},
+                   {"8 \u00d7 screen (64 samples per pixel)", 1, 8}};
   const Quality quality = quality_of(choice, scene);
   const char* current = "as requested";
   for (const auto& each : samplings)
     if (each.scale == quality.resolution_scale && each.supersampling == quality.supersampling)
       current = each.name;
   bool changed = false;
-  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
-  if (!ImGui::BeginCombo("samples", current)) return false;
+  field("Resolution");
+  if (!ImGui::BeginCombo("##resolution", current)) return false;
   for (const auto& each : samplings)
     if (ImGui::Selectable(each.name, each.name == current)) {
       choice.quality = Quality{each.scale, each.supersampling, quality.splat_order};
@@ -52,9 +52,9 @@ bool splat_rules(DrawingChoice& choice, const Stage& stage) {
   bool changed = false;
   std::optional<SplatProfile>& profile = choice.plan.splat_profile;
   const std::string own = "of the file";
-  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
   const std::string current = profile ? std::string(name_of(*profile)) : own;
-  if (ImGui::BeginCombo("profile", current.c_str())) {
+  field("Profile");
+  if (ImGui::BeginCombo("##profile", current.c_str())) {
     if (ImGui::Selectable(own.c_str(), !profile)) {
       profile.reset();
       changed = true;
@@ -76,8 +76,8 @@ bool splat_rules(DrawingChoice& choice, const Stage& stage) {
   tip("The method by whose rules splats are drawn. tureen convert --profile saves it");
   Quality quality = quality_of(choice, *stage.scene);
   int order = int(quality.splat_order);
-  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
-  if (ImGui::Combo("splat order", &order, splat_order_names.data(),
+  field("Splat order");
+  if (ImGui::Combo("##splat order", &order, splat_order_names.data(),
                    int(splat_order_names.size()))) {
     quality.splat_order = Quality::SplatOrder(order);
     choice.quality = quality;
@@ -85,7 +85,7 @@ bool splat_rules(DrawingChoice& choice, const Stage& stage) {
   }
   tip("The splat in front: the one with the nearer centre; exactly the nearer one at each pixel, "
       "slower; or drawn by chance without blending, noisy");
-  changed |= ImGui::Checkbox("as published", &choice.plan.as_published);
+  changed |= check("As published", &choice.plan.as_published);
   tip("Also cull splats by the rules of their authors' code that depend on the resolution");
   return changed;
 }
@@ -98,7 +98,7 @@ bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
     const bool allowed = choice.plan.specialisations.has(entry.what);
     if (allowed && !plan.applies(entry.what)) continue;  // does not apply to this scene
     bool out = allowed;
-    if (!ImGui::Checkbox(entry.title, &out)) continue;
+    if (!check(entry.title, &out)) continue;
     if (out)
       choice.plan.specialisations.add(entry.what);
     else
@@ -116,7 +116,7 @@ void drawing_panel(State& state) {
   bool changed = sampling(choice, *stage.scene);
   changed |= splat_rules(choice, stage);
   bool baseline = choice.pipeline == PipelineKind::baseline;
-  if (ImGui::Checkbox("baseline", &baseline)) {
+  if (check("Baseline", &baseline)) {
     choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
     changed = true;
   }
@@ -124,7 +124,7 @@ void drawing_panel(State& state) {
   if (stage.debug_views) {
     aside("Debug views are drawn without these choices.");
   } else if (!baseline) {
-    changed |= ImGui::Checkbox("specialise for the scene", &choice.plan.specialise);
+    changed |= check("Specialise for the scene", &choice.plan.specialise);
     if (choice.plan.specialise) {
       ImGui::Indent();
       changed |= specialisations(choice, stage.renderer.plan());
@@ -133,8 +133,8 @@ void drawing_panel(State& state) {
   }
   if (changed) state.ask(ChooseDrawing{choice});
   if (stage.debug_views) return;  // the plan is not that of the choice
-  ImGui::Separator();
-  for (const std::string& sentence : describe(stage.renderer.plan())) aside(sentence);
+  heading("Drawing plan and specialisations");
+  for (const std::string& each : describe(stage.renderer.plan())) sentence(each);
 }
 
 }  // namespace tureen::viewer

@@ -31,10 +31,10 @@ fs::path first_folder(const State& state) {
 /// Returns the selected folder, empty if none.
 fs::path folder_buttons(State& state) {
   fs::path next;
-  if (ImGui::Button("Up")) next = state.files.folder.parent_path();
+  if (button("Up")) next = state.files.folder.parent_path();
   ImGui::SameLine();
-  if (ImGui::Button("Open this folder")) open(state, state.files.folder);
-  tip("A dataset, a DiffSoup export, a MobileNeRF scene");
+  if (button("Choose this folder")) open(state, state.files.folder);
+  tip("A dataset, a DiffSoup export, a MobileNeRF model");
   return next;
 }
 
@@ -65,7 +65,7 @@ void typed_path(State& state) {
   const bool entered = ImGui::InputTextWithHint("##path", "or type a path", &typed,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
-  if ((ImGui::Button("Open") || entered) && !typed.empty()) open(state, typed);
+  if ((button("Open") || entered) && !typed.empty()) open(state, typed);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void files_overlay(State& state) {
   ImGui::SetNextWindowSize({std::min(36 * ImGui::GetFontSize(), window.x),
                             std::min(28 * ImGui::GetFontSize(), window.y)},
                            ImGuiCond_Appearing);
-  ImGui::Begin("Open", &state.show_files,
+  ImGui::Begin("Open a scene", &state.show_files,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   paragraph(state.files.folder.string());
   const fs::path up = folder_buttons(state), into = entries(state);

@@ -12,24 +12,58 @@
 
 namespace tureen::viewer {
 
+namespace {
+
+/// As on the page: the size of the window's image, common sizes, or numbers.
+void size_rows(ImageWish& wish) {
+  static constexpr struct {
+    const char* text;
+    glm::ivec2 size;
+  } sizes[] = {{"1280 \u00d7 720", {1280, 720}},
+               {"1920 \u00d7 1080", {1920, 1080}},
+               {"3840 \u00d7 2160", {3840, 2160}},
+               {"1024 \u00d7 1024", {1024, 1024}},
+               {"2048 \u00d7 2048", {2048, 2048}}};
+  constexpr const char *as_shown = "as shown", *other = "other";
+  const char* current = wish.window_size ? as_shown : other;
+  if (!wish.window_size && !wish.other_size)
+    for (const auto& each : sizes)
+      if (each.size == wish.size) current = each.text;
+  field("Size");
+  if (ImGui::BeginCombo("##size", current, ImGuiComboFlags_HeightLarge)) {
+    if (ImGui::Selectable(as_shown, wish.window_size)) wish.window_size = true;
+    for (const auto& each : sizes)
+      if (ImGui::Selectable(each.text, current == each.text)) {
+        wish.window_size = wish.other_size = false;
+        wish.size = each.size;
+      }
+    if (ImGui::Selectable(other, current == other)) {
+      wish.window_size = false;
+      wish.other_size = true;
+    }
+    ImGui::EndCombo();
+  }
+  tip("Larger images than the device's limit are drawn in tiles");
+  if (current != other) return;
+  field("Pixels");
+  ImGui::InputInt2("##pixels", &wish.size.x);
+  // The limit of image readers (image/png.hpp).
+  wish.size = glm::clamp(wish.size, 1, max_image_side);
+}
+
+}  // namespace
+
 void image_panel(State& state) {
   ImageWish& wish = state.image;
-  ImGui::Checkbox("as large as the window", &wish.window_size);
-  if (!wish.window_size) {
-    ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
-    ImGui::InputInt2("pixels", &wish.size.x);
-    // The limit of image readers (image/png.hpp).
-    wish.size = glm::clamp(wish.size, 1, max_image_side);
-    tip("Any size: larger images than the device's limit are drawn in tiles");
-  }
-  ImGui::Checkbox("transparent background", &wish.transparent);
-  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
-  ImGui::InputTextWithHint("folder", images_folder().string().c_str(), &state.settings.images);
-  if (ImGui::Button("Save the image"))
+  size_rows(wish);
+  field("Folder");
+  ImGui::InputTextWithHint("##folder", images_folder().string().c_str(), &state.settings.images);
+  check("Transparent background", &wish.transparent);
+  if (button("Save the image"))
     state.ask(TakeImage{wish.window_size ? glm::ivec2(0) : wish.size, wish.transparent});
-  tip("Ctrl+S; each image gets a new name");
+  tip("P; each image gets a new name");
   ImGui::SameLine();
-  if (ImGui::Button("Copy the command")) state.ask(CopyCommand{});
+  if (button("Copy the command")) state.ask(CopyCommand{});
   tip("Ctrl+C: the tureen render command that draws this image without a window");
 }
 

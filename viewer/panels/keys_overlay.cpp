@@ -1,5 +1,7 @@
 // The list of keys.
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "viewer/input/shortcuts.hpp"
 #include "viewer/panels.hpp"
@@ -9,45 +11,71 @@ namespace tureen::viewer {
 
 namespace {
 
+/// Width of a key's name, in font heights.
+constexpr float key_width = 9.5f;
+
 void row(const std::string& key, const std::string& what) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   text("{}", key);
   ImGui::TableNextColumn();
-  text("{}", what);
+  aside(what);
 }
 
-void title(const char* name) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", name);
+/// A heading and the rows that `rows` adds, in a table of this width.
+template <class Rows>
+void group(const char* name, float width, Rows rows) {
+  heading(name);
+  if (!ImGui::BeginTable(name, 2, ImGuiTableFlags_None, {width, 0})) return;
+  ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed,
+                          key_width * ImGui::GetFontSize());
+  ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+  rows();
+  ImGui::EndTable();
+}
+
+void keys_of(std::string_view name) {
+  for (const Shortcut& shortcut : shortcuts())
+    if (shortcut.text && shortcut.group == name)
+      row((shortcut.control ? "Ctrl+" : "") + std::string(name_of(shortcut.key)), shortcut.text);
 }
 
 }  // namespace
 
 void keys_overlay(State& state) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({0.5f * window.x, 0.5f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::Begin("Keys", &state.show_keys,
-               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
-  if (ImGui::BeginTable("keys", 2)) {
-    title("Pointer");
-    row("left drag", "turn the scene; in fly mode, the camera");
-    row("right, middle, Shift+left", "move the scene");
-    row("wheel", "distance; in fly mode, speed");
-    row("double click", "centre a point");
-    title("Flying");
-    row("W A S D, Q E", "forward, left, back, right, down, up");
-    row("with Shift, with Alt", "fast, slow");
-    const char* group = "";
-    for (const Shortcut& shortcut : shortcuts()) {
-      if (std::string_view(group) != shortcut.group) title(group = shortcut.group);
-      row((shortcut.control ? "Ctrl+" : "") + std::string(name_of(shortcut.key)), shortcut.text);
-    }
-    ImGui::EndTable();
-  }
+  const float width = std::min(50 * em, window.x - em);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - em});
+  // Dear ImGui measures the list too high before it wraps texts, and would keep a scroll bar.
+  const bool fits = window.x > 51 * em && window.y > 36 * em;
+  ImGui::Begin("Keys and gestures", &state.show_keys,
+               (fits ? ImGuiWindowFlags_NoScrollbar : ImGuiWindowFlags_None) |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
+  const float half = share_of_row(2);
+  ImGui::BeginGroup();
+  group("Pointer", half, [] {
+    row("Drag", "turn the scene; when flying, turn the camera");
+    row("Right drag, Shift drag", "move the scene");
+    row("Wheel", "zoom; when flying, change the speed");
+    row("Double click", "centre a point");
+  });
+  group("Moving", half, [] {
+    row("W A S D, Q E", "fly; Shift: fast, Alt: slow");
+    row("Arrows", "turn; with Shift, move");
+    row("+ \u2212", "zoom in, zoom out");
+    row("1 to 9", "front, back, sides, top, bottom, corners");
+    keys_of("Moving");
+  });
+  group("Camera path", half, [] { keys_of("Camera path"); });
+  ImGui::EndGroup();
+  ImGui::SameLine();
+  ImGui::BeginGroup();
+  group("Keys", half, [] { keys_of("Keys"); });
+  group("Window", half, [] { keys_of("Window"); });
+  ImGui::EndGroup();
   ImGui::End();
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/decimal_text.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -18,10 +19,10 @@ constexpr double min_scale = 1e-6, max_scale = 1e6;
 
 /// Returns whether the layer changed.
 bool layer_row(StageLayer& layer, bool selected, bool& clicked) {
-  const bool changed = ImGui::Checkbox("##visible", &layer.visible);
-  tip("visible");
+  const bool changed = check("##visible", &layer.visible);
+  tip("Show");
   ImGui::SameLine();
-  const std::string count = fmt::format("{}", layer.primitive_count());
+  const std::string count = counted(layer.primitive_count());
   const float count_left = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(count.c_str()).x;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   clicked =
@@ -40,7 +41,7 @@ bool layer_row(StageLayer& layer, bool selected, bool& clicked) {
   if (hovered) ImGui::SetTooltip("%s", layer.name.c_str());
   ImGui::SameLine(count_left);
   text("{}", count);
-  tip("triangles");
+  tip(layer.soup() ? "triangles" : "splats");
   return changed;
 }
 
@@ -51,26 +52,27 @@ std::string length_format(double radius) {
 
 /// A row of numbers to drag, or to type after a double click. Returns whether they changed.
 bool numbers_row(const char* name, std::span<double> values, double speed, const char* format) {
-  return ImGui::DragScalarN(name, ImGuiDataType_Double, values.data(), int(values.size()),
-                            float(speed), nullptr, nullptr, format);
+  field(name);
+  return ImGui::DragScalarN(fmt::format("##{}", name).c_str(), ImGuiDataType_Double, values.data(),
+                            int(values.size()), float(speed), nullptr, nullptr, format);
 }
 
 /// Returns whether the numbers changed.
 bool place_rows(Similarity& numbers, double radius) {
-  ImGui::PushItemWidth(17 * ImGui::GetFontSize());
-  bool changed = numbers_row("position", std::span(&numbers.position.x, 3), radius / 500,
+  bool changed = numbers_row("Position", std::span(&numbers.position.x, 3), radius / 500,
                              length_format(radius).c_str());
   tip("Of the layer's origin, in world units: x, y, z. Drag, or double-click to type");
-  changed |= numbers_row("degrees", std::span(&numbers.angles.x, 3), 0.5, "%.5g");
-  tip("Rotation about the world's axes through the layer's origin: first about x, then y, then z; "
+  changed |= numbers_row("Rotation", std::span(&numbers.angles.x, 3), 0.5, "%.5g");
+  tip("In degrees, about the world's axes through the layer's origin: first about x, then y, then "
+      "z; "
       "counter-clockwise, seen from the positive end of the axis");
-  ImGui::PopItemWidth();
+  field("Scale");
   ImGui::SetNextItemWidth(5.5f * ImGui::GetFontSize());
   changed |=
-      ImGui::DragScalar("scale", ImGuiDataType_Double, &numbers.scale, float(numbers.scale / 200),
+      ImGui::DragScalar("##scale", ImGuiDataType_Double, &numbers.scale, float(numbers.scale / 200),
                         &min_scale, &max_scale, "%.6g", ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
-  changed |= ImGui::Checkbox("mirror", &numbers.mirror);
+  changed |= check_beside_field("Mirror", &numbers.mirror);
   tip("Negates x of the layer, before the rotation");
   return changed;
 }
@@ -85,17 +87,17 @@ bool order_buttons(std::vector<StageLayer>& layers, std::size_t& selected) {
   };
   {
     const Disabled disabled(selected == 0);
-    if (ImGui::Button("Up")) move_to(selected - 1);
+    if (button("Move up", share_of_row(3))) move_to(selected - 1);
     tip("At equal depth, the upper layer is visible");
   }
   ImGui::SameLine();
   {
     const Disabled disabled(selected + 1 == layers.size());
-    if (ImGui::Button("Down") && !changed) move_to(selected + 1);
+    if (button("Move down", share_of_row(2)) && !changed) move_to(selected + 1);
   }
   ImGui::SameLine();
   const Disabled disabled(layers.size() == 1);
-  if (ImGui::Button("Remove") && !changed) {
+  if (button("Remove", share_of_row(1)) && !changed) {
     layers.erase(layers.begin() + std::ptrdiff_t(selected));
     selected = std::min(selected, layers.size() - 1);
     changed = true;
@@ -137,12 +139,11 @@ void layers_panel(State& state) {
     }
   }
   ImGui::PopID();
-  if (ImGui::Button("Reset")) {
+  if (button("Reset the place")) {
     layer.world_from_layer = stage.as_read(layer).world_from_layer;
     changed = true;
   }
   tip("The position, rotation, scale and mirror that the file gives");
-  ImGui::SameLine();
   changed |= order_buttons(layers, editing.selected);
   if (changed) state.ask(ArrangeLayers{stage.scene, std::move(layers)});
 }

@@ -1,4 +1,6 @@
-// Notes and errors, stacked at the upper left.
+// Notes and errors, stacked at the top of the image.
+#include <algorithm>
+
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -7,25 +9,39 @@ namespace tureen::viewer {
 void message_overlay(State& state) {
   const std::vector<Message>& list = state.messages.list();
   if (list.empty()) return;
-  ImGui::SetNextWindowPos({8, 8});
-  ImGui::SetNextWindowSize({30 * ImGui::GetFontSize(), 0});
+  const Palette& colors = palette(state.settings.theme);
+  const float em = ImGui::GetFontSize();
+  // At the top in the middle of the image, as on the page.
+  const float width = std::min(32 * em, float(state.points.x) - em);
+  ImGui::SetNextWindowPos({0.5f * float(state.points.x), 0.6f * em}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(card_padding(), card_padding()));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
   ImGui::Begin("messages", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoBackground);
+  ImGui::PopStyleVar(2);
   std::optional<std::size_t> dismissed;
   for (std::size_t i = 0; i < list.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (list[i].kind == Message::Kind::error) {
-      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.55f, 0.45f, 1));
-      paragraph(list[i].title);
-      ImGui::PopStyleColor();
+    const bool error = list[i].kind == Message::Kind::error;
+    const Card card({.color = error ? colors.danger_tint : colors.card,
+                     .edge = error ? colors.danger : colors.edge});
+    if (error) {
+      ImGui::PushStyleColor(ImGuiCol_Text, color_of(colors.danger));
+      {
+        const Bold bold;
+        paragraph(list[i].title);
+      }
       paragraph(list[i].text);
-      if (ImGui::SmallButton("dismiss")) dismissed = i;
+      ImGui::PopStyleColor();
+      if (small_button("Close")) dismissed = i;
       ImGui::SameLine();
-      if (ImGui::SmallButton("copy"))
+      if (small_button("Copy"))
         ImGui::SetClipboardText((list[i].title + ": " + list[i].text).c_str());
     } else {
-      aside(list[i].text);
+      paragraph(list[i].text);
     }
     ImGui::PopID();
   }

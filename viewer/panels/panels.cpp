@@ -9,18 +9,62 @@ namespace tureen::viewer {
 
 namespace {
 
-/// In font heights, so that it scales with the font. Wide enough for a line of the plan.
-constexpr float column_width = 25;
+/// In font heights, so that it scales with the font.
+constexpr float column_width = 23;
+
+/// The name of a section over the whole card, with an arrow. A click opens or closes the section.
+/// Returns whether it is open.
+bool section_header(const char* title, bool first_open) {
+  const float padding = card_padding();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x + 2 * padding,
+                    ImGui::GetFrameHeight() + 0.4f * padding};
+  ImGui::SetCursorScreenPos({low.x - padding, low.y});
+  bool& open = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("open"), first_open);
+  if (ImGui::InvisibleButton("header", size)) open = !open;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  if (ImGui::IsItemHovered())
+    list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_HeaderHovered),
+                       ImGui::GetStyle().WindowRounding,
+                       open ? ImDrawFlags_RoundCornersTop : ImDrawFlags_RoundCornersAll);
+  const float middle = 0.5f * (from.y + to.y);
+  {
+    const Bold bold;
+    list.AddText({low.x, std::floor(middle - 0.5f * ImGui::GetFontSize())},
+                 ImGui::GetColorU32(ImGuiCol_Text), title);
+  }
+  const float arm = 0.25f * ImGui::GetFontSize(), direction = open ? -1.0f : 1.0f;
+  const float x = to.x - padding - arm, y = middle - 0.5f * direction * arm;
+  const ImVec2 arrow[] = {{x - arm, y}, {x, y + direction * arm}, {x + arm, y}};
+  list.AddPolyline(arrow, 3, ImGui::GetColorU32(ImGuiCol_TextDisabled), 0,
+                   0.1f * ImGui::GetFontSize());
+  return open;
+}
 
 template <class Draw>
 void section(const char* title, bool open, Draw draw) {
-  if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
+  const float padding = card_padding();
   ImGui::PushID(title);
-  ImGui::Indent(4);
-  draw();
-  ImGui::Unindent(4);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  // The card lies behind its contents, which determine its height.
+  list.ChannelsSplit(2);
+  list.ChannelsSetCurrent(1);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float right = low.x + ImGui::GetContentRegionAvail().x + padding;
+  const float gap = ImGui::GetStyle().ItemSpacing.y;
+  if (section_header(title, open)) {
+    draw();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + padding - gap);
+  } else {
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - gap);
+  }
+  list.ChannelsSetCurrent(0);
+  list.AddRectFilled({low.x - padding, low.y}, {right, ImGui::GetCursorScreenPos().y},
+                     ImGui::GetColorU32(ImGuiCol_PopupBg), ImGui::GetStyle().WindowRounding);
+  list.ChannelsMerge();
+  ImGui::Dummy({0, 0});
   ImGui::PopID();
-  ImGui::Spacing();
 }
 
 }  // namespace
@@ -37,9 +81,17 @@ void draw_panels(State& state, const FrameClock& clock) {
   if (width <= 0) return;
   ImGui::SetNextWindowPos({window.x - width, 0});
   ImGui::SetNextWindowSize({width, window.y});
+  const float padding = 2 * card_padding();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding, 0.5f * padding));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(palette(state.settings.theme).page));
   ImGui::Begin("panels", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  // Popups have the theme's own style.
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(3);
   section("Scene", true, [&] { scene_panel(state); });
   if (state.training) section("Training", true, [&] { training_panel(state); });
   // A single unchanged layer needs no list.
@@ -49,9 +101,10 @@ void draw_panels(State& state, const FrameClock& clock) {
   section("Debug view", true, [&] { debug_view_panel(state); });
   section("Drawing", false, [&] { drawing_panel(state); });
   section("Photographs", false, [&] { comparison_panel(state); });
-  section("Images", false, [&] { image_panel(state); });
+  section("Image", false, [&] { image_panel(state); });
   section("Camera path", false, [&] { path_panel(state); });
   section("Frame times", false, [&] { times_panel(state, clock); });
+  section("Window", false, [&] { window_panel(state); });
   ImGui::End();
 }
 
@@ -59,6 +112,7 @@ void draw_overlays(State& state) {
   if (!state.stage) welcome_overlay(state);
   if (state.stage) photograph_overlay(state);
   if (state.show_interface) status_overlay(state);
+  progress_overlay(state);
   message_overlay(state);
   if (state.show_files) files_overlay(state);
   if (state.show_keys) keys_overlay(state);

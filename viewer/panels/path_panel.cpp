@@ -5,8 +5,10 @@
 // clang-format on
 
 #include <algorithm>
+#include <cfloat>
 #include <glm/common.hpp>
 #include <optional>
+#include <span>
 
 #include "image/video_file.hpp"
 #include "viewer/panels.hpp"
@@ -21,11 +23,11 @@ constexpr double longest = 3600;
 
 void play_row(Animation& animation) {
   const double duration = animation.path.duration();
-  if (ImGui::Button(animation.plays ? "Pause" : "Play")) animation.toggle();
-  tip("Space");
+  if (button(animation.plays ? "Pause" : "Play")) animation.toggle();
+  tip("Space: play or stop the camera path");
   ImGui::SameLine();
   auto seconds = static_cast<float>(animation.seconds);
-  ImGui::SetNextItemWidth(-ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::SliderFloat("##seconds", &seconds, 0, static_cast<float>(duration), "%.2f s",
                          ImGuiSliderFlags_AlwaysClamp))
     animation.seconds = seconds;
@@ -34,13 +36,12 @@ void play_row(Animation& animation) {
 
 void loop_row(Animation& animation) {
   bool loop = animation.path.is_loop();
-  if (ImGui::Checkbox("loop", &loop))
+  if (check("Loop", &loop))
     animation.path.set_loop_seconds(loop ? animation.path.duration() + 1 : 0);
   if (!loop) return;
-  ImGui::SameLine();
   auto seconds = static_cast<float>(animation.path.data().loop_seconds);
-  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-  if (ImGui::DragFloat("seconds a loop", &seconds, 0.05f, 0.1f, float(longest), "%.2f",
+  field("Seconds");
+  if (ImGui::DragFloat("##seconds a loop", &seconds, 0.05f, 0.1f, float(longest), "%.2f",
                        ImGuiSliderFlags_AlwaysClamp))
     animation.path.set_loop_seconds(seconds);
 }
@@ -49,6 +50,7 @@ void keyframe_row(State& state, std::size_t index) {
   Animation& animation = state.animation;
   const CameraKeyframe& keyframe = animation.path.data().keyframes[index];
   ImGui::PushID(static_cast<int>(index));
+  ImGui::AlignTextToFramePadding();
   if (ImGui::Selectable(fmt::format("{}", index + 1).c_str(), animation.selected == int(index), 0,
                         {2 * ImGui::GetFontSize(), 0})) {
     animation.selected = int(index);
@@ -64,14 +66,14 @@ void keyframe_row(State& state, std::size_t index) {
   const double earliest = index > 0 ? all[index - 1].seconds : 0;
   const double latest = index + 1 < all.size() ? all[index + 1].seconds : longest;
   std::optional<double> moved_to;
-  if (ImGui::DragFloat("s", &seconds, 0.02f, float(earliest), float(latest), "%.2f",
+  if (ImGui::DragFloat("##s", &seconds, 0.02f, float(earliest), float(latest), "%.2f s",
                        ImGuiSliderFlags_AlwaysClamp))
     moved_to = std::clamp(double(seconds), earliest, latest);
   ImGui::SameLine();
-  const bool replaced = ImGui::SmallButton("this view");
+  const bool replaced = small_button("Replace");
   tip("Replaces the keyframe by the current view");
   ImGui::SameLine();
-  const bool removed = ImGui::SmallButton("remove");
+  const bool removed = small_button("Remove");
   ImGui::PopID();
   if (moved_to) animation.path.move(index, *moved_to);
   if (replaced) animation.path.replace(index, state.keyframe_of_now(keyframe.seconds));
@@ -83,62 +85,49 @@ void keyframe_row(State& state, std::size_t index) {
 
 void file_row(State& state) {
   Animation& animation = state.animation;
-  ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
+  field("File");
   ImGui::InputTextWithHint("##file", "path.json", &animation.file);
-  ImGui::SameLine();
   {
     const Disabled disabled(animation.path.empty());
-    if (ImGui::Button("Save"))
-      state.ask(SavePath{animation.file.empty() ? "path.json" : animation.file});
+    if (button("Save")) state.ask(SavePath{animation.file.empty() ? "path.json" : animation.file});
   }
   ImGui::SameLine();
-  if (ImGui::Button("Load"))
-    state.ask(LoadPath{animation.file.empty() ? "path.json" : animation.file});
+  if (button("Load")) state.ask(LoadPath{animation.file.empty() ? "path.json" : animation.file});
   tip("All commands with cameras read this file: tureen render SCENE --path path.json");
 }
 
 void animation_rows(State& state) {
   Animation& animation = state.animation;
   static const bool videos = have_ffmpeg();
+  static constexpr const char* outputs[] = {"PNG frames", "MP4", "WebM"};
   int output = static_cast<int>(animation.output);
-  ImGui::RadioButton("PNG frames", &output, 0);
-  {
-    const Disabled disabled(!videos);
-    ImGui::SameLine();
-    ImGui::RadioButton("mp4", &output, 1);
-    ImGui::SameLine();
-    ImGui::RadioButton("webm", &output, 2);
-  }
+  segments("output", std::span(outputs).first(videos ? 3 : 1), output);
   if (!videos) aside(ffmpeg_missing);
   animation.output = static_cast<Animation::Output>(output);
-  ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
-  ImGui::InputInt2("pixels", &animation.size.x);
+  field("Pixels");
+  ImGui::InputInt2("##pixels", &animation.size.x);
   animation.size = glm::clamp(animation.size, 1, 8192);
-  ImGui::SameLine();
   auto rate = static_cast<float>(animation.frames_per_second);
-  ImGui::SetNextItemWidth(4 * ImGui::GetFontSize());
-  if (ImGui::DragFloat("frames/s", &rate, 0.1f, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
+  field("Frames/s");
+  if (ImGui::DragFloat("##frames/s", &rate, 0.1f, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
     animation.frames_per_second = rate;
-  if (ImGui::Button("Write the animation")) state.ask(WriteAnimation{});
-  if (state.writing) {
-    ImGui::SameLine();
-    if (ImGui::Button("Stop")) state.ask(StopWriting{});
-  }
+  if (button("Write the animation")) state.ask(WriteAnimation{});
 }
 
 }  // namespace
 
 void path_panel(State& state) {
   Animation& animation = state.animation;
-  if (ImGui::Button("Add this view")) state.ask(AddKeyframe{});
-  tip("K");
+  if (button("Add this view")) state.ask(AddKeyframe{});
+  tip("K: add this view to the camera path");
   ImGui::SameLine();
-  if (ImGui::Button("Turntable")) state.ask(MakeTurntable{});
+  if (button("Turntable")) state.ask(MakeTurntable{});
   tip("One turn around the target from this view, in this number of seconds; replaces the path");
   ImGui::SameLine();
   auto seconds = static_cast<float>(animation.turn_seconds);
   ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
-  if (ImGui::DragFloat("s##turn", &seconds, 0.05f, 0.5f, 600, "%.1f", ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::DragFloat("##turn", &seconds, 0.05f, 0.5f, 600, "%.1f s",
+                       ImGuiSliderFlags_AlwaysClamp))
     animation.turn_seconds = seconds;
   if (animation.path.empty()) {
     aside("Add views: they become a smooth camera path.");

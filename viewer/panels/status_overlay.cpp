@@ -1,4 +1,4 @@
-// A line at the lower left: the navigation mode, and the progress of jobs.
+// A line at the lower left of the image: navigation, size, and where the help is.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -6,24 +6,22 @@ namespace tureen::viewer {
 
 void status_overlay(const State& state) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({8, window.y - 8}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowBgAlpha(0.55f);
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({0.6f * em, window.y - 0.6f * em}, ImGuiCond_Always, {0, 1});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.6f * em, 0.25f * em));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  ImGui::SetNextWindowBgAlpha(0.88f);
   ImGui::Begin("status", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-  if (state.writing) {
-    text("{}", state.writing->what);
-    ImGui::ProgressBar(float(state.writing->fraction), {16 * ImGui::GetFontSize(), 0});
-  }
-  if (state.busy) {
-    text("{}", state.busy->what);
-    ImGui::ProgressBar(float(state.busy->fraction), {16 * ImGui::GetFontSize(), 0});
-  } else if (state.stage) {
+  ImGui::PopStyleVar(3);
+  if (state.stage) {
     const bool flies = state.controls.mode() == NavigationMode::fly;
-    text("{}   up {}   {} x {}   F1: keys", flies ? "fly" : "orbit", axis_name(state.controls.up()),
-         state.pixels.x, state.pixels.y);
+    text("{} \u00b7 up {} \u00b7 {} \u00d7 {} \u00b7 F1: help", flies ? "Fly" : "Orbit",
+         axis_name(state.controls.up()), state.pixels.x, state.pixels.y);
   } else {
-    text("F1: keys");
+    text("F1: help");
   }
   ImGui::End();
 }

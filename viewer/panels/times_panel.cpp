@@ -30,12 +30,12 @@ void graph(const std::vector<FrameParts>& frames) {
   const ImVec2 size{ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()};
   const ImVec2 at = ImGui::GetCursorPos();
   const auto count = static_cast<int>(frames.size());
-  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.55f, 0.56f, 0.60f, 1));
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_Border));
   ImGui::PlotHistogram("##whole", series.whole.data(), count, 0, nullptr, 0, most, size);
   ImGui::PopStyleColor();
   ImGui::SetCursorPos(at);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.27f, 0.55f, 0.85f, 1));
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
   ImGui::PlotHistogram("##device", series.device.data(), count, 0, nullptr, 0, most, size);
   ImGui::PopStyleColor(2);
 }
@@ -53,18 +53,16 @@ void times_panel(State& state, const FrameClock& clock) {
       processor.push_back(frame.processor_ms);
     }
     graph(frames);
-    paragraph(fmt::format("device {:.2f} ms (blue), processor {:.2f} ms", median(device),
-                          median(processor)));
-    aside(fmt::format("medians of the last {} frames; a frame is drawn when something changes",
+    fact("Device", fmt::format("{:.2f} ms (blue)", median(device)));
+    fact("Processor", fmt::format("{:.2f} ms (grey)", median(processor)));
+    aside(fmt::format("Medians of the last {} frames; a frame is drawn when something changes",
                       frames.size()));
     for (const gl::PassTimer::PassTime& pass : clock.passes())
-      aside(fmt::format("{}: {:.3f} ms", pass.pass, pass.ms));
+      fact(pass.pass.c_str(), fmt::format("{:.3f} ms", pass.ms));
     if (clock.why_no_passes()) aside(*clock.why_no_passes());
   }
-  ImGui::Checkbox("draw continuously", &state.draw_continuously);
+  check("Draw continuously", &state.draw_continuously);
   tip("To measure times; otherwise the window draws only when something changes");
-  ImGui::SameLine();
-  ImGui::Checkbox("vsync", &state.settings.vsync);
 }
 
 }  // namespace tureen::viewer

@@ -17,14 +17,15 @@ namespace {
 using trainer::RunCommand;
 using trainer::TrainingRecord;
 
-constexpr ImU32 pale = IM_COL32(140, 143, 153, 255), blue = IM_COL32(69, 140, 217, 255);
+ImU32 pale() { return ImGui::GetColorU32(ImGuiCol_Border); }
+ImU32 blue() { return ImGui::GetColorU32(ImGuiCol_CheckMark); }
 
 struct CurvePoint {
   double seconds = 0, value = 0;  // finite
 };
 
 struct TrainingCurve {
-  ImU32 color = blue;
+  ImU32 color = blue();
   std::vector<CurvePoint> points = {};
 };
 
@@ -56,7 +57,8 @@ void draw_curves(int places, std::span<const TrainingCurve> curves) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Button),
+                     ImGui::GetStyle().FrameRounding);
   std::vector<ImVec2> line;
   for (const TrainingCurve& curve : curves) {
     line.clear();
@@ -69,8 +71,9 @@ void draw_curves(int places, std::span<const TrainingCurve> curves) {
   }
   const auto label = [&](const std::string& words, float right, float down) {
     const ImVec2 extent = ImGui::CalcTextSize(words.c_str());
-    list.AddText({at.x + 3 + right * (size.x - extent.x - 6), at.y + down * (size.y - extent.y)},
-                 ImGui::GetColorU32(ImGuiCol_TextDisabled), words.c_str());
+    list.AddText(
+        {at.x + 5 + right * (size.x - extent.x - 10), at.y + 2 + down * (size.y - extent.y - 4)},
+        ImGui::GetColorU32(ImGuiCol_TextDisabled), words.c_str());
   };
   label(fixed_decimal(values.high, places), 0, 0);
   label(fixed_decimal(values.low, places), 0, 1);
@@ -84,15 +87,15 @@ std::string last_value(const TrainingCurve& curve, int places) {
 }
 
 void training_curves(const std::vector<TrainingRecord>& records) {
-  TrainingCurve loss{.color = blue}, seen{.color = pale}, held_out{.color = blue};
+  TrainingCurve loss, seen{.color = pale()}, held_out;
   for (const TrainingRecord& record : records) {
     add_finite(loss, record.seconds, record.loss);
     add_finite(seen, record.seconds, record.train_psnr_db);
     if (record.test_psnr_db) add_finite(held_out, record.seconds, *record.test_psnr_db);
   }
-  text("loss {}", last_value(loss, 4));
+  fact("Loss", last_value(loss, 4));
   draw_curves(4, {&loss, 1});
-  text("PSNR in dB {}", last_value(held_out, 2));
+  fact("PSNR in dB", last_value(held_out, 2));
   const TrainingCurve psnr[] = {seen, held_out};
   draw_curves(2, psnr);
   tip("blue: of at most five held-out views; grey: of the step's views");
@@ -113,7 +116,7 @@ void training_progress(const FollowedTraining& training) {
   const std::string of = last.steps ? " of " + counted(std::uint64_t(*last.steps)) : "";
   paragraph("step " + counted(std::uint64_t(last.step)) + of + ", " +
             progress_words(last, training.command()));
-  if (last.steps) ImGui::ProgressBar(float(last.step) / float(*last.steps), {-1, 0});
+  if (last.steps) progress_bar(double(last.step) / double(*last.steps));
   aside(fmt::format("{} {}, {} steps/s", counted(last.primitives.count),
                     name_of(last.primitives.kind), short_decimal(last.it_per_second, 3)));
 }
@@ -122,14 +125,14 @@ void training_buttons(State& state) {
   const std::optional<RunCommand> command = state.training->command();
   const Disabled disabled(!command || *command == RunCommand::finish);
   const bool paused = command == RunCommand::pause;
-  if (ImGui::Button(paused ? "Continue" : "Pause"))
+  if (button(paused ? "Continue" : "Pause"))
     state.ask(TellTraining{paused ? RunCommand::run : RunCommand::pause});
   ImGui::SameLine();
-  if (ImGui::Button("Stop and keep")) ImGui::OpenPopup("stop");
+  if (button("Stop and keep")) ImGui::OpenPopup("stop");
   tip("Ends the run as if all steps were done: writes and measures the scene");
   if (!ImGui::BeginPopup("stop")) return;
   text("A stopped run cannot be continued.");
-  if (ImGui::Button("Stop now")) {
+  if (button("Stop now")) {
     state.ask(TellTraining{RunCommand::finish});
     ImGui::CloseCurrentPopup();
   }

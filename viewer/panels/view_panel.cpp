@@ -1,5 +1,6 @@
 // The camera's position and navigation.
 #include <algorithm>
+#include <iterator>
 
 #include "viewer/axes.hpp"
 #include "viewer/input/shortcuts.hpp"
@@ -11,38 +12,42 @@ namespace tureen::viewer {
 namespace {
 
 void mode_buttons(CameraControls& controls) {
+  static constexpr const char* modes[] = {"Orbit", "Fly"};
   int mode = static_cast<int>(controls.mode());
-  ImGui::RadioButton("orbit", &mode, static_cast<int>(NavigationMode::orbit));
-  tip("A drag turns the scene, the wheel changes the distance. Tab changes the mode");
-  ImGui::SameLine();
-  ImGui::RadioButton("fly", &mode, static_cast<int>(NavigationMode::fly));
-  tip("A drag turns the camera, W A S D Q E fly, the wheel sets the speed. Tab changes the mode");
-  controls.set_mode(static_cast<NavigationMode>(mode));
-  ImGui::SameLine();
-  aside(fmt::format("{:.3g} units a second", controls.speed()));
+  if (segments("mode", modes, mode)) controls.set_mode(static_cast<NavigationMode>(mode));
+  tip("Orbit: a drag turns the scene, the wheel changes the distance. Fly: a drag turns the "
+      "camera, W A S D Q E fly, the wheel changes the speed. M switches");
+  if (controls.mode() == NavigationMode::fly)
+    aside(
+        fmt::format("Speed: {:.3g} units per second; change it with the wheel.", controls.speed()));
+}
+
+/// In the order of the keys 1 to 9, with the page's names.
+void named_view_buttons(CameraControls& controls) {
+  static constexpr const char* titles[] = {"Front",  "Back",   "Left",        "Right",      "Top",
+                                           "Bottom", "Corner", "Corner left", "Corner back"};
+  static_assert(std::size(titles) == std::size(named_views));
+  for (std::size_t i = 0; i < std::size(titles); ++i) {
+    if (i % 3 != 0) ImGui::SameLine();
+    const float width = share_of_row(3 - int(i % 3));
+    if (button(titles[i], width)) {
+      controls.set_mode(NavigationMode::orbit);
+      controls.look_from(named_views[i]);
+    }
+    tip(fmt::format("{}", i + 1));
+  }
 }
 
 void up_menu(State& state) {
   CameraControls& controls = state.controls;
-  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-  if (ImGui::BeginCombo("up", axis_name(controls.up()).c_str())) {
+  field("Up");
+  if (ImGui::BeginCombo("##up", axis_name(controls.up()).c_str())) {
     for (const glm::dvec3& axis : up_axes)
       if (ImGui::Selectable(axis_name(axis).c_str(), is_axis(controls.up(), axis)))
         controls.set_up(axis);
     ImGui::EndCombo();
   }
   tip(describe(state.stage->up) + ". U changes it");
-}
-
-void view_menu(CameraControls& controls) {
-  ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
-  if (!ImGui::BeginCombo("##views", "view from ..")) return;
-  for (const NamedView view : named_views)
-    if (ImGui::Selectable(name_of(view))) {
-      controls.set_mode(NavigationMode::orbit);
-      controls.look_from(view);
-    }
-  ImGui::EndCombo();
 }
 
 void recorded_slider(State& state) {
@@ -54,11 +59,20 @@ void recorded_slider(State& state) {
   if (index >= 0)
     for (const char letter : cameras[std::size_t(index)]->name)
       name += letter == '%' ? std::string("%%") : std::string(1, letter);
-  ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
-  if (ImGui::SliderInt("recorded", &index, 0, int(cameras.size()) - 1, name.c_str(),
+  heading("Recorded cameras");
+  const float side = ImGui::GetFrameHeight();
+  if (button("<", side)) run_shortcut(Key::left_bracket, false, state);
+  tip("[: previous camera");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - side -
+                          ImGui::GetStyle().ItemSpacing.x);
+  if (ImGui::SliderInt("##recorded", &index, 0, int(cameras.size()) - 1, name.c_str(),
                        ImGuiSliderFlags_AlwaysClamp))
     state.ask(ShowRecorded{index});
-  tip("The cameras of the dataset, or of the scene. [ and ] select them");
+  tip("The cameras of the dataset, or of the scene");
+  ImGui::SameLine();
+  if (button(">", side)) run_shortcut(Key::right_bracket, false, state);
+  tip("]: next camera");
 }
 
 }  // namespace
@@ -66,23 +80,21 @@ void recorded_slider(State& state) {
 void view_panel(State& state) {
   CameraControls& controls = state.controls;
   mode_buttons(controls);
-  view_menu(controls);
+  named_view_buttons(controls);
+  const float half = share_of_row(2);
+  if (button("Frame all", half)) run_shortcut(Key::f, false, state);
+  tip("F: frame the whole scene");
   ImGui::SameLine();
+  if (button("First view", half)) run_shortcut(Key::r, false, state);
+  tip("R: return to the first view");
   up_menu(state);
-  if (ImGui::Button("Frame")) run_shortcut(Key::f, false, state);
-  tip("F: show the whole scene");
-  ImGui::SameLine();
-  if (ImGui::Button("Reset")) run_shortcut(Key::r, false, state);
-  tip("R: the first view");
-  ImGui::SameLine();
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
-  ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
-  if (ImGui::SliderFloat("angle", &fov, 5, 120, "%.1f deg", ImGuiSliderFlags_AlwaysClamp))
+  field("Angle");
+  if (ImGui::SliderFloat("##angle", &fov, 5, 120, "%.1f\u00b0", ImGuiSliderFlags_AlwaysClamp))
     controls.set_fov(fov / degrees_per_radian);
   recorded_slider(state);
   const glm::dvec3 eye = controls.eye();
-  aside(fmt::format("eye {:.7g}, {:.7g}, {:.7g}", eye.x, eye.y, eye.z));
-  ImGui::Checkbox("smooth motion", &state.settings.smooth_motion);
+  fact("Eye", fmt::format("{:.5g}, {:.5g}, {:.5g}", eye.x, eye.y, eye.z));
 }
 
 }  // namespace tureen::viewer

@@ -1,33 +1,71 @@
-// The text in a window without a scene.
+// The card of a window without a scene: opens files, the example and recent scenes.
+#include <algorithm>
+
+#include "base/decimal_text.hpp"
+#include "viewer/files/example.hpp"
+#include "viewer/names.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
 namespace tureen::viewer {
 
+namespace {
+
+void recent_rows(State& state) {
+  if (state.settings.recent.empty()) return;
+  ImGui::Spacing();
+  heading("Recent scenes");
+  for (const std::string& path : state.settings.recent)
+    if (ImGui::Selectable(path.c_str())) state.ask(OpenPath{path});
+}
+
+/// Photographs without a scene: what can be done with them.
+void dataset_rows(State& state) {
+  const Photographs& photographs = *state.photographs;
+  {
+    const Title title;
+    text("{}", short_name(photographs.path));
+  }
+  paragraph(counted(photographs.list.size(), "photograph") +
+            " and no scene. Train a scene from them, or open one to compare it with them.");
+  dataset_buttons(state);
+  ImGui::Spacing();
+}
+
+}  // namespace
+
 void welcome_overlay(State& state) {
+  if (state.busy) return;  // the progress is shown instead
   const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({0.5f * window.x, 0.45f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({32 * ImGui::GetFontSize(), 0});
+  ImGui::SetNextWindowSize({std::min(36 * em, window.x - 2 * em), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(1.8f * em, 1.5f * em));
   ImGui::Begin("welcome", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
-  if (state.busy) {
-    text("{} ..", state.busy->what);
-    ImGui::ProgressBar(float(state.busy->fraction), {-1, 0});
-  } else {
-    paragraph("Drop a scene or a folder on the window.");
-    aside(
-        "Formats: .glb, .gltf, .off, .ply, .splat, .spz, .npz, .obj, .pt, DiffSoup exports, "
-        "MobileNeRF scenes. Datasets of photographs: COLMAP, transforms.json.");
-    ImGui::Spacing();
-    if (ImGui::Button("Open ..")) state.show_files = true;
-    if (!state.settings.recent.empty()) {
-      ImGui::Spacing();
-      aside("Recent scenes:");
-      for (const std::string& path : state.settings.recent)
-        if (ImGui::Selectable(path.c_str())) state.ask(OpenPath{path});
-    }
+  ImGui::PopStyleVar();
+  if (state.photographs) dataset_rows(state);
+  {
+    const Title title;
+    text("Open a scene");
   }
+  aside(
+      "Choose a file or a folder, or drop one on this window. Files that you drop on a scene "
+      "become layers.");
+  ImGui::Spacing();
+  if (strong_button("Choose a file")) state.show_files = true;
+  tip("O");
+  if (const auto& example = example_scene()) {
+    ImGui::SameLine();
+    if (button("Open the example")) state.ask(OpenPath{*example});
+  }
+  recent_rows(state);
+  ImGui::Spacing();
+  heading("Supported formats");
+  aside(
+      "Scenes: .glb, .gltf, .off, .ply, .splat, .spz, .npz, .obj, .pt, DiffSoup exports, "
+      "MobileNeRF models. Photographs: COLMAP, transforms.json.");
   ImGui::End();
 }
 

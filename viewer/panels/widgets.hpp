@@ -1,16 +1,20 @@
-// Widgets that several panels use.
+// Widgets that several panels use. Labels stand before their controls, in a column.
 #pragma once
 
 #include <fmt/format.h>
 #include <imgui/imgui.h>
 
-#include <glm/vec4.hpp>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "image/heat_map.hpp"
+#include "viewer/panels/colors.hpp"
 
 namespace tureen::viewer {
+
+// -- texts ----------------------------------------------------------------------------------------
 
 template <class... Args>
 void text(fmt::format_string<Args...> format, Args&&... args) {
@@ -19,40 +23,81 @@ void text(fmt::format_string<Args...> format, Args&&... args) {
 }
 
 /// Text that wraps between words at the panel's edge.
-inline void paragraph(const std::string& words) {
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(words.data(), words.data() + words.size());
-  ImGui::PopTextWrapPos();
-}
-
-/// Dimmed text, for explanations and missing data.
-inline void aside(const std::string& words) {
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  paragraph(words);
-  ImGui::PopStyleColor();
-}
-
+void paragraph(const std::string& words);
+/// The same, dimmed: explanations and missing data.
+void aside(const std::string& words);
+/// The same, with a capital letter at the beginning.
+void sentence(std::string words);
+/// A bold line above a group of controls.
+void heading(const std::string& words);
+/// A dimmed name and its value, which wraps.
+void fact(const char* name, const std::string& value);
 /// A tooltip of the previous item.
-inline void tip(const std::string& words) {
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
-  ImGui::TextUnformatted(words.data(), words.data() + words.size());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
+void tip(const std::string& words);
 /// The legend of colours, one row each.
-inline void legend_rows(const Legend& legend) {
-  for (const LegendEntry& entry : legend) {
-    const glm::vec4 color = glm::vec4(entry.color) / 255.0f;
-    ImGui::ColorButton(entry.text.c_str(), {color.r, color.g, color.b, 1},
-                       ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
-                       {ImGui::GetFontSize(), ImGui::GetFontSize()});
-    ImGui::SameLine();
-    text("{}", entry.text);
-  }
-}
+void legend_rows(const Legend& legend);
+
+// -- controls -------------------------------------------------------------------------------------
+
+/// A dimmed label in the column of labels. The next item comes at its right and extends to the
+/// panel's edge.
+void field(const char* label);
+
+bool button(const char* label);
+/// A button in the accent's colour: the most likely choice.
+bool strong_button(const char* label);
+/// A button as high as a line of text.
+bool small_button(const char* label);
+/// A button of this width, in points. All have the height of a field.
+bool button(const char* label, float width);
+/// The width of each of `count` buttons that fill a row.
+float share_of_row(int count);
+bool check(const char* label, bool* on);
+/// The same, in the row of a field.
+bool check_beside_field(const char* label, bool* on);
+/// Buttons in one frame, of which one is on. Returns whether the choice changed.
+bool segments(const char* id, std::span<const char* const> labels, int& chosen);
+/// A thin bar as wide as the window. `fraction`: 0..1.
+void progress_bar(double fraction);
+
+/// Distance between the contents of a card and its edge.
+float card_padding();
+
+/// A filled rectangle with round corners around the items drawn in its scope. The window's padding
+/// must be card_padding() or more.
+class Card {
+ public:
+  struct Look {
+    std::uint32_t color, edge;  // 0xrrggbb
+  };
+  explicit Card(const Look& look);
+  ~Card();
+  Card(const Card&) = delete;
+  Card& operator=(const Card&) = delete;
+
+ private:
+  Look look_;
+  ImVec2 low_;
+  float width_ = 0;
+};
+
+/// Uses the bold font in its scope.
+class Bold {
+ public:
+  Bold();
+  ~Bold() { ImGui::PopFont(); }
+  Bold(const Bold&) = delete;
+  Bold& operator=(const Bold&) = delete;
+};
+
+/// Uses the large bold font in its scope.
+class Title {
+ public:
+  Title();
+  ~Title() { ImGui::PopFont(); }
+  Title(const Title&) = delete;
+  Title& operator=(const Title&) = delete;
+};
 
 /// Disables and greys the items drawn in its scope.
 class Disabled {

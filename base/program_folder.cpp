@@ -1,6 +1,6 @@
-#include "cli/files/program_folder.hpp"
+#include "base/program_folder.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 std::optional<std::filesystem::path> program_folder() {
   std::error_code failed;
@@ -9,4 +9,4 @@ std::optional<std::filesystem::path> program_folder() {
   return program.parent_path();
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-namespace tureen::cli {
+namespace tureen {
 
 /// With links resolved; empty if the system does not report it.
 std::optional<std::filesystem::path> program_folder();
 
-}  // namespace tureen::cli
+}  // namespace tureen

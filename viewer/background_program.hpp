@@ -1,0 +1,37 @@
+// A program that the window starts and does not wait for, such as `tureen train`. It goes on when
+// the window is closed.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tureen::viewer {
+
+class BackgroundProgram {
+ public:
+  /// `program`: a path, or a name that is searched on PATH. Its standard output is discarded.
+  /// Throws OutputError with the program if it cannot be started; on Windows always.
+  BackgroundProgram(std::string program, const std::vector<std::string>& arguments);
+
+  /// Whether it has ended.
+  bool ended();
+  /// The last line of its errors, if it has ended with an exit code other than 0.
+  std::optional<std::string> failure();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::string program_;
+  std::unique_ptr<std::FILE, Close> errors_;  // a file without a name
+  int process_ = 0;
+  std::optional<int> exit_code_;
+};
+
+/// The program `tureen`: the path beside this one, otherwise the name alone.
+std::string tureen_program();
+
+}  // namespace tureen::viewer
