@@ -10,9 +10,6 @@ namespace tureen {
 
 namespace {
 
-/// Samples a pixel at rest, along each axis: the largest Quality::supersampling.
-constexpr int samples_at_rest = 8;
-
 /// Frames along each axis: even, so that every position has its opposite.
 int frames_per_axis(int supersampling) {
   int frames = 2;
