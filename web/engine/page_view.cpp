@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "runtime/gl/api.hpp"
-#include "runtime/image_tiles.hpp"
 #include "web/engine/splat_sorting.hpp"
 
 namespace tureen::web {
@@ -316,14 +315,12 @@ void PageView::clear_canvas(int width, int height) const {
 Image8 PageView::image(int width, int height) { return image(controls().camera(width, height)); }
 
 Image8 PageView::image(const Camera& camera) {
+  // The sums of a larger image would take more than 576 MiB.
+  constexpr int max_pixels_at_rest = 1 << 24;
   Renderer& renderer = *current()->renderer;
-  if (!smooth_at_rest_ || !renderer.has_image_at_rest()) {
-    renderer.draw({camera});
-    return renderer.read_color();
-  }
-  if (!renderer.shows({camera}))
-    return draw_in_tiles({camera}, tiles_at_rest(renderer, capabilities()));
-  while (renderer.can_refine()) renderer.refine();
+  const bool smooth = smooth_at_rest_ && camera.width <= max_pixels_at_rest / camera.height;
+  if (!smooth || !renderer.shows({camera})) renderer.draw({camera});
+  while (smooth && renderer.can_refine()) renderer.refine();
   return renderer.read_color();
 }
 

@@ -112,7 +112,7 @@ class PageView {
   void clear_after_presentation() const;
 
   /// The current image, at any size that the device supports: the image at rest, unless it was
-  /// switched off.
+  /// switched off or has more than 16.8 million pixels.
   Image8 image(int width, int height);
   Image8 image(const Camera& camera);
 
