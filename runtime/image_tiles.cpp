@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -83,6 +84,18 @@ ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
     return renderer.read_color();
   };
   tiles.side = std::min(tiles.side, largest / renderer.plan().quality.supersampling);
+  return tiles;
+}
+
+ImageTiles tiles_at_rest(Renderer& renderer, const gl::Capabilities& capabilities,
+                         std::function<void()> between_frames) {
+  constexpr int max_pixels = 2048;  // 144 MiB for the sums and the mean
+  ImageTiles tiles = tiles_of(renderer, capabilities);
+  tiles.draw = [&renderer, between_frames = std::move(between_frames)](const FrameInput& input) {
+    for (renderer.draw(input); renderer.can_refine(); renderer.refine()) between_frames();
+    return renderer.read_color();
+  };
+  tiles.side = std::min(tiles.side, max_pixels);
   return tiles;
 }
 

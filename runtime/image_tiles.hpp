@@ -42,4 +42,10 @@ Image8 draw_in_tiles(const FrameInput& input, const ImageTiles& tiles);
 /// plan has a resolution scale: tiles drawn at a lower resolution would not match at their borders.
 ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities);
 
+/// The same for the image at rest (Renderer::draw_at_rest). Its tiles are smaller, because a pixel
+/// then needs 36 bytes more. `between_frames` is called before each frame; may throw to cancel.
+ImageTiles tiles_at_rest(
+    Renderer& renderer, const gl::Capabilities& capabilities,
+    std::function<void()> between_frames = [] {});
+
 }  // namespace tureen

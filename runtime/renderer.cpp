@@ -2,108 +2,21 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
 
 #include "base/error.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/gl/timer_query.hpp"
 #include "runtime/image_tiles.hpp"
 #include "runtime/layer_errors.hpp"
-#include "runtime/passes/depth_probe.hpp"
-#include "runtime/passes/filter_pass.hpp"
-#include "runtime/passes/soup_passes.hpp"
 #include "runtime/passes/targets.hpp"
+#include "runtime/renderer_state.hpp"
 #include "runtime/splats/splat_measures.hpp"
 #include "runtime/splats/splat_pass.hpp"
 #include "runtime/splats/stochastic_splat_pass.hpp"
-#include "runtime/splats/tile_pass.hpp"
 #include "scene/clip_range.hpp"
 
 namespace tureen {
-
-struct Renderer::State {
-  State(const gl::Context& context, PreparedScene& prepared, const RenderOptions& options)
-      : plan(std::move(prepared.plan)),
-        background(options.background),
-        splat_format(options.splat_format),
-        device(context.capabilities()) {
-    gl::use_plain_pixel_transfer();
-    upload(prepared.layers, plan.layers);
-    draws_layers = !prepared.make_passes;
-    arrange();
-    if (prepared.make_passes) passes = prepared.make_passes({device, plan, soups});
-    if (!has_one_sample_a_pixel(plan.quality)) filter.emplace(plan.quality, device.api);
-  }
-
-  struct Place {
-    PlacedBounds box;
-    bool visible = true;
-  };
-
-  void upload(std::vector<PreparedLayer>& layers, std::span<const LayerPlan> plans);
-  bool has_splats() const;
-  void arrange();
-  void make_splat_pass();
-  void drop_splat_pass();
-  void upload_tiled_splats();
-  void remove(std::size_t layer);
-  template <class Add>
-  void add_or_undo(const Add& add);
-  FrameFormat format() const;
-
-  /// Calls act(pass) for each pass in order, without the filter.
-  template <class Act>
-  void for_each_pass(const Act& act) {
-    if (draws_layers) {
-      for (const SoupPasses& each : soup_passes)
-        if (each.faces) act(*each.faces);
-      for (const SoupPasses& each : soup_passes)
-        if (each.shading) act(*each.shading);
-      if (splat_pass) act(*splat_pass);
-    }
-    for (const std::unique_ptr<Pass>& pass : passes) act(*pass);
-  }
-  template <class Act>
-  void for_each_pass_and_filter(const Act& act) {
-    for_each_pass(act);
-    if (filter) act(*filter);
-  }
-
-  GLuint image_framebuffer() const {
-    return filter ? filter->framebuffer() : target.color_framebuffer();
-  }
-  DepthStorage depth_storage() const {
-    return plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
-  }
-  void resize(glm::ivec2 new_size);
-  void set_frame(const FrameInput& input);
-  double splat_depth_at(glm::ivec2 sample, float stored);
-
-  RenderPlan plan;  // soups and passes refer to it
-  std::vector<Place> places;
-  glm::vec4 background;
-  SplatFormat splat_format;
-  gl::Capabilities device;
-  FrameTarget target{{}};
-  // One for each layer; null for layers of the other kind. Splats are in one of the lists, or in
-  // both after upload_tiled_splats().
-  std::vector<std::unique_ptr<DeviceSoup>> soups;
-  std::vector<std::unique_ptr<DeviceSplats>> splats;
-  std::vector<std::unique_ptr<TiledSplats>> tiled_splats;
-  bool layered = false;                 // the passes are those of several soups
-  bool draws_layers = true;             // otherwise `passes` are all passes
-  std::vector<SoupPasses> soup_passes;  // one for each layer, if they are drawn
-  std::unique_ptr<SplatSorter> splat_sorter;
-  std::unique_ptr<SplatBlendingPass> splat_pass;  // of all layers of splats
-  OrderedSplats* ordered_splats = nullptr;        // of the pass, if the device blends
-  Passes passes;                                  // from outside
-  std::optional<FilterPass> filter;               // for other than one sample a pixel
-  glm::ivec2 size{0};                             // of the last image; 0 before the first
-  Frame frame;                                    // the last one
-  Camera camera;                                  // of the last frame, at the image's size
-  gl::PassTimer* timer = nullptr;
-  std::optional<DepthProbe> probe;
-  std::vector<PlacedBounds> visible_boxes;  // for set_frame()
-};
 
 /// Appends the layers' places and soups.
 void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const LayerPlan> plans) {
@@ -172,6 +85,7 @@ void Renderer::State::add_or_undo(const Add& add) {
 
 /// Numbers the soups and makes the passes that are missing, after a change of the layers.
 void Renderer::State::arrange() {
+  shown.reset();
   const auto is_soup = [](const auto& each) { return each != nullptr; };
   const bool now_layered = std::count_if(soups.begin(), soups.end(), is_soup) > 1;
   // A change of the kind of plan needs other programs. One soup that remains of several keeps its
@@ -318,17 +232,22 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 const RenderPlan& Renderer::plan() const { return state_->plan; }
 
-void Renderer::set_background(glm::vec4 background) { state_->background = background; }
+void Renderer::set_background(glm::vec4 background) {
+  state_->shown.reset();
+  state_->background = background;
+}
 
 std::size_t Renderer::layer_count() const { return state_->places.size(); }
 
 void Renderer::place_layer(std::size_t layer, const glm::dmat4& world_from_layer) {
   assert(layer < layer_count());
+  state_->shown.reset();
   state_->places[layer].box.world_from_layer = world_from_layer;
 }
 
 void Renderer::show_layer(std::size_t layer, bool visible) {
   assert(layer < layer_count());
+  state_->shown.reset();
   state_->places[layer].visible = visible;
 }
 
@@ -381,11 +300,13 @@ void Renderer::swap_layers(std::size_t a, std::size_t b) {
 }
 
 void Renderer::add_pass(std::unique_ptr<Pass> pass) {
+  state_->shown.reset();
   state_->passes.push_back(std::move(pass));
   state_->size = glm::ivec2(0);  // the next frame calls its resize()
 }
 
 void Renderer::set_passes(Passes passes) {
+  state_->shown.reset();
   state_->passes = std::move(passes);
   state_->draws_layers = false;
   state_->soup_passes.clear();
@@ -397,27 +318,36 @@ std::span<const std::unique_ptr<DeviceSoup>> Renderer::soups() const { return st
 
 std::span<const std::unique_ptr<DeviceSplats>> Renderer::splats() const { return state_->splats; }
 
+void Renderer::State::draw(const FrameInput& input) {
+  set_frame(input);
+  target.begin(background);
+  if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, true);
+  const auto draw_pass = [&](Pass& pass) {
+    const gl::TimedPass timed(timer, pass.name());
+    gl::use_plain_rasterisation(target.size().x, target.size().y);
+    pass.draw(frame, target);
+  };
+  for_each_pass(draw_pass);
+  gl::use_plain_rasterisation(target.size().x, target.size().y);
+  target.end();
+  if (filter) draw_pass(*filter);
+  if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, false);
+  gl::check("draw");
+}
+
 void Renderer::draw(const FrameInput& input, SplatOrdering order) {
   State& state = *state_;
   const glm::ivec2 size(input.camera.width, input.camera.height);
   assert(size.x > 0 && size.y > 0);
+  state.shown.reset();
   require_drawable(size.x, size.y, state.device.max_image_side);
   if (size != state.size) state.resize(size);
-  state.set_frame(input);
+  if (state.rest) state.rest->forget();
+  state.rest_refused = false;
   state.frame.may_use_earlier_order = order == SplatOrdering::earlier;
-  state.target.begin(state.background);
-  if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, true);
-  const auto draw_pass = [&](Pass& pass) {
-    const gl::TimedPass timed(state.timer, pass.name());
-    gl::use_plain_rasterisation(state.target.size().x, state.target.size().y);
-    pass.draw(state.frame, state.target);
-  };
-  state.for_each_pass(draw_pass);
-  gl::use_plain_rasterisation(state.target.size().x, state.target.size().y);
-  state.target.end();
-  if (state.filter) draw_pass(*state.filter);
-  if (state.plan.reversed_depth) gl::use_zero_to_one_depth(state.device.api, false);
-  gl::check("draw");
+  state.frame.first_sample = {};
+  state.draw(input);
+  state.shown = input;
 }
 
 void Renderer::sort_splats_with(std::unique_ptr<SplatSorter> sorter) {
@@ -425,9 +355,7 @@ void Renderer::sort_splats_with(std::unique_ptr<SplatSorter> sorter) {
   state_->splat_sorter = std::move(sorter);
 }
 
-bool Renderer::splats_in_order() const {
-  return !state_->ordered_splats || state_->ordered_splats->in_order();
-}
+bool Renderer::splats_in_order() const { return state_->splats_in_order(); }
 
 void Renderer::finish() const {
   // Without a frame, only uploads can be pending.
@@ -526,6 +454,8 @@ void Renderer::leave_context() {
   state_->for_each_pass_and_filter([](Pass& pass) { pass.leave_context(); });
   state_->target.leave_context();
   state_->probe.reset();
+  state_->rest.reset();
+  state_->shown.reset();
   state_->size = glm::ivec2(0);
   finish();
 }
@@ -545,7 +475,7 @@ std::size_t Renderer::device_bytes() const {
 }
 
 std::size_t Renderer::target_bytes() const {
-  std::size_t bytes = state_->target.bytes();
+  std::size_t bytes = state_->target.bytes() + (state_->rest ? state_->rest->bytes() : 0);
   state_->for_each_pass_and_filter([&](Pass& pass) { bytes += pass.target_bytes(); });
   return bytes;
 }

@@ -108,6 +108,32 @@ class Renderer {
   enum class SplatOrdering { exact, earlier };
   void draw(const FrameInput& input, SplatOrdering order = SplatOrdering::exact);
 
+  /// Whether the image shows this input now: draw() had it last, splats are in the order of its
+  /// view, and the functions above have not changed the scene or the background since.
+  bool shows(const FrameInput& input) const;
+
+  // The image at rest: while nothing changes, further frames of the same input with other sample
+  // positions, and their mean (runtime/passes/accumulation.hpp). It has at least 8 x 8 samples a
+  // pixel, as an image with Quality::supersampling 8.
+
+  /// Whether this scene has an image at rest other than the frame of draw(). It has not
+  /// - with a resolution scale: the user has chosen speed;
+  /// - if its visible layers are all splats whose profile has a low pass: one sample at the centre
+  ///   of a pixel is then their method's value of it, and the mean would blur it once more;
+  ///   stochastic order is an exception, because its frames are noisy;
+  /// - with passes from outside, such as debug views and baselines;
+  /// - on devices without Capabilities::float_targets.
+  bool has_image_at_rest() const;
+  /// Whether refine() can add a frame: shows() is true for the last input, and frames are missing.
+  bool can_refine() const;
+  /// Draws one more frame. After every fourth, read_color() and blit_to() have the mean of all
+  /// since draw(); until the first mean, they have the frame of draw(). The other functions below
+  /// have the last frame. Requires can_refine(). If the device lacks the memory, the image stays
+  /// and can_refine() becomes false.
+  void refine();
+  /// draw(), and refine() while it can.
+  void draw_at_rest(const FrameInput& input);
+
   /// Sorts splats for frames with SplatOrdering::earlier (runtime/splats/splat_sorter.hpp).
   void sort_splats_with(std::unique_ptr<SplatSorter> sorter);
   /// Whether the last frame shows all splats in the order of its own view. Otherwise, draw the view

@@ -13,6 +13,8 @@ struct FrameInput {
   /// If this frame is a tile of a larger image: the camera of that image. The rules of some splats
   /// depend on the image's size (SplatProfile::Projection::ewa).
   std::optional<Camera> whole = {};
+
+  bool operator==(const FrameInput&) const = default;
 };
 
 }  // namespace tureen

@@ -98,6 +98,7 @@ Application::Application(ApplicationOptions options)
       writer_(window_, 1) {
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
+  if (!options_.smooth_at_rest) state_.settings.smooth_at_rest = false;
   if (!options_.record.empty()) recorder_.emplace(window_.size());
   // A replay does not wait for the screen.
   vsync_ = state_.settings.vsync && !replay_;
@@ -156,6 +157,19 @@ std::vector<std::string> Application::errors() const {
 bool Application::at_rest() const {
   return worker_.idle() && writer_.idle() && !state_.animation.plays && pending_.empty() &&
          state_.requests.empty() && frames_wanted_ <= 0 && !state_.controls.moving();
+}
+
+/// Whether the image is, or may become, the image at rest: the user wants it, and nothing moves.
+bool Application::smooths() const {
+  const bool trains = state_.training && state_.training->command();
+  return state_.settings.smooth_at_rest && !state_.draw_continuously && !state_.animation.plays &&
+         !state_.controls.moving() && !navigation_.flying() && !trains;
+}
+
+/// Whether the next frame belongs to the image at rest. None does during a job: on few cores, it
+/// would slow down the job.
+bool Application::refines() const {
+  return smooths() && worker_.idle() && state_.stage->renderer.can_refine();
 }
 
 double Application::wait_seconds() const {
@@ -346,7 +360,10 @@ void Application::draw_scene() {
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   // Colours until the debug view is prepared.
   const DebugViewChoice debug_view = stage.debug_views ? state_.debug_view : DebugViewChoice{};
-  const bool same = image_is_current_ && drawn_debug_view_ == debug_view && camera == drawn_camera_;
+  const bool may_smooth = smooths();
+  // Without smoothing, the image at rest gives way to the frame.
+  const bool same = image_is_current_ && drawn_debug_view_ == debug_view &&
+                    camera == drawn_camera_ && (may_smooth || !drawn_smooth_);
   if (stage.debug_views) {
     // Their frame times would not be those of ordinary frames.
     if (!same) {
@@ -355,11 +372,17 @@ void Application::draw_scene() {
     }
   } else if (!same || state_.draw_continuously) {
     frame_clock_.draw(stage.renderer, {camera});
+    ++report_.drawn;
+    drawn_smooth_ = false;
+  } else if (refines()) {
+    frame_clock_.refine(stage.renderer);
+    ++report_.drawn;
+    drawn_smooth_ = true;
   }
   drawn_debug_view_ = debug_view;
   drawn_camera_ = camera;
   image_is_current_ = stage.renderer.splats_in_order();
-  if (!image_is_current_) frames_wanted_ = std::max(frames_wanted_, 1);
+  if (!image_is_current_ || refines()) frames_wanted_ = std::max(frames_wanted_, 1);
   stage.renderer.blit_to(0);
 }
 

@@ -28,6 +28,7 @@ struct ApplicationOptions {
   std::filesystem::path dataset;              // empty: none
   std::filesystem::path training;             // log of a run to follow; empty: none
   DrawingChoice drawing = {};
+  bool smooth_at_rest = true;                    // false: switches off Settings::smooth_at_rest
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats of every file
   gl::Api api = gl::Api::desktop;
   std::optional<glm::ivec2> window = {};          // in points; default: of the last run
@@ -44,6 +45,8 @@ struct RunReport {
   double first_image_seconds = -1;
   /// Longest time of a frame on the main thread while a scene loads, without the drawing.
   double longest_busy_ms = 0;
+  /// Frames of the scene in colours, with those of the image at rest.
+  int drawn = 0;
 };
 
 class Application {
@@ -75,6 +78,8 @@ class Application {
   void draw_image();
   void draw_scene();
   bool at_rest() const;
+  bool smooths() const;
+  bool refines() const;
   double wait_seconds() const;
   double clock() const;
   double seconds_since_start() const;
@@ -180,6 +185,7 @@ class Application {
   /// Whether a worker prepares the scene again with the options state_.wanted.
   bool preparing_drawing_ = false;
   Camera drawn_camera_;
+  bool drawn_smooth_ = false;  // whether the image may have become the image at rest
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;
   Worker worker_, writer_;  // last: their jobs may use all of the above

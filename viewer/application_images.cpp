@@ -4,6 +4,7 @@
 
 #include "base/output.hpp"
 #include "formats/dataset/camera_file.hpp"
+#include "runtime/passes/accumulation.hpp"
 #include "viewer/application.hpp"
 #include "viewer/files/writing.hpp"
 #include "viewer/names.hpp"
@@ -48,6 +49,7 @@ void Application::carry_out(const TakeImage& request) {
                      .camera = state_.controls.camera(size.x, size.y),
                      .debug_view = state_.debug_view,
                      .transparent = request.transparent,
+                     .at_rest = state_.settings.smooth_at_rest,
                      .path = image_path(".png")};
   write("writing " + short_name(job.path), job.path,
         [job](const StageRequest& with) { write_image(job, with); });
@@ -143,8 +145,12 @@ void Application::carry_out(const CopyCommand&) {
     file = image_path(".camera.json");
     write_file(file, cameras_to_json(std::span(&camera, 1)));
   }
-  window_.set_clipboard(
-      render_command(*state_.stage, state_.stage->choice, state_.debug_view, camera, file));
+  DrawingChoice choice = state_.stage->choice;
+  if (state_.settings.smooth_at_rest && state_.stage->renderer.has_image_at_rest()) {
+    choice.quality = quality_of(choice, *state_.stage->scene);
+    choice.quality->supersampling = samples_at_rest;
+  }
+  window_.set_clipboard(render_command(*state_.stage, choice, state_.debug_view, camera, file));
   state_.messages.note("Copied the command for this image to the clipboard", state_.now);
 }
 

@@ -21,9 +21,18 @@ FrameClock::FrameClock(const gl::Context& context, std::function<double()> clock
 }
 
 void FrameClock::draw(Renderer& renderer, const FrameInput& input) {
+  measure(renderer, [&] { renderer.draw(input, Renderer::SplatOrdering::earlier); });
+}
+
+void FrameClock::refine(Renderer& renderer) {
+  measure(renderer, [&] { renderer.refine(); });
+}
+
+template <class Draw>
+void FrameClock::measure(Renderer& renderer, const Draw& draw) {
   const double begin = clock_();
   if (timers_.empty()) {
-    renderer.draw(input, Renderer::SplatOrdering::earlier);
+    draw();
     const double asked = clock_();
     renderer.finish();
     note({1e3 * (asked - begin), 1e3 * (clock_() - asked)});
@@ -37,7 +46,7 @@ void FrameClock::draw(Renderer& renderer, const FrameInput& input) {
   }
   renderer.time_passes(&timer);
   const double asking = clock_();
-  renderer.draw(input, Renderer::SplatOrdering::earlier);
+  draw();
   renderer.time_passes(nullptr);
   note({1e3 * (clock_() - asking), device_ms});
 }

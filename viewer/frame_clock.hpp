@@ -31,6 +31,8 @@ class FrameClock {
   /// Draws a frame with the renderer, perhaps with an earlier order of splats, and records its
   /// times.
   void draw(Renderer& renderer, const FrameInput& input);
+  /// The same for Renderer::refine().
+  void refine(Renderer& renderer);
 
   /// Oldest first, at most frames_kept.
   const std::vector<FrameParts>& frames() const { return frames_; }
@@ -42,6 +44,8 @@ class FrameClock {
 
  private:
   void note(const FrameParts& parts);
+  template <class Draw>
+  void measure(Renderer& renderer, const Draw& draw);
 
   std::function<double()> clock_;
   std::optional<std::string> why_no_passes_;

@@ -43,7 +43,7 @@ struct Arguments {
   std::string pipeline = "auto", profile, blend = "auto";
   std::optional<std::uint64_t> max_splats;
   bool as_published = false;
-  bool no_specialise = false, no_settings = false, report = false;
+  bool no_specialise = false, no_smooth_at_rest = false, no_settings = false, report = false;
 };
 
 void add_arguments(CLI::App& program, Arguments& arguments) {
@@ -85,6 +85,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
+  program.add_flag("--no-smooth-at-rest", arguments.no_smooth_at_rest,
+                   "keep one sample a pixel while nothing moves, and in saved images: switches off "
+                   "\"smooth at rest\" in the panel Drawing");
   std::vector<std::string> profiles;
   for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);
   program
@@ -110,8 +113,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag(
       "--report", arguments.report,
-      "at the end, print the time to the first image, and the longest time that the main thread "
-      "needed for a frame while a scene was loading, without the drawing of the scene");
+      "at the end, print the time to the first image, the longest time that the main thread needed "
+      "for a frame while a scene was loading, without the drawing of the scene, and how often the "
+      "scene was drawn");
   program.add_option("--record", arguments.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
@@ -160,6 +164,7 @@ int run(const Arguments& arguments) {
   options.drawing.plan.splat_blending = SplatBlending(
       std::find(splat_blending_names.begin(), splat_blending_names.end(), arguments.blend) -
       splat_blending_names.begin());
+  options.smooth_at_rest = !arguments.no_smooth_at_rest;
   options.max_splats = arguments.max_splats;
   options.drawing.plan.splat_profile = profile_named(arguments.profile);
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
@@ -172,8 +177,11 @@ int run(const Arguments& arguments) {
   application.run();
   if (arguments.report)
     std::fprintf(
-        stderr, "first image after %.2f s; longest frame while loading %.1f ms, drawing excluded\n",
-        application.report().first_image_seconds, application.report().longest_busy_ms);
+        stderr,
+        "first image after %.2f s; longest frame while loading %.1f ms, drawing excluded; drawn %d "
+        "times\n",
+        application.report().first_image_seconds, application.report().longest_busy_ms,
+        application.report().drawn);
   if (arguments.replay.empty()) return int(ExitCode::done);
   const std::vector<std::string> errors = application.errors();
   for (const std::string& error : errors)

@@ -35,7 +35,8 @@ class FilterPass final : public Pass {
   std::size_t target_bytes() const override;
   void leave_context() override;
 
-  /// The framebuffer with the filtered colours, RGBA8.
+  /// The filtered colours, RGBA8, and a framebuffer with them.
+  GLuint texture() const { return color_.id(); }
   GLuint framebuffer() const { return framebuffer_.id(); }
 
  private:

@@ -41,6 +41,9 @@ struct Frame {
   /// With supersampling, samples per pixel along each axis; otherwise 1, also with a resolution
   /// scale. Low passes of splats are in pixels with supersampling, and in samples with a scale.
   double samples_per_pixel = 1;
+  /// Added to the place of a sample where it selects random numbers (stochastic splats), so that
+  /// the frames of an image at rest have different ones.
+  glm::ivec2 first_sample{0};
 };
 
 class Pass {

@@ -183,7 +183,8 @@ void DeviceSplats::set_view(const gl::Program& program, const Frame& frame) cons
   const Camera whole = frame.input.whole.value_or(camera);
   program.set("slope_range", ewa_slope_range(whole));
   const glm::vec2 corner(whole.cx - camera.cx, whole.cy - camera.cy + camera.height);
-  for (const char* name : {"whole_corner", "sample_corner"}) program.set(name, corner);
+  program.set("whole_corner", corner);
+  program.set("sample_corner", corner + glm::vec2(frame.first_sample));
   program.set("near", static_cast<float>(in_layer.range.near));
   program.set("pixel_area", static_cast<float>(frame.samples_per_pixel * frame.samples_per_pixel));
   program.set("half_size", 0.5f * glm::vec2(camera.width, camera.height));

@@ -209,6 +209,7 @@ class SmallDevice : public testing::Test {
   /// The example from its first camera, without panels.
   ApplicationOptions options(glm::ivec2 window) {
     ApplicationOptions options;
+    options.smooth_at_rest = false;  // as `tureen render` draws
     options.scenes = {fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb"};
     options.images = folder;
     session = {.window = window, .events = {}};

@@ -29,6 +29,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
                     .window = {999, 777},
                     .vsync = false,
                     .smooth_motion = false,
+                    .smooth_at_rest = false,
                     .recent = {},
                     .images = "/some where"};
   remember(settings, "/b.glb");
@@ -40,6 +41,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   EXPECT_EQ(read.window, settings.window);
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
+  EXPECT_EQ(read.smooth_at_rest, false);
   EXPECT_EQ(read.images, "/some where");
   EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder"))
       << "newest first, no duplicates";

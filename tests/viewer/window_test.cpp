@@ -15,6 +15,7 @@
 
 #include "base/input.hpp"
 #include "formats/scene_file.hpp"
+#include "image/metrics.hpp"
 #include "image/png.hpp"
 #include "tests/cli/child.hpp"
 #include "tests/support/errors.hpp"
@@ -115,6 +116,8 @@ class Window : public testing::Test {
   ChildResult replay(const Person& person, std::vector<std::string> arguments = {"soup.glb"}) {
     std::ofstream(folder_ / "session.json") << session_to_json(person.session());
     arguments.insert(arguments.end(), {"--replay", "session.json", "--pictures", "pictures"});
+    // One sample a pixel, as the goldens and `tureen render` have.
+    if (!smooth_at_rest_) arguments.emplace_back("--no-smooth-at-rest");
     return Child(arguments, folder_).wait();
   }
   Image8 image(const std::string& name) const {
@@ -132,6 +135,7 @@ class Window : public testing::Test {
   }
 
   fs::path folder_;
+  bool smooth_at_rest_ = false;
 };
 
 void expect_equal(const Image8& a, const Image8& b) {
@@ -555,6 +559,79 @@ TEST_F(Window, EveryFileOfALayerIsWatched) {
   EXPECT_EQ(count(image("after"), blue), count(image("before"), red));
 }
 
+// -- at rest --------------------------------------------------------------------------------------
+
+class WindowAtRest : public Window {
+ protected:
+  WindowAtRest() { smooth_at_rest_ = true; }
+
+  /// PSNR in dB, at most 100.
+  static double psnr(const Image8& a, const Image8& b) {
+    return compare(to_float(a), to_float(b), {.with_flip = false}).psnr_db;
+  }
+  Image8 supersampled(const std::string& camera, const std::string& size) const {
+    return rendered({"--camera", camera, "--size", size, "--supersample", "8"});
+  }
+  /// How often a session draws the scene.
+  int drawn(const Person& person) {
+    const ChildResult result = replay(person, {"soup.glb", "--report"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t at = result.err.find("drawn ");
+    return at == std::string::npos ? -1 : std::stoi(result.err.substr(at + 6));
+  }
+};
+
+constexpr double least_psnr = 60;
+
+TEST_F(WindowAtRest, ShowsAndSavesTheImageOfSupersampling) {
+  Person person({640, 400});
+  person.wait().press(Key::h).press(Key::right_bracket).look("first");
+  // Every change begins anew.
+  person.press(Key::right_bracket).look("second").press_with_control(Key::s).wait();
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GE(psnr(image("first"), supersampled("soup.glb:0", "640x400")), least_psnr);
+  const Image8 second = supersampled("soup.glb:1", "640x400");
+  EXPECT_GE(psnr(image("second"), second), least_psnr);
+  EXPECT_GE(psnr(image("soup-1"), second), least_psnr);
+  EXPECT_LT(psnr(rendered({"--camera", "soup.glb:1", "--size", "640x400"}), second), 45);
+}
+
+TEST_F(WindowAtRest, SavesImagesOfAnyKind) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  Person person({320, 200});
+  person.wait().press(Key::h).press(Key::right_bracket).drop("floor.off").wait().without_notes();
+  person.look("layers").press_with_control(Key::s).wait().press(Key::v).wait().without_notes();
+  person.look("depth").press_with_control(Key::s).wait();
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GE(psnr(image("soup-1"), image("layers")), least_psnr);
+  expect_equal(image("soup-2"), image("depth"));  // debug views have one sample a pixel
+}
+
+TEST_F(WindowAtRest, Ends) {
+  const Person rests = Person({320, 200}).wait().press(Key::h).press(Key::right_bracket).wait();
+  const int drawn_at_rest = drawn(rests);
+  EXPECT_GE(drawn_at_rest, 1 + 64);
+  // Time passes, and events that change nothing arrive.
+  const auto later = [](Person person) { return person.hold(Key::super, 3).wait(); };
+  EXPECT_EQ(drawn(later(rests)), drawn_at_rest);
+  smooth_at_rest_ = false;
+  EXPECT_LE(drawn(rests), drawn_at_rest - 64);
+}
+
+TEST_F(WindowAtRest, WaitsUntilAnimationAndMotionEnd) {
+  Person person({320, 200});
+  person.wait().press(Key::h).press(Key::digit_7).wait().press(Key::k);
+  person.press(Key::digit_4).wait().press(Key::k);
+  const int before = drawn(person.wait());
+  person.press(Key::space).hold(Key::super, 0.7).take("middle").wait();
+  // The path lasts 1.5 s at 60 frames a second; then comes one image at rest.
+  const int moving = drawn(person) - before - 64;
+  EXPECT_GE(moving, 85);
+  EXPECT_LE(moving, 100);
+}
+
 /// Positions in the panel Training in a window of 720 x 640, from the golden.
 constexpr glm::dvec2 pause_button{411, 570}, stop_button{510, 570}, stop_now_button{492, 544},
     pause_without_log{411, 306};
@@ -687,8 +764,10 @@ TEST_F(Window, WhatIsRecordedCanBeReplayed) {
   EXPECT_EQ(replay(person, {"soup.glb", "--record", "recorded.json"}).exit_code, 0);
   const Image8 first = image("end");
   fs::remove(folder_ / "pictures" / "end.png");
-  const ChildResult again =
-      Child({"soup.glb", "--replay", "recorded.json", "--pictures", "pictures"}, folder_).wait();
+  const ChildResult again = Child({"soup.glb", "--replay", "recorded.json", "--pictures",
+                                   "pictures", "--no-smooth-at-rest"},
+                                  folder_)
+                                .wait();
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_GE(read_session(folder_ / "recorded.json").events.size(), 10u);
   expect_equal(image("end"), first);

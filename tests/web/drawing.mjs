@@ -8,8 +8,8 @@ const emptyPage = `<!doctype html><html lang="en"><title>Drawing</title><link re
 <canvas id="canvas" style="width: 64px; height: 48px"></canvas>
 <script type="module">
   import { createViewer } from '/viewer.js';
-  const blend = new URLSearchParams(location.search).get('blend') ?? undefined;
-  const viewer = await createViewer(document.getElementById('canvas'), { blend });
+  const given = new URLSearchParams(location.search), blend = given.get('blend') ?? undefined;
+  const viewer = await createViewer(document.getElementById('canvas'), { blend, smoothAtRest: given.has('smooth') });
   viewer.gliding = false;  // cameras move at once
   window.viewer = viewer;
 </script>`;
@@ -19,7 +19,8 @@ export const drawingRoutes = {
   '/drawing.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(emptyPage),
 };
 
-/** Helpers for a page at drawing.html or drawing.html?blend=raster, once it is ready. */
+/** Helpers for a page at drawing.html or drawing.html?blend=raster, once it is ready. With ?smooth, images are those at rest;
+ *  otherwise they have one sample per pixel, as the goldens. */
 export async function drawingPage(page) {
   await page.waitForFunction(() => window.viewer);
   return {

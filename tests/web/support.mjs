@@ -47,6 +47,13 @@ function countFrames() {
   };
 }
 
+/** Keeps one sample per pixel, as the goldens have. Runs in the page before its scripts. */
+function keepFrames() {
+  try {
+    localStorage.setItem('tureen.smooth', 'false');
+  } catch { /* a page without storage */ }
+}
+
 /** Waits until the page, or a page in a frame of it, shows everything and requests no frame. */
 export const still = (page) => page.evaluate(() => window.still());
 
@@ -89,12 +96,14 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
 
   /**
    * Opens an address in a new profile, passes the page to `body` and returns its result. Fails if the page logs an error
-   * that matches none of `expected`, throws, or contacts a server that is not in `friends`.
+   * that matches none of `expected`, throws, or contacts a server that is not in `friends`. `smooth`: the page smooths its
+   * image at rest, as it does by default.
    */
-  async function visit(address, body, { expected = [], friends = [], ...context } = {}) {
+  async function visit(address, body, { expected = [], friends = [], smooth = false, ...context } = {}) {
     const profile = await browser.newContext({ viewport: { width: 800, height: 500 }, ...context });
     profile.setDefaultTimeout(patience);
     await profile.addInitScript(countFrames);
+    if (!smooth) await profile.addInitScript(keepFrames);
     const complaints = [], strangers = [];
     const own = (url) => [server.address, ...friends].some((origin) => url.startsWith(origin)) ||
       /^(blob|data|file|about):/.test(url);

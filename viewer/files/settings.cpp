@@ -80,6 +80,7 @@ Settings read_settings(const fs::path& file) {
   }
   take(json, "vsync", settings.vsync, name);
   take(json, "smooth_motion", settings.smooth_motion, name);
+  take(json, "smooth_at_rest", settings.smooth_at_rest, name);
   take(json, "recent", settings.recent, name);
   settings.recent.resize(std::min(settings.recent.size(), most_recent));
   take(json, "pictures", settings.images, name);
@@ -91,6 +92,7 @@ void write_settings(const Settings& settings, const fs::path& file) {
                      {"window", {settings.window.x, settings.window.y}},
                      {"vsync", settings.vsync},
                      {"smooth_motion", settings.smooth_motion},
+                     {"smooth_at_rest", settings.smooth_at_rest},
                      {"recent", settings.recent},
                      {"pictures", settings.images}};
   make_folder(file.parent_path());

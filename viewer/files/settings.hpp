@@ -17,6 +17,7 @@ struct Settings {
   glm::ivec2 window{1280, 800};  // in points
   bool vsync = true;
   bool smooth_motion = true;
+  bool smooth_at_rest = true;       // Renderer::refine(), and images with its samples
   std::vector<std::string> recent;  // scenes, latest first; at most most_recent
   std::string images;               // folder for images; empty: images_folder()
 };

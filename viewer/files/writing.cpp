@@ -75,8 +75,11 @@ void write_image(const ImageJob& job, const StageRequest& request) {
     write_rows(job, [&](const BandSink& sink) { sink(renderer.read_color()); });
     return;
   }
-  ImageTiles tiles = tiles_of(renderer, request.context.capabilities());
-  tiles.progress = progress;
+  const gl::Capabilities& device = request.context.capabilities();
+  double fraction = 0;  // a tile at rest may take long: progress() can end the job between frames
+  ImageTiles tiles = job.at_rest ? tiles_at_rest(renderer, device, [&] { progress(fraction); })
+                                 : tiles_of(renderer, device);
+  tiles.progress = [&](double done) { progress(fraction = done); };
   write_rows(job, [&](const BandSink& sink) { draw_in_bands({job.camera}, tiles, sink); });
 }
 

@@ -15,6 +15,7 @@ struct ImageJob {
   Camera camera;  // with the image's size, which may exceed the device's limit
   DebugViewChoice debug_view = {};
   bool transparent = false;
+  bool at_rest = false;  // the image at rest (Renderer::draw_at_rest), where the scene has one
   std::filesystem::path path;
 };
 

@@ -114,6 +114,9 @@ void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
   bool changed = sampling(choice, *stage.scene);
+  ImGui::Checkbox("smooth at rest", &state.settings.smooth_at_rest);
+  tip("While nothing moves, draw 64 frames with other samples and show their mean. Saved images "
+      "have these samples, too");
   changed |= splat_rules(choice, stage);
   bool baseline = choice.pipeline == PipelineKind::baseline;
   if (check("Baseline", &baseline)) {

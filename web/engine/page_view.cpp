@@ -260,12 +260,32 @@ void PageView::set_background(glm::vec3 background) {
     if (*stage) (*stage)->renderer->set_background(glm::vec4(background, 1.0f));
 }
 
-void PageView::draw(int width, int height, double seconds) {
+PageView::Next PageView::draw(int width, int height, double seconds) {
   controls().advance(seconds, flight_);
-  if (!shows_scene()) return clear_canvas(width, height);
-  current()->renderer->draw({controls().camera(width, height)}, Renderer::SplatOrdering::earlier);
+  Next next = moving() ? Next::moving : Next::nothing;
+  if (!shows_scene()) {
+    clear_canvas(width, height);
+    return next;
+  }
+  Renderer& renderer = *current()->renderer;
+  const FrameInput input{controls().camera(width, height)};
+  if (rests(input)) {
+    if (renderer.can_refine()) renderer.refine();
+  } else {
+    renderer.draw(input, Renderer::SplatOrdering::earlier);
+  }
+  if (rests(input) && renderer.can_refine()) next = Next::refining;
   clear_after_presentation();
-  current()->renderer->blit_to(0);
+  renderer.blit_to(0);
+  return next;
+}
+
+/// Whether the renderer's image is, or becomes, this input's image at rest. Not that of a preview:
+/// its frames would slow down the load.
+bool PageView::rests(const FrameInput& input) {
+  const Renderer& renderer = *current()->renderer;
+  return smooth_at_rest_ && !preview_ && !moving() && renderer.has_image_at_rest() &&
+         renderer.shows(input);
 }
 
 /// Chromium clears a canvas that was presented late: at the next draw or clear, to any framebuffer,
@@ -295,8 +315,13 @@ void PageView::clear_canvas(int width, int height) const {
 Image8 PageView::image(int width, int height) { return image(controls().camera(width, height)); }
 
 Image8 PageView::image(const Camera& camera) {
-  current()->renderer->draw({camera});
-  return current()->renderer->read_color();
+  // The sums of a larger image would take more than 576 MiB.
+  constexpr int max_pixels_at_rest = 1 << 24;
+  Renderer& renderer = *current()->renderer;
+  const bool smooth = smooth_at_rest_ && camera.width <= max_pixels_at_rest / camera.height;
+  if (!smooth || !renderer.shows({camera})) renderer.draw({camera});
+  while (smooth && renderer.can_refine()) renderer.refine();
+  return renderer.read_color();
 }
 
 }  // namespace tureen::web

@@ -94,19 +94,25 @@ class PageView {
   /// Requires a scene.
   const ShownScene& scene() const { return current()->scene; }
 
+  /// What follows a frame: `moving` and `refining` need another one.
+  enum class Next { nothing, refining, moving };
   /// Advances the controls by `seconds`, draws, and copies the image to the canvas. `width`,
-  /// `height`: size of the canvas's drawing buffer.
+  /// `height`: size of the canvas's drawing buffer. While nothing changes, further calls add the
+  /// frames of the image at rest (Renderer::refine()).
   ///
   /// Splats may be drawn in the order of an earlier view, until their sorter has the view's order
   /// (web/engine/splat_sorting.hpp) and draw() is called again.
-  void draw(int width, int height, double seconds);
+  Next draw(int width, int height, double seconds);
+  /// Whether there is an image at rest, in draw() and image(); by default there is.
+  void smooth_at_rest(bool smooth) { smooth_at_rest_ = smooth; }
   /// Sorts splats in draw(), for pages whose worker cannot.
   void sort_in_frames();
 
   void clear_canvas(int width, int height) const;
   void clear_after_presentation() const;
 
-  /// The current image, at any size that the device supports.
+  /// The current image, at any size that the device supports: the image at rest, unless it was
+  /// switched off or has more than 16.8 million pixels.
   Image8 image(int width, int height);
   Image8 image(const Camera& camera);
 
@@ -120,6 +126,7 @@ class PageView {
     glm::dvec3 first_target;  // of the controls, as is:
     Camera first_view;        // in a square image
   };
+  bool rests(const FrameInput& input);
   void prepare_renderer(bool for_debug_views);
   Stage make_stage(PreparedScene prepared, ShownScene scene) const;
   /// Keeps the view of the preview if it was moved. Otherwise the first view of `stage` stays: the
@@ -144,6 +151,7 @@ class PageView {
   std::optional<glm::ivec2> viewport_;
   Flight flight_;
   glm::vec3 background_{0.0f};
+  bool smooth_at_rest_ = true;
 };
 
 /// The view of this instance, for all commands.

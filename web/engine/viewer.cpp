@@ -245,10 +245,9 @@ Commands looking_around() {
 
 // -- drawing ------------------------------------------------------------------------------------
 
-/// {"width", "height", "seconds"}; returns whether another frame is needed.
+/// {"width", "height", "seconds"}; returns PageView::Next as a number.
 Json draw(const Json& arguments) {
-  view().draw(arguments.at("width"), arguments.at("height"), arguments.at("seconds"));
-  return moving();
+  return int(view().draw(arguments.at("width"), arguments.at("height"), arguments.at("seconds")));
 }
 
 /// Writes the image's pixels to the buffer: RGBA, row 0 on top.
@@ -339,6 +338,11 @@ Commands viewer_commands() {
        {"remove_layer", remove_layer},
        {"move_layer", move_layer},
        {"draw", draw},
+       {"smooth_at_rest",
+        [](const Json& smooth) {
+          view().smooth_at_rest(smooth);
+          return Json();
+        }},
        {"sort_in_frames",
         [](const Json&) {
           view().sort_in_frames();

@@ -9,6 +9,7 @@ import { block, byId, make } from './dom.js';
 import { answerEmbedder } from './embed.js';
 import { FullScreen } from './full_screen.js';
 import { Loading } from './loading.js';
+import { recall } from './memory.js';
 import { Messages } from './messages.js';
 import { Openings } from './openings.js';
 import { Panel } from './panel.js';
@@ -166,7 +167,7 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
     const expected = wanted[0] ? fetchable(wanted[0]) : options.scene;
     const blend = bar.blend();
     viewer = await createViewer(byId('canvas', HTMLCanvasElement), {
-      chooseSplats, ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
+      chooseSplats, smoothAtRest: recall('smooth') !== false, ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
     });
   } catch (error) {
     return explain(error);

@@ -273,6 +273,9 @@ export interface Viewer {
   // Drawing.
   background: Vec3;
   resolution: Resolution;
+  /** Whether, while nothing changes, up to 64 further frames make the image that has 8 x 8 samples per pixel;
+   *  screenshots then have them, too. */
+  smoothAtRest: boolean;
   /** Selects a debug view; "color" is the final image. Waits for earlier loads and additions. Other debug
    *  views read the scene again, which may take time; a later call overrides an earlier one. `features`: the
    *  features that "features" draws as red, green and blue, `count` 1 to 3 from `first` below
@@ -299,6 +302,8 @@ export interface ViewerOptions {
   readonly controls?: boolean;
   readonly background?: Vec3;
   readonly resolution?: Resolution;
+  /** Default true. */
+  readonly smoothAtRest?: boolean;
   /** Default auto. */
   readonly blend?: SplatBlending;
   /** Memory for the splats of one source, in bytes, above 0. Default: 3 GiB, and on phones a quarter of the memory that the browser

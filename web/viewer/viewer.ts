@@ -31,6 +31,7 @@ export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOpt
   if (!(memory > 0)) throw new ViewerError(`The memory for splats is ${memory} bytes; it must be above 0.`, 'usage');
   const viewer = new CanvasViewer(canvas, parts, compile(parts),
                                   { blend, memory: Math.min(memory, Number.MAX_VALUE), chooseSplats });
+  viewer.smooth = options.smoothAtRest ?? true;
   await viewer.start(options.expected ?? null);
   if (options.background) viewer.background = options.background;
   if (options.resolution) viewer.resolution = options.resolution;
@@ -119,6 +120,7 @@ class CanvasViewer implements Viewer {
   private background_: Vec3 = [0, 0, 0];
   private backgroundBefore: Vec3 = [0, 0, 0];
   private gliding_ = true;
+  smooth = true;
   /** Numbers of splats that were chosen for sources whose splats do not all fit. */
   private readonly maxSplats = new WeakMap<SceneSource, number>();
   private lost = false;
@@ -164,6 +166,7 @@ class CanvasViewer implements Viewer {
     this.lost = false;
     engine.call('background', this.background_);
     engine.call('gliding', this.gliding_);
+    engine.call('smooth_at_rest', this.smooth);
     engine.call('mode', this.navigation);
     this.lay();
   }
@@ -653,6 +656,9 @@ class CanvasViewer implements Viewer {
   get resolution(): Resolution { return this.resolutionKeeper.resolution; }
   set resolution(resolution: Resolution) { this.resolutionKeeper.resolution = resolution; this.ask(); }
 
+  get smoothAtRest(): boolean { return this.smooth; }
+  set smoothAtRest(smooth: boolean) { this.smooth = smooth; this.change('smooth_at_rest', smooth); }
+
   get debugView(): string { return this.debugView_.name; }
   get legend(): readonly LegendEntry[] { return this.engine.call<LegendEntry[]>('legend'); }
 
@@ -739,9 +745,9 @@ class CanvasViewer implements Viewer {
     this.fit();
     const seconds = this.lastFrame === null ? 0 : Math.max(now - this.lastFrame, 0) / 1000;
     const before = performance.now();
-    let goesOn: boolean;
+    let next: number;  // PageView::Next
     try {
-      goesOn = this.engine.call<boolean>('draw', { width: this.canvas.width, height: this.canvas.height, seconds });
+      next = this.engine.call<number>('draw', { width: this.canvas.width, height: this.canvas.height, seconds });
     } catch (error) {
       if (this.isGone) return;  // during the frame; restore() asks for the next one
       throw error;
@@ -750,10 +756,10 @@ class CanvasViewer implements Viewer {
     this.times.add(now, performance.now() - before);
     if (this.lastFrame !== null) this.resolutionKeeper.add(now - this.lastFrame);
     this.emit('frame', this.stats);
-    if (goesOn) {
+    if (next > 0) this.ask();
+    if (next === 2) {
       this.lastFrame = now;
-      this.ask();
-    } else {
+    } else {  // frames at rest have no influence on times and resolution
       this.lastFrame = null;
       this.times.stop();
       if (this.moved && this.shown) {

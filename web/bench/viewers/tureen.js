@@ -22,7 +22,7 @@ export async function create({ canvas, url, options, camera: first }) {
   };
   const source = { url };
   const viewer = await createViewer(canvas, {
-    ...options, expected: source, controls: false, background: [0, 0, 0], chooseSplats: async ({ splats }) => splats,
+    ...options, expected: source, controls: false, smoothAtRest: false, background: [0, 0, 0], chooseSplats: async ({ splats }) => splats,
   });
   await viewer.load(source);
   viewer.gliding = false;

@@ -1,4 +1,4 @@
-// Drawing settings: background and resolution; and the plan's sentences.
+// Drawing settings: background, resolution and smoothing; and the plan's sentences.
 
 import type { Resolution, Viewer } from '../../viewer/types.js';
 import { block, button, fillSentences, input, make, select } from '../dom.js';
@@ -21,6 +21,7 @@ const keyOf = (resolution: Resolution) =>
 export class DrawingSection {
   private readonly background = input('background');
   private readonly resolution = select('resolution');
+  private readonly smooth = input('smooth');
 
   constructor(private readonly viewer: Viewer) {
     this.resolution.append(...resolutions.map(({ key, text }) => make('option', { value: key }, text)));
@@ -30,6 +31,11 @@ export class DrawingSection {
       const chosen = resolutions.find(({ key }) => key === this.resolution.value);
       if (chosen) viewer.resolution = chosen.value;
       remember('resolution', this.resolution.value);
+    });
+    this.smooth.checked = viewer.smoothAtRest;
+    this.smooth.addEventListener('change', () => {
+      viewer.smoothAtRest = this.smooth.checked;
+      remember('smooth', this.smooth.checked);
     });
     this.background.addEventListener('input', () => {
       viewer.background = colorFromHex(this.background.value) ?? viewer.background;
