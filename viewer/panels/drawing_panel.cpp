@@ -114,7 +114,7 @@ void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
   bool changed = sampling(choice, *stage.scene);
-  ImGui::Checkbox("smooth at rest", &state.settings.smooth_at_rest);
+  check("Smooth at rest", &state.settings.smooth_at_rest);
   tip("While nothing moves, draw 64 frames with other samples and show their mean. Saved images "
       "have these samples, too");
   changed |= splat_rules(choice, stage);
