@@ -33,7 +33,7 @@ namespace {
 enum class Kind { windows, near_opaque, ellipsoids };
 
 TriangleWindows windows_at(std::span<const glm::dvec3> centers, std::span<const double> sizes,
-                           bool near_opaque, Random& random) {
+                           Kind kind, Random& random) {
   TriangleWindows windows;
   for (std::size_t i = 0; i < centers.size(); ++i) {
     const glm::dvec3 normal = random.direction();
@@ -44,19 +44,21 @@ TriangleWindows windows_at(std::span<const glm::dvec3> centers, std::span<const 
       windows.corners.emplace_back(centers[i] +
                                    sizes[i] * (std::cos(angle) * u + std::sin(angle) * v));
     }
-    windows.sigma.push_back(float(near_opaque ? random.uniform(0.01, 0.1)
-                                              : 0.01 + std::exp(0.15 + 0.8 * random.normal())));
-    windows.opacity.push_back(float(near_opaque ? random.uniform(0.9, 1)
-                                                : 1 / (1 + std::exp(-(1 + 2 * random.normal())))));
+    windows.sigma.push_back(float(kind == Kind::near_opaque
+                                      ? random.uniform(0.01, 0.1)
+                                      : 0.01 + std::exp(0.15 + 0.8 * random.normal())));
+    windows.opacity.push_back(float(kind == Kind::near_opaque
+                                        ? random.uniform(0.9, 1)
+                                        : 1 / (1 + std::exp(-(1 + 2 * random.normal())))));
   }
   return windows;
 }
 
 NeuralDensities ellipsoids_at(std::span<const glm::dvec3> centers, std::span<const double> sizes,
-                              Random& random) {
-  // Centres, axes and rotations are replaced; the networks stay.
+                              Random& random, std::uint64_t seed) {
+  // Centres and axes are replaced; rotations and networks stay.
   NeuralDensities result = std::get<NeuralDensities>(
-      random_splats({"ellipsoids", "splatnet", SplatKind::Kernel::neural}, centers.size(), 1, 1)
+      random_splats({"ellipsoids", "splatnet", SplatKind::Kernel::neural}, centers.size(), 1, seed)
           .kernel);
   for (std::size_t i = 0; i < centers.size(); ++i) {
     result.centers[i] = glm::vec3(centers[i]);
@@ -74,10 +76,10 @@ Splats splats_at(const Splats& splats, const Gaussians& gaussians, Kind kind, st
   for (double& size : sizes) size = std::max(2.2 * size, 1e-6);  // coincident centres have 0
   Splats result{.color = {.degree = 3}};
   if (kind == Kind::ellipsoids) {
-    result.kernel = ellipsoids_at(centers, sizes, random);
+    result.kernel = ellipsoids_at(centers, sizes, random, seed);
     result.profile = *profile_named("splatnet");
   } else {
-    result.kernel = windows_at(centers, sizes, kind == Kind::near_opaque, random);
+    result.kernel = windows_at(centers, sizes, kind, random);
     result.profile = *profile_named("triangle-splatting");
   }
   const std::size_t stored = harmonics::count(splats.color.degree), all = harmonics::count(3);

@@ -15,6 +15,7 @@
 
 #include "formats/dataset/dataset.hpp"
 #include "formats/scene_file.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/backend.hpp"
@@ -57,7 +58,7 @@ constexpr Stage stages[] = {
     {"shading", &StageTimes::shading, &StageTimes::shaded_pixels, "shaded pixel"},
     {"loss", &StageTimes::loss, &StageTimes::pixels, "pixel"},
     {"backward", &StageTimes::shading_backward, &StageTimes::shaded_pixels, "shaded pixel"},
-    {"faces", &StageTimes::faces, &StageTimes::fragments, "fragment"},
+    {"faces", &StageTimes::faces, &StageTimes::shaded_pixels, "shaded pixel"},
 };
 
 /// Images of another cloud, so that there is always something to learn.
@@ -78,7 +79,8 @@ std::vector<trainer::TrainingView> images(const Scene& scene, const trainer::Con
 }
 
 struct Options {
-  int width = 400, height = 400, level = 3;  // of the cloud
+  int width = 400, height = 400;  // of the cloud
+  int level = 3;                  // the finest of the texture
   std::string soup, dataset;
   double scale = 1;
   int steps = 20;
@@ -109,7 +111,8 @@ Training trained_soup(const Options& options) {
       trainer::scaled_to(trainer::preset(trainer::Preset::object), region.half_side), {}, {}};
   training.views = trainer::take_training_views(dataset.train, training.config.background);
   training.state.model =
-      trainer::from_scene(read_scene(options.soup), {.min_level = 2, .max_level = options.level});
+      trainer::from_scene(read_scene(options.soup),
+                          {.min_level = std::min(2, options.level), .max_level = options.level});
   return training;
 }
 
@@ -156,13 +159,17 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("Measures the stages of a training step.");
   tureen::test::Options options;
-  app.add_option("--width", options.width)->capture_default_str();
-  app.add_option("--height", options.height)->capture_default_str();
-  app.add_option("--level", options.level)->capture_default_str();
-  app.add_option("--steps", options.steps)->capture_default_str();
+  auto* width = app.add_option("--width", options.width)->check(CLI::PositiveNumber);
+  auto* height = app.add_option("--height", options.height)->check(CLI::PositiveNumber);
+  app.add_option("--level", options.level)->check(CLI::Range(0, tureen::lattice::max_level));
+  app.add_option("--steps", options.steps)->check(CLI::PositiveNumber);
   auto* dataset = app.add_option("--dataset", options.dataset, "photographs of the soup");
-  app.add_option("--soup", options.soup, "trained soup")->needs(dataset);
-  app.add_option("--scale", options.scale, "of the photographs")->capture_default_str();
+  auto* soup = app.add_option("--soup", options.soup, "trained soup");
+  soup->needs(dataset)->excludes(width)->excludes(height);
+  dataset->needs(soup);
+  app.add_option("--scale", options.scale, "of the photographs")
+      ->needs(dataset)
+      ->check(CLI::Range(0.001, 1.0));
   CLI11_PARSE(app, argc, argv);
   try {
     return tureen::test::run(options);

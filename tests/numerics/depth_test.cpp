@@ -10,6 +10,7 @@
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/fragments.hpp"
 
@@ -162,7 +163,7 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
       winner.assign(pixels * pixels, no_face);
       const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), near, 100);
       for (std::uint32_t face = 0; face < layers; ++face)
-        trainer::kernels::for_each_fragment(
+        trainer::test::for_each_fragment(
             view, trainer::kernels::project(view, &corners[3 * face].x), {0, 0, pixels, pixels},
             [&](const trainer::kernels::Fragment& f) {
               const auto i = std::size_t(f.y) * pixels + f.x;

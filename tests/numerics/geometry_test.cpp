@@ -21,6 +21,7 @@
 #include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/fragments.hpp"
 #include "trainer/diffsoup/backend.hpp"
@@ -167,11 +168,11 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
     const std::vector<std::uint8_t> on_device = debug_renderer.read_fragment_counts();
     const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), 0.01, 100);
     for (std::size_t t = 0; t < corners.size(); t += 3) {
-      trainer::kernels::for_each_fragment(view, trainer::kernels::project(view, &corners[t].x),
-                                          {0, 0, side, side},
-                                          [&](const trainer::kernels::Fragment& f) {
-                                            ++in_trainer[std::size_t(f.y) * side + f.x];
-                                          });
+      trainer::test::for_each_fragment(view, trainer::kernels::project(view, &corners[t].x),
+                                       {0, 0, side, side},
+                                       [&](const trainer::kernels::Fragment& f) {
+                                         ++in_trainer[std::size_t(f.y) * side + f.x];
+                                       });
       glm::vec3 p[3];
       for (std::size_t k = 0; k < 3; ++k) p[k] = float_pixel(camera, corners[t + k]);
       for (int y = 0; y < side; ++y)
@@ -502,12 +503,12 @@ TEST(Numerics, G8_DepthKeysAreInTheOrderOfDepths) {
     for (const float reach : {1.0f, 1e6f, 1e30f}) {
       const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), near, 1e35);
       const float corners[] = {-reach, -reach, reach, reach, -reach, -reach, 0, reach, -reach};
-      trainer::kernels::for_each_fragment(view, trainer::kernels::project(view, corners),
-                                          {0, 0, 64, 64}, [&](const trainer::kernels::Fragment& f) {
-                                            ++fragments;
-                                            EXPECT_GT(f.inverse_depth, 0) << near << ", " << reach;
-                                            EXPECT_LE(f.inverse_depth, 1 / near * 1.000001f);
-                                          });
+      trainer::test::for_each_fragment(view, trainer::kernels::project(view, corners),
+                                       {0, 0, 64, 64}, [&](const trainer::kernels::Fragment& f) {
+                                         ++fragments;
+                                         EXPECT_GT(f.inverse_depth, 0) << near << ", " << reach;
+                                         EXPECT_LE(f.inverse_depth, 1 / near * 1.000001f);
+                                       });
     }
     EXPECT_GT(fragments, 100) << near;
   }
@@ -520,7 +521,7 @@ Faces last_of_equals(const std::vector<glm::vec3>& corners, const Camera& camera
   Faces winner(std::size_t(camera.width) * std::size_t(camera.height), no_face);
   std::vector<float> nearest(winner.size(), 0);
   for (const std::uint32_t face : order)
-    trainer::kernels::for_each_fragment(
+    trainer::test::for_each_fragment(
         view, trainer::kernels::project(view, &corners[3 * face].x),
         {0, 0, camera.width, camera.height}, [&](const trainer::kernels::Fragment& f) {
           const std::size_t i = std::size_t(f.y) * std::size_t(camera.width) + std::size_t(f.x);

@@ -10,6 +10,7 @@
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/random.hpp"
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/random.hpp"
 #include "trainer/common/kernels/score.hpp"
@@ -138,7 +139,7 @@ TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
       std::vector<float> nearest(side * side);
       for (int i = 0; i < count; ++i) {
         const auto face = std::uint32_t(reversed ? count - 1 - i : i);
-        trainer::kernels::for_each_fragment(
+        trainer::test::for_each_fragment(
             forwards.view, forwards.projected[face], {0, 0, side, side},
             [&](const trainer::kernels::Fragment& f) {
               const auto at = std::size_t(f.y) * side + f.x;

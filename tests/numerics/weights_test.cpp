@@ -23,6 +23,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/shader_probe.hpp"
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/host_machine.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/diffsoup/cuda/kernel_backend.hpp"
@@ -377,14 +378,15 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
     faces.find(image, trainer::Masking::threshold);
     double in_trainer = 0, by_sum = 0;
     for (const trainer::VisiblePixel& pixel : image.visible) in_trainer += pixel.face != no_face;
-    trainer::kernels::for_each_fragment(
-        image.view, trainer::kernels::project(image.view, &soup.positions[0].x), {0, 0, side, side},
-        [&](const trainer::kernels::Fragment& f) {
-          const auto at = lattice::footprint(level, f.b0, f.b1);
-          float alpha = 0;
-          for (int j = 0; j < 3; ++j) alpha += at.weights[std::size_t(j)] * 0.5f;
-          by_sum += alpha >= alpha_threshold;
-        });
+    trainer::test::for_each_fragment(image.view,
+                                     trainer::kernels::project(image.view, &soup.positions[0].x),
+                                     {0, 0, side, side}, [&](const trainer::kernels::Fragment& f) {
+                                       const auto at = lattice::footprint(level, f.b0, f.b1);
+                                       float alpha = 0;
+                                       for (int j = 0; j < 3; ++j)
+                                         alpha += at.weights[std::size_t(j)] * 0.5f;
+                                       by_sum += alpha >= alpha_threshold;
+                                     });
     trainer::TrainingState state;
     state.model = faces.model;
     state.moments.reset_faces(state.model);

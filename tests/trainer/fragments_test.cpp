@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/ray_triangle.hpp"
 
 namespace tureen::trainer {
@@ -22,7 +23,7 @@ constexpr int width = 61, height = 45;  // not multiples of any block size
 std::vector<Fragment> fragments(const kernels::View& view, const kernels::ProjectedFace& face,
                                 const kernels::Rectangle& within) {
   std::vector<Fragment> result;
-  kernels::for_each_fragment(view, face, within, [&](const Fragment& f) { result.push_back(f); });
+  test::for_each_fragment(view, face, within, [&](const Fragment& f) { result.push_back(f); });
   return result;
 }
 

@@ -12,6 +12,7 @@
 
 #include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/random.hpp"
 
@@ -199,7 +200,7 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
   double expected[9] = {}, variance[9] = {};
   std::vector<Stack> stacks(image.pixels(), {.layers = {}, .background_loss = losses[3]});
   for (std::size_t face = 0; face < 3; ++face)
-    kernels::for_each_fragment(
+    test::for_each_fragment(
         image.view, kernels::project(image.view, &faces.model.positions[3 * face].x),
         {0, 0, side, side}, [&](const kernels::Fragment& f) {
           Layer layer{.loss = losses[face]};

@@ -189,7 +189,7 @@ TEST(SmokeTraining, LearnsTheStillLife) {
 TEST(SmokeTraining, ABackingLayerLeavesNoHoles) {
   Config config = preset(Preset::scene);
   config.steps = steps;
-  config.triangles = config.initial_triangles = 2000;  // of them, 20 are the backing layer
+  config.triangles = config.initial_triangles = 2000;  // the fewest with a backing layer, of 20
   config.resample_every = 50;
   config.texture_rate = 0.2f;
   config.vertex_rate = 0.04f;
@@ -206,7 +206,7 @@ TEST(SmokeTraining, ABackingLayerLeavesNoHoles) {
     std::printf("holes %.1e, specks %.1e\n", found->holes, found->specks);
   }
   // The backing layer is closed. Six seeds gave 1.0e-2 to 2.0e-2 holes without it; specks fell from
-  // 4.3e-2 .. 5.5e-2 to 1.4e-2 .. 1.7e-2.
+  // 4.3e-2 .. 5.5e-2 to 1.4e-2 .. 1.7e-2. The margins are half of these bounds.
   EXPECT_EQ(with.holes, 0);
   EXPECT_GT(without.holes, 5e-3);
   EXPECT_LE(with.specks, 2.5e-2);

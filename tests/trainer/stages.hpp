@@ -75,8 +75,9 @@ struct Faces {
     list_faces(image);
   }
 
-  /// Gathers the face's gradient from the images, with their gradient by features. It is stored in the moments of a first step: with
-  /// beta1 = 0 the first moment is the gradient. Rates are 0, so nothing moves.
+  /// Gathers the face's gradient from images whose `features` hold dL/dfeature and whose `loss`
+  /// holds the score's factor. It is stored in the moments of a first step: with beta1 = 0 the
+  /// first moment is the gradient. Rates are 0, so nothing moves.
   unsigned gather(std::span<BatchImage> images, std::size_t face) {
     for (BatchImage& image : images)
       for (std::size_t tile = 0; tile < image.tiles(); ++tile) {

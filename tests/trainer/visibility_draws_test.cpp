@@ -10,6 +10,7 @@
 
 #include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
+#include "tests/trainer/fragments.hpp"
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/random.hpp"
 
@@ -143,14 +144,14 @@ TEST(StochasticVisibility, FacesShowAsOftenAsTheirAlphasSay) {
 }
 
 // Many faces, with varying alphas, in a random volume.
-test::Faces random_faces(std::uint64_t seed, int count) {
+test::Faces random_faces(std::uint64_t seed, int count, int level = 2) {
   Random random(seed);
   std::vector<glm::vec3> positions;
   for (int face = 0; face < count; ++face) {
     const glm::dvec3 middle(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-6, -2));
     for (int k = 0; k < 3; ++k) positions.emplace_back(middle + 0.8 * random.direction());
   }
-  test::Faces faces(positions, 0.0f, 2);
+  test::Faces faces(positions, 0.0f, level);
   for (float& value : faces.model.logits) value = float(2 * random.normal());
   faces.refresh();
   return faces;
@@ -162,12 +163,12 @@ std::vector<VisiblePixel> obvious(const test::Faces& faces, const BatchImage& im
   std::vector<VisiblePixel> visible(image.pixels());
   const std::size_t texels = faces.pyramid.fine_texels();
   for (std::uint32_t face = 0; face < faces.model.faces(); ++face)
-    kernels::for_each_fragment(
+    test::for_each_fragment(
         image.view, kernels::project(image.view, &faces.model.positions[3 * face].x),
         {0, 0, image.view.width, image.view.height}, [&](const kernels::Fragment& fragment) {
           const auto pixel =
               std::size_t(fragment.y) * std::size_t(image.view.width) + std::size_t(fragment.x);
-          const auto at = lattice::footprint(2, fragment.b0, fragment.b1);
+          const auto at = lattice::footprint(faces.model.max_level, fragment.b0, fragment.b1);
           float alpha = 0;
           for (std::size_t j = 0; j < 3; ++j)
             alpha += at.weights[j] * faces.store.alpha[face * texels + at.texels[j]];
@@ -182,8 +183,10 @@ std::vector<VisiblePixel> obvious(const test::Faces& faces, const BatchImage& im
 }
 
 TEST(StochasticVisibility, IsTheNearestAcceptedFragmentInAnyTile) {
-  for (const Masking masking : {Masking::threshold, Masking::stochastic}) {
-    const test::Faces faces = random_faces(3, 300);
+  for (int trial = 0; trial < 2 * (lattice::max_level + 1); ++trial) {
+    const Masking masking = trial % 2 ? Masking::threshold : Masking::stochastic;
+    SCOPED_TRACE("level " + std::to_string(trial / 2));
+    const test::Faces faces = random_faces(3, 300, trial / 2);
     BatchImage image = test::make_image(test::axis_camera(150, 110, 100));
     image.draw_key = kernels::draw_key(3, 1, 1);
     faces.find(image, masking);

@@ -19,8 +19,9 @@ struct Rates {
   float texture, mlp, vertex;
 };
 
-/// Wall time of each stage in seconds, and the amount of work. Both are sums over the steps since
-/// the last take_times().
+/// Wall time of each stage in seconds, and the amount of work. On the processor, the backward pass
+/// of shading includes the gradient of edges. Both are sums over the steps since the last
+/// take_times().
 struct StageTimes {
   double visibility = 0, shading = 0, loss = 0, shading_backward = 0, faces = 0;
   std::uint64_t fragments = 0;  // pixel centres of triangles whose depth was compared

@@ -28,8 +28,8 @@ struct VisiblePixel {
 /// A fragment with a gradient: it is visible, or in front of the visible one and rejected.
 struct GradientFragment {
   std::uint32_t visible : 1, x : 15, y : 16;
-  float b0, b1;         // barycentrics
-  float inverse_depth;  // replaced by the score's factor in collect_fragments()
+  float b0, b1;           // barycentrics
+  float depth_or_factor;  // the inverse depth; after collect_fragments() the score's factor
 };
 
 /// The gradient of a face's corners from its visible pixels in one tile.
@@ -40,9 +40,9 @@ struct CornerGradient {
 
 /// A face in a tile.
 struct TileFace {
-  std::uint32_t tile, entry;  // entry of BatchImage::bins
-  std::uint32_t begin, end;   // in the fragments of the tile
-  std::uint32_t visible;      // in its by_features
+  std::uint32_t tile, entry;    // entry of BatchImage::bins
+  std::uint32_t begin, end;     // in the fragments of the tile
+  std::uint32_t visible_begin;  // in its by_features
 };
 
 struct BatchImage {
@@ -55,7 +55,7 @@ struct BatchImage {
   std::vector<std::uint32_t> bins;                // faces of each tile, the nearest first
   std::vector<float> nearest;                     // one per face: no fragment is nearer
 
-  // What the gradient needs, and nothing of hidden faces.
+  // What the gradient needs. Hidden faces have no fragments.
   bool keeps_fragments = true;  // otherwise the rest of this group stays empty
   std::vector<std::vector<GradientFragment>> fragments;  // of each tile, in the order of its faces
   std::vector<std::vector<Texel>> by_features;           // of their visible ones
@@ -71,7 +71,7 @@ struct BatchImage {
   std::vector<float> by_color;  // three planes: dL/dcolour
   std::vector<float> loss;      // sum over channels of |C - G|; later the score's factor
   /// Of the visible face: features and alpha after the forward pass, dL/dfeature and 0 after the
-  /// backward pass. Empty if there is no backward pass.
+  /// backward pass; undefined for the background. Empty if there is no backward pass.
   std::vector<Texel> features;
 
   std::size_t pixels() const { return std::size_t(view.width) * view.height; }

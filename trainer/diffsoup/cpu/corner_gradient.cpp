@@ -51,6 +51,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void find_corner_gradients(BatchImage& image
   std::uint32_t begin = 0;
   for (std::uint32_t i = image.bin_begin[tile]; i < image.bin_begin[tile + 1]; ++i) {
     const std::uint32_t end = image.fragments_end[i];
+    if (begin == end) continue;  // nobody reads its gradient
     CornerGradient& sum = image.corner_gradient[i];
     sum = {};
     for (const GradientFragment& fragment :
@@ -72,7 +73,7 @@ void collect_fragments(BatchImage& image, std::size_t tile) {
   auto next = image.by_features[tile].begin();
   for (std::size_t i = 0; i < (empty ? 0 : image.fragments_end[end - 1]); ++i) {
     const std::size_t pixel = image.pixel_of(fragments[i]);
-    fragments[i].inverse_depth = image.loss[pixel];
+    fragments[i].depth_or_factor = image.loss[pixel];
     if (fragments[i].visible) *next++ = image.features[pixel];
   }
 }

@@ -1,5 +1,5 @@
-// The gradient of the corners from the edges in the image, tile by tile: a tile's pixels stay in
-// the cache, while its faces take their parts.
+// The gradient of the corners from the edges in the image, tile by tile. The pixels of a tile stay
+// in the cache, although several faces read them.
 #pragma once
 
 #include "trainer/diffsoup/cpu/batch_image.hpp"

@@ -23,7 +23,7 @@ namespace tureen::trainer {
 namespace {
 
 constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of starting a task
-constexpr std::size_t faces_ahead = 3;    // for prefetch_face(): a few microseconds
+constexpr std::size_t faces_ahead = 3;    // they take longer than a load from memory
 
 class CpuBackend final : public Backend {
  public:

@@ -33,7 +33,7 @@ struct Gathered {
     out.error += in_tile.error;
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < 3; ++j) corners[k][j] += in_tile.corners[k][j];
-    const Texel* by_features = image.by_features[tile.tile].data() + tile.visible;
+    const Texel* by_features = image.by_features[tile.tile].data() + tile.visible_begin;
     for (const GradientFragment& fragment : image.fragments_of(tile)) {
       const auto at = lattice::footprint(level, fragment.b0, fragment.b1);
       const float a = lattice::interpolated(at, alpha);
@@ -41,7 +41,7 @@ struct Gathered {
           fragment.visible ? kernels::FragmentRole::winner : kernels::FragmentRole::in_front;
       for (int j = 0; j < 3; ++j)
         scratch.alpha[at.texels[j]] +=
-            fragment.inverse_depth *
+            fragment.depth_or_factor *
             kernels::logit_score(role, a, at.weights[j], alpha[at.texels[j]]);
       if (!fragment.visible) continue;
       const kernels::TexelPack by_feature = kernels::load_texel((by_features++)->values);
@@ -117,7 +117,7 @@ void prefetch_face(std::span<const BatchImage> images, std::size_t face) {
       const TileFace& tile = image.tiles_of_faces[i];
       __builtin_prefetch(&image.corner_gradient[tile.entry]);
       __builtin_prefetch(&image.fragments[tile.tile][tile.begin]);
-      __builtin_prefetch(image.by_features[tile.tile].data() + tile.visible);
+      __builtin_prefetch(image.by_features[tile.tile].data() + tile.visible_begin);
     }
 }
 

@@ -1,6 +1,6 @@
-// The last stage of a step: each face gathers its gradient from all images of the batch, and the
-// optimiser steps it immediately. Only one task handles a face. Therefore additions are not atomic,
-// gradients are not stored, and the result does not depend on the number of threads.
+// The last stage of a step: each face sums its gradient from what the tiles of all images listed
+// for it, and the optimiser steps it immediately. Only one task handles a face. Therefore additions
+// are not atomic, sums are not stored, and the result does not depend on the number of threads.
 #pragma once
 
 #include <span>
@@ -36,7 +36,7 @@ struct FaceScratch {
   explicit FaceScratch(const Pyramid& pyramid);
 };
 
-/// Loads what the images have of a face into the cache, while other faces are stepped.
+/// Loads a face's data in all images into the cache, while other faces are stepped.
 void prefetch_face(std::span<const BatchImage> images, std::size_t face);
 
 /// Gathers the gradient, steps the face and refreshes its texture. Returns the number of skipped

@@ -25,22 +25,36 @@ struct Batch {
   int count = 0;
 };
 
+/// The texture of a pixel's visible face.
+[[gnu::always_inline]] inline const Texel* texture_of(const VisiblePixel& visible,
+                                                      const ShadingInput& input) {
+  return input.texture + visible.face * std::size_t(lattice::texel_count(input.level));
+}
+
 /// The features of a pixel's visible face.
-[[gnu::always_inline]] inline kernels::TexelPack features_at(const BatchImage& image,
-                                                             const ShadingInput& input,
-                                                             std::size_t pixel) {
-  const VisiblePixel& visible = image.visible[pixel];
+[[gnu::always_inline]] inline kernels::TexelPack features_at(const VisiblePixel& visible,
+                                                             const ShadingInput& input) {
   const auto at = lattice::footprint(input.level, visible.b0, visible.b1);
-  const Texel* texture =
-      input.texture + visible.face * std::size_t(lattice::texel_count(input.level));
   const auto texel = [&](std::size_t j) __attribute__((always_inline)) {
-    return kernels::load_texel(texture[at.texels[j]].values);
+    return kernels::load_texel(texture_of(visible, input)[at.texels[j]].values);
   };
   return lattice::interpolated(at.weights, texel(0), texel(1), texel(2));
 }
 
+/// Loads the texels of a row into the cache. Without this, waiting for them takes half the time.
+[[gnu::always_inline]] inline void prefetch_row(const BatchImage& image, const ShadingInput& input,
+                                                int y) {
+  const VisiblePixel* row = &image.visible[std::size_t(y) * std::size_t(image.view.width)];
+  for (int x = 0; x < image.view.width; ++x) {
+    if (row[x].face == no_face) continue;
+    const auto at = lattice::footprint(input.level, row[x].b0, row[x].b1);
+    for (const std::uint32_t texel : at.texels)
+      __builtin_prefetch(texture_of(row[x], input) + texel);
+  }
+}
+
 /// The network's input: features of the pixels, harmonics of the direction to the eye. Lanes
-/// without a pixel repeat the first one. `features`: of a pixel.
+/// without a pixel repeat the first one. `features` returns those of a pixel.
 template <class Features>
 [[gnu::always_inline]] inline void gather(const BatchImage& image, const Batch& batch,
                                           const Features& features, State& state) {
@@ -110,15 +124,18 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows(BatchImage& image, const Sha
   const std::size_t end = std::size_t(y1) * image.view.width;
   for (int c = 0; c < 3; ++c)
     for (std::size_t p = begin; p < end; ++p) image.color[c * pixels + p] = input.background[c];
-  const bool keeps = !image.features.empty();
+  const bool stores_features = !image.features.empty();
+  int prefetched = y0;  // the next row
   for_each_batch(
       image, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
+        for (; prefetched < y1 && prefetched <= batch.y[batch.count - 1] + 1; ++prefetched)
+          prefetch_row(image, input, prefetched);
         State state;
         gather(
             image, batch,
             [&](std::size_t pixel) __attribute__((always_inline)) {
-              const kernels::TexelPack features = features_at(image, input, pixel);
-              if (keeps) kernels::store_texel(image.features[pixel].values, features);
+              const kernels::TexelPack features = features_at(image.visible[pixel], input);
+              if (stores_features) kernels::store_texel(image.features[pixel].values, features);
               return features;
             },
             state);

@@ -1,6 +1,7 @@
 #include "trainer/diffsoup/cpu/visibility.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -40,7 +41,8 @@ float nearest_of(const kernels::View& view, const kernels::ProjectedFace& face,
   }
   const float of_plane = sum + std::max(across, 0.0f) + std::max(down, 0.0f);
   const float of_corner = float(1 / std::max(least, view.near));
-  // draw_tile rounds each term at most six times, by 6e-8 of its size.
+  // draw_tile rounds each term at most six times, by 6e-8 of its size. Rounded coefficients also
+  // move the nearest corner by as little.
   const float nearest = std::min(of_plane, of_corner) + 1e-6f * magnitude;
   const float limit = float(1 / view.near);
   return nearest < limit ? nearest : limit;  // also if overflow made it NaN
@@ -68,8 +70,8 @@ void keep_gradient_fragments(BatchImage& image, std::size_t tile, std::uint32_t 
       GradientFragment fragment = list[from];
       const VisiblePixel& shown = image.visible[image.pixel_of(fragment)];
       // At equal depths the lower face is in front.
-      if (fragment.inverse_depth < shown.inverse_depth ||
-          (fragment.inverse_depth == shown.inverse_depth && face > shown.face))
+      if (fragment.depth_or_factor < shown.inverse_depth ||
+          (fragment.depth_or_factor == shown.inverse_depth && face > shown.face))
         continue;
       fragment.visible = face == shown.face;
       visible += fragment.visible;
@@ -93,6 +95,7 @@ void bin_faces(BatchImage& image, const Model& model) {
   image.bin_begin.assign(image.tiles() + 1, 0);
   for (std::size_t face = 0; face < faces; ++face) {
     image.projected[face] = kernels::project(image.view, &model.positions[3 * face].x);
+    if (image.projected[face].empty()) continue;
     image.nearest[face] =
         nearest_of(image.view, image.projected[face], &model.positions[3 * face].x);
     for_each_tile(image, image.projected[face],
@@ -122,6 +125,7 @@ std::uint64_t find_visible(BatchImage& image, std::size_t tile, const float* alp
 }
 
 void list_faces(BatchImage& image) {
+  assert(image.keeps_fragments);
   image.tiles_begin.assign(image.projected.size() + 1, 0);
   const auto for_each_entry = [&](auto&& visit) {
     for (std::uint32_t tile = 0; tile < image.tiles(); ++tile) {

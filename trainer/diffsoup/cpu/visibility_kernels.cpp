@@ -37,12 +37,13 @@ struct VisibleTile {
   alignas(64) float inverse_depth[tile_side * columns];
   alignas(64) float b0[tile_side * columns];
   alignas(64) float b1[tile_side * columns];
-  /// For each square cell: an inverse depth that all its pixels reach, and whether they may reach
-  /// more since.
+  /// For each square cell: an inverse depth that all its pixels reach, and whether a pixel changed
+  /// since it was computed.
   float cell_depth[cells_a_side * cells_a_side] = {};
-  bool changed[cells_a_side * cells_a_side] = {};
+  bool changed[cells_a_side * cells_a_side];
 
   explicit VisibleTile(const kernels::Rectangle& within) {
+    std::ranges::fill(changed, true);
     std::fill_n(face, tile_side * columns, no_face);
     // Pixels outside the image are never visible, and not the farthest.
     std::fill_n(inverse_depth, tile_side * columns, std::numeric_limits<float>::infinity());
@@ -63,7 +64,15 @@ struct VisibleTile {
     changed[cell] = false;
   }
 
-  /// Whether all pixels of a rectangle in the tile, with inclusive bounds, are nearer than this.
+  /// An inverse depth that all pixels of the tile reach.
+  HWY_INLINE float least_depth() {
+    for (int cell = 0; cell < cells_a_side * cells_a_side; ++cell)
+      if (changed[cell]) update_cell(cell);
+    return *std::ranges::min_element(cell_depth);
+  }
+
+  /// Whether all pixels of the cells that a rectangle in the tile touches, with inclusive bounds,
+  /// are nearer than this.
   HWY_INLINE bool hides(int x0, int y0, int x1, int y1, float nearest) {
     for (int y = y0 / cell_side; y <= y1 / cell_side; ++y)
       for (int x = x0 / cell_side; x <= x1 / cell_side; ++x) {
@@ -144,7 +153,8 @@ HWY_INLINE Floats uniform_draws(std::uint32_t key, std::uint32_t first_pixel, st
   return hn::Mul(floats(counted), hn::Set(d, 0x1p-24f));
 }
 
-/// Appends to a tile's list, which has more elements than were appended, to need few checks.
+/// Appends to a tile's list. The list is longer than its content, so that one check serves a whole
+/// vector; it keeps its length for the next step.
 class FragmentList {
  public:
   explicit FragmentList(std::vector<GradientFragment>& list) : list_(list) {}
@@ -166,7 +176,7 @@ class FragmentList {
                   .y = unsigned(y) & 0xffff,
                   .b0 = values[0][l],
                   .b1 = values[1][l],
-                  .inverse_depth = values[2][l]};
+                  .depth_or_factor = values[2][l]};
     }
   }
   std::size_t size() const { return size_; }
@@ -185,20 +195,25 @@ TileVisibility draw_tile_on(BatchImage& image, std::size_t tile, const AlphaTest
   std::vector<GradientFragment> unused;
   FragmentList list(image.keeps_fragments ? image.fragments[tile] : unused);
   VisibleTile shown(within);
-  // Faces have no order in memory; the processor cannot foresee which is next.
+  float behind = 0;                              // all pixels of the tile reach this inverse depth
+  constexpr std::uint32_t faces_an_update = 16;  // an update takes as long as a few faces
+  // Faces have no order in memory, so the processor cannot foresee which is next. Four faces take
+  // longer than a load from memory. More lines than eight would displace what is in use.
   constexpr std::uint32_t faces_ahead = 4;
   constexpr std::size_t floats_a_line = 16;
+  const std::size_t prefetched = std::min<std::size_t>(texels, 8 * floats_a_line);
   TileVisibility result{.fragments = 0, .end = image.bin_begin[tile]};
   for (std::uint32_t& i = result.end; i < image.bin_begin[tile + 1]; ++i) {
     const std::uint32_t index = image.bins[i];
     if (const std::uint32_t ahead = i + faces_ahead; ahead < image.bin_begin[tile + 1]) {
       hwy::Prefetch(&image.projected[image.bins[ahead]]);
-      for (std::size_t at = 0; at < texels; at += floats_a_line)
+      for (std::size_t at = 0; at < prefetched; at += floats_a_line)
         hwy::Prefetch(test.alpha + image.bins[ahead] * texels + at);
     }
     const float face_nearest = image.nearest[index];
-    // All pixels of the tile are nearer than this face and those behind it.
-    if (face_nearest < *std::ranges::min_element(shown.cell_depth)) break;
+    if ((i - image.bin_begin[tile]) % faces_an_update == faces_an_update - 1)
+      behind = shown.least_depth();
+    if (face_nearest < behind) break;  // this face is hidden, and so are those behind it
     const kernels::ProjectedFace& face = image.projected[index];
     const float* texture = test.alpha + index * texels;
     const int x0 = std::max<int>(face.x0, within.x0), x1 = std::min<int>(face.x1, within.x1);

@@ -6,10 +6,10 @@
 
 namespace tureen::trainer {
 
-/// The alphas of all faces: TextureStore::alpha.
+/// Which fragments are accepted.
 struct AlphaTest {
-  const float* alpha;
-  int level;
+  const float* alpha;  // TextureStore::alpha
+  int level;           // of the lattice
   Masking masking;
 };
 

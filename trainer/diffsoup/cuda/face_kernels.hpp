@@ -1,5 +1,5 @@
-// The gradients of faces from images, and their steps. On the CPU, a face gathers its whole
-// gradient at once (trainer/diffsoup/cpu/face_stage.hpp). Here, pieces of faces add to sums in
+// The gradients of faces from images, and their steps. On the CPU, a face gathers what
+// tiles listed for it (trainer/diffsoup/cpu/face_stage.hpp). Here, pieces of faces add to sums in
 // fixed point. Then one block per face steps it, refreshes its texture and clears the sums for the
 // next step.
 #pragma once

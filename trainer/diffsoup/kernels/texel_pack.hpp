@@ -1,4 +1,4 @@
-// The channels of one texel in one register.
+// The channels of one texel, in memory and in one register.
 #pragma once
 
 #include <cstring>
@@ -12,6 +12,7 @@ namespace tureen::trainer {
 struct alignas(sizeof(float) * channels) Texel {
   float values[channels];
 };
+static_assert(sizeof(Texel) == sizeof(float) * channels);  // arrays are also read as floats
 
 }  // namespace tureen::trainer
 
