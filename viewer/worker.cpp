@@ -123,8 +123,8 @@ void Worker::report(double fraction) {
 
 std::optional<double> seconds_left(const Worker::Status& status) {
   // Earlier, the forecast would jump: the first percents include opening files.
-  constexpr double least_fraction = 0.03, least_seconds = 1;
-  if (status.fraction < least_fraction || status.seconds < least_seconds) return {};
+  constexpr double min_fraction = 0.03, min_seconds = 1;
+  if (status.fraction < min_fraction || status.seconds < min_seconds) return {};
   return status.seconds * (1 - status.fraction) / status.fraction;
 }
 

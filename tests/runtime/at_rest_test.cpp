@@ -73,7 +73,7 @@ double psnr(const Image8& a, const Image8& b) {
 }
 
 /// What the window and the page promise of the image at rest.
-constexpr double least_psnr = 60;
+constexpr double min_psnr = 60;
 
 /// The image at rest of one renderer against the frame of another with 8 x 8 samples a pixel.
 void expect_as_supersampled(const gl::Context& context, const Scene& scene, const Camera& camera,
@@ -87,7 +87,7 @@ void expect_as_supersampled(const gl::Context& context, const Scene& scene, cons
   Renderer reference = renderer_of_scene(context, scene, quality, background_alpha, blending);
   reference.draw({camera});
   const Image8 expected = reference.read_color();
-  EXPECT_GE(psnr(plain.read_color(), expected), least_psnr);
+  EXPECT_GE(psnr(plain.read_color(), expected), min_psnr);
   EXPECT_LT(psnr(frame, expected), 50) << "the image must have edges";
 }
 

@@ -94,7 +94,7 @@ class PageView {
   /// Requires a scene.
   const ShownScene& scene() const { return current()->scene; }
 
-  /// What follows a frame: `moving` and `refining` need another one.
+  /// The state after a frame; `moving` and `refining` need another frame.
   enum class Next { nothing, refining, moving };
   /// Advances the controls by `seconds`, draws, and copies the image to the canvas. `width`,
   /// `height`: size of the canvas's drawing buffer. While nothing changes, further calls add the

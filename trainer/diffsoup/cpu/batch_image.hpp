@@ -55,7 +55,7 @@ struct BatchImage {
   std::vector<std::uint32_t> bins;                // faces of each tile, the nearest first
   std::vector<float> nearest;                     // one per face: no fragment is nearer
 
-  // What the gradient needs. Hidden faces have no fragments.
+  // For the gradient. Hidden faces have no fragments.
   bool keeps_fragments = true;  // otherwise the rest of this group stays empty
   std::vector<std::vector<GradientFragment>> fragments;  // of each tile, in the order of its faces
   std::vector<std::vector<Texel>> by_features;           // of their visible ones

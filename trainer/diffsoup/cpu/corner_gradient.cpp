@@ -51,7 +51,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void find_corner_gradients(BatchImage& image
   std::uint32_t begin = 0;
   for (std::uint32_t i = image.bin_begin[tile]; i < image.bin_begin[tile + 1]; ++i) {
     const std::uint32_t end = image.fragments_end[i];
-    if (begin == end) continue;  // nobody reads its gradient
+    if (begin == end) continue;  // its gradient is not read
     CornerGradient& sum = image.corner_gradient[i];
     sum = {};
     for (const GradientFragment& fragment :

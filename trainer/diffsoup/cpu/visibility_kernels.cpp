@@ -65,7 +65,7 @@ struct VisibleTile {
   }
 
   /// An inverse depth that all pixels of the tile reach.
-  HWY_INLINE float least_depth() {
+  HWY_INLINE float smallest_depth() {
     for (int cell = 0; cell < cells_a_side * cells_a_side; ++cell)
       if (changed[cell]) update_cell(cell);
     return *std::ranges::min_element(cell_depth);
@@ -212,7 +212,7 @@ TileVisibility draw_tile_on(BatchImage& image, std::size_t tile, const AlphaTest
     }
     const float face_nearest = image.nearest[index];
     if ((i - image.bin_begin[tile]) % faces_an_update == faces_an_update - 1)
-      behind = shown.least_depth();
+      behind = shown.smallest_depth();
     if (face_nearest < behind) break;  // this face is hidden, and so are those behind it
     const kernels::ProjectedFace& face = image.projected[index];
     const float* texture = test.alpha + index * texels;
