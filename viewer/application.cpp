@@ -144,7 +144,11 @@ void Application::keep_session() {
 void Application::keep_settings() {
   if (!options_.settings) return;
   if (!window_.fullscreen()) state_.settings.window = window_.size();
-  write_settings(state_.settings, *options_.settings);
+  Settings kept = state_.settings;
+  // The option holds for one run only.
+  if (!options_.smooth_at_rest && !kept.smooth_at_rest)
+    kept.smooth_at_rest = settings_of(options_).smooth_at_rest;
+  write_settings(kept, *options_.settings);
 }
 
 std::vector<std::string> Application::errors() const {
@@ -169,7 +173,7 @@ bool Application::smooths() const {
 /// Whether the next frame belongs to the image at rest. None does during a job: on few cores, it
 /// would slow down the job.
 bool Application::refines() const {
-  return smooths() && worker_.idle() && state_.stage->renderer.can_refine();
+  return smooths() && worker_.idle() && writer_.idle() && state_.stage->renderer.can_refine();
 }
 
 double Application::wait_seconds() const {
@@ -365,6 +369,7 @@ void Application::draw_scene() {
   const bool same = image_is_current_ && drawn_debug_view_ == debug_view &&
                     camera == drawn_camera_ && (may_smooth || !drawn_smooth_);
   if (stage.debug_views) {
+    drawn_smooth_ = false;
     // Their frame times would not be those of ordinary frames.
     if (!same) {
       stage.debug_views->show(stage.renderer, debug_view.what, debug_view.features);

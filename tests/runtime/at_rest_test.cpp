@@ -72,7 +72,7 @@ double psnr(const Image8& a, const Image8& b) {
   return -10 * std::log10(std::max(sum / (4 * double(a.pixels.size())), 1e-10));
 }
 
-/// What the window and the page promise of the image at rest.
+/// docs/viewer.md and docs/web.md give this for the image at rest.
 constexpr double min_psnr = 60;
 
 /// The image at rest of one renderer against the frame of another with 8 x 8 samples a pixel.

@@ -581,7 +581,7 @@ class WindowAtRest : public Window {
   }
 };
 
-/// Promised by docs/viewer.md.
+/// docs/viewer.md gives this for the image at rest.
 constexpr double min_psnr = 60;
 
 TEST_F(WindowAtRest, ShowsAndSavesTheImageOfSupersampling) {
