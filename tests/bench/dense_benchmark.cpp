@@ -11,6 +11,7 @@
 #include "jobs/timing/benchmark.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/bench/plain_renderer.hpp"
+#include "tests/bench/run_program.hpp"
 #include "tests/support/renderer_of.hpp"
 
 namespace tureen::test {
@@ -90,10 +91,5 @@ int run(int argc, char** argv) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  try {
-    return tureen::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "dense_benchmark: %s\n", error.what());
-    return 1;
-  }
+  return tureen::test::run_program("dense_benchmark", tureen::test::run, argc, argv);
 }

@@ -7,13 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 
 #include "formats/scene_file.hpp"
 #include "scene/spherical_harmonics.hpp"
+#include "tests/bench/run_program.hpp"
 #include "tests/support/random.hpp"
 
 namespace tureen::test {
@@ -69,10 +69,5 @@ int run(int argc, char** argv) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  try {
-    return tureen::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_gaussians: %s\n", error.what());
-    return 1;
-  }
+  return tureen::test::run_program("make_gaussians", tureen::test::run, argc, argv);
 }

@@ -2,12 +2,12 @@
 // or layers with a known cost.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "formats/scene_file.hpp"
 #include "tests/bench/dense_soup.hpp"
 #include "tests/bench/layered_soup.hpp"
+#include "tests/bench/run_program.hpp"
 
 namespace {
 
@@ -46,11 +46,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_soup: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return tureen::test::run_program("make_soup", run, argc, argv); }

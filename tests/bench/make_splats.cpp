@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <glm/geometric.hpp>
 #include <span>
 #include <string>
@@ -23,6 +22,7 @@
 #include "camera/navigation.hpp"
 #include "formats/scene_file.hpp"
 #include "scene/spherical_harmonics.hpp"
+#include "tests/bench/run_program.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/random_splats.hpp"
 #include "trainer/common/neighbours.hpp"
@@ -139,10 +139,5 @@ int run(int argc, char** argv) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  try {
-    return tureen::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_splats: %s\n", error.what());
-    return 1;
-  }
+  return tureen::test::run_program("make_splats", tureen::test::run, argc, argv);
 }

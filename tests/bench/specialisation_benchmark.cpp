@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,6 +15,7 @@
 #include "formats/scene_file.hpp"
 #include "jobs/timing/benchmark.hpp"
 #include "runtime/renderer.hpp"
+#include "tests/bench/run_program.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/renderer_of.hpp"
 #include "tests/support/trait_soups.hpp"
@@ -163,10 +163,5 @@ int run(int argc, char** argv) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  try {
-    return tureen::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "specialisation_benchmark: %s\n", error.what());
-    return 1;
-  }
+  return tureen::test::run_program("specialisation_benchmark", tureen::test::run, argc, argv);
 }

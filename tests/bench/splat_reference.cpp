@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
@@ -19,6 +18,7 @@
 #include "base/output.hpp"
 #include "formats/scene_file.hpp"
 #include "oracle/splat_kernels.hpp"
+#include "tests/bench/run_program.hpp"
 
 namespace tureen::test {
 namespace {
@@ -183,10 +183,5 @@ int run(int argc, char** argv) {
 }  // namespace tureen::test
 
 int main(int argc, char** argv) {
-  try {
-    return tureen::test::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "splat_reference: %s\n", error.what());
-    return 1;
-  }
+  return tureen::test::run_program("splat_reference", tureen::test::run, argc, argv);
 }
