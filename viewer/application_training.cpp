@@ -15,10 +15,14 @@ std::vector<std::string> Application::training_arguments() const {
   std::error_code ignored;
   const fs::path dataset = fs::absolute(state_.photographs->path, ignored).lexically_normal() / "";
   const fs::path folder = dataset.parent_path();  // without the last slash
-  // Beside the photographs, under a name that no file has.
+  // Beside the photographs, under a name of no scene and no unfinished run.
   const fs::path stem = folder.parent_path() / folder.filename();
   fs::path scene = stem.string() + ".glb";
-  for (int number = 2; fs::exists(scene, ignored); ++number)
+  const auto taken = [&] {
+    return fs::exists(scene, ignored) ||
+           fs::exists(fs::path(scene).replace_extension(".checkpoint"), ignored);
+  };
+  for (int number = 2; taken(); ++number)
     scene = stem.string() + "-" + std::to_string(number) + ".glb";
   return {"train", folder.string(), "-o", scene.string(), "--watch"};
 }

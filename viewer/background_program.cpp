@@ -67,6 +67,9 @@ bool BackgroundProgram::ended() {
 std::optional<std::string> BackgroundProgram::failure() {
   if (!ended() || exit_code_ == 0) return {};
   std::string last = program_ + " ended with exit code " + std::to_string(exit_code_.value_or(1));
+  // The last line of a program that was ended from outside is not the reason.
+  if (exit_code_ > 128)
+    return program_ + " was ended by signal " + std::to_string(*exit_code_ - 128);
   if (!errors_) return last;
   std::rewind(errors_.get());
   char line[4096];

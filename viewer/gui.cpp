@@ -100,7 +100,7 @@ Gui::Gui(Window& window, const GuiOptions& options) : context_(ImGui::CreateCont
   const double scale = std::clamp(options.scale, 1.0, 4.0);
   const double density = std::clamp(options.density, 1.0, 4.0);
   set_shapes(scale);
-  set_colors(options.theme);
+  set_colors(Theme::dark);  // until set_theme()
   add_fonts(*io.Fonts, options.font, {.scale = scale * density});
   io.FontGlobalScale = static_cast<float>(1 / density);
   drawing_ = std::make_unique<GuiDrawing>(window.context().capabilities().api);

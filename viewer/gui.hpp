@@ -24,7 +24,6 @@ struct GuiOptions {
   /// Framebuffer pixels in a point, 1..4. Fonts have this resolution.
   double density = 1;
   FontChoice font = FontChoice::machine;
-  Theme theme = Theme::dark;
 };
 
 class Gui {

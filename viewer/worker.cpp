@@ -59,6 +59,7 @@ bool Worker::collect() {
 
 std::optional<Worker::Status> Worker::status() const {
   const std::lock_guard lock(mutex_);
+  if (abandoned_) return {};
   std::optional<Status> status = running_;
   if (status)
     status->seconds =

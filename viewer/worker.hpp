@@ -50,7 +50,7 @@ class Worker {
     JobKind kind = JobKind::scene;
     double seconds = 0;  // since the job began
   };
-  /// The status of the running job, or nullopt.
+  /// The status of the running job; nullopt if there is none, or if it is abandoned.
   std::optional<Status> status() const;
   /// No job is running, waiting or uncollected.
   bool idle() const;
