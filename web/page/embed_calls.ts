@@ -118,7 +118,7 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
     ['setFov', ([fov]) => { viewer.fov = number(fov, 'fov'); }],
     ['setBackground', ([color]) => { viewer.background = vector(color, 'The colour'); }],
     ['setResolution', ([value]) => { viewer.resolution = resolution(value); }],
-    ['setSmoothAtRest', ([smooth]) => { viewer.smoothAtRest = smooth === true; }],
+    ['setSmoothAtRest', ([smooth]) => { viewer.smoothAtRest = truth(smooth, 'The switch'); }],
     ['show', ([name, features]) => {
       if (features === undefined) return viewer.show(text(name, 'name'));
       const { first, count } = object(features);

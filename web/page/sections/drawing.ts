@@ -32,7 +32,6 @@ export class DrawingSection {
       if (chosen) viewer.resolution = chosen.value;
       remember('resolution', this.resolution.value);
     });
-    this.smooth.checked = viewer.smoothAtRest;
     this.smooth.addEventListener('change', () => {
       viewer.smoothAtRest = this.smooth.checked;
       remember('smooth', this.smooth.checked);
@@ -51,6 +50,7 @@ export class DrawingSection {
   private update(): void {
     this.background.value = hexColor(this.viewer.background);
     this.resolution.value = keyOf(this.viewer.resolution);
+    this.smooth.checked = this.viewer.smoothAtRest;
     const plan = this.viewer.scene?.plan ?? [];
     fillSentences(block('plan'), plan);
     block('plan-part').hidden = plan.length === 0;
