@@ -88,7 +88,8 @@ class Application {
   void keep_session();
   void keep_settings();
 
-  // -- requests (application_requests.cpp, application_images.cpp, application_debug_views.cpp)
+  // -- requests (application_requests.cpp, application_loading.cpp, application_images.cpp,
+  // application_debug_views.cpp)
   void carry_out();
   void carry_out(const OpenPath& request);
   void carry_out(const AddPaths& request);

@@ -1,0 +1,207 @@
+// Reads scenes in the background and shows them.
+#include <algorithm>
+
+#include "viewer/application.hpp"
+#include "viewer/names.hpp"
+
+namespace tureen::viewer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Fraction of the progress bar for reading; the rest is for preparation.
+constexpr double reading_share = 0.9;
+
+}  // namespace
+
+void Application::load(const Loading& loading) {
+  loading_ = loading;
+  std::shared_ptr<StageSource> before;  // the job must not use the stage, which changes
+  if (loading.relation != Relation::other)
+    before = std::make_shared<StageSource>(state_.stage->source());
+  // A drawing job of the same scene stays: it is finished before the new layers are read.
+  if (loading.relation != Relation::grown) {
+    worker_.abandon(JobKind::drawing);
+    preparing_drawing_ = false;
+  }
+  const DrawingChoice choice = state_.stage ? state_.wanted : options_.drawing;
+  const std::vector<fs::path> named =
+      loading.relation == Relation::changed ? before->paths() : loading.paths;
+  auto files = std::make_shared<Reading>(Reading{.current = named.front(), .failures = {}});
+  worker_.start({.kind = JobKind::scene,
+                 .what = "reading " + short_names(named),
+                 .work =
+                     [this, loading, before, choice, files](const Worker::Progress& progress) {
+                       return load_in_background(loading, before,
+                                                 {window_.context(), choice, progress}, files);
+                     },
+                 .failed =
+                     [this, files](const std::string& reason) {
+                       files->failures.push_back({files->current, reason});
+                       end_loading(*files);
+                     }});
+}
+
+void Application::end_loading(const Reading& files) {
+  loading_.reset();
+  for (const Reading::Failure& each : files.failures)
+    state_.messages.error(short_name(each.path) + " cannot be shown", each.reason, state_.now);
+}
+
+/// Runs in the worker's thread; its result runs in the main thread.
+Worker::Completion Application::load_in_background(const Loading& loading,
+                                                   const std::shared_ptr<StageSource>& before,
+                                                   const StageRequest& request,
+                                                   const std::shared_ptr<Reading>& files) {
+  const ReadRequest reading{
+      .paths = loading.paths,
+      .progress = [&](double done) { request.progress(reading_share * done); },
+      .begins = [&](const fs::path& path) { files->current = path; },
+      .unreadable =
+          [&](const fs::path& path, const std::string& reason) {
+            files->failures.push_back({path, reason});
+          },
+      .max_splats = options_.max_splats};
+  const StageRequest preparing{request.context, request.choice, [&](double done) {
+                                 request.progress(reading_share + (1 - reading_share) * done);
+                               }};
+  if (loading.relation == Relation::grown) {
+    const StageSource source = read_more(*before, reading);
+    auto addition =
+        std::make_shared<StageAddition>(prepare_addition(source, before->layers.size(), preparing));
+    return [this, addition, files] {
+      end_loading(*files);
+      add(addition);
+    };
+  }
+  const bool again = loading.relation == Relation::changed;
+  std::shared_ptr<Stage> stage =
+      prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
+  return [this, stage = std::move(stage), relation = loading.relation, files] {
+    end_loading(*files);
+    show(std::make_unique<Stage>(std::move(*stage)), relation);
+  };
+}
+
+void Application::add(const std::shared_ptr<StageAddition>& addition) {
+  report_refused(addition->refused);
+  if (addition->layers.empty()) return;
+  Stage& stage = *state_.stage;
+  if (!stage.can_grow()) {  // debug views, the baseline
+    StageSource source = addition->source;
+    // Without the layers that were refused.
+    std::erase_if(source.layers, [&](const StageLayer& layer) {
+      return std::any_of(addition->refused.begin(), addition->refused.end(),
+                         [&](const RefusedLayer& refused) { return refused.name == layer.name; });
+    });
+    prepare_grown(source);
+    return;
+  }
+  const std::vector<std::string> known = named_notes(stage);
+  add_to(stage, std::move(*addition));
+  for (const std::string& note : all_notes(stage.scene->info))
+    if (std::find(known.begin(), known.end(), note) == known.end())
+      state_.messages.note(note, state_.now);
+  state_.layer_editing.selected = stage.layers.size() - 1;
+  // Jobs for the scene before would show it without the new layers.
+  worker_.abandon(JobKind::debug_view);
+  preparing_debug_views_.reset();
+  if (preparing_drawing_) state_.ask(ChooseDrawing{state_.wanted});
+  state_.debug_view.features = {};
+  frame_clock_.clear();
+  after_change_of_layers();
+  show_files_of_scene();
+}
+
+/// Prepares all layers anew, where the renderer cannot take further ones.
+void Application::prepare_grown(const StageSource& source) {
+  // Colours, if a layer lacks the debug view.
+  if (why_not(state_.debug_view.what, source)) state_.debug_view.what = DebugView::color;
+  const auto prepare =
+      state_.debug_view.what == DebugView::color ? prepare_stage : prepare_debug_stage;
+  loading_ = Loading{.relation = Relation::grown, .paths = {}};
+  for (std::size_t i = state_.stage->files.size(); i < source.files.size(); ++i)
+    loading_->paths.push_back(source.files[i].path);
+  worker_.start(
+      {.kind = JobKind::scene,
+       .what = "preparing " + short_names(source.paths()),
+       .work =
+           [this, source, prepare, choice = state_.wanted](const Worker::Progress& progress) {
+             std::shared_ptr<Stage> stage = prepare(source, {window_.context(), choice, progress});
+             return Worker::Completion([this, stage = std::move(stage)] {
+               loading_.reset();
+               show(std::make_unique<Stage>(std::move(*stage)), Relation::grown);
+             });
+           },
+       .failed =
+           [this, name = short_name(source.files.back().path)](const std::string& reason) {
+             loading_.reset();
+             state_.messages.error(name + " cannot be shown", reason, state_.now);
+           }});
+}
+
+void Application::report_refused(const std::vector<RefusedLayer>& layers) {
+  for (const RefusedLayer& layer : layers)
+    state_.messages.error("The layer " + layer.name + " does not fit the device's memory",
+                          describe(layer), state_.now);
+}
+
+/// After a change of the files.
+void Application::show_files_of_scene() {
+  const std::vector<fs::path> paths = state_.stage->paths();
+  watches_.clear();
+  for (const SceneFile& file : state_.stage->files)
+    if (std::find(paths.begin(), paths.end(), file.path) != paths.end())
+      watches_.push_back(file.watch);
+  // The first file comes first in the list of recent files.
+  for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(state_.settings, *path);
+  window_.set_title(short_names(paths) + " - Tureen");
+}
+
+void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
+  const bool same_scene = state_.stage && state_.stage->scene == stage->scene;
+  const bool keep_view = state_.stage && relation != Relation::other;
+  if (keep_view) {
+    // The user may have changed layers meanwhile.
+    StageSource now = stage->source();
+    keep_changes(now, *state_.stage);
+    arrange_layers(*stage, std::move(now.layers));
+  }
+  state_.stage = std::move(stage);
+  state_.wanted = state_.stage->choice;
+  image_is_current_ = false;
+  worker_.abandon(JobKind::debug_view);
+  worker_.abandon(JobKind::comparison);
+  preparing_debug_views_.reset();
+  state_.comparison.forget();
+  frame_clock_.clear();
+  if (same_scene) return;  // only the method of drawing changed
+  preparing_drawing_ = false;
+  report_refused(state_.stage->refused);
+  state_.debug_view.features = {};
+  if (why_not(state_.debug_view.what, *state_.stage)) state_.debug_view.what = DebugView::color;
+  if (!state_.photographs && state_.recorded >= int(state_.stage->scene->cameras.size()))
+    state_.recorded = -1;
+  const Subject& subject = state_.stage->subject;
+  if (keep_view) {
+    state_.controls.set_box(subject.low, subject.high);
+  } else {
+    state_.layer_editing = {};
+    state_.controls = CameraControls(subject);
+    lay_out(window_.size(), window_.pixels());  // with the panels of a scene
+    state_.controls.home();                     // for this viewport
+    state_.controls.arrive();
+    state_.recorded = -1;
+    if (!state_.stage->scene->cameras.empty()) {
+      state_.controls.set_first_view(state_.stage->scene->cameras.front());
+      state_.controls.reset();
+      state_.controls.arrive();
+    }
+  }
+  show_files_of_scene();
+  for (const std::string& note : all_notes(state_.stage->scene->info))
+    state_.messages.note(note, state_.now);
+}
+
+}  // namespace tureen::viewer
