@@ -141,6 +141,8 @@ class Application {
                                         const std::shared_ptr<StageSource>& before,
                                         const StageRequest& request,
                                         const std::shared_ptr<Reading>& files);
+  void post_previews(const std::filesystem::path& path, const StageRequest& request);
+  bool preview_is_changed() const;
   void end_loading(const Reading& files);
   void add(const std::shared_ptr<StageAddition>& addition);
   void prepare_grown(const StageSource& source);
@@ -177,6 +179,7 @@ class Application {
   std::vector<Event> pending_;
   std::vector<FileWatch> watches_;  // of the scene's files
   std::optional<Loading> loading_;
+  std::optional<Camera> preview_view_;  // the first view of the preview that is shown
   std::optional<BackgroundProgram> training_program_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;

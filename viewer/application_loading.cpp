@@ -45,8 +45,9 @@ void Application::load(const Loading& loading) {
 
 void Application::end_loading(const Reading& files) {
   loading_.reset();
+  const std::string failure = preview_view_ ? " is shown only in part" : " cannot be shown";
   for (const Reading::Failure& each : files.failures)
-    state_.messages.error(short_name(each.path) + " cannot be shown", each.reason, state_.now);
+    state_.messages.error(short_name(each.path) + failure, each.reason, state_.now);
 }
 
 /// Runs in the worker's thread; its result runs in the main thread.
@@ -76,12 +77,42 @@ Worker::Completion Application::load_in_background(const Loading& loading,
     };
   }
   const bool again = loading.relation == Relation::changed;
+  if (!again && loading.paths.size() == 1) post_previews(loading.paths.front(), request);
   std::shared_ptr<Stage> stage =
       prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
   return [this, stage = std::move(stage), relation = loading.relation, files] {
+    const Relation to_shown = preview_is_changed() ? Relation::changed : relation;
     end_loading(*files);
-    show(std::make_unique<Stage>(std::move(*stage)), relation);
+    show(std::make_unique<Stage>(std::move(*stage)), to_shown);
   };
+}
+
+/// Runs in the worker's thread.
+void Application::post_previews(const fs::path& path, const StageRequest& request) {
+  std::uint64_t shown = 0;
+  const StageRequest preparing{request.context, request.choice, [](double) {}};
+  while (const auto preview = read_source_preview(path, shown)) {
+    shown = preview->bytes;
+    if (preview->source.layers.front().primitive_count() > options_.max_splats.value_or(shown))
+      return;
+    std::shared_ptr<Stage> stage;
+    try {
+      stage = prepare_stage(preview->source, preparing);
+    } catch (const Error&) {
+      return;  // the device or the choice refuses it, and will refuse the whole scene
+    }
+    worker_.post([this, stage] {
+      const Relation to_shown = preview_is_changed() ? Relation::changed : Relation::other;
+      show(std::make_unique<Stage>(std::move(*stage)), to_shown);
+      preview_view_ = state_.controls.camera(1, 1);
+    });
+  }
+}
+
+/// Without changes, the whole scene is shown as if there had been no preview.
+bool Application::preview_is_changed() const {
+  return preview_view_ &&
+         (state_.controls.camera(1, 1) != *preview_view_ || !state_.stage->is_as_read());
 }
 
 void Application::add(const std::shared_ptr<StageAddition>& addition) {
@@ -169,6 +200,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     arrange_layers(*stage, std::move(now.layers));
   }
   state_.stage = std::move(stage);
+  preview_view_.reset();
   state_.wanted = state_.stage->choice;
   image_is_current_ = false;
   worker_.abandon(JobKind::debug_view);

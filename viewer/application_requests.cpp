@@ -148,7 +148,9 @@ void Application::carry_out(const CancelJob& request) {
     preparing_drawing_ = false;
     if (state_.stage) state_.wanted = state_.stage->choice;
   }
-  state_.messages.note("Cancelled.", state_.now);
+  const bool in_part = request.kind == JobKind::scene && preview_view_;
+  state_.messages.note(in_part ? "Cancelled. The scene is shown only in part." : "Cancelled.",
+                       state_.now);
 }
 
 void Application::carry_out(const ChooseDrawing& request) {

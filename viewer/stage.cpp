@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/input.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/scene_preview.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/splats/splat_sorter.hpp"
 #include "scene/middle_bounds.hpp"
@@ -31,14 +33,21 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Smaller files are read in less than about a third of a second; a preview would only delay them.
+constexpr std::uint64_t min_previewed_bytes = 16 << 20;
+/// Each preview has four times as many splats as the one before, and at most a quarter of the file.
+/// All previews together then take at most a third of the time for the whole file.
+constexpr std::uint64_t preview_growth = 4, max_preview_fraction = 4;
+/// Headers of files with previews are smaller.
+constexpr std::uint64_t max_header_bytes = 1 << 20;
+
 ReadOptions options_of(const ReadRequest& request, std::function<void(double)> progress) {
   return {.max_splats = request.max_splats, .progress = std::move(progress)};
 }
 
-/// Reads a file and appends it and its layers.
-void append_file(StageSource& source, const fs::path& path, const ReadOptions& options) {
-  const FileWatch watch(path);
-  auto scene = std::make_shared<Scene>(read_scene(path, options));
+/// Appends the scene of a file, and its layers.
+void append_scene(StageSource& source, const fs::path& path, const FileWatch& watch, Scene read) {
+  auto scene = std::make_shared<Scene>(std::move(read));
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
   for (std::size_t i = 0; i < scene->layers.size(); ++i) {
     Layer& layer = scene->layers[i];
@@ -52,6 +61,11 @@ void append_file(StageSource& source, const fs::path& path, const ReadOptions& o
                              .index = i});
   }
   source.files.push_back({path, watch, std::move(scene)});
+}
+
+void append_file(StageSource& source, const fs::path& path, const ReadOptions& options) {
+  const FileWatch watch(path);
+  append_scene(source, path, watch, read_scene(path, options));
 }
 
 void append_files(StageSource& source, const ReadRequest& request) {
@@ -293,6 +307,39 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
   guess_up_axis(source);
   source.read_seconds = reading.seconds();
   return source;
+}
+
+std::optional<SourcePreview> read_source_preview(const fs::path& path, std::uint64_t shown) try {
+  if (!fs::is_regular_file(path) || fs::file_size(path) < min_previewed_bytes) return {};
+  const FileWatch watch(path);
+  Input input = Input::open(path);
+  std::vector<std::byte> prefix;
+  const auto read_up_to = [&](std::uint64_t bytes) {
+    const std::size_t before = prefix.size();
+    prefix.resize(std::size_t(std::min(bytes, input.size())));
+    input.read(std::span(prefix).subspan(before), "preview");
+  };
+  std::optional<PreviewSize> size;
+  for (std::uint64_t bytes = 1 << 16; !size && bytes <= max_header_bytes; bytes *= 4) {
+    read_up_to(bytes);
+    size = preview_size(prefix, path.string(), preview_growth / 2 * shown);
+  }
+  if (!size || size->bytes == 0 || size->bytes > input.size() / max_preview_fraction) return {};
+  read_up_to(std::max<std::uint64_t>(size->bytes, prefix.size()));
+  std::optional<Scene> scene =
+      read_preview(std::span(prefix).first(std::size_t(size->bytes)), path.string());
+  if (!scene) return {};
+  scene->info.notes.clear();
+  scene->info.remarks.clear();
+  SourcePreview preview{.source = {}, .bytes = size->bytes};
+  append_scene(preview.source, path, watch, std::move(*scene));
+  merge_files(preview.source);
+  guess_up_axis(preview.source);
+  return preview;
+} catch (const Error&) {
+  return {};
+} catch (const fs::filesystem_error&) {
+  return {};
 }
 
 void keep_changes(StageSource& source, const StageSource& before) {

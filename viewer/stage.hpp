@@ -137,6 +137,16 @@ StageSource read_more(const StageSource& before, const ReadRequest& request);
 /// changes stay, as in keep_changes().
 StageSource read_again(const StageSource& before, const ReadRequest& request);
 
+/// A part of a large file, to be shown while all of it is read (formats/scene_preview.hpp).
+struct SourcePreview {
+  StageSource source;       // without notes: the whole scene has them
+  std::uint64_t bytes = 0;  // leading bytes of the file
+};
+/// The next preview, after one of `shown` bytes (0: none yet). Returns nullopt if there is none,
+/// also for a file with errors: its reader reports them.
+std::optional<SourcePreview> read_source_preview(const std::filesystem::path& path,
+                                                 std::uint64_t shown);
+
 /// Gives the layers the order, places and visibility that the user chose in `before`, and removes
 /// those that the user removed. Layers are the same if they have the same name and position in
 /// their file. `source` has the files of `before`, and perhaps further ones, whose layers follow.

@@ -36,6 +36,15 @@ void Worker::start(Job job) {
   changed_.notify_all();
 }
 
+void Worker::post(Completion completion) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (abandoned_) throw Abandoned{};
+    done_.push_back({running_->kind, std::move(completion)});
+  }
+  Window::wake();
+}
+
 void Worker::abandon(JobKind kind) {
   const std::lock_guard lock(mutex_);
   drop(kind);

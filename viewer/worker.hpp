@@ -40,6 +40,9 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void start(Job job);
+  /// For the running job, in its thread: a further completion, before the one that it returns.
+  /// Throws to end an abandoned job.
+  void post(Completion completion);
   void abandon(JobKind kind);
   /// Runs the completions of finished jobs. Returns whether there were any.
   bool collect();

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 
 #include "base/error.hpp"
@@ -13,6 +14,7 @@ namespace stage_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 class Stages : public testing::Test {
  protected:
@@ -29,6 +31,15 @@ class Stages : public testing::Test {
   }
   fs::path bad(const std::string& name) const {
     std::ofstream(folder_ / name) << "OFF\n1 1 0\n";
+    return folder_ / name;
+  }
+  /// Records of 32 bytes, all the same.
+  fs::path splats(const std::string& name, std::size_t count) const {
+    std::string record(32, '\x7f');
+    const float values[6] = {1, 2, 3, 0.1f, 0.1f, 0.1f};
+    std::memcpy(record.data(), values, sizeof values);
+    std::ofstream file(folder_ / name, std::ios::binary);
+    for (std::size_t i = 0; i < count; ++i) file << record;
     return folder_ / name;
   }
   ReadRequest request(std::vector<fs::path> paths) {
@@ -79,6 +90,25 @@ TEST_F(Stages, RemovedLayersDoNotCount) {
   source = read_again(source, request({}));
   EXPECT_THAT(names(source), ElementsAre("b"));
   EXPECT_THAT(source.paths(), ElementsAre(b));
+}
+
+TEST_F(Stages, PreviewsOfALargeFileGrowToAQuarterOfIt) {
+  const fs::path path = splats("many.splat", std::size_t(1) << 19);
+  std::vector<std::size_t> counts;
+  for (std::uint64_t shown = 0; const auto preview = read_source_preview(path, shown);) {
+    counts.push_back(preview->source.layers.front().primitive_count());
+    EXPECT_EQ(preview->bytes, counts.back() * 32);
+    EXPECT_THAT(all_notes(preview->source.scene->info), IsEmpty());
+    shown = preview->bytes;
+  }
+  EXPECT_THAT(counts, ElementsAre(1u << 14, 1u << 16));
+}
+
+TEST_F(Stages, SmallMissingAndOtherFilesHaveNoPreview) {
+  EXPECT_FALSE(read_source_preview(splats("few.splat", 1000), 0));
+  EXPECT_FALSE(read_source_preview(folder_ / "missing.splat", 0));
+  EXPECT_FALSE(read_source_preview(folder_, 0));
+  EXPECT_FALSE(read_source_preview(splats("other.glb", std::size_t(1) << 19), 0));
 }
 
 }  // namespace stage_test

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <glm/matrix.hpp>
@@ -175,6 +176,24 @@ TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names("bad.glb"));
   expect_golden(image("bad"), "window_bad_file");
+}
+
+TEST_F(Window, ADamagedLargeFileIsShownInPart) {
+  // 2^19 records of 32 bytes, and a byte too many: small white splats in the plane z = 0.
+  std::string record(32, '\xff');
+  std::ofstream file(folder_ / "large.splat", std::ios::binary);
+  for (int i = 0; i < 1 << 19; ++i) {
+    const float values[6] = {float(i % 64), float(i / 64 % 64), 0, 0.3f, 0.3f, 0.3f};
+    std::memcpy(record.data(), values, sizeof values);
+    file << record;
+  }
+  file << '!';
+  file.close();
+  const ChildResult result = replay(Person().wait().press(Key::h).look("part"), {"large.splat"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, Names("large.splat is shown only in part"));
+  const Image8 part = image("part");
+  EXPECT_NE(part.pixels[part.pixels.size() / 2 + std::size_t(part.width) / 2], part.pixels[0]);
 }
 
 TEST_F(Window, WithoutASceneAsksForOne) {

@@ -85,6 +85,32 @@ TEST_F(WorkerTest, AbandonedWorkIsNotHandedOver) {
   EXPECT_TRUE(told.empty());
 }
 
+TEST_F(WorkerTest, PostedCompletionsComeFirst) {
+  Worker worker(window, 0);
+  Worker::Job posting = job(JobKind::scene, "whole");
+  posting.work = [this, &worker, whole = posting.work](const Worker::Progress& progress) {
+    worker.post([this] { told.push_back("preview"); });
+    return whole(progress);
+  };
+  worker.start(posting);
+  finish(worker);
+  EXPECT_THAT(told, ElementsAre("preview", "whole"));
+}
+
+TEST_F(WorkerTest, AbandonedJobsPostNothing) {
+  Worker worker(window, 0);
+  Worker::Job posting = endless(JobKind::scene, "whole");
+  posting.work = [this, &worker](const Worker::Progress&) {
+    for (started = true; true;) worker.post([this] { told.push_back("preview"); });
+    return Worker::Completion();
+  };
+  worker.start(posting);
+  wait_for_start();
+  worker.abandon(JobKind::scene);
+  finish(worker);
+  EXPECT_TRUE(told.empty());
+}
+
 TEST_F(WorkerTest, FailuresAreTold) {
   Worker worker(window, 0);
   Worker::Job bad = job(JobKind::scene, "bad");
