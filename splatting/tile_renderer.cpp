@@ -70,10 +70,9 @@ void TileRenderer::sort(std::span<const LayerInView> layers) {
 }
 
 void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const float> depths,
-                        std::span<float> rgba, BlendOrder order) {
+                        const RowSink& sink, BlendOrder order) {
   assert(!layers.empty() && layers.size() <= 255);
   const ImageView& image = layers.front().view;
-  assert(rgba.size() == 4 * std::size_t(image.width) * std::size_t(image.height));
   sort(layers);
   lists_.begin(image.width, image.height);
   for (const Run& run : runs_)
@@ -83,8 +82,16 @@ void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const flo
     lists_.finish(int(row));
     std::optional<TileHits> hits;
     if (order == BlendOrder::along_rays) hits.emplace();
+    // A row of tiles stays in the cache until the sink has read it. Memory is kept: a new block of
+    // this size would cost page faults.
+    thread_local std::vector<float> kept;
+    const int first_row = int(row) * tile_side;
+    const auto rows = std::size_t(std::min(tile_side, image.height - first_row));
+    kept.resize(std::max(kept.size(), 4 * rows * std::size_t(image.width)));
+    const std::span<float> rgba = std::span(kept).first(4 * rows * std::size_t(image.width));
     for (int column = 0; column < lists_.columns(); ++column)
       draw_tile(layers, depths, column, int(row), hits ? &*hits : nullptr, rgba);
+    sink(first_row, rgba);
   });
 }
 
@@ -93,9 +100,8 @@ void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<cons
   const ImageView& image = layers.front().view;
   if (lists_.tile(column, row).empty()) {
     const int x = column * tile_side, width = std::min(tile_side, image.width - x);
-    for (int y = row * tile_side; y < std::min((row + 1) * tile_side, image.height); ++y)
-      std::fill_n(&rgba[4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x))],
-                  4 * width, 0.0f);
+    for (std::size_t at = std::size_t(x); 4 * at < rgba.size(); at += std::size_t(image.width))
+      std::fill_n(&rgba[4 * at], 4 * width, 0.0f);
     return;
   }
   TilePixels pixels{};
@@ -134,8 +140,9 @@ void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<cons
     for (int i = 0; i < tile_pixels; ++i) blend_in_order(hits->at[std::size_t(i)], i, pixels);
     hits->clear();
   }
+  const std::size_t before = std::size_t(pixels.y) * std::size_t(image.width);
   for_each_pixel([&](int i, std::size_t pixel) {
-    float* out = &rgba[4 * pixel];
+    float* out = &rgba[4 * (pixel - before)];
     out[0] = pixels.red[i];
     out[1] = pixels.green[i];
     out[2] = pixels.blue[i];

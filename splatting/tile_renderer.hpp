@@ -25,6 +25,10 @@ enum class BlendOrder {
   along_rays,
 };
 
+/// Takes consecutive rows of an image from `first_row` on; row 0 is on top. `rgba`: premultiplied
+/// colours, which may exceed 1, and alpha, 4 floats a pixel. Several threads may call it.
+using RowSink = std::function<void(int first_row, std::span<const float> rgba)>;
+
 /// A visible layer and its camera.
 struct LayerInView {
   Layer* layer;
@@ -37,11 +41,10 @@ class TileRenderer {
   explicit TileRenderer(Parallel parallel) : parallel_(std::move(parallel)) {}
 
   /// At most 255 layers, whose views have one size. `depths`: of the opaque surface in world units,
-  /// a pixel, infinity where there is none; row 0 on top; or empty. Writes premultiplied colours,
-  /// which may exceed 1, and alpha to `rgba`: 4 floats a pixel. The result does not depend on the
-  /// number of threads.
-  void draw(std::span<const LayerInView> layers, std::span<const float> depths,
-            std::span<float> rgba, BlendOrder order = BlendOrder::centres);
+  /// a pixel, infinity where there is none; row 0 on top; or empty. Gives each row to `sink` once,
+  /// in any order. The result does not depend on the number of threads.
+  void draw(std::span<const LayerInView> layers, std::span<const float> depths, const RowSink& sink,
+            BlendOrder order = BlendOrder::centres);
 
   /// Adds to weights[i] what splat i of the layer contributes to the image: the sum over the pixels
   /// of its alpha times the transmittance of the splats in front. Nothing opaque is behind. Uses
@@ -54,6 +57,7 @@ class TileRenderer {
     std::uint32_t layer, begin, end;
   };
   void sort(std::span<const LayerInView> layers);
+  /// `rgba`: the pixels of the row of tiles.
   void draw_tile(std::span<const LayerInView> layers, std::span<const float> depths, int column,
                  int row, TileHits* hits, std::span<float> rgba) const;
 

@@ -54,7 +54,7 @@ void SplatPass::draw(const Frame& frame, FrameTarget& target) {
   blended_.composite_over(target);
 }
 
-std::vector<glm::vec4> SplatPass::read_blended() const {
+std::vector<glm::vec4> SplatPass::read_blended() {
   return blended_.read(framebuffers_.with_depth);
 }
 

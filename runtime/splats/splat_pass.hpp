@@ -32,7 +32,7 @@ class SplatPass final : public SplatBlendingPass {
   std::size_t target_bytes() const override;
   void leave_context() override;
 
-  std::vector<glm::vec4> read_blended() const override;
+  std::vector<glm::vec4> read_blended() override;
 
  private:
   OrderedSplats splats_;

@@ -67,7 +67,7 @@ class SplatBlendingPass : public Pass {
   const char* name() const override { return "splats"; }
   /// The blended splats of the last frame, premultiplied RGBA, row 0 on top; colours may exceed 1.
   /// Waits for the device.
-  virtual std::vector<glm::vec4> read_blended() const = 0;
+  virtual std::vector<glm::vec4> read_blended() = 0;
 };
 
 }  // namespace tureen

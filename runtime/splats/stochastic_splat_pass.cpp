@@ -64,7 +64,7 @@ void StochasticSplatPass::draw(const Frame& frame, FrameTarget& target) {
   sampled_.composite_over(target);
 }
 
-std::vector<glm::vec4> StochasticSplatPass::read_blended() const {
+std::vector<glm::vec4> StochasticSplatPass::read_blended() {
   return sampled_.read(framebuffer_);
 }
 

@@ -26,7 +26,7 @@ class StochasticSplatPass final : public SplatBlendingPass {
   std::size_t target_bytes() const override;
   void leave_context() override;
 
-  std::vector<glm::vec4> read_blended() const override;
+  std::vector<glm::vec4> read_blended() override;
 
  private:
   std::vector<DeviceSplats*> layers_;

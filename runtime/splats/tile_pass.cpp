@@ -37,38 +37,31 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
 void TilePass::resize(const FrameTarget& target) {
   size_ = target.size();
   has_texture_ = false;
-  rgba_.resize(4 * std::size_t(size_.x) * std::size_t(size_.y));
   bits_ = {};
   bits_framebuffer_ = {};
 }
 
 void TilePass::draw(const Frame& frame, FrameTarget& target) {
-  std::vector<splatting::LayerInView> views;
+  views_.clear();
   const auto pixel_area = static_cast<float>(frame.samples_per_pixel * frame.samples_per_pixel);
   for (const TiledSplats* each : layers_) {
     const FrameCamera& camera = frame.layers[each->layer];
     if (!camera.visible) continue;
-    views.push_back(
+    views_.push_back(
         {each->splats.get(),
          splatting::image_view(camera.camera, camera.eye, camera.range.near, each->profile,
                                frame.input.whole.value_or(frame.input.camera)),
          camera.scale});
     // In samples.
-    views.back().view.dilation *= pixel_area;
-    views.back().view.screen_variance *= pixel_area;
+    views_.back().view.dilation *= pixel_area;
+    views_.back().view.screen_variance *= pixel_area;
   }
-  if (views.empty()) {
-    std::fill(rgba_.begin(), rgba_.end(), 0.0f);
-    return;
-  }
+  if (views_.empty()) return;
   read_depths(frame, target);
-  renderer_.draw(views, depths_, rgba_, order_);
-  if (target.has_color()) {
-    upload();
-    blended_.composite_over(target);
-  } else {
-    upload_over_background(target);
-  }
+  if (target.has_color())
+    draw_over_colors(target);
+  else
+    draw_over_background(target);
 }
 
 /// OpenGL ES can read back only colours, so a shader writes the depths as bits.
@@ -99,29 +92,43 @@ void TilePass::read_depths(const Frame& frame, const FrameTarget& target) {
   });
 }
 
-void TilePass::upload() {
+void TilePass::draw_over_colors(FrameTarget& target) {
   if (!has_texture_) blended_.resize(size_);
   has_texture_ = true;
-  blended_upside_down_.resize(rgba_.size());
   const auto row_floats = 4 * std::size_t(size_.x);
-  pool_.run(std::size_t(size_.y), [&](std::size_t row) {
-    std::copy_n(rgba_.data() + row * row_floats, row_floats,
-                blended_upside_down_.data() + (std::size_t(size_.y) - 1 - row) * row_floats);
-  });
+  blended_upside_down_.resize(row_floats * std::size_t(size_.y));
+  renderer_.draw(
+      views_, depths_,
+      [&](int first_row, std::span<const float> rgba) {
+        for (std::size_t at = 0, row = std::size_t(first_row); at < rgba.size(); ++row) {
+          std::copy_n(&rgba[at], row_floats,
+                      &blended_upside_down_[(std::size_t(size_.y) - 1 - row) * row_floats]);
+          at += row_floats;
+        }
+      },
+      order_);
   gl::use_plain_pixel_transfer();
   glBindTexture(GL_TEXTURE_2D, blended_.texture());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT,
                   blended_upside_down_.data());
+  blended_.composite_over(target);
 }
 
 /// Composites on the processor: on software devices, that takes a fraction of the time of drawing.
-void TilePass::upload_over_background(FrameTarget& target) {
+void TilePass::draw_over_background(FrameTarget& target) {
   const auto width = std::size_t(size_.x), height = std::size_t(size_.y);
   colors_upside_down_.resize(width * height);
-  pool_.run(height, [&](std::size_t row) {
-    splatting::composite(std::span(rgba_).subspan(row * 4 * width, 4 * width), target.background(),
-                         std::span(colors_upside_down_).subspan((height - 1 - row) * width, width));
-  });
+  renderer_.draw(
+      views_, depths_,
+      [&](int first_row, std::span<const float> rgba) {
+        for (std::size_t at = 0, row = std::size_t(first_row); at < rgba.size(); ++row) {
+          splatting::composite(
+              rgba.subspan(at, 4 * width), target.background(),
+              std::span(colors_upside_down_).subspan((height - 1 - row) * width, width));
+          at += 4 * width;
+        }
+      },
+      order_);
   target.overwrite_color();
   gl::use_plain_pixel_transfer();
   glBindTexture(GL_TEXTURE_2D, target.color_texture());
@@ -129,10 +136,17 @@ void TilePass::upload_over_background(FrameTarget& target) {
                   colors_upside_down_.data());
 }
 
-std::vector<glm::vec4> TilePass::read_blended() const {
-  std::vector<glm::vec4> result(rgba_.size() / 4);
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = {rgba_[4 * i], rgba_[4 * i + 1], rgba_[4 * i + 2], rgba_[4 * i + 3]};
+/// Draws them again: frames do not keep them.
+std::vector<glm::vec4> TilePass::read_blended() {
+  const auto width = std::size_t(size_.x);
+  std::vector<glm::vec4> result(width * std::size_t(size_.y), glm::vec4(0));
+  if (views_.empty()) return result;
+  renderer_.draw(
+      views_, depths_,
+      [&](int first_row, std::span<const float> rgba) {
+        std::memcpy(&result[std::size_t(first_row) * width], rgba.data(), rgba.size_bytes());
+      },
+      order_);
   return result;
 }
 

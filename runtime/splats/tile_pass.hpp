@@ -38,12 +38,12 @@ class TilePass final : public SplatBlendingPass {
   std::size_t target_bytes() const override;
   void leave_context() override;
 
-  std::vector<glm::vec4> read_blended() const override;
+  std::vector<glm::vec4> read_blended() override;
 
  private:
   void read_depths(const Frame& frame, const FrameTarget& target);
-  void upload();
-  void upload_over_background(FrameTarget& target);
+  void draw_over_colors(FrameTarget& target);
+  void draw_over_background(FrameTarget& target);
 
   std::vector<const TiledSplats*> layers_;
   splatting::BlendOrder order_;
@@ -56,10 +56,10 @@ class TilePass final : public SplatBlendingPass {
   FullScreen full_screen_;
   gl::Texture bits_;  // made when soups are drawn
   gl::Framebuffer bits_framebuffer_;
-  // Row 0 on top.
-  std::vector<float> depths_;  // in world units, infinity where no soup is; empty: no soup anywhere
-  std::vector<float> rgba_;
-  // The same upside down, as OpenGL's textures: blended splats, or the frame's colours.
+  std::vector<splatting::LayerInView> views_;  // of the last frame
+  // Row 0 on top; in world units, infinity where no soup is; empty: no soup anywhere.
+  std::vector<float> depths_;
+  // Upside down, as OpenGL's textures: blended splats, or the frame's colours.
   std::vector<float> blended_upside_down_;
   std::vector<std::uint32_t> colors_upside_down_;
 };

@@ -50,7 +50,13 @@ std::vector<float> drawn(const Scene& scene, const Camera& camera,
                      1.0});
   }
   std::vector<float> rgba(4 * std::size_t(camera.width) * std::size_t(camera.height));
-  splatting::TileRenderer(parallel).draw(views, depths, rgba, order);
+  splatting::TileRenderer(parallel).draw(
+      views, depths,
+      [&](int first_row, std::span<const float> rows) {
+        std::copy(rows.begin(), rows.end(),
+                  rgba.begin() + 4 * std::ptrdiff_t(first_row) * camera.width);
+      },
+      order);
   return rgba;
 }
 
