@@ -53,6 +53,8 @@ export type LoadRole = 'scene' | 'layers';
 
 export type ToLoader =
   | LoadMessage
+  /** Sent when the program is compiled; the download begins before. */
+  | { readonly kind: 'program'; readonly program: WebAssembly.Module }
   /** Sent when the device is available; preparing depends on its limits. */
   | { readonly kind: 'limits'; readonly limits: unknown }
   /** The device's memory is too small: prepare the scene with a lower lattice level. */
@@ -65,7 +67,6 @@ export type ToLoader =
 
 export interface LoadMessage {
   readonly kind: 'load';
-  readonly program: WebAssembly.Module;
   readonly source: SourceToLoad;
   readonly role: LoadRole;
   /** As SplatOffer.memory. */
@@ -90,6 +91,8 @@ export interface SortTask {
 }
 
 export type FromLoader =
+  /** The worker runs. */
+  | { readonly kind: 'started' }
   | { readonly kind: 'progress'; readonly progress: LoadProgress }
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
   /** The loader waits for the answer, 'splats'. */

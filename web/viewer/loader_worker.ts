@@ -32,14 +32,18 @@ class Loader {
 
   private readonly from: 'files' | 'url';
 
-  constructor(private readonly engine: Engine, private readonly limits: Promise<unknown>,
+  private engine!: Engine;  // from load() on, after the download
+
+  constructor(private readonly starting: Promise<Engine>, private readonly limits: Promise<unknown>,
               private readonly chosen: Promise<number>, private readonly message: LoadMessage) {
     this.from = 'url' in message.source ? 'url' : 'files';
   }
 
   async load(): Promise<void> {
     const { source } = this.message;
+    void this.starting.then((engine) => { this.engine = engine; }, () => {});  // the error follows below
     const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
+    await this.starting;
     this.engine.onProgress = (fraction) => this.tell('read', fraction);
     const begin = performance.now();
     this.description = await this.read(files);
@@ -80,13 +84,14 @@ class Loader {
   }
 
   private async fetched(url: string, name: string): Promise<OpenedFiles> {
-    const preview = new Preview(this.engine, name, this.message.memory);
+    let preview: Preview | null = null;  // none while the engine starts
     const bytes = await download(url, async ({ bytes: prefix, total }) => {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
       // Added layers have none: the scene stays visible. Otherwise, the whole scene follows immediately.
-      if (this.message.role === 'layers' || prefix.length === total) return;
+      if (this.message.role === 'layers' || prefix.length === total || !this.engine) return;
+      preview ??= new Preview(this.engine, name, this.message.memory);
       const begin = performance.now(), description = preview.read(prefix, total);
       if (!description) return;
       try {
@@ -171,6 +176,8 @@ async function sortSplats({ program, task, centers }: SortMessage): Promise<void
 }
 
 let loader: Loader | null = null;
+let giveProgram: (program: WebAssembly.Module) => void;
+const program = new Promise<WebAssembly.Module>((resolve) => { giveProgram = resolve; });
 let giveLimits: (limits: unknown) => void;
 const limits = new Promise<unknown>((resolve) => { giveLimits = resolve; });
 let choose: (splats: number) => void;
@@ -179,8 +186,10 @@ const chosen = new Promise<number>((resolve) => { choose = resolve; });
 async function handle(message: ToLoader): Promise<void> {
   switch (message.kind) {
     case 'load':
-      loader = new Loader(await Engine.create(message.program), limits, chosen, message);
+      post({ kind: 'started' });
+      loader = new Loader(program.then((compiled) => Engine.create(compiled)), limits, chosen, message);
       return loader.load();
+    case 'program': return giveProgram(message.program);
     case 'limits': return giveLimits(message.limits);
     case 'splats': return choose(message.number);
     case 'lower': return loader!.lower(message.why);

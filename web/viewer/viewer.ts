@@ -158,6 +158,8 @@ class CanvasViewer implements Viewer {
 
   private async startEngine(): Promise<void> {
     const engine = await Engine.create(await this.program);
+    // The page is blocked for tenths of a second while it gets a context, and a worker cannot start then.
+    await this.expected?.loading.running;
     engine.takeCanvas(this.canvas);
     this.engine = engine;
     this.device = engine.call<Device>('start', { blend: this.options.blend });
