@@ -54,9 +54,7 @@ void SplatPass::draw(const Frame& frame, FrameTarget& target) {
   blended_.composite_over(target);
 }
 
-std::vector<glm::vec4> SplatPass::read_blended() {
-  return blended_.read(framebuffers_.with_depth);
-}
+std::vector<glm::vec4> SplatPass::read_blended() { return blended_.read(framebuffers_.with_depth); }
 
 std::size_t SplatPass::target_bytes() const {
   return blended_.bytes() + (hidden_ ? hidden_->bytes() : 0);

@@ -64,9 +64,7 @@ void StochasticSplatPass::draw(const Frame& frame, FrameTarget& target) {
   sampled_.composite_over(target);
 }
 
-std::vector<glm::vec4> StochasticSplatPass::read_blended() {
-  return sampled_.read(framebuffer_);
-}
+std::vector<glm::vec4> StochasticSplatPass::read_blended() { return sampled_.read(framebuffer_); }
 
 std::size_t StochasticSplatPass::target_bytes() const {
   return sampled_.bytes() + bytes_of(depth_format, sampled_.size());
