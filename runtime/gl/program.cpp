@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
-#include <sstream>
 #include <string_view>
 
 #include "base/error.hpp"
@@ -13,10 +12,13 @@ namespace tureen::gl {
 namespace {
 
 std::string numbered(const std::string& source) {
-  std::istringstream lines(source);
-  std::string line, result;
-  for (int number = 1; std::getline(lines, line); ++number)
-    result += std::to_string(number) + ": " + line + "\n";
+  std::string result;
+  int number = 0;
+  for (std::size_t begin = 0; begin < source.size();) {
+    const std::size_t end = std::min(source.find('\n', begin), source.size());
+    result += std::to_string(++number) + ": " + source.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
   return result;
 }
 

@@ -1,8 +1,9 @@
 // Tureen's viewer and five viewers of Gaussians from npm in Chromium, on both rasterisers that need no GPU: the times
 // of frames while the camera moves, the time until the first whole image, and the PSNR of the images.
 //
-//   node viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick]
+//   node viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick] [--only-first]
 //
+// --only-first: only the time until the first image, from more visits.
 // --views: the cameras, by default those of the guitar (web/bench/viewers/guitar_views.json); `./dev bench` uses
 // SCENE.views.json if it exists. Writes the images to OUT, and rows as lines of JSON to standard output.
 
@@ -16,16 +17,16 @@ import { built, launch, programs, source } from '../web/browser.mjs';
 import { writePng } from '../web/png.mjs';
 
 const sources = join(source, 'web/bench/viewers');
-const { positionals: [out, scene], values: { views: viewsFile, quick } } = parseArgs({
+const { positionals: [out, scene], values: { views: viewsFile, quick, 'only-first': onlyFirst } } = parseArgs({
   allowPositionals: true,
-  options: { quick: { type: 'boolean', default: false }, views: { type: 'string', default: join(sources, 'guitar_views.json') } },
+  options: { quick: { type: 'boolean', default: false }, 'only-first': { type: 'boolean', default: false }, views: { type: 'string', default: join(sources, 'guitar_views.json') } },
 });
 if (!out || !scene) {
-  console.error('use: viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick]');
+  console.error('use: viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick] [--only-first]');
   process.exit(2);
 }
 
-const [width, height] = quick ? [160, 90] : [1280, 720], rounds = quick ? 1 : 2;
+const [width, height] = quick ? [160, 90] : [1280, 720], rounds = quick ? 1 : onlyFirst ? 5 : 2;
 /** Of one view in one round. Slow viewers draw fewer frames. */
 const motion = quick ? { frames: 2, minFrames: 1, maxMs: 1 } : { frames: 8, minFrames: 3, maxMs: 3000 };
 /** Time limit of a step in the page, ms. */
@@ -126,6 +127,7 @@ async function visit(rasteriser, { viewer, options = {} }, address, wantsImages)
       async ([name, args]) => (await window.bench)[name](...args), [method, given])]);
     const firstImageMs = await Promise.race([late, page.evaluate(async () => (await window.bench).firstImageMs)]);
     const moved = {}, images = {};
+    if (onlyFirst) return { firstImageMs, moved, images };
     for (const [name, camera] of Object.entries(cameras)) moved[name] = await call('move', camera, motion);
     if (wantsImages)
       for (const [name, camera] of Object.entries(cameras))
@@ -149,7 +151,8 @@ async function measure(cases, address) {
           try {
             const result = await visit(rasteriser, each, address, visits.get(key).done.length === 0);
             visits.get(key).done.push(result);
-            console.error(`${round} ${key}: ${Object.entries(result.moved).map(([name, { ms }]) => `${name} ${median(ms).toFixed(0)}`).join(', ')}`);
+            const frames = Object.entries(result.moved).map(([name, { ms }]) => `, ${name} ${median(ms).toFixed(0)}`);
+            console.error(`${round} ${key}: first ${result.firstImageMs.toFixed(0)}${frames.join('')}`);
             break;
           } catch (error) {
             console.error(`${round} ${key}: ${error.message}`);
@@ -161,6 +164,8 @@ async function measure(cases, address) {
 /** A row for each view. */
 function rows({ rasteriser, each, done }, references) {
   if (done.length === 0) return [{ rasteriser, viewer: each.name, view: 'failed' }];
+  const firstImage = median(done.map(({ firstImageMs }) => firstImageMs));
+  if (onlyFirst) return [{ rasteriser, viewer: each.name, first_image_ms: firstImage }];
   return Object.keys(cameras).map((view) => {
     const image = done[0].images[view], { exact, own } = references(view, each.rules);
     writeFileSync(join(out, `${rasteriser}-${each.name.replace(/\W+/g, '_')}-${view}.png`),
@@ -171,7 +176,7 @@ function rows({ rasteriser, each, done }, references) {
       frame_ms: median(moved.flatMap(({ ms }) => ms)),
       spread: Math.max(...medians) / Math.min(...medians) - 1,
       orders: median(moved.map(({ orders }) => orders)),
-      first_image_ms: median(done.map(({ firstImageMs }) => firstImageMs)),
+      first_image_ms: firstImage,
       psnr_db: psnr(image, exact),
       object_psnr_db: psnr(image, exact, (at) => exact[at + 3] < 0.999),
       own_psnr_db: psnr(image, own),

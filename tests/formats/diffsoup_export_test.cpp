@@ -370,10 +370,10 @@ TEST(DiffSoupExport, WhatIsWrongIsNamed) {
   EXPECT_THAT(changed("mlp_weights.json", "\"b3\":[", "\"b3\":[\"x\",1,2],\"b4\":["),
               ErrorAt("a/mlp_weights.json", "b3[0]"));
   EXPECT_THAT(changed("mesh.ply", "vertex 6", "vertex 9999999999"),
-              ErrorAt("a/mesh.ply@178", "9999999999"));
+              ErrorAt("a/mesh.ply:3", "9999999999"));
   EXPECT_THAT(changed("mesh.ply", "face 2", "face 3"), ErrorAt("a/mesh.ply@241", 3));
   EXPECT_THAT(changed("mesh.ply", "little", "big"), ErrorAt("a/mesh.ply:2", "binary_big_endian"));
-  EXPECT_THAT(changed("mesh.ply", "float x", "float q"), ErrorAt("a/mesh.ply:9"));
+  EXPECT_THAT(changed("mesh.ply", "float x", "float q"), ErrorAt("a/mesh.ply:3"));
   EXPECT_THAT(changed("mesh.ply", std::string("\3\0\0\0\0", 5), std::string("\3\x6\0\0\0", 5)),
               ErrorAt("a/mesh.ply@241", 0, 6));
   EXPECT_THAT(changed("mesh.ply", std::string("\3\0\0\0\0", 5), std::string("\4\0\0\0\0", 5)),
