@@ -1,8 +1,9 @@
 // Frame times of bench.html in Chromium, compared with the baseline in the same page, on both rasterisers
 // that need no GPU; the memory of a scene; and the time until the first image.
 //
-//   node browser_benchmark.mjs OUT SCENE.glb.. [--quick]
+//   node browser_benchmark.mjs OUT SCENE.. [--quick] [--openings]
 //
+// --openings: only the time until the first image and until the whole scene.
 // Writes OUT/SCENE-RASTERISER.json for `tureen report`, and everything else as lines of JSON on standard
 // output.
 
@@ -14,10 +15,12 @@ import { parseArgs } from 'node:util';
 import { serve } from '../../web/serve.mjs';
 import { built, launch, programs } from '../web/browser.mjs';
 
-const { positionals: [out, ...scenes], values: { quick } } =
-  parseArgs({ allowPositionals: true, options: { quick: { type: 'boolean', default: false } } });
+const { positionals: [out, ...scenes], values: { quick, openings: onlyOpenings } } = parseArgs({
+  allowPositionals: true,
+  options: { quick: { type: 'boolean', default: false }, openings: { type: 'boolean', default: false } },
+});
 if (!out || scenes.length === 0) {
-  console.error('use: browser_benchmark.mjs OUT SCENE.glb.. [--quick]');
+  console.error('use: browser_benchmark.mjs OUT SCENE.. [--quick] [--openings]');
   process.exit(2);
 }
 
@@ -101,6 +104,11 @@ async function openingTimes(browser, site, scene) {
 async function measureScene(browser, site, rasteriser, path) {
   const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
   console.error(`${name} on ${rasteriser}`);
+  if (onlyOpenings) {
+    const { first, whole } = await openingTimes(browser, site, `scene=${file}`);
+    console.log(JSON.stringify({ scene: name, rasteriser, first_image_ms: first, whole_scene_ms: whole }));
+    return;
+  }
   const result = await frames(browser, site, path, `scenes=${file}`);
   writeFileSync(join(out, `${name}-${rasteriser}.json`), JSON.stringify(result, null, 1) + '\n');
   const { device, wasm } = await memory(browser, site, `scenes=${file}`);
