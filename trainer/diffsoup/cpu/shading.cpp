@@ -198,6 +198,67 @@ TUREEN_ALWAYS_INLINE void store_gradient(BatchImage& image, const Batch& batch,
   }
 }
 
+/// A batch in the backward pass: the values of the layers, and the derivatives by what each layer
+/// computes before its activation.
+struct BackwardBatch {
+  State state;
+  Pack dy1[mlp_width], dy2[mlp_width], dy3[mlp_outputs];
+};
+
+/// Records what add_parameters() needs. The interface of kernels::AddedDerivatives.
+struct RecordedDerivatives {
+  BackwardBatch& batch;
+
+  TUREEN_ALWAYS_INLINE void bias(int biases, int o, const Pack& dy) const {
+    Pack* layer = biases == kernels::biases1   ? batch.dy1
+                  : biases == kernels::biases2 ? batch.dy2
+                                               : batch.dy3;
+    layer[o] = dy;
+  }
+  TUREEN_ALWAYS_INLINE void weight(int, int, const Pack&, const Pack&) const {}
+};
+
+/// Adds the derivatives by the parameters of one layer, for all batches at once: each sum is then
+/// loaded and stored once.
+template <int inputs, int outputs, int batches>
+TUREEN_ALWAYS_INLINE void add_layer(Pack* weights, Pack* biases, const Pack* const (&x)[batches],
+                                    const Pack* const (&dy)[batches]) {
+  for (int o = 0; o < outputs; ++o) {
+    Pack by_output[batches];
+    for (int b = 0; b < batches; ++b) by_output[b] = dy[b][o];
+    for (int b = 0; b < batches; ++b) biases[o] += by_output[b];
+    for (int i = 0; i < inputs; ++i) {
+      Pack sum = weights[o * inputs + i];
+      for (int b = 0; b < batches; ++b) sum += x[b][i] * by_output[b];
+      weights[o * inputs + i] = sum;
+    }
+  }
+}
+
+/// Adds the derivatives of these batches by all parameters.
+template <int batches>
+TUREEN_ALWAYS_INLINE void add_parameters(const BackwardBatch* batch, Pack* sums) {
+  const Pack *x[batches], *dy[batches];
+  const auto layer = [&](auto&& x_of, auto&& dy_of) __attribute__((always_inline)) {
+    for (int b = 0; b < batches; ++b) {
+      x[b] = x_of(batch[b]);
+      dy[b] = dy_of(batch[b]);
+    }
+  };
+  layer([](const BackwardBatch& b) { return b.state.input; },
+        [](const BackwardBatch& b) { return b.dy1; });
+  add_layer<mlp_inputs, mlp_width, batches>(sums + kernels::weights1, sums + kernels::biases1, x,
+                                            dy);
+  layer([](const BackwardBatch& b) { return b.state.hidden1; },
+        [](const BackwardBatch& b) { return b.dy2; });
+  add_layer<mlp_width, mlp_width, batches>(sums + kernels::weights2, sums + kernels::biases2, x,
+                                           dy);
+  layer([](const BackwardBatch& b) { return b.state.hidden2; },
+        [](const BackwardBatch& b) { return b.dy3; });
+  add_layer<mlp_width, mlp_outputs, batches>(sums + kernels::weights3, sums + kernels::biases3, x,
+                                             dy);
+}
+
 }  // namespace
 
 TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows(BatchImage& image, const ShadingInput& input,
@@ -250,8 +311,11 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(BatchImage& image,
   Pack sums[mlp_parameters] = {};
   BatchReader reader(image, y0, y1);
   Batch batch;
+  constexpr int group = 4;  // batches whose derivatives stay in the first-level cache
+  BackwardBatch backward[group];
+  int waiting = 0;
   while (reader.next(batch)) {
-    State state;
+    State& state = backward[waiting].state;
     gather(
         image.view, batch,
         [&](int l) __attribute__((always_inline)) {
@@ -268,9 +332,15 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(BatchImage& image,
       dcolor[c] = zero < 1.0f ? load(by_color) : Pack{};
     }
     Pack dfeatures[kernels::features];
-    kernels::shade_backward(input.mlp->data(), state, dcolor, sums, dfeatures);
+    kernels::network_backward(input.mlp->data(), state, dcolor,
+                              RecordedDerivatives{backward[waiting]}, dfeatures);
     store_gradient(image, batch, dfeatures, input.half_scale);
+    if (++waiting == group) {
+      add_parameters<group>(backward, sums);
+      waiting = 0;
+    }
   }
+  for (int i = 0; i < waiting; ++i) add_parameters<1>(backward + i, sums);
   for (int i = 0; i < mlp_parameters; ++i) {
     float sum = 0;
     for (int l = 0; l < lanes; ++l) sum += sums[i][l];
