@@ -1,10 +1,11 @@
-// A task is a band of rows of one view, with all three channels. It processes each channel row by
-// row:
-//   1. It reads a pixel row and filters it along x.
+// A task is a band of rows of one view, with all three channels. It processes each channel in
+// blocks of rows:
+//   1. It reads pixel rows and filters them along x.
 //   2. It filters eleven such rows along y, which gives a row of windows.
 //   3. It filters eleven rows of windows along y and x, which gives a row of the gradient.
-// Rings of eleven rows hold the intermediate rows and stay in the second-level cache. Bands
-// overlap: each computes the ten rows above and below that it needs, so no task waits for another.
+// The filters along y make a block of rows at once, because neighbouring results share ten of their
+// eleven rows. Rings hold the intermediate rows and stay in the second-level cache. Bands overlap:
+// each computes the ten rows above and below that it needs, so no task waits for another.
 #include "trainer/common/cpu/image_loss.hpp"
 
 #include <algorithm>
@@ -21,6 +22,12 @@ namespace tureen::trainer {
 namespace {
 
 constexpr int taps = ssim_window, reach = ssim_window - 1;
+
+// Rows of a block. Its fourteen input rows and six weights fit in the 32 registers of AVX-512.
+constexpr int block_rows = 4;
+
+// Rows in a ring: what a block of results needs.
+constexpr int ring_rows = taps + block_rows - 1;
 
 // Maximum number of rows in a band. Each band repeats 20 rows of its neighbours. Lower bands repeat
 // a larger part; higher bands give fewer tasks.
@@ -66,14 +73,14 @@ struct Workspace {
   Rows<Real> pixels;   // ring of sum and difference: slot * 2 + plane
   Rows<Real> squares;  // of the row that is being read: sum_squared, difference_squared
   Rows<Real> weighed;  // ring, weighed along x: slot * pixel_planes + plane
-  Rows<Real> moments;  // of a row of windows
+  Rows<Real> moments;  // of a block of windows: plane * block_rows + row
   Rows<Real> windows;  // ring: slot * window_planes + plane
-  Rows<Real> spread;   // a row of windows weighed along y, `reach` zeros at both ends
+  Rows<Real> spread;   // a block of windows weighed along y, `reach` zeros at both ends
   Rows<Real> zeros;    // windows past the border
   Rows<Real> values;   // 1 - SSIM of a row of windows; |C - G| of a row of pixels
 
   static constexpr std::size_t row_count =
-      2 * taps + 2 + pixel_planes * taps + pixel_planes + window_planes * taps + 1 + 1 + 1;
+      (2 + pixel_planes + window_planes) * ring_rows + (pixel_planes + 1) * block_rows + 2 + 1 + 1;
 
   static std::size_t size(int width) {
     return row_count * Rows<Real>(width + 2 * reach).stride() + Rows<Real>::alignment;
@@ -90,21 +97,21 @@ struct Workspace {
         values(pixels) {
     const auto address = reinterpret_cast<std::uintptr_t>(buffer.data());
     Real* memory = buffer.data() + (64 - address % 64) % 64 / sizeof(Real);
-    pixels.lay_out(memory, 2 * taps);
+    pixels.lay_out(memory, 2 * ring_rows);
     squares.lay_out(memory, 2);
-    weighed.lay_out(memory, pixel_planes * taps);
-    moments.lay_out(memory, pixel_planes);
-    windows.lay_out(memory, window_planes * taps);
-    spread.lay_out(memory, 1);
+    weighed.lay_out(memory, pixel_planes * ring_rows);
+    moments.lay_out(memory, pixel_planes * block_rows);
+    windows.lay_out(memory, window_planes * ring_rows);
+    spread.lay_out(memory, block_rows);
     zeros.lay_out(memory, 1);
     values.lay_out(memory, 1);
     std::fill_n(zeros[0], zeros.stride(), Real(0));
-    std::fill_n(spread[0], spread.stride(), Real(0));
+    std::fill_n(spread[0], block_rows * spread.stride(), Real(0));
   }
 };
 
 // The two filters, which take most of the time. They are not inlined into BandLoss, where the
-// compiler has too few registers for eleven rows.
+// compiler has too few registers for that many rows.
 template <class Real>
 TUREEN_ALWAYS_INLINE void weigh_columns(const Real* in, Real* out, int n) {
   constexpr Real w0 = Real(ssim_weight(0)), w1 = Real(ssim_weight(1)), w2 = Real(ssim_weight(2)),
@@ -116,15 +123,31 @@ TUREEN_ALWAYS_INLINE void weigh_columns(const Real* in, Real* out, int n) {
              w1 * (in[x + 4] + in[x + 6]) + w0 * in[x + 5];
 }
 
+// The weighted sum of eleven values.
 template <class Real>
-TUREEN_ALWAYS_INLINE void weigh_rows(const std::array<const Real*, taps>& rows, Real* out, int n) {
+TUREEN_ALWAYS_INLINE Real weighed(Real v0, Real v1, Real v2, Real v3, Real v4, Real v5, Real v6,
+                                  Real v7, Real v8, Real v9, Real v10) {
   constexpr Real w0 = Real(ssim_weight(0)), w1 = Real(ssim_weight(1)), w2 = Real(ssim_weight(2)),
                  w3 = Real(ssim_weight(3)), w4 = Real(ssim_weight(4)), w5 = Real(ssim_weight(5));
-  const auto [r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10] = rows;
+  return w5 * (v0 + v10) + w4 * (v1 + v9) + w3 * (v2 + v8) + w2 * (v3 + v7) + w1 * (v4 + v6) +
+         w0 * v5;
+}
+
+template <class Real>
+TUREEN_ALWAYS_INLINE void weigh_rows(const std::array<const Real*, ring_rows>& rows,
+                                     const std::array<Real*, block_rows>& out, int n) {
+  const auto [r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10, r11, r12, r13] = rows;
+  const auto [out0, out1, out2, out3] = out;
   TUREEN_INDEPENDENT_TURNS
-  for (int x = 0; x < n; ++x)
-    out[x] = w5 * (r0[x] + r10[x]) + w4 * (r1[x] + r9[x]) + w3 * (r2[x] + r8[x]) +
-             w2 * (r3[x] + r7[x]) + w1 * (r4[x] + r6[x]) + w0 * r5[x];
+  for (int x = 0; x < n; ++x) {
+    const Real v0 = r0[x], v1 = r1[x], v2 = r2[x], v3 = r3[x], v4 = r4[x], v5 = r5[x], v6 = r6[x],
+               v7 = r7[x], v8 = r8[x], v9 = r9[x], v10 = r10[x], v11 = r11[x], v12 = r12[x],
+               v13 = r13[x];
+    out0[x] = weighed(v0, v1, v2, v3, v4, v5, v6, v7, v8, v9, v10);
+    out1[x] = weighed(v1, v2, v3, v4, v5, v6, v7, v8, v9, v10, v11);
+    out2[x] = weighed(v2, v3, v4, v5, v6, v7, v8, v9, v10, v11, v12);
+    out3[x] = weighed(v3, v4, v5, v6, v7, v8, v9, v10, v11, v12, v13);
+  }
 }
 
 // out[x] for x < n is the weighted sum of in[x] .. in[x + 10].
@@ -133,12 +156,13 @@ TUREEN_VECTOR_CLONES void weigh_along_x(const float* in, float* out, int n) {
 }
 void weigh_along_x(const double* in, double* out, int n) { weigh_columns(in, out, n); }
 
-// out[x] for x < n is the weighted sum of rows[0][x] .. rows[10][x].
-TUREEN_VECTOR_CLONES void weigh_along_y(const std::array<const float*, taps>& rows, float* out,
-                                        int n) {
+// out[i][x] for x < n is the weighted sum of rows[i][x] .. rows[i + 10][x].
+TUREEN_VECTOR_CLONES void weigh_along_y(const std::array<const float*, ring_rows>& rows,
+                                        const std::array<float*, block_rows>& out, int n) {
   weigh_rows(rows, out, n);
 }
-void weigh_along_y(const std::array<const double*, taps>& rows, double* out, int n) {
+void weigh_along_y(const std::array<const double*, ring_rows>& rows,
+                   const std::array<double*, block_rows>& out, int n) {
   weigh_rows(rows, out, n);
 }
 
@@ -182,7 +206,7 @@ class BandLoss {
       else
         for (int y = band_.first; y < band_.last; ++y) {
           read(y);
-          write(y);
+          write(y, 1);
         }
     }
   }
@@ -217,24 +241,29 @@ class BandLoss {
 
   /// Row w of the windows needs pixel rows w .. w + 10; row y of the gradient, windows y - 10 .. y.
   TUREEN_ALWAYS_INLINE void stream() {
-    for (int y = first_row_; y < last_row_; ++y) {
-      read(y);
-      weigh(y);
-      const int window = y - reach;
-      if (window < first_row_) continue;
-      compare(window);
-      if (window >= band_.first) write(window);
+    for (int y = first_row_; y < last_row_; y += block_rows) {
+      const int end = std::min(y + block_rows, last_row_);
+      for (int row = y; row < end; ++row) {
+        read(row);
+        weigh(row);
+      }
+      const int window = std::max(y - reach, first_row_), windows_end = end - reach;
+      if (window >= windows_end) continue;
+      compare(window, windows_end - window);
+      const int row = std::max(window, band_.first);
+      if (row < windows_end) write(row, windows_end - row);
     }
     // The last rows of the image have no windows below them.
-    for (int y = std::max(band_.first, window_rows_); y < band_.last; ++y) write(y);
+    for (int y = std::max(band_.first, window_rows_); y < band_.last; y += block_rows)
+      write(y, std::min(block_rows, band_.last - y));
   }
 
   TUREEN_ALWAYS_INLINE void read(int y) {
     const Real* rendered = &view_.rendered[channel_ * plane() + at(y)];
     const std::uint8_t* target = &view_.target[channel_ * plane() + at(y)];
     const std::uint8_t* skip = ignored(y);
-    Real* __restrict s = work_.pixels[y % taps * 2 + sum];
-    Real* __restrict d = work_.pixels[y % taps * 2 + difference];
+    Real* __restrict s = work_.pixels[y % ring_rows * 2 + sum];
+    Real* __restrict d = work_.pixels[y % ring_rows * 2 + difference];
     Real* __restrict ss = work_.squares[0];
     Real* __restrict dd = work_.squares[1];
     TUREEN_INDEPENDENT_TURNS
@@ -250,7 +279,7 @@ class BandLoss {
   }
 
   TUREEN_ALWAYS_INLINE void weigh(int y) {
-    const int slot = y % taps;
+    const int slot = y % ring_rows;
     const std::array<const Real*, pixel_planes> in = {work_.pixels[slot * 2 + sum],
                                                       work_.pixels[slot * 2 + difference],
                                                       work_.squares[0], work_.squares[1]};
@@ -258,16 +287,30 @@ class BandLoss {
       weigh_along_x(in[p], work_.weighed[slot * pixel_planes + p], columns_);
   }
 
-  TUREEN_ALWAYS_INLINE void compare(int window) {
-    std::array<const Real*, taps> rows;
+  /// The rows of `plane` in the block's moments.
+  TUREEN_ALWAYS_INLINE std::array<Real*, block_rows> moments(int plane) {
+    std::array<Real*, block_rows> rows;
+    for (int i = 0; i < block_rows; ++i) rows[i] = work_.moments[plane * block_rows + i];
+    return rows;
+  }
+
+  /// A block of at most block_rows rows of windows.
+  TUREEN_ALWAYS_INLINE void compare(int first, int count) {
+    std::array<const Real*, ring_rows> rows;
     for (int p = 0; p < pixel_planes; ++p) {
-      for (int i = 0; i < taps; ++i)
-        rows[i] = work_.weighed[(window + i) % taps * pixel_planes + p];
-      weigh_along_y(rows, work_.moments[p], columns_);
+      for (int i = 0; i < ring_rows; ++i)
+        rows[i] = i < reach + count ? work_.weighed[(first + i) % ring_rows * pixel_planes + p]
+                                    : work_.zeros[0];
+      weigh_along_y(rows, moments(p), columns_);
     }
-    const Real *s = work_.moments[sum], *d = work_.moments[difference],
-               *ss = work_.moments[sum_squared], *dd = work_.moments[difference_squared];
-    const int slot = window % taps * window_planes;
+    for (int i = 0; i < count; ++i) compare_row(first + i, i);
+  }
+
+  /// `row`: of the window in its block.
+  TUREEN_ALWAYS_INLINE void compare_row(int window, int row) {
+    const Real *s = moments(sum)[row], *d = moments(difference)[row],
+               *ss = moments(sum_squared)[row], *dd = moments(difference_squared)[row];
+    const int slot = window % ring_rows * window_planes;
     Real* __restrict p = work_.windows[slot + by_sum_variance];
     Real* __restrict q = work_.windows[slot + by_difference_variance];
     Real* __restrict r = work_.windows[slot + constant];
@@ -285,24 +328,33 @@ class BandLoss {
   }
 
   /// Reuses the planes of `moments`: they now hold the weighted sums over the windows.
-  TUREEN_ALWAYS_INLINE void gather(int y) {
-    std::array<const Real*, taps> rows;
+  TUREEN_ALWAYS_INLINE void gather(int y, int count) {
+    std::array<const Real*, ring_rows> rows;
+    std::array<Real*, block_rows> spread;
+    for (int i = 0; i < block_rows; ++i) spread[i] = work_.spread[i] + reach;
     for (int p = 0; p < window_planes; ++p) {
-      for (int i = 0; i < taps; ++i) {
-        const int window = y - i;
-        rows[i] = window >= 0 && window < window_rows_
-                      ? work_.windows[window % taps * window_planes + p]
+      for (int i = 0; i < ring_rows; ++i) {
+        const int window = y - reach + i;
+        rows[i] = i < reach + count && window >= 0 && window < window_rows_
+                      ? work_.windows[window % ring_rows * window_planes + p]
                       : work_.zeros[0];
       }
-      weigh_along_y(rows, work_.spread[0] + reach, columns_);
-      weigh_along_x(work_.spread[0], work_.moments[p], width_);
+      weigh_along_y(rows, spread, columns_);
+      for (int i = 0; i < count; ++i) weigh_along_x(work_.spread[i], moments(p)[i], width_);
     }
   }
 
-  TUREEN_ALWAYS_INLINE void write(int y) {
+  /// A block of at most block_rows rows of the gradient.
+  TUREEN_ALWAYS_INLINE void write(int first, int count) {
+    if (has_ssim_) gather(first, count);
+    for (int i = 0; i < count; ++i) write_row(first + i, i);
+  }
+
+  /// `row`: of y in its block.
+  TUREEN_ALWAYS_INLINE void write_row(int y, int row) {
     const Real l1_scale = view_.l1_weight / Real(3 * plane());
-    const Real* s = work_.pixels[y % taps * 2 + sum];
-    const Real* d = work_.pixels[y % taps * 2 + difference];
+    const Real* s = work_.pixels[y % ring_rows * 2 + sum];
+    const Real* d = work_.pixels[y % ring_rows * 2 + difference];
     Real* __restrict gradient = &view_.gradient[channel_ * plane() + at(y)];
     Real* __restrict value = work_.values[0];
     TUREEN_INDEPENDENT_TURNS
@@ -317,12 +369,11 @@ class BandLoss {
     }
     if (!has_ssim_) return;
 
-    gather(y);
     const Real ssim_scale =
         view_.ssim_weight / (Real(6) * Real(std::size_t(columns_) * window_rows_));
     const std::uint8_t* skip = ignored(y);
-    const Real *p = work_.moments[by_sum_variance], *q = work_.moments[by_difference_variance],
-               *r = work_.moments[constant];
+    const Real *p = moments(by_sum_variance)[row], *q = moments(by_difference_variance)[row],
+               *r = moments(constant)[row];
     TUREEN_INDEPENDENT_TURNS
     for (int x = 0; x < width_; ++x) {
       const Real slope = ssim_derivative(SsimPixel<Real>{s[x], d[x]}, p[x], q[x], r[x]);

@@ -46,7 +46,7 @@ struct ImageLoss {
   std::size_t non_finite = 0;
 };
 
-/// Buffers for image_losses(), kept between calls: about 100 rows of floats per thread.
+/// Buffers for image_losses(), kept between calls: about 150 rows of floats per thread.
 template <class Real>
 class ImageLossScratch {
  public:

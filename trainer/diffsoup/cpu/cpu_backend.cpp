@@ -13,6 +13,7 @@
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/diffsoup/backend.hpp"
 #include "trainer/diffsoup/backing.hpp"
+#include "trainer/diffsoup/cpu/advantage.hpp"
 #include "trainer/diffsoup/cpu/corner_gradient.hpp"
 #include "trainer/diffsoup/cpu/face_stage.hpp"
 #include "trainer/diffsoup/cpu/shading.hpp"
@@ -53,11 +54,7 @@ class CpuBackend final : public Backend {
   void shade_backward(std::span<const std::uint32_t> views, StepReport& report);
   void step_faces(const Rates& rates, StepReport& report);
   void take_loss(std::span<const std::uint32_t> views, StepReport& report);
-  struct BandReport {
-    double squared = 0;  // sum of (C - G)^2
-    std::uint64_t shaded = 0;
-  };
-  BandReport take_advantage(BatchImage& image, std::uint32_t view_index, int y0, int y1);
+  AdvantageInput advantage_input(const BatchImage& image, std::uint32_t view);
   void step_network(float rate, StepReport& report);
   ShadingInput shading_input() const {
     return {store_.values.data(), state_.model.max_level, &state_.model.mlp, config_.background};
@@ -170,6 +167,15 @@ StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& r
   return report;
 }
 
+AdvantageInput CpuBackend::advantage_input(const BatchImage& image, std::uint32_t view) {
+  return {
+      .view = &views_[view],
+      // A pixel's share of the batch's mean.
+      .scale = config_.opacity_l1_weight / (float(images_.size()) * 3.0f * float(image.pixels())),
+      .baseline_rate = config_.baseline_rate,
+      .baseline = config_.baseline ? &state_.baseline[first_pixel_[view]] : nullptr};
+}
+
 void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport& report) {
   const Stopwatch stopwatch(times_.shading_backward);
   const std::vector<Band> tasks = bands(images_);
@@ -186,7 +192,8 @@ void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport
     for (int x = 0; x < image.tiles_x; ++x)
       find_corner_gradients(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x,
                             config_.texture_slide);
-    reports[task] = take_advantage(image, views[band.image], band.y0, band.y1);
+    const AdvantageInput advantage = advantage_input(image, views[band.image]);
+    reports[task] = take_advantage(image, advantage, band.y0, band.y1);
     for (int x = 0; x < image.tiles_x; ++x)
       collect_fragments(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x);
   });
@@ -252,38 +259,6 @@ void CpuBackend::take_loss(std::span<const std::uint32_t> views, StepReport& rep
     report.ssim += loss.ssim * share;
     report.non_finite += loss.non_finite;
   }
-}
-
-/// Returns the statistics of a band of rows. Replaces each pixel's loss by the score's factor: its
-/// share of the batch's mean, minus the running mean. Updates the running mean.
-CpuBackend::BandReport CpuBackend::take_advantage(BatchImage& image, std::uint32_t view_index,
-                                                  int y0, int y1) {
-  BandReport report;
-  const TrainingView& view = views_[view_index];
-  const std::size_t pixels = image.pixels(), width = std::size_t(image.view.width);
-  const float scale = config_.opacity_l1_weight / (float(images_.size()) * 3.0f * float(pixels));
-  for (std::size_t p = std::size_t(y0) * width; p < std::size_t(y1) * width; ++p) {
-    report.shaded += image.visible[p].face != no_face;
-    bool counts = view.ignored.empty() || !view.ignored[p];
-    for (std::size_t c = 0; counts && c < 3; ++c) {
-      const double d = image.color[c * pixels + p] - view.target[c * pixels + p] / 255.0;
-      if (std::isfinite(d)) report.squared += d * d;
-    }
-    for (std::size_t c = 0; c < 3; ++c)
-      counts = counts && std::isfinite(image.color[c * pixels + p]);
-    float loss = image.loss[p];
-    // An ignored pixel has a loss of 0, which must not change the running mean.
-    if (config_.baseline && counts) {
-      std::uint16_t& stored = state_.baseline[first_pixel_[view_index] + p];
-      const float root = float(stored) / 65535;
-      const float mean = 3 * root * root;  // of sum |C - G|, which is in [0, 3]
-      const float next = stored ? mean + config_.baseline_rate * (loss - mean) : loss;
-      stored = std::uint16_t(std::clamp(65535 * std::sqrt(next / 3) + 0.5f, 1.0f, 65535.0f));
-      loss -= mean;
-    }
-    image.loss[p] = loss * scale;
-  }
-  return report;
 }
 
 void CpuBackend::step_network(float rate, StepReport& report) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/radix_sort.hpp"
+#include "trainer/common/cpu/vector_clones.hpp"
 #include "trainer/diffsoup/cpu/visibility_kernels.hpp"
 
 namespace tureen::trainer {
@@ -86,6 +87,17 @@ void keep_gradient_fragments(BatchImage& image, std::size_t tile, std::uint32_t 
   }
 }
 
+/// Projects all faces, and finds their nearest parts.
+TUREEN_VECTOR_CLONES TUREEN_FLATTEN void project_faces(const kernels::View& view,
+                                                       const float* corners, std::size_t faces,
+                                                       kernels::ProjectedFace* projected,
+                                                       float* nearest) {
+  for (std::size_t face = 0; face < faces; ++face, corners += 9) {
+    projected[face] = kernels::project(view, corners);
+    if (!projected[face].empty()) nearest[face] = nearest_of(view, projected[face], corners);
+  }
+}
+
 }  // namespace
 
 void bin_faces(BatchImage& image, const Model& model) {
@@ -93,14 +105,10 @@ void bin_faces(BatchImage& image, const Model& model) {
   image.projected.resize(faces);
   image.nearest.resize(faces);
   image.bin_begin.assign(image.tiles() + 1, 0);
-  for (std::size_t face = 0; face < faces; ++face) {
-    image.projected[face] = kernels::project(image.view, &model.positions[3 * face].x);
-    if (image.projected[face].empty()) continue;
-    image.nearest[face] =
-        nearest_of(image.view, image.projected[face], &model.positions[3 * face].x);
-    for_each_tile(image, image.projected[face],
-                  [&](std::size_t tile) { ++image.bin_begin[tile + 1]; });
-  }
+  project_faces(image.view, &model.positions.data()->x, faces, image.projected.data(),
+                image.nearest.data());
+  for (const kernels::ProjectedFace& face : image.projected)
+    for_each_tile(image, face, [&](std::size_t tile) { ++image.bin_begin[tile + 1]; });
   for (std::size_t tile = 1; tile < image.bin_begin.size(); ++tile)
     image.bin_begin[tile] += image.bin_begin[tile - 1];
   image.bins.resize(image.bin_begin.back());
