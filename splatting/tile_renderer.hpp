@@ -26,7 +26,8 @@ enum class BlendOrder {
 };
 
 /// Takes consecutive rows of an image from `first_row` on; row 0 is on top. `rgba`: premultiplied
-/// colours, which may exceed 1, and alpha, 4 floats a pixel. Several threads may call it.
+/// colours, which may exceed 1, and alpha, 4 floats a pixel; valid during the call. Several threads
+/// may call it. It must not draw with a TileRenderer.
 using RowSink = std::function<void(int first_row, std::span<const float> rgba)>;
 
 /// A visible layer and its camera.

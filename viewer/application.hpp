@@ -127,7 +127,7 @@ class Application {
     Relation relation = Relation::other;
     std::vector<std::filesystem::path> paths;
   };
-  /// The progress and the errors of a Loading.
+  /// The progress and the errors of a Loading; each has its own.
   struct Reading {
     std::filesystem::path current;
     struct Failure {
@@ -141,8 +141,18 @@ class Application {
                                         const std::shared_ptr<StageSource>& before,
                                         const StageRequest& request,
                                         const std::shared_ptr<Reading>& files);
-  void post_previews(const std::filesystem::path& path, const StageRequest& request);
-  bool preview_is_changed() const;
+  /// A part of a large file that is shown while all of it is read.
+  struct Preview {
+    std::shared_ptr<const Reading> reading;
+    std::shared_ptr<const Scene> scene;
+    Camera view;
+    bool is_changed;  // whether the user moved the view, or a layer, of a preview before
+  };
+  void post_previews(const std::filesystem::path& path, const StageRequest& request,
+                     const std::shared_ptr<const Reading>& reading);
+  bool shows_preview() const;
+  bool shows_preview_of(const Reading& reading) const;
+  void show_read(std::unique_ptr<Stage> stage, Relation relation, const Reading& reading);
   void end_loading(const Reading& files);
   void add(const std::shared_ptr<StageAddition>& addition);
   void prepare_grown(const StageSource& source);
@@ -179,7 +189,7 @@ class Application {
   std::vector<Event> pending_;
   std::vector<FileWatch> watches_;  // of the scene's files
   std::optional<Loading> loading_;
-  std::optional<Camera> preview_view_;  // the first view of the preview that is shown
+  std::optional<Preview> preview_;  // the last one
   std::optional<BackgroundProgram> training_program_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;

@@ -45,7 +45,8 @@ void Application::load(const Loading& loading) {
 
 void Application::end_loading(const Reading& files) {
   loading_.reset();
-  const std::string failure = preview_view_ ? " is shown only in part" : " cannot be shown";
+  const std::string failure =
+      shows_preview_of(files) ? " is shown only in part" : " cannot be shown";
   for (const Reading::Failure& each : files.failures)
     state_.messages.error(short_name(each.path) + failure, each.reason, state_.now);
 }
@@ -77,42 +78,62 @@ Worker::Completion Application::load_in_background(const Loading& loading,
     };
   }
   const bool again = loading.relation == Relation::changed;
-  if (!again && loading.paths.size() == 1) post_previews(loading.paths.front(), request);
+  if (!again && loading.paths.size() == 1) post_previews(loading.paths.front(), request, files);
   std::shared_ptr<Stage> stage =
       prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
   return [this, stage = std::move(stage), relation = loading.relation, files] {
-    const Relation to_shown = preview_is_changed() ? Relation::changed : relation;
     end_loading(*files);
-    show(std::make_unique<Stage>(std::move(*stage)), to_shown);
+    show_read(std::make_unique<Stage>(std::move(*stage)), relation, *files);
+    preview_.reset();
   };
 }
 
 /// Runs in the worker's thread.
-void Application::post_previews(const fs::path& path, const StageRequest& request) {
+void Application::post_previews(const fs::path& path, const StageRequest& request,
+                                const std::shared_ptr<const Reading>& reading) {
+  const auto check = [&](double) { request.progress(0); };  // ends an abandoned job
   std::uint64_t shown = 0;
-  const StageRequest preparing{request.context, request.choice, [](double) {}};
-  while (const auto preview = read_source_preview(path, shown)) {
+  while (const auto preview = read_source_preview(path, shown, [&] { check(0); })) {
     shown = preview->bytes;
-    if (preview->source.layers.front().primitive_count() > options_.max_splats.value_or(shown))
+    const StageLayer& layer = preview->source.layers.front();
+    if (!layer.soup() && options_.max_splats && layer.primitive_count() > *options_.max_splats)
       return;
     std::shared_ptr<Stage> stage;
     try {
-      stage = prepare_stage(preview->source, preparing);
+      stage = prepare_stage(preview->source, {request.context, request.choice, check});
     } catch (const Error&) {
-      return;  // the device or the choice refuses it, and will refuse the whole scene
+      return;  // if the whole scene is refused too, its preparation reports the reason
     }
-    worker_.post([this, stage] {
-      const Relation to_shown = preview_is_changed() ? Relation::changed : Relation::other;
-      show(std::make_unique<Stage>(std::move(*stage)), to_shown);
-      preview_view_ = state_.controls.camera(1, 1);
+    worker_.post([this, stage, reading] {
+      show_read(std::make_unique<Stage>(std::move(*stage)), Relation::other, *reading);
+      const bool is_changed = shows_preview_of(*reading) && preview_->is_changed;
+      preview_ = Preview{reading, state_.stage->scene, state_.controls.camera(1, 1), is_changed};
     });
   }
 }
 
-/// Without changes, the whole scene is shown as if there had been no preview.
-bool Application::preview_is_changed() const {
-  return preview_view_ &&
-         (state_.controls.camera(1, 1) != *preview_view_ || !state_.stage->is_as_read());
+bool Application::shows_preview() const {
+  return preview_ && state_.stage && state_.stage->scene == preview_->scene;
+}
+
+bool Application::shows_preview_of(const Reading& reading) const {
+  return shows_preview() && preview_->reading.get() == &reading;
+}
+
+/// Keeps what the user changed on a preview of the same file. Without changes, the scene is shown
+/// as if there had been no preview.
+void Application::show_read(std::unique_ptr<Stage> stage, Relation relation,
+                            const Reading& reading) {
+  std::optional<DrawingChoice> chosen;
+  if (shows_preview_of(reading)) {
+    preview_->is_changed |=
+        state_.controls.camera(1, 1) != preview_->view || !state_.stage->is_as_read();
+    if (preview_->is_changed) relation = Relation::changed;
+    if (preparing_drawing_) chosen = state_.wanted;
+    preview_->scene = stage->scene;
+  }
+  show(std::move(stage), relation);
+  if (chosen) state_.ask(ChooseDrawing{*chosen});
 }
 
 void Application::add(const std::shared_ptr<StageAddition>& addition) {
@@ -200,7 +221,6 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     arrange_layers(*stage, std::move(now.layers));
   }
   state_.stage = std::move(stage);
-  preview_view_.reset();
   state_.wanted = state_.stage->choice;
   image_is_current_ = false;
   worker_.abandon(JobKind::debug_view);

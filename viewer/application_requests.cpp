@@ -148,7 +148,7 @@ void Application::carry_out(const CancelJob& request) {
     preparing_drawing_ = false;
     if (state_.stage) state_.wanted = state_.stage->choice;
   }
-  const bool in_part = request.kind == JobKind::scene && preview_view_;
+  const bool in_part = request.kind == JobKind::scene && shows_preview();
   state_.messages.note(in_part ? "Cancelled. The scene is shown only in part." : "Cancelled.",
                        state_.now);
 }

@@ -35,9 +35,12 @@ class Stopwatch {
 
 /// Smaller files are read in less than about a third of a second; a preview would only delay them.
 constexpr std::uint64_t min_previewed_bytes = 16 << 20;
-/// Each preview has four times as many splats as the one before, and at most a quarter of the file.
-/// All previews together then take at most a third of the time for the whole file.
+/// Each preview has about four times as many splats as the one before, and at most a quarter of the
+/// file. All previews together then take at most a third of the time for the whole file.
 constexpr std::uint64_t preview_growth = 4, max_preview_fraction = 4;
+/// A larger part would hardly change the image; the page has the same limit
+/// (web/viewer/preview.ts).
+constexpr std::uint64_t max_preview_bytes = 256 << 20;
 /// Headers of files with previews are smaller.
 constexpr std::uint64_t max_header_bytes = 1 << 20;
 
@@ -309,23 +312,29 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
   return source;
 }
 
-std::optional<SourcePreview> read_source_preview(const fs::path& path, std::uint64_t shown) try {
+std::optional<SourcePreview> read_source_preview(const fs::path& path, std::uint64_t shown,
+                                                 const std::function<void()>& check) try {
   if (!fs::is_regular_file(path) || fs::file_size(path) < min_previewed_bytes) return {};
   const FileWatch watch(path);
   Input input = Input::open(path);
   std::vector<std::byte> prefix;
   const auto read_up_to = [&](std::uint64_t bytes) {
     const std::size_t before = prefix.size();
+    check();
     prefix.resize(std::size_t(std::min(bytes, input.size())));
     input.read(std::span(prefix).subspan(before), "preview");
   };
   std::optional<PreviewSize> size;
   for (std::uint64_t bytes = 1 << 16; !size && bytes <= max_header_bytes; bytes *= 4) {
     read_up_to(bytes);
+    // A preview has twice as many splats as the one that is named here as shown.
     size = preview_size(prefix, path.string(), preview_growth / 2 * shown);
   }
-  if (!size || size->bytes == 0 || size->bytes > input.size() / max_preview_fraction) return {};
+  if (!size || size->bytes == 0 ||
+      size->bytes > std::min(input.size() / max_preview_fraction, max_preview_bytes))
+    return {};
   read_up_to(std::max<std::uint64_t>(size->bytes, prefix.size()));
+  check();
   std::optional<Scene> scene =
       read_preview(std::span(prefix).first(std::size_t(size->bytes)), path.string());
   if (!scene) return {};

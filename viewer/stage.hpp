@@ -143,9 +143,11 @@ struct SourcePreview {
   std::uint64_t bytes = 0;  // leading bytes of the file
 };
 /// The next preview, after one of `shown` bytes (0: none yet). Returns nullopt if there is none,
-/// also for a file with errors: its reader reports them.
-std::optional<SourcePreview> read_source_preview(const std::filesystem::path& path,
-                                                 std::uint64_t shown);
+/// also for a file with errors: its reader reports them. `check` is called between the steps; may
+/// throw to abandon.
+std::optional<SourcePreview> read_source_preview(
+    const std::filesystem::path& path, std::uint64_t shown,
+    const std::function<void()>& check = [] {});
 
 /// Gives the layers the order, places and visibility that the user chose in `before`, and removes
 /// those that the user removed. Layers are the same if they have the same name and position in

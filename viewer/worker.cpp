@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -62,7 +63,13 @@ bool Worker::collect() {
     const std::lock_guard lock(mutex_);
     done = std::exchange(done_, {});
   }
-  for (const Done& each : done) each.completion();
+  for (auto each = done.begin(); each != done.end(); ++each) try {
+      each->completion();
+    } catch (...) {  // the others run in the next call
+      const std::lock_guard lock(mutex_);
+      done_.insert(done_.begin(), std::next(each), done.end());
+      throw;
+    }
   return !done.empty();
 }
 

@@ -44,7 +44,8 @@ class Worker {
   /// Throws to end an abandoned job.
   void post(Completion completion);
   void abandon(JobKind kind);
-  /// Runs the completions of finished jobs. Returns whether there were any.
+  /// Runs the completions of finished jobs. Returns whether there were any. If one throws, the rest
+  /// is left for the next call.
   bool collect();
 
   struct Status {

@@ -55,9 +55,11 @@ MeshRecords records_of(Input& input) {
     throw InputError({input.name(), {}, line}, reason);
   };
   if (ply.encoding != PlyHeader::Encoding::little_endian)
-    fail(2, std::string("the PLY format is ") +
-                (ply.encoding == PlyHeader::Encoding::ascii ? "ascii" : "binary_big_endian") +
-                ", expected binary_little_endian");
+    throw InputError(
+        {input.name(), {}, {}},
+        std::string("the PLY format is ") +
+            (ply.encoding == PlyHeader::Encoding::ascii ? "ascii" : "binary_big_endian") +
+            ", expected binary_little_endian");
   if (ply.elements.size() != 2 || ply.elements[0].name != "vertex" ||
       ply.elements[1].name != "face")
     fail(1, "expected the elements vertex and face, in this order, and no others");

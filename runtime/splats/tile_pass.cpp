@@ -37,6 +37,7 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
 void TilePass::resize(const FrameTarget& target) {
   size_ = target.size();
   has_texture_ = false;
+  views_.clear();
   bits_ = {};
   bits_framebuffer_ = {};
 }

@@ -19,14 +19,20 @@ import { writePng } from '../web/png.mjs';
 const sources = join(source, 'web/bench/viewers');
 const { positionals: [out, scene], values: { views: viewsFile, quick, 'only-first': onlyFirst } } = parseArgs({
   allowPositionals: true,
-  options: { quick: { type: 'boolean', default: false }, 'only-first': { type: 'boolean', default: false }, views: { type: 'string', default: join(sources, 'guitar_views.json') } },
+  options: {
+    quick: { type: 'boolean', default: false },
+    'only-first': { type: 'boolean', default: false },
+    views: { type: 'string', default: join(sources, 'guitar_views.json') },
+  },
 });
 if (!out || !scene) {
   console.error('use: viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick] [--only-first]');
   process.exit(2);
 }
 
-const [width, height] = quick ? [160, 90] : [1280, 720], rounds = quick ? 1 : onlyFirst ? 5 : 2;
+const [width, height] = quick ? [160, 90] : [1280, 720];
+/** Visits of each case. */
+const rounds = quick ? 1 : onlyFirst ? 5 : 2;
 /** Of one view in one round. Slow viewers draw fewer frames. */
 const motion = quick ? { frames: 2, minFrames: 1, maxMs: 1 } : { frames: 8, minFrames: 3, maxMs: 3000 };
 /** Time limit of a step in the page, ms. */
@@ -150,9 +156,9 @@ async function measure(cases, address) {
         for (let attempt = 0; attempt < 2; ++attempt)
           try {
             const result = await visit(rasteriser, each, address, visits.get(key).done.length === 0);
-            visits.get(key).done.push(result);
             const frames = Object.entries(result.moved).map(([name, { ms }]) => `, ${name} ${median(ms).toFixed(0)}`);
             console.error(`${round} ${key}: first ${result.firstImageMs.toFixed(0)}${frames.join('')}`);
+            visits.get(key).done.push(result);
             break;
           } catch (error) {
             console.error(`${round} ${key}: ${error.message}`);

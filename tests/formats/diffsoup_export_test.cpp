@@ -372,7 +372,12 @@ TEST(DiffSoupExport, WhatIsWrongIsNamed) {
   EXPECT_THAT(changed("mesh.ply", "vertex 6", "vertex 9999999999"),
               ErrorAt("a/mesh.ply:3", "9999999999"));
   EXPECT_THAT(changed("mesh.ply", "face 2", "face 3"), ErrorAt("a/mesh.ply@241", 3));
-  EXPECT_THAT(changed("mesh.ply", "little", "big"), ErrorAt("a/mesh.ply:2", "binary_big_endian"));
+  EXPECT_THAT(changed("mesh.ply", "little", "big"), ErrorAt("a/mesh.ply", "binary_big_endian"));
+  EXPECT_THAT(changed("mesh.ply", "float x", "list uchar float x"),
+              ErrorAt("a/mesh.ply:3", "list"));
+  EXPECT_THAT(changed("mesh.ply", "element face", "element edge"), ErrorAt("a/mesh.ply:1", "face"));
+  EXPECT_THAT(changed("mesh.ply", "uchar int vertex", "uchar float vertex"),
+              ErrorAt("a/mesh.ply:7", "vertex_indices"));
   EXPECT_THAT(changed("mesh.ply", "float x", "float q"), ErrorAt("a/mesh.ply:3"));
   EXPECT_THAT(changed("mesh.ply", std::string("\3\0\0\0\0", 5), std::string("\3\x6\0\0\0", 5)),
               ErrorAt("a/mesh.ply@241", 0, 6));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <thread>
@@ -49,14 +50,18 @@ std::vector<float> drawn(const Scene& scene, const Camera& camera,
                      splatting::image_view(camera, camera.eye(), 1e-6, splats->profile, camera),
                      1.0});
   }
-  std::vector<float> rgba(4 * std::size_t(camera.width) * std::size_t(camera.height));
+  // Every value is written: NaN would be no PSNR and no equal value.
+  std::vector<float> rgba(4 * std::size_t(camera.width) * std::size_t(camera.height), NAN);
+  std::atomic<std::size_t> values = 0;
   splatting::TileRenderer(parallel).draw(
       views, depths,
       [&](int first_row, std::span<const float> rows) {
         std::copy(rows.begin(), rows.end(),
                   rgba.begin() + 4 * std::ptrdiff_t(first_row) * camera.width);
+        values += rows.size();
       },
       order);
+  EXPECT_EQ(values, rgba.size()) << "each row is given once";
   return rgba;
 }
 

@@ -157,6 +157,16 @@ test('the bar shows the progress', () => visit('?scene=slow.glb', async (page) =
   await waitFor(() => held.get('/slow.glb').closed, 'the connection is closed');
 }));
 
+test('the scene is requested while the engine is still on its way', () => visit('', async (page) => {
+  const requested = page.waitForRequest(/soup\.glb/);
+  await page.route('**/tureen.wasm', async (route) => {
+    await requested;
+    await route.continue();
+  });
+  await page.goto(new URL('?scene=soup.glb', page.url()).href);
+  await sceneShown(page, 'soup');
+}));
+
 test('another scene replaces one that is loading', () => visit('?scene=tenth.glb', async (page) => {
   await waitFor(() => held.has('/tenth.glb'), 'it is requested');
   await pick(page, example);

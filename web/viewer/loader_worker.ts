@@ -32,7 +32,7 @@ class Loader {
 
   private readonly from: 'files' | 'url';
 
-  private engine!: Engine;  // from load() on, after the download
+  private started: Engine | null = null;
 
   constructor(private readonly starting: Promise<Engine>, private readonly limits: Promise<unknown>,
               private readonly chosen: Promise<number>, private readonly message: LoadMessage) {
@@ -41,9 +41,10 @@ class Loader {
 
   async load(): Promise<void> {
     const { source } = this.message;
-    void this.starting.then((engine) => { this.engine = engine; }, () => {});  // the error follows below
-    const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
-    await this.starting;
+    const [files] = await Promise.all([
+      'url' in source ? this.fetched(source.url, source.name) : this.opened(source),
+      this.starting.then((engine) => { this.started = engine; }),
+    ]);
     this.engine.onProgress = (fraction) => this.tell('read', fraction);
     const begin = performance.now();
     this.description = await this.read(files);
@@ -52,6 +53,9 @@ class Loader {
     this.forecasts = this.engine.call<number[]>('forecast', { limits: await this.limits });
     await this.sendLayer();
   }
+
+  /** After the download. */
+  private get engine(): Engine { return this.started!; }
 
   /** Reads the scene, or a part of its splats if the memory does not hold all. */
   private async read(files: OpenedFiles): Promise<SceneDescription> {
@@ -84,14 +88,15 @@ class Loader {
   }
 
   private async fetched(url: string, name: string): Promise<OpenedFiles> {
+    const begun = performance.now();
     let preview: Preview | null = null;  // none while the engine starts
     const bytes = await download(url, async ({ bytes: prefix, total }) => {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
       // Added layers have none: the scene stays visible. Otherwise, the whole scene follows immediately.
-      if (this.message.role === 'layers' || prefix.length === total || !this.engine) return;
-      preview ??= new Preview(this.engine, name, this.message.memory);
+      if (this.message.role === 'layers' || prefix.length === total || !this.started) return;
+      preview ??= new Preview(this.started, name, this.message.memory, begun);
       const begin = performance.now(), description = preview.read(prefix, total);
       if (!description) return;
       try {

@@ -27,11 +27,14 @@ export class Preview {
   /** Number of bytes at the last query of `next`; the next query follows at twice this number. */
   private asked = 0;
   /** The next preview of splats is not made before this time. */
-  private notBefore = performance.now() + patienceMs;
+  private notBefore: number;
   private over = false;
 
-  /** `memory`: as SplatOffer.memory. */
-  constructor(private readonly engine: Engine, private readonly name: string, private readonly memory: number) {}
+  /** `memory`: as SplatOffer.memory. `begun`: when the download began, by performance.now(). */
+  constructor(private readonly engine: Engine, private readonly name: string, private readonly memory: number,
+              begun: number) {
+    this.notBefore = begun + patienceMs;
+  }
 
   /** Ends the previews. */
   stop(): void { this.over = true; }
