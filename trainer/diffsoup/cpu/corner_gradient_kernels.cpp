@@ -170,7 +170,7 @@ class EdgeSum {
       const Mask shows_other = hn::AndNot(hn::Or(same, background), active);
       const Mask behind = hn::And(hn::And(covers, shows_other), hn::Gt(q_inverse, inverse));
       if (!hn::AllFalse(d, behind)) add_intersections(list, first, behind);
-      // What remains: the texture slide, opacity, and the geometric case.
+      // Left are the texture slide, the opacity, and the geometric case.
       const Mask in_front = hn::Or(background, hn::Gt(p_inverse, q_inverse));
       active = hn::And(active, hn::Or(same, hn::Or(covers, in_front)));
       active = hn::AndNot(behind, active);
