@@ -100,9 +100,9 @@ TEST_F(WorkerTest, PostedCompletionsComeFirst) {
 TEST_F(WorkerTest, AbandonedJobsPostNothing) {
   Worker worker(window, 0);
   Worker::Job posting = endless(JobKind::scene, "whole");
-  posting.work = [this, &worker](const Worker::Progress&) {
-    for (started = true; true;) worker.post([this] { told.push_back("preview"); });
-    return Worker::Completion();
+  posting.work = [this, &worker](const Worker::Progress&) -> Worker::Completion {
+    started = true;
+    while (true) worker.post([this] { told.push_back("preview"); });
   };
   worker.start(posting);
   wait_for_start();
