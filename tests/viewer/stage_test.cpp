@@ -6,8 +6,11 @@
 
 #include <cstring>
 #include <fstream>
+#include <random>
 
 #include "base/error.hpp"
+#include "formats/scene_file.hpp"
+#include "scene/lattice.hpp"
 
 namespace tureen::viewer {
 namespace stage_test {
@@ -102,6 +105,34 @@ TEST_F(Stages, PreviewsOfALargeFileGrowToAQuarterOfIt) {
     shown = preview->bytes;
   }
   EXPECT_THAT(counts, ElementsAre(1u << 14, 1u << 16));
+}
+
+TEST_F(Stages, ALargeSoupIsPreviewedOnceInMeanColours) {
+  constexpr std::uint32_t faces = 4000, level = 5;  // random texels: 18 MB in PNG strips
+  const std::uint32_t texels = lattice::texel_count(level);
+  std::mt19937 random(1);
+  LatticeTexture texture;
+  std::vector<std::uint8_t> values(std::size_t(faces) * texels * LatticeTexture::channels);
+  for (std::uint8_t& value : values) value = std::uint8_t(random() >> 24);
+  texture.texels = std::move(values);
+  TriangleSoup soup;
+  for (std::uint32_t t = 0; t < faces; ++t) {
+    texture.patches.push_back({t * texels, level});
+    soup.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
+    const float x = float(t);
+    soup.positions.insert(soup.positions.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+  }
+  soup.appearance = std::move(texture);
+  Scene scene;
+  scene.layers.push_back({.primitives = std::move(soup)});
+  write_scene(scene, folder_ / "large.glb");
+  const auto preview = read_source_preview(folder_ / "large.glb", 0);
+  ASSERT_TRUE(preview);
+  const TriangleSoup* shown = preview->source.layers.front().soup();
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->triangles.size(), faces);
+  EXPECT_TRUE(std::holds_alternative<FaceColors>(shown->appearance));
+  EXPECT_FALSE(read_source_preview(folder_ / "large.glb", preview->bytes));
 }
 
 TEST_F(Stages, SmallMissingAndOtherFilesHaveNoPreview) {
