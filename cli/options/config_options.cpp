@@ -61,7 +61,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
   add_number(command, "--seed", options.seed, "seed of the random numbers; 0 by default")
       .check(refuse_seed);
   add_number(command, "--level", options.level,
-             "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels");
+             "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels; by default 3 to 6, the "
+             "more pixels a triangle covers");
   command
       .add_option(
           "--init", options.begin,

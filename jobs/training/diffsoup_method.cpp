@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "jobs/training/methods.hpp"
 #include "trainer/diffsoup/config_file.hpp"
+#include "trainer/diffsoup/texture_level.hpp"
 #include "trainer/diffsoup/training.hpp"
 
 namespace tureen {
@@ -52,6 +53,7 @@ class DiffsoupMethod final : public TrainingMethod {
                         const std::function<void(const std::string&)>& say) override {
     const bool preset_by_alpha = !checkpoint_ && !options_.preset && options_.file.empty();
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
+    const int level = trainer::with_fitting_level(config_, dataset).max_level;
     trainer::TrainingResult result = trainer::train(
         dataset, {.config = config_,
                   .mesh = start,
@@ -62,9 +64,10 @@ class DiffsoupMethod final : public TrainingMethod {
                     if (preset_by_alpha)
                       say(dataset.has_alpha ? "The images have alpha: --preset object"
                                             : "The images have no alpha: --preset scene");
-                    say(fmt::format("{}; {} to {}; {}", describe_views(dataset),
+                    say(fmt::format("{}; {} to {} with textures of level {}; {}",
+                                    describe_views(dataset),
                                     counted(std::uint64_t(config_.steps), "step"),
-                                    counted(std::uint64_t(config_.triangles), "triangle"),
+                                    counted(std::uint64_t(config_.triangles), "triangle"), level,
                                     backend.description()));
                     if (!visible)
                       say("No training image shows a triangle yet: check the cameras of the "

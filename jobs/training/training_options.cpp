@@ -177,8 +177,10 @@ Config with_options(const Config& base, const TrainingOptions& options) {
   config.seed = options.seed.value_or(config.seed);
   if (options.level) {
     config.max_level = as_int(*options.level, "max_level", fields);
-    config.min_level = std::min(config.min_level, config.max_level);
-    config.coarse_level = std::min(config.coarse_level, config.min_level);
+    if (config.max_level != trainer::automatic_level) {
+      config.min_level = std::min(config.min_level, config.max_level);
+      config.coarse_level = std::min(config.coarse_level, config.min_level);
+    }
   }
   set_initialisation(config.initialisation, options);
   if (const std::optional<std::string> reason = trainer::defect(config)) throw UsageError(*reason);

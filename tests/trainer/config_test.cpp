@@ -212,7 +212,7 @@ TEST(ConfigFile, SaysWhatIsWrong) {
   expect(R"({"background": [1, 1, "x"]})", "background[2]");
   expect(R"({"preset": "objekt"})", "preset", "objekt", "object", "scene");
   expect(R"({"max_level": 8})", "max_level", 8, 7);
-  expect(R"({"min_level": 4})", "min_level", 4, "max_level", 3);
+  expect(R"({"min_level": 4, "max_level": 3})", "min_level", 4, "max_level", 3);
   expect(R"({"coarse_level": 3})", "coarse_level", 3, "min_level", 2);
   expect(R"({"near": 10})", "near", 10, "far");
   expect(R"({"l1_weight": 0, "ssim_weight": 0})", "l1_weight");

@@ -7,6 +7,7 @@ namespace tureen::trainer {
 Config preset(Preset kind) {
   Config config;
   config.preset = kind;
+  config.max_level = automatic_level;
   if (kind == Preset::scene) {
     // Photographs show walls and trees behind their subject.
     config.far_points = 0.5f;

@@ -1,5 +1,5 @@
-// All constants of training. The defaults are Tureen's constants for Preset::object, except near
-// and far; preset() sets those. `preset` and `published` return the other sets; a --config file or
+// All constants of training. The defaults are Tureen's constants for Preset::object, except near,
+// far and max_level; preset() sets those. `preset` and `published` return the other sets; a --config file or
 // an option overrides single constants.
 //
 // Source: DiffSoup (arXiv 2603.27151), its supplement and its code. Comments explain where our
@@ -26,6 +26,9 @@ enum class GradientPrecision { float32, float16 };
 /// by half side / reference_extent. The value is close to NeRF-synthetic, the source of the
 /// published numbers.
 inline constexpr double reference_extent = 1.5;
+
+/// Config::max_level that depends on the dataset (trainer/diffsoup/texture_level.hpp).
+inline constexpr int automatic_level = -1;
 
 struct Config {
   Preset preset = Preset::object;
@@ -56,7 +59,7 @@ struct Config {
   // --- The texture
   int coarse_level = 0;            // of all faces until lift_at
   int min_level = 2;               // then levels min_level .. max_level
-  int max_level = 3;               // published: 5, for images of 800 pixels and more
+  int max_level = 3;               // in our presets: automatic_level; published: 5
   float lift_at = 0.05f;           // published: 0.5; fraction of the steps before finer levels
   bool lift_keeps_opacity = true;  // published: false, opacity restarts at one half
 

@@ -21,6 +21,7 @@ constexpr Range views{
 constexpr Range faces{
     1, 4e6, {}, "a soup needs at least one triangle", "the textures would need gigabytes"};
 constexpr Range levels{0, lattice::max_level, {}, "a lattice has only these levels"};
+constexpr Range finest{automatic_level, lattice::max_level, {}, levels.reason};
 constexpr Range fraction{0, 1, {}, "the value is a fraction"};
 constexpr Range share{0, 1, Range::Ends::high_open, "new triangles are cut from remaining ones"};
 constexpr Range part{0, 1, Range::Ends::low_open, "the value is a fraction; 0 stops all updates"};
@@ -90,9 +91,10 @@ const ConfigField fields[] = {
     {"min_level", &Config::min_level, levels, {}, "Coarsest lattice level after lift_at"},
     {"max_level",
      &Config::max_level,
-     levels,
+     finest,
      {},
-     "Finest lattice level after lift_at, and level of the written soup"},
+     "Finest lattice level after lift_at, and level of the written soup; -1 chooses 3 to 6 by the "
+     "pixels that a triangle covers"},
     {"lift_at", &Config::lift_at, fraction, {}, "Fraction of the steps before the levels change"},
     {"lift_keeps_opacity",
      &Config::lift_keeps_opacity,
@@ -219,14 +221,16 @@ std::span<const char* const> preset_words() { return presets; }
 std::optional<std::string> defect(const Config& config) {
   if (auto found = range_defect(config, config_fields())) return found;
   const auto level = [](int value) { return std::to_string(value); };
-  if (config.min_level > config.max_level)
+  const bool is_automatic = config.max_level == automatic_level;
+  if (!is_automatic && config.min_level > config.max_level)
     return "min_level: " + level(config.min_level) + " is above max_level, " +
            level(config.max_level);
   if (config.coarse_level > config.min_level)
     return "coarse_level: " + level(config.coarse_level) + " is above min_level, " +
            level(config.min_level) + " (the lift would lose the learned texture)";
-  // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel).
-  const std::uint64_t texels = lattice::texel_count(config.max_level);
+  // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel). An automatic level has a
+  // few texels a pixel.
+  const std::uint64_t texels = is_automatic ? 1 : lattice::texel_count(config.max_level);
   if (const auto most = std::numeric_limits<std::uint32_t>::max() / texels;
       std::uint64_t(config.triangles) > most)
     return "triangles: " + std::to_string(config.triangles) + " at level " +

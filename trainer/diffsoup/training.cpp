@@ -10,6 +10,7 @@
 #include "trainer/diffsoup/backing.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
+#include "trainer/diffsoup/texture_level.hpp"
 #include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
@@ -93,7 +94,9 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
   const Config scaled = with_visible_backing(
-      with_empty_near_zone(scaled_to(config, region.half_side), dataset, region), dataset, region);
+      with_empty_near_zone(scaled_to(with_fitting_level(config, dataset), region.half_side),
+                           dataset, region),
+      dataset, region);
   run.state = request.checkpoint ? std::move(request.checkpoint->state)
                                  : first_state(dataset, scaled, request.mesh);
   const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);

@@ -1,0 +1,55 @@
+#include "trainer/diffsoup/texture_level.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace tureen::trainer {
+namespace {
+
+/// Two photographs of `width` x `width`, in which an eighth of the rows is covered.
+Dataset dataset(int width) {
+  Dataset data;
+  for (int i = 0; i < 2; ++i) {
+    Photograph& photograph = data.train.emplace_back();
+    photograph.image = Image8(width, width);
+    for (int y = 0; y < width / 8; ++y)
+      for (int x = 0; x < width; ++x) photograph.image.at(x, y).a = 255;
+  }
+  return data;
+}
+
+TEST(TextureLevel, HasAboutEightTexelsForEachPixelOfATriangle) {
+  // 512 * 64 = 32,768 covered pixels, of which 2^n triangles have 2^(16 - n) each. Eight texels for
+  // each of those are 2^(19 - n), and level L has about 2^(2 L - 1).
+  EXPECT_EQ(fitting_level(dataset(512), 1 << 10), 5);
+  EXPECT_EQ(fitting_level(dataset(512), 1 << 12), 4);
+  EXPECT_EQ(fitting_level(dataset(512), 1 << 14), 3);
+  EXPECT_EQ(fitting_level(dataset(256), 1 << 10), 4) << "a quarter of the pixels";
+  EXPECT_EQ(fitting_level(dataset(512), 1), 6) << "the highest";
+  EXPECT_EQ(fitting_level(dataset(512), 1 << 20), 3) << "the lowest";
+  EXPECT_EQ(fitting_level({}, 100), 3) << "no photograph";
+}
+
+TEST(TextureLevel, LeavesOutIgnoredPixels) {
+  Dataset data = dataset(512);
+  for (Photograph& photograph : data.train) {
+    photograph.ignored.assign(512 * 512, 0);
+    std::fill_n(photograph.ignored.begin(), 512 * 48, 1);  // three quarters of the covered ones
+  }
+  EXPECT_EQ(fitting_level(data, 1 << 10), 4);
+}
+
+TEST(TextureLevel, ChangesOnlyTheAutomaticOne) {
+  Config config = preset(Preset::object);
+  config.triangles = 1 << 10;
+  EXPECT_EQ(with_fitting_level(config, dataset(512)).max_level, 5);
+  config.max_level = 1;
+  EXPECT_EQ(with_fitting_level(config, dataset(512)).max_level, 1);
+  config.max_level = automatic_level;
+  config.min_level = 6;
+  EXPECT_EQ(with_fitting_level(config, dataset(512)).max_level, 6) << "never below the coarsest";
+}
+
+}  // namespace
+}  // namespace tureen::trainer
