@@ -279,9 +279,14 @@ ExitCode train(const TrainOptions& options) {
             evaluate(result, scene, dataset.test,
                      [&](double fraction) { evaluating.update(fraction); });
           }};
+  run.preparing = [&](double fraction) {
+    if (!progress) progress.emplace("Gaussians for the first triangles", output);
+    progress->update(fraction);
+  };
   if (options.watch) run.snapshot = [&](const Scene& scene) { window.show(scene); };
   std::vector<std::string> notes = first_notes(options, files, dataset);
   const auto say_checked = [&](const std::string& sentence) {
+    progress.reset();
     for (const std::string& note : std::exchange(notes, {})) say(note);
     say(sentence);
   };

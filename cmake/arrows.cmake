@@ -20,7 +20,7 @@ set(arrows
   "runtime: base image scene splatting runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views"
   "runtime/debug_views: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "trainer/common: base image scene"
-  "trainer/diffsoup: base image scene trainer/common"
+  "trainer/diffsoup: base image scene trainer/common trainer/splats"
   "trainer/splats: base image scene splatting trainer/common"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "jobs/timing: base image scene runtime runtime/gl"

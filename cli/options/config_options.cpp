@@ -67,7 +67,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
       .add_option(
           "--init", options.begin,
           "first primitives: random, points (structure-from-motion points of the dataset), "
-          "or a scene to continue from; by default points if the dataset has them, else random")
+          "or a scene to continue from; by default points if the dataset has them, else random; "
+          "soups then begin on Gaussians that are trained first")
       .value_name("WHERE");
 }
 

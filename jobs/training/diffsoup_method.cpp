@@ -39,12 +39,12 @@ class DiffsoupMethod final : public TrainingMethod {
 
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
     const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
-    // Triangle windows become opaque triangles.
-    if (!splats || std::holds_alternative<TriangleWindows>(splats->kernel)) return std::nullopt;
+    // Triangle windows become opaque triangles; Gaussians give places and normals.
+    if (!splats || !std::holds_alternative<NeuralDensities>(splats->kernel)) return std::nullopt;
     return UnsuitableStart{
-        fmt::format("the scene has {} ({}), but soups begin with triangles",
+        fmt::format("the scene has {} ({}), but soups begin with triangles or Gaussians",
                     counted(splat_count(start), "splat"), kernel_name(splats->kernel)),
-        "--method gaussians continues from Gaussians; --init random needs no scene"};
+        "--init random needs no scene"};
   }
 
   std::string constants() const override { return trainer::config_to_json(config_); }
@@ -56,7 +56,7 @@ class DiffsoupMethod final : public TrainingMethod {
     const int level = trainer::with_fitting_level(config_, dataset).max_level;
     trainer::TrainingResult result = trainer::train(
         dataset, {.config = config_,
-                  .mesh = start,
+                  .start = start,
                   .checkpoint = std::move(checkpoint_),
                   .device = options_.device,
                   .run = std::move(run),

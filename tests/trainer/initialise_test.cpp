@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
 #include "base/error.hpp"
@@ -462,6 +463,58 @@ TEST(InitialModel, OfAMeshBisectsToTheNumberOfTriangles) {
   EXPECT_EQ(model.logits.size(), 100 * 3u * channels);
   config.initial_triangles = 10;
   EXPECT_EQ(initial_model(dataset, config, &mesh).faces(), 60u);
+}
+
+// --- Gaussians
+
+/// Flat Gaussians on the plane z = 2, all with the same opacity, in a layer at `origin`.
+Scene gaussians_on_a_plane(std::size_t count, float opacity, glm::dvec3 origin) {
+  Random random(98);
+  Gaussians gaussians;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 point = random.in_ball();
+    gaussians.centers.emplace_back(point.x, point.y, 2);
+    gaussians.scales.emplace_back(0.2f, 0.001f, 0.1f);
+    // A quarter turn around x: the short axis, y, becomes z.
+    gaussians.rotations.push_back(glm::angleAxis(glm::half_pi<float>(), glm::vec3(1, 0, 0)));
+    gaussians.opacity.push_back(opacity);
+  }
+  const std::vector<glm::vec3> colors(count, glm::vec3(0.5f));
+  return scene_of(Splats{.kernel = std::move(gaussians), .color = {.coefficients = colors}},
+                  origin);
+}
+
+TEST(InitialModel, BeginsOnGaussiansInTheirPlanes) {
+  const glm::dvec3 centre(100, -50, 20);
+  const Dataset dataset = ring(99, centre, 4.0);
+  Config config = preset(Preset::object);
+  for (const float opacity : {0.9f, 0.1f})  // if none is opaque, all count
+    for (const int triangles : {100, 1000}) {
+      config.initial_triangles = triangles;
+      const Scene scene = gaussians_on_a_plane(300, opacity, centre);
+      const Model model = initial_model(dataset, config, &scene);
+      ASSERT_EQ(model.faces(), std::size_t(triangles));
+      int on_the_plane = 0;
+      for (std::size_t face = 0; face < model.faces(); ++face) {
+        const glm::dvec3 a = model.positions[3 * face], b = model.positions[3 * face + 1],
+                         c = model.positions[3 * face + 2];
+        const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+        EXPECT_NEAR(std::abs(normal.z), 1, 1e-4) << "floats of about 1e-3 beside a size of 0.05";
+        const glm::dvec3 middle = model.origin + (a + b + c) / 3.0;
+        on_the_plane += std::abs(middle.z - (centre.z + 2)) < 1e-3;
+      }
+      // Further seeds lie in balls around the centres.
+      EXPECT_GE(on_the_plane, std::min(triangles, 300));
+    }
+}
+
+TEST(InitialModel, BeginsAtRandomIfNoGaussianIsLeft) {
+  const Dataset dataset = ring(100, {0, 0, 0}, 4.0);
+  Config config = preset(Preset::object);
+  config.initial_triangles = 50;
+  const Scene scene = gaussians_on_a_plane(0, 1, glm::dvec3(0));
+  EXPECT_EQ(initial_model(dataset, config, &scene).positions,
+            initial_model(dataset, config).positions);
 }
 
 }  // namespace initialise_test

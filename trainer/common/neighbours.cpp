@@ -46,6 +46,22 @@ std::vector<double> nearest_distances(std::span<const glm::dvec3> points, std::s
   return distances;
 }
 
+std::vector<std::uint32_t> nearest_points(std::span<const glm::dvec3> points,
+                                          std::span<const glm::dvec3> places) {
+  assert(!points.empty());
+  const Cloud cloud{points};
+  const Tree tree(3, cloud);
+  std::vector<std::uint32_t> nearest;
+  nearest.reserve(places.size());
+  for (const glm::dvec3& place : places) {
+    std::size_t index = 0;
+    double square = 0;
+    tree.knnSearch(&place[0], 1, &index, &square);
+    nearest.push_back(std::uint32_t(index));
+  }
+  return nearest;
+}
+
 std::vector<std::uint32_t> farthest_points(std::span<const glm::dvec3> points, std::size_t count,
                                            std::uint32_t first) {
   assert(points.empty() || first < points.size());

@@ -14,6 +14,10 @@ namespace tureen::trainer {
 std::vector<double> nearest_distances(std::span<const glm::dvec3> points,
                                       std::size_t neighbours = 1);
 
+/// The index of the nearest of `points`, which are not empty, for each of `places`.
+std::vector<std::uint32_t> nearest_points(std::span<const glm::dvec3> points,
+                                          std::span<const glm::dvec3> places);
+
 /// Indices of `count` points (at most all), beginning with `first`. Each next point is the farthest
 /// from all before it (Gonzalez 1985); ties go to the lower index. O(points x count).
 std::vector<std::uint32_t> farthest_points(std::span<const glm::dvec3> points, std::size_t count,

@@ -20,6 +20,8 @@ struct RunRequest {
 
   // Each of the following callbacks may be empty. A callback may throw to end the run.
 
+  /// Progress, 0..1, of a method's work before the first step.
+  std::function<void(double fraction)> preparing = {};
   /// Shows the scene before the first step, then every few seconds, and the finished scene.
   std::function<void(const Scene&)> snapshot = {};
   /// Stores the finished scene. If it throws, the run writes a checkpoint and then passes the error

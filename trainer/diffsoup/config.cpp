@@ -31,6 +31,7 @@ Config preset(Preset kind) {
 Config published(Preset kind) {
   Config config = preset(kind);
   config.max_level = 5;
+  config.gaussian_steps = 0;
   config.far_points = 0.0f;
   config.backing_triangles = 0;
   config.initial_radius = 0.25f;

@@ -41,6 +41,10 @@ struct Config {
 
   // --- Initialisation
   Initialisation initialisation = Initialisation::automatic;
+  /// With automatic initialisation, if the dataset has no points: steps of the Gaussians that are
+  /// trained before, and give the first triangles places and normals
+  /// (trainer/diffsoup/first_gaussians.hpp). 0: none. Published: 0.
+  int gaussian_steps = 1500;
   int initial_triangles = 15'000;  // published for objects: 100,000
   float initial_radius = 1.0f;     // circumradius as a multiple of the mean distance to the nearest
                                    // neighbour; published: 0.25, for objects 0.28

@@ -43,8 +43,14 @@ const ConfigField fields[] = {
     {"seed", &Config::seed, any_seed, {}, "Random seed; equal seeds give equal soups"},
     {"triangles", &Config::triangles, faces, {}, "Exact number of triangles at the end"},
     {"initialisation", &Config::initialisation, none, initialisation_words,
-     "Source of the first triangles: points of the dataset, random points, or a mesh; automatic "
-     "uses points if the dataset has any"},
+     "Source of the first triangles: points of the dataset, random points, or a scene; automatic "
+     "uses points if the dataset has any, else Gaussians"},
+    {"gaussian_steps",
+     &Config::gaussian_steps,
+     {0, 1e6, {}, "it is a part of the run"},
+     {},
+     "Without points: steps of the Gaussians that give the first triangles places and normals; 0: "
+     "random points instead"},
     {"initial_triangles",
      &Config::initial_triangles,
      faces,

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <numeric>
 #include <tuple>
+#include <variant>
 
 #include "base/error.hpp"
 #include "trainer/common/neighbours.hpp"
@@ -103,6 +105,25 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& points, std::size
   return chosen;
 }
 
+/// The rotation whose third axis is the unit vector `normal`, turned around it by `random`.
+glm::dmat3 in_plane(glm::dvec3 normal, const glm::dmat3& random) {
+  // One of two perpendicular axes is at least 45 degrees away from the normal.
+  const glm::dvec3 aside = std::abs(glm::dot(random[0], normal)) < std::sqrt(0.5) ? random[0]
+                                                                                  : random[1];
+  const glm::dvec3 x = glm::normalize(aside - glm::dot(aside, normal) * normal);
+  return {x, glm::cross(normal, x), normal};
+}
+
+/// The unit vector along the shortest axis of a Gaussian.
+glm::dvec3 shortest_axis(const Gaussians& gaussians, std::size_t i) {
+  const glm::vec3 scales = gaussians.scales[i];
+  int axis = 2;
+  if (!gaussians.flat)
+    for (int other = 0; other < 2; ++other)
+      if (scales[other] < scales[axis]) axis = other;
+  return glm::normalize(glm::dmat3(glm::mat3_cast(glm::dquat(gaussians.rotations[i])))[axis]);
+}
+
 Model grey_model(const Config& config, glm::dvec3 origin, std::vector<glm::vec3> positions) {
   Model model{.min_level = config.coarse_level,
               .max_level = config.coarse_level,
@@ -120,6 +141,11 @@ Model from_mesh(const Scene& mesh, const Config& config) {
       {.min_level = config.coarse_level, .max_level = config.coarse_level, .seed = config.seed});
   const std::vector<Split> splits = longest_edges(model, std::size_t(config.initial_triangles));
   return split(model, splits, ChildTexture::resampled).model;
+}
+
+const Gaussians* gaussians_of(const Scene* scene) {
+  const auto* splats = scene ? std::get_if<Splats>(&only_layer(*scene).primitives) : nullptr;
+  return splats ? std::get_if<Gaussians>(&splats->kernel) : nullptr;
 }
 
 /// Replaces the seeds inside the region with seeds at points.
@@ -158,6 +184,25 @@ Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& op
   return seeds;
 }
 
+Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const PointSeeds& options,
+                         Random& random) {
+  std::vector<DatasetPoint> points;
+  std::vector<glm::dvec3> centres, normals;
+  for (const float needed : {0.5f, 0.0f}) {
+    for (std::size_t i = 0; i < gaussians.centers.size(); ++i) {
+      if (gaussians.opacity[i] < needed) continue;
+      centres.push_back(origin + glm::dvec3(gaussians.centers[i]));
+      normals.push_back(shortest_axis(gaussians, i));
+      points.push_back({.position = centres.back(), .color = {}});
+    }
+    if (!points.empty()) break;
+  }
+  Seeds seeds = seeds_at_points(points, options, random);
+  for (const std::uint32_t nearest : nearest_points(centres, seeds.centres))
+    seeds.normals.push_back(normals[nearest]);
+  return seeds;
+}
+
 Seeds random_seeds(const Region& region, std::span<const Photograph> views,
                    const RandomSeeds& options, Random& random) {
   const auto near_count =
@@ -190,21 +235,25 @@ Seeds random_seeds(const Region& region, std::span<const Photograph> views,
 std::vector<glm::vec3> equilateral_triangles(const Seeds& seeds, glm::dvec3 origin,
                                              Random& random) {
   assert(seeds.centres.size() == seeds.radii.size());
+  assert(seeds.normals.empty() || seeds.normals.size() == seeds.centres.size());
   const double sine = std::sqrt(0.75);  // of 120 degrees
   const glm::dvec3 corners[] = {{1, 0, 0}, {-0.5, sine, 0}, {-0.5, -sine, 0}};
   std::vector<glm::vec3> positions;
   positions.reserve(3 * seeds.centres.size());
   for (std::size_t i = 0; i < seeds.centres.size(); ++i) {
-    const glm::dmat3 rotation = random.rotation();
+    glm::dmat3 rotation = random.rotation();
+    if (!seeds.normals.empty()) rotation = in_plane(seeds.normals[i], rotation);
     for (const glm::dvec3 corner : corners)
       positions.emplace_back(seeds.centres[i] - origin + seeds.radii[i] * (rotation * corner));
   }
   return positions;
 }
 
-Model initial_model(const Dataset& dataset, const Config& config, const Scene* mesh) {
-  assert((mesh != nullptr) == (config.initialisation == Initialisation::mesh));
-  if (mesh) return from_mesh(*mesh, config);
+Model initial_model(const Dataset& dataset, const Config& config, const Scene* start) {
+  assert(start || config.initialisation != Initialisation::mesh);
+  const Gaussians* gaussians = gaussians_of(start);
+  if (start && !gaussians) return from_mesh(*start, config);
+  if (gaussians && gaussians->centers.empty()) gaussians = nullptr;
   const bool has_points = !dataset.points.empty();
   if (config.initialisation == Initialisation::points && !has_points)
     throw InputError({}, "the dataset has no points for the first triangles",
@@ -213,11 +262,19 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
   const std::size_t count = std::max(std::size_t(config.initial_triangles), backing + 1) - backing;
   Region region = region_of_interest(dataset);
   Random random(config.seed, begin_stream);
-  const bool at_points = has_points && config.initialisation != Initialisation::random;
+  const bool at_points =
+      has_points && config.initialisation != Initialisation::random && !gaussians;
   if (config.box > 0 && !at_points) region.half_side = config.box;
   const double far = at_points ? config.around_points : config.far_points;
   Seeds seeds;
-  if (!at_points || far > 0)
+  if (gaussians)
+    seeds = seeds_at_gaussians(*gaussians, origin_of(only_layer(*start)),
+                               {.count = count,
+                                .radius = config.initial_radius,
+                                .local = true,
+                                .lone_spacing = region.half_side},
+                               random);
+  else if (!at_points || far > 0)
     seeds = random_seeds(region, dataset.train,
                          {.count = count,
                           .radius = config.initial_radius,

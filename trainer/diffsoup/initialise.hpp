@@ -10,6 +10,7 @@
 #include "scene/photographs.hpp"
 #include "scene/region.hpp"
 #include "scene/scene.hpp"
+#include "scene/splats.hpp"
 #include "trainer/common/random.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/model.hpp"
@@ -20,16 +21,19 @@ namespace tureen::trainer {
 /// Positions are relative to the centre of the region of interest (for a mesh: see from_scene). The
 /// result depends only on the arguments, and is the same on every machine within rounding.
 ///
-/// `mesh`: the scene for config.initialisation mesh, null for all others. Its longest edges are
-/// bisected if it has fewer triangles. If it has more, all stay until the first pruning, which
-/// needs their visible pixels. Throws InputError if points are required and the dataset has none,
+/// `start`: a scene with one layer, needed for config.initialisation mesh. The longest edges of a
+/// mesh are bisected if it has fewer triangles. If it has more, all stay until the first pruning,
+/// which needs their visible pixels. Gaussians give centres and normals; none
+/// are as no scene. Throws InputError if points are required and the dataset has none,
 /// and the errors of region_of_interest.
-Model initial_model(const Dataset& dataset, const Config& config, const Scene* mesh = nullptr);
+Model initial_model(const Dataset& dataset, const Config& config, const Scene* start = nullptr);
 
-/// Positions and sizes of triangles.
+/// Positions, sizes and orientations of triangles.
 struct Seeds {
   std::vector<glm::dvec3> centres;  // in world coordinates
   std::vector<double> radii;        // circumradii
+  /// Unit normals; where there is none, the orientation is random.
+  std::vector<glm::dvec3> normals = {};
 };
 
 /// Two thirds of `count` come from farthest-point sampling, the others are uniform among the
@@ -53,6 +57,11 @@ struct PointSeeds {
 Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
                       Random& random);
 
+/// Seeds at the centres of Gaussians with an opacity above one half, or of all if there is none; the
+/// normal of each is the shortest axis of the nearest Gaussian. `origin`: of the splats' layer.
+Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const PointSeeds& options,
+                         Random& random);
+
 /// Points are uniform in the cube `region`. A fraction `far` lies around it instead, up to
 /// `far_extent` half sides from its centre, uniform in the logarithm of the distance. A point
 /// outside the images of all `views` is drawn again, up to 100 times. Circumradii are `radius`
@@ -67,7 +76,8 @@ struct RandomSeeds {
 Seeds random_seeds(const Region& region, std::span<const Photograph> views,
                    const RandomSeeds& options, Random& random);
 
-/// Three corners per seed, relative to `origin`: equilateral, with orientations uniform in SO(3).
+/// Three corners per seed, relative to `origin`: equilateral, turned at random around the normal, or
+/// with an orientation uniform in SO(3).
 std::vector<glm::vec3> equilateral_triangles(const Seeds& seeds, glm::dvec3 origin, Random& random);
 
 }  // namespace tureen::trainer

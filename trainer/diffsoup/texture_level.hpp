@@ -6,7 +6,7 @@
 
 namespace tureen::trainer {
 
-/// The level, 3 to 6, with about 8 texels for each pixel that a triangle covers. A photograph's
+/// The level, 3 to 6, with about 3.5 texels for each pixel that a triangle covers. A photograph's
 /// covered pixels are those with an alpha of one half and more, without the ignored ones, in the
 /// mean over dataset.train. Half of the triangles share them, because others are in front of the
 /// rest.

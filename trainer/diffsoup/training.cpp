@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "scene/edit/lattice_bytes.hpp"
+#include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/backing.hpp"
+#include "trainer/diffsoup/first_gaussians.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
 #include "trainer/diffsoup/texture_level.hpp"
@@ -17,9 +20,9 @@ namespace tureen::trainer {
 
 namespace {
 
-TrainingState first_state(const Dataset& dataset, const Config& config, const Scene* mesh) {
+TrainingState first_state(const Dataset& dataset, const Config& config, const Scene* start) {
   TrainingState state;
-  state.model = initial_model(dataset, config, mesh);
+  state.model = initial_model(dataset, config, start);
   state.moments.reset_faces(state.model);
   return state;
 }
@@ -97,8 +100,15 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
       with_empty_near_zone(scaled_to(with_fitting_level(config, dataset), region.half_side),
                            dataset, region),
       dataset, region);
-  run.state = request.checkpoint ? std::move(request.checkpoint->state)
-                                 : first_state(dataset, scaled, request.mesh);
+  std::optional<Scene> gaussians;
+  if (!request.checkpoint && begins_with_gaussians(scaled, dataset)) {
+    const Stopwatch watch(run.seconds);
+    gaussians = first_gaussians(dataset, scaled, region, request.run.threads,
+                                request.run.preparing);
+  }
+  run.state = request.checkpoint
+                  ? std::move(request.checkpoint->state)
+                  : first_state(dataset, scaled, gaussians ? &*gaussians : request.start);
   const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);
   Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.run.threads),
                   run.state);

@@ -15,7 +15,7 @@ namespace tureen::trainer {
 
 struct TrainingRequest {
   Config config;
-  const Scene* mesh = nullptr;           // initial triangles, for Initialisation::mesh
+  const Scene* start = nullptr;          // triangles or Gaussians, for Initialisation::mesh
   std::optional<Checkpoint> checkpoint;  // to continue from
   Device device = Device::automatic;
   RunRequest run;

@@ -1,0 +1,76 @@
+#include "trainer/diffsoup/first_gaussians.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "trainer/common/training_views.hpp"
+#include "trainer/splats/gaussian_method.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+/// Photographs are halved until they have at most this many pixels: places of surfaces need no
+/// more, and a step takes a few milliseconds.
+constexpr std::int64_t max_pixels = 1 << 17;
+
+/// More Gaussians than most soups have triangles.
+constexpr std::uint64_t max_gaussians = 20'000;
+
+/// Fraction of the random Gaussians around the region of interest where photographs show a place,
+/// as `tureen train --method gaussians` has it.
+constexpr double far_gaussians = 0.5;
+
+TrainingView small_view(const Photograph& photograph, const Config& config, const Region& region) {
+  TrainingView view = training_view(photograph, std::span<const float, 3>(config.background));
+  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels) view = halved(view);
+  // Relative to the region's centre, where floats are exact enough.
+  view.camera.view_from_world = view.camera.view_from_world * at_origin(region.centre);
+  return view;
+}
+
+/// Largest number of steps in steps of the triangles, which take several times as long: short runs
+/// are tests. With a third of gaussian_steps, surfaces in the distance are not found yet.
+constexpr int max_steps_ratio = 3;
+
+GaussianConfig constants(const Config& config) {
+  GaussianConfig constants;
+  constants.steps = std::min(config.gaussian_steps, max_steps_ratio * config.steps);
+  constants.max_splats = max_gaussians;
+  constants.seed = config.seed;
+  std::ranges::copy(config.background, constants.background);
+  if (config.preset == Preset::scene) constants.far_splats = far_gaussians;
+  return constants;
+}
+
+}  // namespace
+
+bool begins_with_gaussians(const Config& config, const Dataset& dataset) {
+  return config.initialisation == Initialisation::automatic && config.gaussian_steps > 0 &&
+         dataset.points.empty();
+}
+
+Scene first_gaussians(const Dataset& dataset, const Config& config, Region region, int threads,
+                      const std::function<void(double fraction)>& progress) {
+  if (config.box > 0) region.half_side = config.box;
+  std::vector<TrainingView> views;
+  for (const Photograph& photograph : dataset.train)
+    views.push_back(small_view(photograph, config, region));
+  const GaussianConfig settings = constants(config);
+  SplatState<GaussianParameters> state{.random = Random(settings.seed)};
+  state.parameters =
+      initial_splats<GaussianTraining>(dataset, settings, region, nullptr, state.random);
+  state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
+  GaussianTrainer trainer(settings, views, {.centre = glm::dvec3(0), .half_side = region.half_side},
+                          threads, std::move(state));
+  while (!trainer.done()) {
+    if (progress) progress(double(trainer.steps_done()) / settings.steps);
+    trainer.step();
+  }
+  return scene_of(trainer.primitives(), region.centre);
+}
+
+}  // namespace tureen::trainer
