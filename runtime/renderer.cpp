@@ -346,7 +346,7 @@ void Renderer::draw(const FrameInput& input, SplatOrdering order) {
   state.rest_refused = false;
   state.frame.may_use_earlier_order = order == SplatOrdering::earlier;
   state.frame.first_sample = {};
-  state.draw_in_motion(input);
+  state.draw(input);
   state.shown = input;
 }
 
@@ -455,7 +455,6 @@ void Renderer::leave_context() {
   state_->target.leave_context();
   state_->probe.reset();
   state_->rest.reset();
-  if (state_->motion) state_->motion.emplace(state_->device.api);
   state_->shown.reset();
   state_->size = glm::ivec2(0);
   finish();
@@ -476,8 +475,7 @@ std::size_t Renderer::device_bytes() const {
 }
 
 std::size_t Renderer::target_bytes() const {
-  std::size_t bytes = state_->target.bytes() + (state_->rest ? state_->rest->bytes() : 0) +
-                      (state_->motion ? state_->motion->bytes() : 0);
+  std::size_t bytes = state_->target.bytes() + (state_->rest ? state_->rest->bytes() : 0);
   state_->for_each_pass_and_filter([&](Pass& pass) { bytes += pass.target_bytes(); });
   return bytes;
 }

@@ -134,14 +134,6 @@ class Renderer {
   /// draw(), and refine() while it can.
   void draw_at_rest(const FrameInput& input);
 
-  /// Whether draw() can smooth frames of a moving camera: if all visible layers are soups, a pixel
-  /// has one sample, and no pass is from outside.
-  bool can_smooth_motion() const;
-  /// Whether draw() smooths frames where it can (runtime/passes/motion.hpp), from the next frame
-  /// on; initially not. The image then depends on the frames before. read_color() and blit_to()
-  /// have it; the other functions have the last frame.
-  void smooth_motion(bool smooth);
-
   /// Sorts splats for frames with SplatOrdering::earlier (runtime/splats/splat_sorter.hpp).
   void sort_splats_with(std::unique_ptr<SplatSorter> sorter);
   /// Whether the last frame shows all splats in the order of its own view. Otherwise, draw the view

@@ -1,4 +1,4 @@
-// The images at rest and in motion of a Renderer.
+// The image at rest of a Renderer.
 #include <cassert>
 
 #include "base/error.hpp"
@@ -44,7 +44,7 @@ bool Renderer::can_refine() const {
 bool Renderer::State::begin_rest() {
   if (!rest) rest.emplace(device.api);
   try {
-    rest->begin(size, drawn_framebuffer(), frames_at_rest(plan.quality.supersampling));
+    rest->begin(size, frame_framebuffer(), frames_at_rest(plan.quality.supersampling));
     return true;
   } catch (const DeviceLimitError&) {
     rest.reset();
@@ -69,45 +69,6 @@ void Renderer::refine() {
   state.rest->add(state.filter ? state.filter->texture() : state.target.color_texture(),
                   state.background);
   gl::check("refine");
-}
-
-bool Renderer::State::can_smooth_motion() const {
-  if (!draws_layers || !passes.empty() || filter) return false;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (places[i].visible && !soups[i]) return false;
-  return true;
-}
-
-bool Renderer::can_smooth_motion() const { return state_->can_smooth_motion(); }
-
-void Renderer::smooth_motion(bool smooth) {
-  State& state = *state_;
-  if (smooth == state.motion.has_value()) return;
-  state.shown.reset();
-  state.blends_motion = false;
-  if (smooth)
-    state.motion.emplace(state.device.api);
-  else
-    state.motion.reset();
-}
-
-void Renderer::State::draw_in_motion(const FrameInput& input) {
-  blends_motion = motion && can_smooth_motion();
-  if (!blends_motion) {
-    if (motion) motion->forget();
-    draw(input);
-    return;
-  }
-  FrameInput moved = input;
-  moved.whole = input.whole.value_or(input.camera);
-  const glm::dvec2 position = motion->position();
-  moved.camera.cx -= position.x;
-  moved.camera.cy -= position.y;
-  draw(moved);
-  blends_motion = target.has_depth();
-  if (blends_motion) motion->add(target.color_texture(), target.depth_texture(), size, input.camera, frame.range,
-              depth_storage());
-  gl::check("draw_in_motion");
 }
 
 void Renderer::draw_at_rest(const FrameInput& input) {

@@ -10,7 +10,6 @@
 #include "runtime/passes/accumulation.hpp"
 #include "runtime/passes/depth_probe.hpp"
 #include "runtime/passes/filter_pass.hpp"
-#include "runtime/passes/motion.hpp"
 #include "runtime/passes/soup_passes.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/splats/ordered_splats.hpp"
@@ -70,13 +69,9 @@ struct Renderer::State {
 
   GLuint image_framebuffer() const {
     if (rest && rest->frames() > 0) return rest->image_framebuffer();
-    return drawn_framebuffer();
+    return frame_framebuffer();
   }
-  /// The image of draw().
-  GLuint drawn_framebuffer() const {
-    return blends_motion ? motion->image_framebuffer() : frame_framebuffer();
-  }
-  /// The last frame alone.
+  /// Without the image at rest.
   GLuint frame_framebuffer() const {
     return filter ? filter->framebuffer() : target.color_framebuffer();
   }
@@ -87,9 +82,7 @@ struct Renderer::State {
   void set_frame(const FrameInput& input);
   void draw(const FrameInput& input);
   bool splats_in_order() const { return !ordered_splats || ordered_splats->in_order(); }
-  void draw_in_motion(const FrameInput& input);
   bool begin_rest();
-  bool can_smooth_motion() const;
   double splat_depth_at(glm::ivec2 sample, float stored);
 
   RenderPlan plan;  // soups and passes refer to it
@@ -119,8 +112,6 @@ struct Renderer::State {
   std::optional<FrameInput> shown;   // of the last draw(), unless it has failed or is out of date
   std::optional<Accumulation> rest;  // made by refine()
   bool rest_refused = false;         // the device lacks the memory for it
-  std::optional<Motion> motion;      // if frames of draw() are smoothed
-  bool blends_motion = false;        // the image is that of `motion`
   std::vector<PlacedBounds> visible_boxes;  // for set_frame()
 };
 
