@@ -149,7 +149,7 @@ class TrainingWindow {
 };
 
 /// The scene of --init.
-std::optional<Scene> read_mesh(const TrainingOptions& options, const TrainingMethod& method) {
+std::optional<Scene> read_start(const TrainingOptions& options, const TrainingMethod& method) {
   const fs::path path = options.mesh();
   if (path.empty()) return std::nullopt;
   const std::vector<std::string> words{"random", "points"};
@@ -219,9 +219,9 @@ ExitCode train(const TrainOptions& options) {
   }
   if (options.resume) method->resume(files.checkpoint);
   method->settle(nullptr);
-  const std::optional<Scene> mesh = before_the_first_step(options, [&] {
+  const std::optional<Scene> start = before_the_first_step(options, [&] {
     return options.resume || options.print_config ? std::nullopt
-                                                  : read_mesh(options.training, *method);
+                                                  : read_start(options.training, *method);
   });
 
   Dataset dataset =
@@ -280,8 +280,15 @@ ExitCode train(const TrainOptions& options) {
                      [&](double fraction) { evaluating.update(fraction); });
           }};
   run.preparing = [&](double fraction) {
-    if (!progress) progress.emplace("Gaussians for the first triangles", output);
-    progress->update(fraction);
+    before_the_first_step(options, [&] {
+      if (!progress) progress.emplace("Gaussians for the first triangles", output);
+      try {
+        progress->update(fraction);
+      } catch (const Interrupted&) {
+        progress.reset();
+        throw;
+      }
+    });
   };
   if (options.watch) run.snapshot = [&](const Scene& scene) { window.show(scene); };
   std::vector<std::string> notes = first_notes(options, files, dataset);
@@ -290,7 +297,7 @@ ExitCode train(const TrainOptions& options) {
     for (const std::string& note : std::exchange(notes, {})) say(note);
     say(sentence);
   };
-  result.training = method->train(dataset, mesh ? &*mesh : nullptr, std::move(run), say_checked);
+  result.training = method->train(dataset, start ? &*start : nullptr, std::move(run), say_checked);
   if (!result.evaluation && !dataset.test.empty())
     say("The runtime cannot draw the scene here; the metrics are from the trainer's own "
         "renderer: " +

@@ -20,7 +20,7 @@ TUREEN = PROGRAMS / 'tureen'
 EXAMPLE = Path('examples/soup.glb')
 # Training sets: the folder in --data (None: this script draws it), the scale of its images, options of `tureen train`.
 SETS = {
-    'example': (None, 1, '--config examples/training.json --steps 3000'),
+    'example': (None, 1, '--config examples/training.json'),
     'lego': ('rendered/lego', 0.5, '--steps 10000'),
     'fox': ('photos/fox', 0.25, '--steps 10000'),
     'bottle': ('photos/bottle', 0.5, '--steps 1500'),

@@ -60,15 +60,15 @@ void add_config_options(Command& command, TrainingOptions& options) {
   add_number(command, "--batch", options.batch, "views per step; 4 by default");
   add_number(command, "--seed", options.seed, "seed of the random numbers; 0 by default")
       .check(refuse_seed);
-  add_number(command, "--level", options.level,
-             "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels; by default 3 to 6, the "
-             "more pixels a triangle covers");
+  add_number(
+      command, "--level", options.level,
+      "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels; by default 3 to 5, the "
+      "more pixels a triangle covers");
   command
-      .add_option(
-          "--init", options.begin,
-          "first primitives: random, points (structure-from-motion points of the dataset), "
-          "or a scene to continue from; by default points if the dataset has them, else random; "
-          "soups then begin on Gaussians that are trained first")
+      .add_option("--init", options.begin,
+                  "first primitives: random, points (structure-from-motion points of the dataset), "
+                  "or a scene to continue from; by default points if the dataset has them, else "
+                  "random (for soups: Gaussians, which are trained first)")
       .value_name("WHERE");
 }
 

@@ -55,24 +55,24 @@ class DiffsoupMethod final : public TrainingMethod {
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     const int level = trainer::with_fitting_level(config_, dataset).max_level;
     trainer::TrainingResult result = trainer::train(
-        dataset, {.config = config_,
-                  .start = start,
-                  .checkpoint = std::move(checkpoint_),
-                  .device = options_.device,
-                  .run = std::move(run),
-                  .begun = [&](const trainer::Backend& backend, bool visible) {
-                    if (preset_by_alpha)
-                      say(dataset.has_alpha ? "The images have alpha: --preset object"
-                                            : "The images have no alpha: --preset scene");
-                    say(fmt::format("{}; {} to {} with textures of level {}; {}",
-                                    describe_views(dataset),
-                                    counted(std::uint64_t(config_.steps), "step"),
-                                    counted(std::uint64_t(config_.triangles), "triangle"), level,
-                                    backend.description()));
-                    if (!visible)
-                      say("No training image shows a triangle yet: check the cameras of the "
-                          "dataset.");
-                  }});
+        dataset,
+        {.config = config_,
+         .start = start,
+         .checkpoint = std::move(checkpoint_),
+         .device = options_.device,
+         .run = std::move(run),
+         .begun = [&](const trainer::Backend& backend, bool visible) {
+           if (preset_by_alpha)
+             say(dataset.has_alpha ? "The images have alpha: --preset object"
+                                   : "The images have no alpha: --preset scene");
+           say(fmt::format("{}; {} to {} with textures of level {}; {}", describe_views(dataset),
+                           counted(std::uint64_t(config_.steps), "step"),
+                           counted(std::uint64_t(config_.triangles), "triangle"), level,
+                           backend.description()));
+           if (!visible)
+             say("No training image shows a triangle yet: check the cameras of the "
+                 "dataset.");
+         }});
     return {.run = result.run,
             .primitives = {trainer::PrimitiveKind::triangles, result.state.model.faces()},
             .steps = result.state.step,

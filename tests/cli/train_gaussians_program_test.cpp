@@ -282,9 +282,14 @@ TEST_F(TrainGaussians, ReportsWrongUsageAndInputs) {
 TEST_F(TrainGaussians, AreAStartForASoup) {
   make_dataset();
   ASSERT_EQ(gaussians("a.glb", {"--steps", "3", "--max-splats", "200"}).exit_code, 0);
-  const ChildResult result = train("b.glb", {"--init", "a.glb", "--json"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["visible_at_start"], true);
+  Scene far = read_scene(folder / "a.glb");
+  far.layers[0].world_from_layer[3] += glm::dvec4(1000, 1000, 1000, 0);
+  ASSERT_THAT(tureen::write_scene(far, folder / "far.glb"), testing::IsEmpty());
+  for (const char* start : {"a.glb", "far.glb"}) {
+    const ChildResult result = train("b.glb", {"--init", start, "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["visible_at_start"], start[0] == 'a') << start;
+  }
 }
 
 TEST_F(TrainGaussians, ResumesWithAMemoryLimitAndAFileWithoutBackground) {

@@ -16,8 +16,9 @@
 #include "trainer/common/training_log.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
-#include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/first_gaussians.hpp"
+#include "trainer/diffsoup/initialise.hpp"
+#include "trainer/diffsoup/texture_level.hpp"
 #include "trainer/diffsoup/trainer.hpp"
 #include "trainer/diffsoup/training.hpp"
 
@@ -235,9 +236,25 @@ TEST(SmokeTraining, BeginsBetterOnGaussians) {
   const double on_gaussians = psnr_after(config);
   config.gaussian_steps = 0;
   const double at_random = psnr_after(config);
-  std::printf("test PSNR %.2f dB on Gaussians, %.2f dB at random points\n", on_gaussians, at_random);
+  std::printf("test PSNR %.2f dB on Gaussians, %.2f dB at random points\n", on_gaussians,
+              at_random);
   // Three seeds gave 3.0 to 3.8 dB; the margin is half of the smallest.
   EXPECT_GT(on_gaussians, at_random + 1.5);
+}
+
+TEST(SmokeTraining, ChoosesTheLevel) {
+  Dataset dataset = still_life();
+  TrainingRequest request;
+  request.config = smoke_config();
+  request.config.steps = 10;
+  request.config.triangles = 20;
+  request.config.max_level = automatic_level;
+  request.run.session.checkpoint = temporary(".checkpoint");
+  request.run.session.log = temporary(".jsonl");
+  const int expected = fitting_level(dataset, 20);
+  EXPECT_GT(expected, 3);  // not the lowest, which more triangles have
+  EXPECT_EQ(train(dataset, std::move(request)).state.model.max_level, expected);
+  fs::remove(temporary(".jsonl"));
 }
 
 TEST(SmokeTraining, HasTheSameGaussiansWithAnyNumberOfThreads) {
@@ -246,11 +263,15 @@ TEST(SmokeTraining, HasTheSameGaussiansWithAnyNumberOfThreads) {
   const Region region = region_of_interest(still_life());
   const Scene one = first_gaussians(still_life(), config, region, 1, {}),
               two = first_gaussians(still_life(), config, region, 2, {});
-  const auto centres = [](const Scene& scene) {
-    return std::get<Gaussians>(std::get<Splats>(only_layer(scene).primitives).kernel).centers;
+  const auto gaussians = [](const Scene& scene) {
+    return std::get<Gaussians>(std::get<Splats>(only_layer(scene).primitives).kernel);
   };
-  EXPECT_FALSE(centres(one).empty());
-  EXPECT_EQ(centres(one), centres(two));
+  const Gaussians a = gaussians(one), b = gaussians(two);
+  EXPECT_FALSE(a.centers.empty());
+  EXPECT_EQ(a.centers, b.centers);
+  EXPECT_EQ(a.scales, b.scales);
+  EXPECT_EQ(a.rotations, b.rotations);
+  EXPECT_EQ(a.opacity, b.opacity);
 }
 
 TEST(SmokeTraining, HasTheSameBytesWithAnyNumberOfThreads) {

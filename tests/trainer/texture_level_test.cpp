@@ -26,7 +26,10 @@ TEST(TextureLevel, HasAFewTexelsForEachPixelOfATriangle) {
   EXPECT_EQ(fitting_level(dataset(512), 1 << 10), 4);
   EXPECT_EQ(fitting_level(dataset(512), 1 << 12), 3);
   EXPECT_EQ(fitting_level(dataset(256), 1 << 10), 3) << "a quarter of the pixels";
-  EXPECT_EQ(fitting_level(dataset(512), 1), 6) << "the highest";
+  // Level 4 begins where 7 p = 4^3.5, at p = 18.3 pixels a triangle: 2^16 / p = 3,584 triangles.
+  EXPECT_EQ(fitting_level(dataset(512), 3500), 4);
+  EXPECT_EQ(fitting_level(dataset(512), 3700), 3);
+  EXPECT_EQ(fitting_level(dataset(512), 1), highest_automatic_level);
   EXPECT_EQ(fitting_level(dataset(512), 1 << 20), 3) << "the lowest";
   EXPECT_EQ(fitting_level({}, 100), 3) << "no photograph";
 }

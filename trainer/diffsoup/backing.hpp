@@ -15,7 +15,8 @@
 namespace tureen::trainer {
 
 /// The number of backing triangles, 20 * 4^n or 0. They are the first faces of the model. At most
-/// config.backing_triangles and a hundredth of the budget; 0 if the first triangles are a mesh.
+/// config.backing_triangles and a hundredth of the budget; 0 if the first primitives are those of a
+/// scene.
 std::size_t backing_faces(const Config& config);
 
 /// The radius around the region's centre, in world units: beyond the far random points and all

@@ -1,6 +1,6 @@
 // All constants of training. The defaults are Tureen's constants for Preset::object, except near,
-// far and max_level; preset() sets those. `preset` and `published` return the other sets; a --config file or
-// an option overrides single constants.
+// far and max_level; preset() sets those. `preset` and `published` return the other sets; a
+// --config file or an option overrides single constants.
 //
 // Source: DiffSoup (arXiv 2603.27151), its supplement and its code. Comments explain where our
 // values differ; docs/benchmarks.md has the gains.
@@ -27,8 +27,9 @@ enum class GradientPrecision { float32, float16 };
 /// published numbers.
 inline constexpr double reference_extent = 1.5;
 
-/// Config::max_level that depends on the dataset (trainer/diffsoup/texture_level.hpp).
-inline constexpr int automatic_level = -1;
+/// Config::max_level that depends on the dataset (trainer/diffsoup/texture_level.hpp), and the
+/// highest level that it becomes, unless min_level is above. A Trainer needs a level of its own.
+inline constexpr int automatic_level = -1, highest_automatic_level = 5;
 
 struct Config {
   Preset preset = Preset::object;
@@ -48,8 +49,8 @@ struct Config {
   int initial_triangles = 15'000;  // published for objects: 100,000
   float initial_radius = 1.0f;     // circumradius as a multiple of the mean distance to the nearest
                                    // neighbour; published: 0.25, for objects 0.28
-  bool local_radius =
-      false;  // with points: each radius uses the distance to the triangle's own nearest neighbour
+  bool local_radius = false;  // with points: each radius uses the distance to the triangle's own
+                              // nearest neighbour, as always with Gaussians
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // fraction of the random points outside the box
   float far_extent = 8.0f;  // largest distance of these points, in half sides of the box

@@ -1,5 +1,6 @@
 #include "trainer/diffsoup/config_fields.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -21,7 +22,7 @@ constexpr Range views{
 constexpr Range faces{
     1, 4e6, {}, "a soup needs at least one triangle", "the textures would need gigabytes"};
 constexpr Range levels{0, lattice::max_level, {}, "a lattice has only these levels"};
-constexpr Range finest{automatic_level, lattice::max_level, {}, levels.reason};
+constexpr Range finest{automatic_level, lattice::max_level, {}, "-1 chooses one of these levels"};
 constexpr Range fraction{0, 1, {}, "the value is a fraction"};
 constexpr Range share{0, 1, Range::Ends::high_open, "new triangles are cut from remaining ones"};
 constexpr Range part{0, 1, Range::Ends::low_open, "the value is a fraction; 0 stops all updates"};
@@ -99,7 +100,7 @@ const ConfigField fields[] = {
      &Config::max_level,
      finest,
      {},
-     "Finest lattice level after lift_at, and level of the written soup; -1 chooses 3 to 6 by the "
+     "Finest lattice level after lift_at, and level of the written soup; -1 chooses 3 to 5 by the "
      "pixels that a triangle covers"},
     {"lift_at", &Config::lift_at, fraction, {}, "Fraction of the steps before the levels change"},
     {"lift_keeps_opacity",
@@ -234,14 +235,15 @@ std::optional<std::string> defect(const Config& config) {
   if (config.coarse_level > config.min_level)
     return "coarse_level: " + level(config.coarse_level) + " is above min_level, " +
            level(config.min_level) + " (the lift would lose the learned texture)";
-  // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel). An automatic level has a
-  // few texels a pixel.
-  const std::uint64_t texels = is_automatic ? 1 : lattice::texel_count(config.max_level);
+  // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel).
+  const int highest =
+      is_automatic ? std::max(highest_automatic_level, config.min_level) : config.max_level;
+  const std::uint64_t texels = lattice::texel_count(highest);
   if (const auto most = std::numeric_limits<std::uint32_t>::max() / texels;
       std::uint64_t(config.triangles) > most)
-    return "triangles: " + std::to_string(config.triangles) + " at level " +
-           level(config.max_level) + " have more texels than a soup supports; the limit is " +
-           std::to_string(most) + " at that level";
+    return "triangles: " + std::to_string(config.triangles) + " at level " + level(highest) +
+           " have more texels than a soup supports; the limit is " + std::to_string(most) +
+           " at that level";
   if (!(config.near < config.far))
     return "near: " + float_text(config.near) + " is not below far, " + float_text(config.far);
   if (config.l1_weight == 0 && config.ssim_weight == 0)

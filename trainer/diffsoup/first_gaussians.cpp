@@ -17,24 +17,26 @@ namespace {
 /// more, and a step takes a few milliseconds.
 constexpr std::int64_t max_pixels = 1 << 17;
 
+/// Sides are not halved below this: the training halves them once more at its start, and the loss
+/// has windows of 11 pixels.
+constexpr int min_side = 22;
+
 /// More Gaussians than most soups have triangles.
 constexpr std::uint64_t max_gaussians = 20'000;
 
-/// Fraction of the random Gaussians around the region of interest where photographs show a place,
-/// as `tureen train --method gaussians` has it.
-constexpr double far_gaussians = 0.5;
+/// Their steps for each step of the triangles, at most: a short run would otherwise spend most of
+/// its time here. Less than 1,500 steps are too few for surfaces in the distance.
+constexpr int max_steps_ratio = 3;
 
 TrainingView small_view(const Photograph& photograph, const Config& config, const Region& region) {
   TrainingView view = training_view(photograph, std::span<const float, 3>(config.background));
-  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels) view = halved(view);
+  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
+         std::min(view.camera.width, view.camera.height) >= 2 * min_side)
+    view = halved(view);
   // Relative to the region's centre, where floats are exact enough.
   view.camera.view_from_world = view.camera.view_from_world * at_origin(region.centre);
   return view;
 }
-
-/// Largest number of steps in steps of the triangles, which take several times as long: short runs
-/// are tests. With a third of gaussian_steps, surfaces in the distance are not found yet.
-constexpr int max_steps_ratio = 3;
 
 GaussianConfig constants(const Config& config) {
   GaussianConfig constants;
@@ -42,7 +44,8 @@ GaussianConfig constants(const Config& config) {
   constants.max_splats = max_gaussians;
   constants.seed = config.seed;
   std::ranges::copy(config.background, constants.background);
-  if (config.preset == Preset::scene) constants.far_splats = far_gaussians;
+  constants.far_splats = config.far_points;
+  constants.far_extent = config.far_extent;
   return constants;
 }
 
@@ -57,8 +60,10 @@ Scene first_gaussians(const Dataset& dataset, const Config& config, Region regio
                       const std::function<void(double fraction)>& progress) {
   if (config.box > 0) region.half_side = config.box;
   std::vector<TrainingView> views;
-  for (const Photograph& photograph : dataset.train)
+  for (const Photograph& photograph : dataset.train) {
+    if (progress) progress(0);
     views.push_back(small_view(photograph, config, region));
+  }
   const GaussianConfig settings = constants(config);
   SplatState<GaussianParameters> state{.random = Random(settings.seed)};
   state.parameters =

@@ -17,9 +17,9 @@ namespace tureen::trainer {
 bool begins_with_gaussians(const Config& config, const Dataset& dataset);
 
 /// A scene with one layer of Gaussians, at the centre of `region`, the region of interest; they
-/// begin in it, or in the box of the configuration. None may be left in the end. `progress`: receives the
-/// fraction that is done before each step; may be empty, and may throw. The result has the same
-/// bits with any number of threads; `threads`: 0 for all cores.
+/// begin in it, or in the box of the configuration. None may be left in the end. `progress`:
+/// receives the fraction that is done before each photograph and step; may be empty, and may throw.
+/// The result has the same bits with any number of threads; `threads`: 0 for all cores.
 Scene first_gaussians(const Dataset& dataset, const Config& config, Region region, int threads,
                       const std::function<void(double fraction)>& progress);
 

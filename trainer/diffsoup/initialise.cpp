@@ -23,6 +23,9 @@ namespace {
 
 constexpr std::uint64_t begin_stream = 2;
 
+/// Gaussians of a scene among which the first triangles choose their places.
+constexpr std::size_t max_seed_gaussians = 100'000;
+
 /// The opacity of the backing layer begins at 0.998. It is the last surface of every ray, so
 /// training has no reason to lower it.
 constexpr float backing_logit = 6.0f;
@@ -108,8 +111,8 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& points, std::size
 /// The rotation whose third axis is the unit vector `normal`, turned around it by `random`.
 glm::dmat3 in_plane(glm::dvec3 normal, const glm::dmat3& random) {
   // One of two perpendicular axes is at least 45 degrees away from the normal.
-  const glm::dvec3 aside = std::abs(glm::dot(random[0], normal)) < std::sqrt(0.5) ? random[0]
-                                                                                  : random[1];
+  const glm::dvec3 aside =
+      std::abs(glm::dot(random[0], normal)) < std::sqrt(0.5) ? random[0] : random[1];
   const glm::dvec3 x = glm::normalize(aside - glm::dot(aside, normal) * normal);
   return {x, glm::cross(normal, x), normal};
 }
@@ -196,6 +199,13 @@ Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const Po
       points.push_back({.position = centres.back(), .color = {}});
     }
     if (!points.empty()) break;
+  }
+  // Sampling takes points x seeds steps.
+  if (points.size() > max_seed_gaussians) {
+    std::vector<DatasetPoint> drawn;
+    for (const std::uint32_t i : draw(random, max_seed_gaussians, points.size()))
+      drawn.push_back(points[i]);
+    points = std::move(drawn);
   }
   Seeds seeds = seeds_at_points(points, options, random);
   for (const std::uint32_t nearest : nearest_points(centres, seeds.centres))

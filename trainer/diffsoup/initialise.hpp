@@ -1,6 +1,6 @@
-// The first triangles: at points from structure from motion, at random points, or a mesh (DiffSoup,
-// arXiv 2603.27151, section 4). Their logits begin at 0, opacity one half and grey features, except
-// for a mesh with colours.
+// The first triangles: at points from structure from motion, on Gaussians, at random points, or a
+// mesh (DiffSoup, arXiv 2603.27151, section 4; Gaussians are ours). Their logits begin at 0,
+// opacity one half and grey features, except for a mesh with colours.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -57,8 +57,8 @@ struct PointSeeds {
 Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
                       Random& random);
 
-/// Seeds at the centres of Gaussians with an opacity above one half, or of all if there is none; the
-/// normal of each is the shortest axis of the nearest Gaussian. `origin`: of the splats' layer.
+/// Seeds at the centres of Gaussians with an opacity above one half, or of all if there is none;
+/// the normal of each is the shortest axis of the nearest Gaussian. `origin`: of the splats' layer.
 Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const PointSeeds& options,
                          Random& random);
 
@@ -76,8 +76,8 @@ struct RandomSeeds {
 Seeds random_seeds(const Region& region, std::span<const Photograph> views,
                    const RandomSeeds& options, Random& random);
 
-/// Three corners per seed, relative to `origin`: equilateral, turned at random around the normal, or
-/// with an orientation uniform in SO(3).
+/// Three corners per seed, relative to `origin`: equilateral, turned at random around the normal,
+/// or with an orientation uniform in SO(3).
 std::vector<glm::vec3> equilateral_triangles(const Seeds& seeds, glm::dvec3 origin, Random& random);
 
 }  // namespace tureen::trainer

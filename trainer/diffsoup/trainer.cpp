@@ -119,6 +119,7 @@ std::vector<std::uint32_t> batch_of(int step, int batch, std::size_t count, std:
 Trainer::Trainer(const Config& config, std::span<const TrainingView> views,
                  std::unique_ptr<Backend> backend, TrainingState state)
     : config_(config), views_(views), backend_(std::move(backend)) {
+  assert(config.max_level != automatic_level);
   quarantine(state);
   step_ = state.step;
   faces_ = state.model.faces();

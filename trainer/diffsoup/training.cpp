@@ -90,6 +90,8 @@ bool shows_something(Backend& backend, std::span<const TrainingView> views, std:
 
 TrainingResult train(Dataset& dataset, TrainingRequest request) {
   const Config& config = request.config;
+  assert(request.checkpoint ||
+         (request.start != nullptr) == (config.initialisation == Initialisation::mesh));
   Checkpoint run{.config = config,
                  .views = fingerprint(dataset.train),
                  .seconds = request.checkpoint ? request.checkpoint->seconds : 0.0,
@@ -103,8 +105,8 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
   std::optional<Scene> gaussians;
   if (!request.checkpoint && begins_with_gaussians(scaled, dataset)) {
     const Stopwatch watch(run.seconds);
-    gaussians = first_gaussians(dataset, scaled, region, request.run.threads,
-                                request.run.preparing);
+    gaussians =
+        first_gaussians(dataset, scaled, region, request.run.threads, request.run.preparing);
   }
   run.state = request.checkpoint
                   ? std::move(request.checkpoint->state)
