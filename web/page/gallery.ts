@@ -1,6 +1,6 @@
 // The gallery: the models in models.json, next to the page. Addresses are relative to that file.
 //
-//   [{"name": "Tureen", "url": "soup.glb", "picture": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
+//   [{"name": "Tureen", "url": "soup.glb", "picture": "soup.jpg", "triangles": 7000, "bytes": 2567840}]
 
 import { block, make } from './dom.js';
 import { bytesText, trianglesText } from './numbers.js';
