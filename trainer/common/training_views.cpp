@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "scene/scene.hpp"
+
 namespace tureen::trainer {
 
 namespace {
@@ -40,6 +42,11 @@ std::vector<TrainingView> take_training_views(std::vector<Photograph>& photograp
     photograph.ignored = {};
   }
   return views;
+}
+
+Camera relative_to(Camera camera, const glm::dvec3& origin) {
+  camera.view_from_world = camera.view_from_world * at_origin(origin);
+  return camera;
 }
 
 TrainingView halved(const TrainingView& view) {

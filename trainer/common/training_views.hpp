@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,10 @@ TrainingView training_view(const Photograph& photograph, std::span<const float, 
 /// cameras, so no image is in memory twice.
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
                                               std::span<const float, 3> background);
+
+/// The camera in coordinates relative to `origin` (world coordinates), where floats are exact
+/// enough.
+Camera relative_to(Camera camera, const glm::dvec3& origin);
 
 /// The view with half the pixels along each side, means of 2 x 2; without an odd last column or
 /// row. A pixel is ignored if one of the four is. For images of at least 2 x 2 pixels.

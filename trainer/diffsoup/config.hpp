@@ -27,9 +27,12 @@ enum class GradientPrecision { float32, float16 };
 /// published numbers.
 inline constexpr double reference_extent = 1.5;
 
-/// Config::max_level that depends on the dataset (trainer/diffsoup/texture_level.hpp), and the
-/// highest level that it becomes, unless min_level is above. A Trainer needs a level of its own.
-inline constexpr int automatic_level = -1, highest_automatic_level = 5;
+/// Config::max_level that depends on the dataset (trainer/diffsoup/texture_level.hpp). A Trainer
+/// needs a level from 0 on.
+inline constexpr int automatic_level = -1;
+/// The highest level that it becomes, unless min_level is above: the published one. More would need
+/// gigabytes; here a face has 74 kB in training, with Adam's moments.
+inline constexpr int highest_automatic_level = 5;
 
 struct Config {
   Preset preset = Preset::object;
@@ -42,9 +45,9 @@ struct Config {
 
   // --- Initialisation
   Initialisation initialisation = Initialisation::automatic;
-  /// With automatic initialisation, if the dataset has no points: steps of the Gaussians that are
-  /// trained before, and give the first triangles places and normals
-  /// (trainer/diffsoup/first_gaussians.hpp). 0: none. Published: 0.
+  /// With automatic initialisation, if the dataset has no points: the steps of a training of
+  /// Gaussians. The first triangles lie on these (trainer/diffsoup/first_gaussians.hpp). 0: no
+  /// Gaussians. Published: 0.
   int gaussian_steps = 1500;
   int initial_triangles = 15'000;  // published for objects: 100,000
   float initial_radius = 1.0f;     // circumradius as a multiple of the mean distance to the nearest

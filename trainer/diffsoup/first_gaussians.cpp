@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "trainer/common/training_views.hpp"
@@ -33,8 +32,7 @@ TrainingView small_view(const Photograph& photograph, const Config& config, cons
   while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
          std::min(view.camera.width, view.camera.height) >= 2 * min_side)
     view = halved(view);
-  // Relative to the region's centre, where floats are exact enough.
-  view.camera.view_from_world = view.camera.view_from_world * at_origin(region.centre);
+  view.camera = relative_to(view.camera, region.centre);
   return view;
 }
 
@@ -65,12 +63,8 @@ Scene first_gaussians(const Dataset& dataset, const Config& config, Region regio
     views.push_back(small_view(photograph, config, region));
   }
   const GaussianConfig settings = constants(config);
-  SplatState<GaussianParameters> state{.random = Random(settings.seed)};
-  state.parameters =
-      initial_splats<GaussianTraining>(dataset, settings, region, nullptr, state.random);
-  state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   GaussianTrainer trainer(settings, views, {.centre = glm::dvec3(0), .half_side = region.half_side},
-                          threads, std::move(state));
+                          threads, first_splats<GaussianTraining>(dataset, settings, region));
   while (!trainer.done()) {
     if (progress) progress(double(trainer.steps_done()) / settings.steps);
     trainer.step();

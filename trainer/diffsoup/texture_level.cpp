@@ -14,8 +14,6 @@ namespace {
 // more, and a step takes 1.8 times as long.
 constexpr double texels_a_pixel = 3.5;
 constexpr int lowest = 3;
-// Published, and more would need gigabytes: a face has 74 kB in training, with Adam's moments.
-constexpr int highest = highest_automatic_level;
 
 double covered_pixels(const Photograph& photograph) {
   double covered = 0;
@@ -34,7 +32,7 @@ int fitting_level(const Dataset& dataset, int triangles) {
   const double texels = texels_a_pixel * covered / (0.5 * triangles);
   // A lattice of level L has about 4^L / 2 texels.
   const double level = 0.5 * std::log2(std::max(2 * texels, 1.0));
-  return std::clamp(int(std::lround(level)), lowest, highest);
+  return std::clamp(int(std::lround(level)), lowest, highest_automatic_level);
 }
 
 Config with_fitting_level(const Config& config, const Dataset& dataset) {

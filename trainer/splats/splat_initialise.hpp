@@ -13,6 +13,7 @@
 #include "trainer/common/random.hpp"
 #include "trainer/common/random_points.hpp"
 #include "trainer/splats/splat_config.hpp"
+#include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {
 
@@ -63,6 +64,18 @@ typename Method::Parameters initial_splats(const Dataset& dataset,
                                            const typename Method::Config& config,
                                            const Region& region, const Scene* start,
                                            Random& random);
+
+/// The state before the first step, with initial_splats().
+template <class Method>
+SplatState<typename Method::Parameters> first_splats(const Dataset& dataset,
+                                                     const typename Method::Config& config,
+                                                     const Region& region,
+                                                     const Scene* start = nullptr) {
+  SplatState<typename Method::Parameters> state{.random = Random(config.seed)};
+  state.parameters = initial_splats<Method>(dataset, config, region, start, state.random);
+  state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
+  return state;
+}
 
 /// `count` points on the triangles of a scene with one layer, uniform in area, with the mean
 /// colours of the triangles. Throws InputError if no triangle has an area.

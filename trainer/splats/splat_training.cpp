@@ -24,12 +24,6 @@ constexpr std::array<double, 3> fit_at{0.1, 0.3, 0.5};
 /// Time of a run, with log, held-out views and previews, over that of its steps. An estimate.
 constexpr double overhead = 1.03;
 
-/// The camera in coordinates relative to `origin`, where floats are exact enough.
-Camera moved(Camera camera, glm::dvec3 origin) {
-  camera.view_from_world = camera.view_from_world * at_origin(origin);
-  return camera;
-}
-
 PrimitiveCount count_of(const Primitives& primitives) {
   if (const auto* splats = std::get_if<Splats>(&primitives))
     return {PrimitiveKind::splats, count(*splats)};
@@ -56,7 +50,7 @@ class SplatRun final : public Trainable {
     return {PrimitiveKind::splats, trainer_.parameters().count()};
   }
   std::vector<float> render(const Camera& camera) override {
-    return trainer_.render(moved(camera, origin_));
+    return trainer_.render(relative_to(camera, origin_));
   }
   std::span<const float, 3> background() const override {
     return std::span<const float, 3>(trainer_.config().background);
@@ -119,16 +113,6 @@ class SplatRun final : public Trainable {
   int fits_ = 0;
 };
 
-template <class Method>
-SplatState<typename Method::Parameters> first_state(const Dataset& dataset,
-                                                    const typename Method::Config& config,
-                                                    const Region& region, const Scene* start) {
-  SplatState<typename Method::Parameters> state{.random = Random(config.seed)};
-  state.parameters = initial_splats<Method>(dataset, config, region, start, state.random);
-  state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
-  return state;
-}
-
 template <class Method, class Request>
 SplatResult train_by(Dataset& dataset, Request request) {
   typename SplatRun<Method>::Checkpoint run{
@@ -139,13 +123,13 @@ SplatResult train_by(Dataset& dataset, Request request) {
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
   run.state = request.checkpoint ? std::move(request.checkpoint->state)
-                                 : first_state<Method>(dataset, run.config, region, request.start);
+                                 : first_splats<Method>(dataset, run.config, region, request.start);
   SplatForecast forecast{.splats = run.state.parameters.count(),
                          .bytes = splat_memory(run.config, dataset)};
 
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
-  for (TrainingView& view : views) view.camera = moved(view.camera, region.centre);
+  for (TrainingView& view : views) view.camera = relative_to(view.camera, region.centre);
   const Region local{.centre = glm::dvec3(0), .half_side = region.half_side};
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
