@@ -5,11 +5,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <utility>
 
 #include "base/error.hpp"
 #include "cli/files/train_files.hpp"
 #include "cli/progress.hpp"
+#include "jobs/training/training_method.hpp"
 #include "jobs/training/training_options.hpp"
+#include "scene/scene.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 
@@ -52,6 +56,21 @@ TEST(TrainingFiles, AreTriedAndLeaveNothing) {
   for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder)) ++entries;
   EXPECT_EQ(entries, 2u);
   fs::remove_all(folder);
+}
+
+TEST(SoupTraining, BeginsOnAllScenesButNeuralDensities) {
+  const TrainingOptions options;
+  const std::unique_ptr<TrainingMethod> method = make_training_method(options);
+  const auto unsuitable = [&](SplatKernel kernel) {
+    return method->unsuitable(scene_of(Splats{.kernel = std::move(kernel)}));
+  };
+  EXPECT_FALSE(unsuitable(Gaussians{}));
+  EXPECT_FALSE(unsuitable(TriangleWindows{}));
+  EXPECT_FALSE(method->unsuitable(scene_of(TriangleSoup{})));
+  const auto reason = unsuitable(NeuralDensities{});
+  ASSERT_TRUE(reason);
+  EXPECT_THAT(reason->what, testing::HasSubstr("triangles or Gaussians"));
+  EXPECT_THAT(reason->instead, testing::HasSubstr("--init random"));
 }
 
 TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {

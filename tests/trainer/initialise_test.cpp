@@ -15,6 +15,7 @@
 #include "tests/support/random_soups.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/common/neighbours.hpp"
+#include "trainer/diffsoup/first_gaussians.hpp"
 
 namespace tureen::trainer {
 namespace initialise_test {
@@ -467,9 +468,9 @@ TEST(InitialModel, OfAMeshBisectsToTheNumberOfTriangles) {
 
 // --- Gaussians
 
-/// Gaussians on the plane z = 2 and, where x < 0, on the plane y = 2: flat ones, all with the same
-/// opacity, in a layer at `origin`.
-Scene gaussians_on_a_plane(std::size_t count, float opacity, glm::dvec3 origin) {
+/// Thin Gaussians on the plane z = 2 and, where x < 0, on the plane y = 2, all with the same opacity,
+/// in a layer at `origin`.
+Scene gaussians_on_two_planes(std::size_t count, float opacity, glm::dvec3 origin) {
   Random random(98);
   Gaussians gaussians;
   for (std::size_t i = 0; i < count; ++i) {
@@ -509,7 +510,7 @@ TEST(InitialModel, BeginsOnGaussiansInTheirPlanes) {
   for (const float opacity : {0.9f, 0.1f})  // if none is opaque, all count
     for (const int triangles : {100, 1000}) {
       config.initial_triangles = triangles;
-      const Scene scene = gaussians_on_a_plane(300, opacity, centre);
+      const Scene scene = gaussians_on_two_planes(300, opacity, centre);
       const Model model = initial_model(dataset, config, &scene);
       ASSERT_EQ(model.faces(), std::size_t(triangles));
       int on_the_planes = 0;
@@ -528,11 +529,42 @@ TEST(InitialModel, BeginsOnGaussiansInTheirPlanes) {
     }
 }
 
+TEST(InitialModel, LeavesOutTransparentGaussians) {
+  const Dataset dataset = ring(102, {0, 0, 0}, 4.0);
+  Config config = preset(Preset::object);
+  config.initial_triangles = 100;
+  Scene scene = gaussians_on_two_planes(300, 0.9f, glm::dvec3(0));
+  auto& gaussians = std::get<Gaussians>(std::get<Splats>(scene.layers[0].primitives).kernel);
+  for (std::size_t i = 0; i < 300; ++i)
+    if (gaussians.centers[i].x < 0) gaussians.opacity[i] = 0.1f;
+  const Model model = initial_model(dataset, config, &scene);
+  for (std::size_t face = 0; face < model.faces(); ++face) {
+    const glm::vec3 sum = model.positions[3 * face] + model.positions[3 * face + 1] +
+                          model.positions[3 * face + 2];
+    EXPECT_GE(sum.x / 3 + model.origin.x, 0) << face;
+  }
+}
+
+TEST(FirstGaussians, AreForAutomaticStartsWithoutPoints) {
+  Dataset dataset;
+  Config config = preset(Preset::object);
+  EXPECT_TRUE(begins_with_gaussians(config, dataset));
+  EXPECT_FALSE(begins_with_gaussians(published(Preset::object), dataset));
+  for (const Initialisation other :
+       {Initialisation::random, Initialisation::points, Initialisation::mesh}) {
+    config.initialisation = other;
+    EXPECT_FALSE(begins_with_gaussians(config, dataset));
+  }
+  config.initialisation = Initialisation::automatic;
+  dataset.points = ball(103, 10, {0, 0, 0}, 1);
+  EXPECT_FALSE(begins_with_gaussians(config, dataset));
+}
+
 TEST(InitialModel, BeginsAtRandomIfNoGaussianIsLeft) {
   const Dataset dataset = ring(100, {0, 0, 0}, 4.0);
   Config config = preset(Preset::object);
   config.initial_triangles = 50;
-  const Scene scene = gaussians_on_a_plane(0, 1, glm::dvec3(0));
+  const Scene scene = gaussians_on_two_planes(0, 1, glm::dvec3(0));
   EXPECT_EQ(initial_model(dataset, config, &scene).positions,
             initial_model(dataset, config).positions);
 }
