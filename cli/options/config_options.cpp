@@ -62,8 +62,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
       .check(refuse_seed);
   add_number(
       command, "--level", options.level,
-      "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels; by default 3 to 5, the "
-      "more pixels a triangle covers");
+      "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels; by default 3 to 5: the "
+      "more pixels a triangle covers, the finer");
   command
       .add_option("--init", options.begin,
                   "first primitives: random, points (structure-from-motion points of the dataset), "

@@ -22,7 +22,7 @@ constexpr Range views{
 constexpr Range faces{
     1, 4e6, {}, "a soup needs at least one triangle", "the textures would need gigabytes"};
 constexpr Range levels{0, lattice::max_level, {}, "a lattice has only these levels"};
-constexpr Range finest{automatic_level, lattice::max_level, {}, "-1 chooses one of these levels"};
+constexpr Range finest{automatic_level, lattice::max_level, {}, "-1 chooses from 3 to 5"};
 constexpr Range fraction{0, 1, {}, "the value is a fraction"};
 constexpr Range share{0, 1, Range::Ends::high_open, "new triangles are cut from remaining ones"};
 constexpr Range part{0, 1, Range::Ends::low_open, "the value is a fraction; 0 stops all updates"};

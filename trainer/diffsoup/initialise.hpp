@@ -23,16 +23,16 @@ namespace tureen::trainer {
 ///
 /// `start`: a scene with one layer, needed for config.initialisation mesh. The longest edges of a
 /// mesh are bisected if it has fewer triangles. If it has more, all stay until the first pruning,
-/// which needs their visible pixels. Gaussians give centres and normals; none
-/// are as no scene. Throws InputError if points are required and the dataset has none,
-/// and the errors of region_of_interest.
+/// which needs their visible pixels. On a scene of Gaussians, see seeds_at_gaussians; without any in
+/// it, the triangles begin as without a scene. Throws InputError if points are required and the
+/// dataset has none, and the errors of region_of_interest.
 Model initial_model(const Dataset& dataset, const Config& config, const Scene* start = nullptr);
 
 /// Positions, sizes and orientations of triangles.
 struct Seeds {
   std::vector<glm::dvec3> centres;  // in world coordinates
   std::vector<double> radii;        // circumradii
-  /// Unit normals; where there is none, the orientation is random.
+  /// Unit normals, one for each, or none: then orientations are random.
   std::vector<glm::dvec3> normals = {};
 };
 
@@ -57,8 +57,9 @@ struct PointSeeds {
 Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
                       Random& random);
 
-/// Seeds at the centres of Gaussians with an opacity above one half, or of all if there is none;
-/// the normal of each is the shortest axis of the nearest Gaussian. `origin`: of the splats' layer.
+/// Seeds at the centres of Gaussians with an opacity of one half and more, or of all if there is no
+/// such Gaussian; at 100,000 of them, if there are more. The normal of a seed is the shortest axis
+/// of the nearest Gaussian. `origin`: of the splats' layer, in world coordinates.
 Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const PointSeeds& options,
                          Random& random);
 
