@@ -468,8 +468,8 @@ TEST(InitialModel, OfAMeshBisectsToTheNumberOfTriangles) {
 
 // --- Gaussians
 
-/// Thin Gaussians on the plane z = 2 and, where x < 0, on the plane y = 2, all with the same opacity,
-/// in a layer at `origin`.
+/// Thin Gaussians on the plane z = 2 and, where x < 0, on the plane y = 2, all with the same
+/// opacity, in a layer at `origin`.
 Scene gaussians_on_two_planes(std::size_t count, float opacity, glm::dvec3 origin) {
   Random random(98);
   Gaussians gaussians;
@@ -539,8 +539,8 @@ TEST(InitialModel, LeavesOutTransparentGaussians) {
     if (gaussians.centers[i].x < 0) gaussians.opacity[i] = 0.1f;
   const Model model = initial_model(dataset, config, &scene);
   for (std::size_t face = 0; face < model.faces(); ++face) {
-    const glm::vec3 sum = model.positions[3 * face] + model.positions[3 * face + 1] +
-                          model.positions[3 * face + 2];
+    const glm::vec3 sum =
+        model.positions[3 * face] + model.positions[3 * face + 1] + model.positions[3 * face + 2];
     EXPECT_GE(sum.x / 3 + model.origin.x, 0) << face;
   }
 }

@@ -23,8 +23,8 @@ namespace tureen::trainer {
 ///
 /// `start`: a scene with one layer, needed for config.initialisation mesh. The longest edges of a
 /// mesh are bisected if it has fewer triangles. If it has more, all stay until the first pruning,
-/// which needs their visible pixels. On a scene of Gaussians, see seeds_at_gaussians; without any in
-/// it, the triangles begin as without a scene. Throws InputError if points are required and the
+/// which needs their visible pixels. On a scene of Gaussians, see seeds_at_gaussians; without any
+/// in it, the triangles begin as without a scene. Throws InputError if points are required and the
 /// dataset has none, and the errors of region_of_interest.
 Model initial_model(const Dataset& dataset, const Config& config, const Scene* start = nullptr);
 
