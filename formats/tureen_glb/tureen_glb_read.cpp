@@ -2,6 +2,7 @@
 // the scene. Files of our writer are read in file order.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 #include <variant>
 
@@ -337,6 +338,22 @@ class Reader {
     return result;
   }
 
+  /// Appends a texel for each pixel of `low`: its channels, and those of `high`. In blocks: a larger
+  /// vector would first be filled with zeros, which takes as long as all else here.
+  static void append_texels(std::span<const glm::u8vec4> low, std::span<const glm::u8vec4> high,
+                            std::vector<std::uint8_t>& texels) {
+    std::array<std::uint8_t, 1024 * LatticeTexture::channels> block;
+    for (std::size_t done = 0; done < low.size();) {
+      std::uint8_t* end = block.data();
+      for (; done < low.size() && end != block.data() + block.size(); ++done) {
+        std::memcpy(end, &low[done], 4);
+        std::memcpy(end + 4, &high[done], 4);
+        end += LatticeTexture::channels;
+      }
+      texels.insert(texels.end(), block.data(), end);
+    }
+  }
+
   std::vector<std::uint8_t> strips(const JsonView& list, std::uint64_t texels) {
     // Strips are bounded and contiguous. Deflate compresses by at most 1032 : 1, so a count that
     // exceeds the images is rejected before any allocation.
@@ -356,8 +373,8 @@ class Reader {
       list.fail(std::to_string(texels) + " texels are more than its images can hold");
 
     input_.take_memory(texels, LatticeTexture::channels, "texels");
-    std::vector<std::uint8_t> result(static_cast<std::size_t>(texels) * LatticeTexture::channels);
-    std::uint8_t* texel = result.data();
+    std::vector<std::uint8_t> result;
+    result.reserve(static_cast<std::size_t>(texels) * LatticeTexture::channels);
     for (std::size_t i = 0; i < list.size(); ++i) {
       PassingMemory passing(input_.budget());
       const JsonView strip = list.at(i);
@@ -365,11 +382,7 @@ class Reader {
       const Image8 low = image(strip["images"].at(0)), high = image(strip["images"].at(1));
       if (low.pixels.size() < count || high.pixels.size() < count)
         strip.fail("an image has fewer than " + std::to_string(count) + " pixels");
-      for (std::size_t k = 0; k < count; ++k, texel += LatticeTexture::channels)
-        for (int c = 0; c < 4; ++c) {
-          texel[c] = low.pixels[k][c];
-          texel[4 + c] = high.pixels[k][c];
-        }
+      append_texels(std::span(low.pixels).first(count), high.pixels, result);
     }
     return result;
   }

@@ -61,38 +61,38 @@ class Placement {
   std::uint64_t cells() const { return cell_count_; }
   std::span<const glm::uvec4> patches() const { return patches_; }
 
-  /// Calls visit(i, source) for texels [first, first + count) on the device. `source`: index of the
-  /// soup's texel.
+  /// Calls visit(i, source, n) for pieces of the texels [first, first + count) on the device: texels
+  /// i .. i + n are the soup's texels source .. source + n.
   template <class Visit>
-  void for_each_texel(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
-    if (!repacked_) {
-      for (std::uint64_t i = 0; i < count; ++i) visit(i, first + i);
-      return;
-    }
+  void for_each_piece(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
+    if (!repacked_) return visit(0, first, count);
     for_each_run(
         texel_runs_, first, count, [](const Run& run) { return lattice::texel_count(run.level); },
-        [&](const Run& run) {
-          return [&, source = Source(texture_.patches[run.face], run.level)](
-                     std::uint64_t i, std::uint32_t k) { visit(i, source.texel(k)); };
+        [&](const Run& run, std::uint64_t i, std::uint32_t k, std::uint32_t n) {
+          const Source source(texture_.patches[run.face], run.level);
+          if (source.is_whole()) return visit(i, source.texel(k), n);
+          for (std::uint32_t end = k + n; k < end; ++k, ++i) visit(i, source.texel(k), 1);
         });
   }
 
-  /// The same for cells: `sources` are the soup's texels at the corners (x+1, y), (x, y+1), (x, y)
-  /// and (x+1, y+1), the last one moved to the border for cells on the last diagonal.
+  /// Calls visit(i, sources) for cells [first, first + count): `sources` are the soup's texels at the
+  /// corners (x+1, y), (x, y+1), (x, y) and (x+1, y+1), the last one moved to the border for cells on
+  /// the last diagonal.
   template <class Visit>
   void for_each_cell(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
     for_each_run(
         cell_runs_, first, count, [](const Run& run) { return lattice::cell_count(run.level); },
-        [&](const Run& run) {
-          return [&, source = Source(texture_.patches[run.face], run.level),
-                  n = lattice::resolution(run.level)](std::uint64_t i, std::uint32_t k) {
+        [&](const Run& run, std::uint64_t i, std::uint32_t k, std::uint32_t cells) {
+          const Source source(texture_.patches[run.face], run.level);
+          const int n = lattice::resolution(run.level);
+          for (std::uint32_t end = k + cells; k < end; ++k, ++i) {
             const auto [x, y] = lattice::texel_coordinates(k);
             const int corner_y = std::min(y + 1, n - (x + 1));
             visit(i, std::array{source.texel(lattice::texel_index(x + 1, y)),
                                 source.texel(lattice::texel_index(x, y + 1)),
                                 source.texel(lattice::texel_index(x, y)),
                                 source.texel(lattice::texel_index(x + 1, corner_y))});
-          };
+          }
         });
   }
 
@@ -107,6 +107,7 @@ class Placement {
       corners_ = {lattice::texel_index(0, 0), lattice::texel_index(n, 0),
                   lattice::texel_index(0, n)};
     }
+    bool is_whole() const { return !corners_only_; }
     std::uint64_t texel(std::uint32_t k) const {
       return first_ + (corners_only_ ? corners_[k] : k);
     }
@@ -117,16 +118,20 @@ class Placement {
     std::array<std::uint32_t, 3> corners_;
   };
 
-  template <class Length, class MakeVisit>
+  /// Calls visit(run, i, k, n) for the parts of runs in [first, first + count): elements k .. k + n of
+  /// the run are elements i .. i + n of this range.
+  template <class Length, class Visit>
   static void for_each_run(const std::vector<Run>& runs, std::uint64_t first, std::uint64_t count,
-                           const Length& length, const MakeVisit& make_visit) {
+                           const Length& length, const Visit& visit) {
     auto run = std::upper_bound(runs.begin(), runs.end(), first,
                                 [](std::uint64_t f, const Run& r) { return f < r.first; });
     if (run != runs.begin()) --run;
     for (std::uint64_t i = 0; i < count; ++run) {
-      const auto visit = make_visit(*run);
-      auto k = std::uint32_t(first + i - run->first);
-      for (const std::uint32_t end = length(*run); k < end && i < count; ++k, ++i) visit(i, k);
+      const auto k = std::uint32_t(first + i - run->first);
+      if (k >= length(*run)) continue;
+      const auto n = std::uint32_t(std::min<std::uint64_t>(length(*run) - k, count - i));
+      visit(*run, i, k, n);
+      i += n;
     }
   }
 
@@ -139,19 +144,29 @@ class Placement {
 
 using SharedPlacement = std::shared_ptr<const Placement>;
 
-/// Four channels a texel from `channel` on; those past the last feature are 0.
+/// Copies `n` channels of each texel of a piece, without gaps.
+template <std::size_t n, class Value>
+void copy_channels(const Value* from, std::uint64_t texels, std::byte* to) {
+  constexpr std::size_t bytes = n * sizeof(Value);
+  for (; texels > 0; --texels, from += LatticeTexture::channels, to += bytes)
+    std::memcpy(to, from, bytes);
+}
+
+/// Features 0 to 3, or 4 to 6 and a zero.
 template <class Value>
 TexelSource feature_source(const std::vector<Value>& values, const SharedPlacement& placement,
                            const TexelFormat& format, int channel) {
-  const auto copied = std::size_t(std::min(4, LatticeTexture::features - channel));
-  const auto fill = [&values, placement, channel, copied, each = format.bytes](
-                        std::uint64_t first, std::span<std::byte> out) {
-    std::fill(out.begin(), out.end(), std::byte{0});
-    placement->for_each_texel(first, out.size() / each, [&](std::uint64_t i, std::uint64_t source) {
-      std::memcpy(&out[i * each],
-                  &values[source * LatticeTexture::channels + std::uint64_t(channel)],
-                  sizeof(Value) * copied);
-    });
+  const auto fill = [&values, placement, channel](std::uint64_t first, std::span<std::byte> out) {
+    constexpr std::size_t each = 4 * sizeof(Value);
+    placement->for_each_piece(
+        first, out.size() / each, [&](std::uint64_t i, std::uint64_t source, std::uint64_t n) {
+          copy_channels<4>(&values[source * LatticeTexture::channels + std::uint64_t(channel)], n,
+                           &out[i * each]);
+        });
+    constexpr std::array<std::byte, sizeof(Value)> zero{};
+    if (channel + 4 > LatticeTexture::features)
+      for (std::size_t end = each; end <= out.size(); end += each)
+        std::memcpy(&out[end - zero.size()], zero.data(), zero.size());
   };
   return {format, placement->texel_count(), "lattice texels", fill};
 }
@@ -176,11 +191,11 @@ TexelSource alpha_cell_source(const std::vector<Value>& values, const SharedPlac
 template <class Value>
 TexelSource alpha_texel_source(const std::vector<Value>& values, const SharedPlacement& placement) {
   const auto fill = [&values, placement](std::uint64_t first, std::span<std::byte> out) {
-    placement->for_each_texel(
-        first, out.size() / sizeof(Value), [&](std::uint64_t i, std::uint64_t source) {
-          std::memcpy(&out[i * sizeof(Value)],
-                      &values[source * LatticeTexture::channels + LatticeTexture::features],
-                      sizeof(Value));
+    placement->for_each_piece(
+        first, out.size() / sizeof(Value),
+        [&](std::uint64_t i, std::uint64_t source, std::uint64_t n) {
+          copy_channels<1>(&values[source * LatticeTexture::channels + LatticeTexture::features], n,
+                           &out[i * sizeof(Value)]);
         });
   };
   return {sizeof(Value) == 1 ? texel_formats::r8 : texel_formats::r32f, placement->texel_count(),

@@ -28,6 +28,8 @@ struct AlphaRange {
     high = std::max(high, alpha);
     has_nan = has_nan || std::isnan(alpha);
   }
+  /// Whether further alphas change nothing.
+  bool is_cut_out() const { return low < alpha_threshold && high >= alpha_threshold; }
   /// Comparisons ignore NaN. Fragments that interpolate a NaN do not exist, but others may, so the
   /// face needs the test.
   FaceAlpha classified() const {
@@ -95,7 +97,8 @@ struct Classify {
       const Value* alpha = &values[std::size_t(patch.first_texel) * LatticeTexture::channels +
                                    LatticeTexture::features];
       AlphaRange range(float(*alpha) * scale);
-      for (std::uint32_t k = 1; k < lattice::texel_count(int(patch.level)); ++k) {
+      const std::uint32_t count = lattice::texel_count(int(patch.level));
+      for (std::uint32_t k = 1; k < count && !range.is_cut_out(); ++k) {
         alpha += LatticeTexture::channels;
         range.add(float(*alpha) * scale);
       }

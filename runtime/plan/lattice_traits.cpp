@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "scene/lattice.hpp"
@@ -12,66 +13,52 @@ namespace {
 
 constexpr int channels = LatticeTexture::channels;
 
-/// Measures the texels of one face. `scale`: factor from stored values to [0, 1].
+/// Factor from stored values to [0, 1].
 template <class Value>
-struct FaceMeasurement {
-  bool constant = true;
-  float feature_residual = 0;
-  float alpha_residual = 0;
-  bool opaque = true;
+constexpr float scale_of = sizeof(Value) == 1 ? 1.0f / 255.0f : 1.0f;
 
-  FaceMeasurement(const Value* texels, int level, float scale) {
-    const int n = lattice::resolution(level);
-    const Value* corner0 = texels + lattice::texel_index(n, 0) * channels;
-    const Value* corner1 = texels + lattice::texel_index(0, n) * channels;
-    const Value* corner2 = texels;
-    for (int y = 0; y <= n; ++y)
-      for (int x = 0; x + y <= n; ++x) {
-        const Value* texel = texels + lattice::texel_index(x, y) * channels;
-        const float b0 = float(x) / float(n), b1 = float(y) / float(n);
-        for (int c = 0; c < channels; ++c) {
-          constant = constant && texel[c] == texels[c];
-          const float affine =
-              b0 * float(corner0[c]) + b1 * float(corner1[c]) + (1 - b0 - b1) * float(corner2[c]);
-          const float residual = std::abs(affine - float(texel[c])) * scale;
-          float& worst = c == LatticeTexture::features ? alpha_residual : feature_residual;
-          worst = std::max(worst, residual);
-        }
-        opaque = opaque && float(texel[LatticeTexture::features]) * scale >= alpha_threshold;
-      }
-  }
+/// A texel's channels in a vector of the processor.
+template <class Value>
+struct Texel {
+  using Vector __attribute__((vector_size(channels * sizeof(Value)))) = Value;
+  Vector values;
+
+  explicit Texel(const Value* from) { std::memcpy(&values, from, sizeof values); }
+  void lower(const Texel& other) { values = other.values < values ? other.values : values; }
+  void raise(const Texel& other) { values = other.values > values ? other.values : values; }
+  float operator[](int channel) const { return float(values[channel]) * scale_of<Value>; }
 };
 
 template <class Value>
 LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Value>& values,
                              std::span<const std::uint32_t> faces) {
-  const float scale = sizeof(Value) == 1 ? 1.0f / 255.0f : 1.0f;
-  // Rounding of an affine alpha: a few ulps of 1.
-  constexpr float alpha_tolerance = 1e-6f;
   LatticeTraits traits;
-  traits.affine_residual.resize(faces.size());
-  traits.ranges.fill({INFINITY, -INFINITY});
-  traits.lowest_level = faces.empty() ? 0 : lattice::max_level;
+  if (faces.empty()) {
+    traits.ranges.fill({});
+    return traits;
+  }
+  const auto texels_of = [&](std::uint32_t face) {
+    return &values[std::size_t(texture.patches[face].first_texel) * channels];
+  };
+  traits.lowest_level = lattice::max_level;
+  Texel<Value> low(texels_of(faces.front())), high = low;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> runs(faces.size());  // first, end
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const LatticePatch& patch = texture.patches[faces[i]];
     const int level = int(patch.level);
-    const Value* face_texels = &values[std::size_t(patch.first_texel) * channels];
-    runs[i] = {patch.first_texel, patch.first_texel + std::uint64_t(lattice::texel_count(level))};
+    const std::size_t count = lattice::texel_count(level);
+    runs[i] = {patch.first_texel, patch.first_texel + std::uint64_t(count)};
     traits.lowest_level = std::min(traits.lowest_level, level);
     traits.highest_level = std::max(traits.highest_level, level);
-    for (std::uint32_t k = 0; k < lattice::texel_count(level); ++k)
-      for (int c = 0; c < LatticeTexture::features; ++c) {
-        const float value = float(face_texels[k * channels + c]) * scale;
-        traits.ranges[c].low = std::min(traits.ranges[c].low, value);
-        traits.ranges[c].high = std::max(traits.ranges[c].high, value);
-      }
-    const FaceMeasurement<Value> face(face_texels, level, scale);
-    traits.constant_faces += face.constant ? 1 : 0;
-    const bool same_cut_out = face.opaque || face.alpha_residual <= alpha_tolerance;
-    traits.affine_residual[i] = same_cut_out ? face.feature_residual : INFINITY;
+    const Value* first = texels_of(faces[i]);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Texel<Value> texel(first + k * channels);
+      low.lower(texel);
+      high.raise(texel);
+    }
+    traits.constant_faces += std::equal(first + channels, first + count * channels, first) ? 1 : 0;
   }
-  if (faces.empty()) traits.ranges.fill({});
+  for (int c = 0; c < LatticeTexture::features; ++c) traits.ranges[c] = {low[c], high[c]};
   traits.ranges[LatticeTexture::features] = {};  // lattices have seven features
   std::sort(runs.begin(), runs.end());
   traits.shares_texels =
@@ -81,11 +68,50 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
   return traits;
 }
 
+/// `texels`: of one face.
+template <class Value>
+std::optional<float> affine_residual_of(const Value* texels, int level, float largest) {
+  // Rounding of an affine alpha: a few ulps of 1.
+  constexpr float alpha_tolerance = 1e-6f;
+  const int n = lattice::resolution(level);
+  const Texel<Value> corner0(texels + lattice::texel_index(n, 0) * channels);
+  const Texel<Value> corner1(texels + lattice::texel_index(0, n) * channels);
+  const Texel<Value> corner2(texels);
+  float worst = 0;
+  bool opaque = true, affine_alpha = true;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x + y <= n; ++x) {
+      const Texel<Value> texel(texels + lattice::texel_index(x, y) * channels);
+      const float b0 = float(x) / float(n), b1 = float(y) / float(n);
+      const auto residual = [&](int c) {
+        const float affine = b0 * float(corner0.values[c]) + b1 * float(corner1.values[c]) +
+                             (1 - b0 - b1) * float(corner2.values[c]);
+        return std::abs(affine - float(texel.values[c])) * scale_of<Value>;
+      };
+      for (int c = 0; c < LatticeTexture::features; ++c) worst = std::max(worst, residual(c));
+      opaque = opaque && texel[LatticeTexture::features] >= alpha_threshold;
+      affine_alpha = affine_alpha && residual(LatticeTexture::features) <= alpha_tolerance;
+      if (worst > largest || !(opaque || affine_alpha)) return std::nullopt;
+    }
+  return worst;
+}
+
 }  // namespace
 
 LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32_t> faces) {
   return std::visit([&](const auto& values) { return measure_values(texture, values, faces); },
                     texture.texels);
+}
+
+std::optional<float> affine_residual(const LatticeTexture& texture, std::uint32_t face,
+                                     float largest) {
+  const LatticePatch& patch = texture.patches[face];
+  return std::visit(
+      [&](const auto& values) {
+        return affine_residual_of(&values[std::size_t(patch.first_texel) * channels],
+                                  int(patch.level), largest);
+      },
+      texture.texels);
 }
 
 double network_gain(const ColorMlp& mlp, int first, int end) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "runtime/plan/color_mlp_source.hpp"
 #include "scene/triangle_soup.hpp"
@@ -13,11 +13,6 @@ namespace tureen {
 struct LatticeTraits {
   FeatureRanges ranges;  // of each feature over the measured faces
   std::size_t constant_faces = 0;
-  /// Largest error over all features, in feature units, of interpolating a face by its three corner
-  /// texels only; one a measured face, in order. Infinite if that would change the cut-out: alpha
-  /// is neither at least 1/2 throughout nor affine up to rounding. Lattice interpolation is linear
-  /// between texels, so the bound holds everywhere on the face.
-  std::vector<float> affine_residual;
   bool shares_texels = false;  // some texels belong to several of these faces
   int lowest_level = 0;
   int highest_level = 0;
@@ -25,6 +20,13 @@ struct LatticeTraits {
 
 /// Measures `faces` of a soup with this texture. O(texels).
 LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32_t> faces);
+
+/// Largest error over all features, in feature units, of interpolating the face by its three corner
+/// texels only. Nullopt if the error exceeds `largest`, or if the cut-out would change: alpha is
+/// neither at least 1/2 throughout nor affine up to rounding. Lattice interpolation is linear
+/// between texels, so the bound holds everywhere on the face. Most faces need only a few texels.
+std::optional<float> affine_residual(const LatticeTexture& texture, std::uint32_t face,
+                                     float largest);
 
 /// Upper bound of the change of the network's prediction, before blending, when one of the features
 /// `first` .. `end` - 1 changes by one. Features without an input do not count. It is the product

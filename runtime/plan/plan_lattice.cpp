@@ -1,5 +1,7 @@
 // The lattice's part of a plan: the network and the levels, chosen from its texels.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "runtime/plan/lattice_traits.hpp"
 #include "runtime/plan/plan_draft.hpp"
@@ -28,10 +30,13 @@ void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
   std::vector<std::uint8_t> levels(count);
   std::size_t texels = 0, kept = 0, affine_faces = 0;
   double largest_error = 0;
+  // Rounded up, because the error decides.
+  const float largest_residual = std::nextafter(float(double(half_step) / gain), INFINITY);
   for (std::size_t i = 0; i < count; ++i) {
     const int level = int(texture.patches[plan.faces[i]].level);
-    const double error = gain * double(traits.affine_residual[i]);
-    const bool affine = error <= double(half_step);
+    const auto residual = affine_residual(texture, plan.faces[i], largest_residual);
+    const double error = gain * double(residual.value_or(0));
+    const bool affine = residual && error <= double(half_step);
     levels[i] = affine ? std::uint8_t(0) : std::uint8_t(level);
     texels += lattice::texel_count(level);
     kept += lattice::texel_count(levels[i]);
