@@ -17,6 +17,8 @@ namespace tureen {
 /// adds a remark.
 enum class VertexColorSpace { automatic, srgb, linear };
 
+class EarlyTexels;  // formats/early_texels.hpp
+
 struct ReadOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
   /// Q > 0 of octagon meshes (formats/splat/octagon_npz.hpp). nullopt: 4, with a remark.
@@ -28,6 +30,8 @@ struct ReadOptions {
   /// Called with the number of splats in the file and their bytes in memory, before that memory is
   /// taken; may throw to stop. Not for triangle windows and foreign glTF.
   std::function<void(std::uint64_t splats, std::uint64_t bytes)> found_splats = {};
+  /// Texels of this file that are decoded already, or null. The reader takes them if they fit.
+  EarlyTexels* early_texels = nullptr;
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };

@@ -15,6 +15,7 @@
 
 #include "base/input.hpp"
 #include "base/json/json_view.hpp"
+#include "formats/file_range.hpp"
 #include "formats/gltf/glb_container.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 
@@ -33,11 +34,7 @@ class GlbArrays {
   const std::string& file() const { return input_.name(); }
 
   /// Position of elements or bytes in the file.
-  struct Location {
-    std::uint64_t offset = 0;
-    std::uint64_t size = 0;  // in bytes
-    std::uint64_t end() const { return offset + size; }
-  };
+  using Location = FileRange;
 
   /// glTF's name of the type, its number of components, and glTF's number of the component type.
   struct Format {

@@ -2,7 +2,6 @@
 // the scene. Files of our writer are read in file order.
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 #include <variant>
 
@@ -11,6 +10,7 @@
 #include "formats/gltf/glb_arrays.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"
 #include "formats/tureen_glb/compressed_texels.hpp"
+#include "formats/tureen_glb/texel_strips.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
@@ -310,12 +310,13 @@ class Reader {
     LatticeTexture texture;
     texture.patches = patches(view, soup.triangles.size());
     texture.mlp = color_mlp(view);
-    const std::uint64_t texels = view["texel_count"].natural(GlbArrays::max_count);
     if (view.find("strips"))
-      texture.texels = strips(view["strips"], texels);
+      texture.texels = strips(view);
     else
-      texture.texels = arrays_.read<float>(view, "texels", texels * LatticeTexture::channels,
-                                           glb_formats::scalar_float);
+      texture.texels = arrays_.read<float>(
+          view, "texels",
+          view["texel_count"].natural(GlbArrays::max_count) * LatticeTexture::channels,
+          glb_formats::scalar_float);
     return texture;
   }
 
@@ -338,53 +339,28 @@ class Reader {
     return result;
   }
 
-  /// Appends a texel for each pixel of `low`: its channels, and those of `high`. In blocks: a larger
-  /// vector would first be filled with zeros, which takes as long as all else here.
-  static void append_texels(std::span<const glm::u8vec4> low, std::span<const glm::u8vec4> high,
-                            std::vector<std::uint8_t>& texels) {
-    std::array<std::uint8_t, 1024 * LatticeTexture::channels> block;
-    for (std::size_t done = 0; done < low.size();) {
-      std::uint8_t* end = block.data();
-      for (; done < low.size() && end != block.data() + block.size(); ++done) {
-        std::memcpy(end, &low[done], 4);
-        std::memcpy(end + 4, &high[done], 4);
-        end += LatticeTexture::channels;
-      }
-      texels.insert(texels.end(), block.data(), end);
+  std::vector<std::uint8_t> strips(const JsonView& view) {
+    const std::vector<TexelStrip> strips = texel_strips(arrays_, view, images_end_);
+    std::uint64_t count = 0;
+    for (const TexelStrip& strip : strips) count += strip.texels;
+    input_.take_memory(count, LatticeTexture::channels, "texels");
+    std::vector<std::uint8_t> texels;
+    std::size_t decoded = 0;
+    if (options_.early_texels) {
+      decoded = options_.early_texels->decoded_of(strips);
+      if (decoded > 0) texels = std::move(*options_.early_texels).take_texels();
     }
-  }
-
-  std::vector<std::uint8_t> strips(const JsonView& list, std::uint64_t texels) {
-    // Strips are bounded and contiguous. Deflate compresses by at most 1032 : 1, so a count that
-    // exceeds the images is rejected before any allocation.
-    std::uint64_t counted = 0, encoded = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const JsonView strip = list.at(i);
-      if (strip["first"].natural() != counted)
-        strip["first"].fail("expected " + std::to_string(counted));
-      counted += strip["count"].natural(layout::strip_texels);
-      if (strip["images"].size() != 2) strip["images"].fail("expected two images");
-      for (int k = 0; k < 2; ++k) encoded += next_image(strip["images"].at(k)).size;
-    }
-    if (counted != texels)
-      list.fail("its strips hold " + std::to_string(counted) + " texels, expected " +
-                std::to_string(texels));
-    if (texels * LatticeTexture::channels / 1032 > encoded)
-      list.fail(std::to_string(texels) + " texels are more than its images can hold");
-
-    input_.take_memory(texels, LatticeTexture::channels, "texels");
-    std::vector<std::uint8_t> result;
-    result.reserve(static_cast<std::size_t>(texels) * LatticeTexture::channels);
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    texels.reserve(static_cast<std::size_t>(count) * LatticeTexture::channels);
+    for (std::size_t i = decoded; i < strips.size(); ++i) {
       PassingMemory passing(input_.budget());
-      const JsonView strip = list.at(i);
-      const auto count = static_cast<std::size_t>(strip["count"].natural());
+      const JsonView strip = view["strips"].at(i);
       const Image8 low = image(strip["images"].at(0)), high = image(strip["images"].at(1));
-      if (low.pixels.size() < count || high.pixels.size() < count)
-        strip.fail("an image has fewer than " + std::to_string(count) + " pixels");
-      append_texels(std::span(low.pixels).first(count), high.pixels, result);
+      const std::size_t n = strips[i].texels;
+      if (low.pixels.size() < n || high.pixels.size() < n)
+        strip.fail("an image has fewer than " + std::to_string(n) + " pixels");
+      append_texels(std::span(low.pixels).first(n), high.pixels, texels);
     }
-    return result;
+    return texels;
   }
 
   UvTextures uv_textures(const JsonView& view, const TriangleSoup& soup) {
@@ -400,7 +376,7 @@ class Reader {
       textures.materials.push_back(material(materials.at(i)));
     const JsonView images = view["images"];
     for (std::size_t i = 0; i < images.size(); ++i) {
-      next_image(images.at(i));
+      next_image_range(arrays_, images.at(i), images_end_);
       PassingMemory passing(input_.budget());
       const Image8& read = textures.images.emplace_back(image(images.at(i)));
       passing.keep(read.pixels.size() * sizeof read.pixels[0]);
@@ -422,23 +398,8 @@ class Reader {
     return result;
   }
 
-  GlbArrays::Location image_location(const JsonView& reference) const {
-    const JsonView image = arrays_.root()["images"].at(arrays_.index(reference));
-    return arrays_.view_location(image["bufferView"]);
-  }
-
-  /// Images must lie in the order of their references, without overlap. Otherwise a small file
-  /// could fill the memory with repeated references to the same bytes.
-  GlbArrays::Location next_image(const JsonView& reference) {
-    const GlbArrays::Location location = image_location(reference);
-    if (location.offset < images_end_)
-      reference.fail("begins before the end of the previous image");
-    images_end_ = location.end();
-    return location;
-  }
-
   Image8 image(const JsonView& reference) {
-    const auto bytes = arrays_.read_at<std::byte>(image_location(reference), "an image");
+    const auto bytes = arrays_.read_at<std::byte>(image_range(arrays_, reference), "an image");
     try {
       return decode_image(bytes, arrays_.file(), input_.budget());
     } catch (const InputError& error) {

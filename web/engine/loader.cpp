@@ -4,8 +4,10 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "camera/up_axis.hpp"
+#include "formats/early_texels.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/scene_preview.hpp"
 #include "runtime/debug_views/debug_view.hpp"
@@ -30,6 +32,11 @@ struct Loader {
 
 Loader& loader() {
   static Loader one;
+  return one;
+}
+
+EarlyTexels& early_texels() {
+  static EarlyTexels one;
   return one;
 }
 
@@ -150,6 +157,8 @@ Json read(const Json& arguments) {
   forget();  // a preview
   ReadOptions options = read_options(arguments);
   options.progress = report_progress;
+  EarlyTexels early = std::exchange(early_texels(), {});
+  options.early_texels = &early;
   if (!options.max_splats)
     options.found_splats = [memory = arguments.at("memory").get<double>()](std::uint64_t splats,
                                                                            std::uint64_t bytes) {
@@ -247,6 +256,25 @@ Json read_block(const Json& arguments) {
   return nullptr;
 }
 
+Json next_strip() {
+  const auto range = early_texels().next();
+  return range ? object({{"offset", range->offset}, {"size", range->size}}) : Json();
+}
+
+/// {"name"}; the buffer holds the first bytes of a file, as for "preview_size". Returns {"offset",
+/// "size"}: the bytes of the first texels that can be decoded before the whole file is there; null
+/// if there are none.
+Json begin_texels(const Json& arguments) {
+  early_texels() = EarlyTexels(buffer(), arguments.at("name").get<std::string>());
+  return next_strip();
+}
+
+/// The buffer holds those bytes. Decodes them for "read", and returns the next ones.
+Json decode_texels(const Json&) {
+  early_texels().add(buffer());
+  return next_strip();
+}
+
 /// The highest level of the scene's lattices, or null.
 Json lattice_level(const Json&) {
   Json highest;
@@ -266,6 +294,8 @@ Commands loader_commands() {
   return {{"read", read},
           {"preview_size", preview_size},
           {"preview", preview},
+          {"begin_texels", begin_texels},
+          {"decode_texels", decode_texels},
           {"prepare", prepare},
           {"forecast", forecast},
           {"read_block", read_block},

@@ -98,7 +98,7 @@ class Loader {
       if (this.message.role === 'layers' || prefix.length === total || !this.started) return;
       preview ??= new Preview(this.started, name, this.message.memory, begun);
       const begin = performance.now(), description = preview.read(prefix, total);
-      if (!description) return;
+      if (!description) return preview.decode(prefix);
       try {
         post({ kind: 'preview', scene: await this.prepared(description) });
       } catch {

@@ -1,5 +1,5 @@
 // Reads previews from the first bytes of a file (formats/scene_preview.hpp): a soup in mean colours, splats in the
-// colours of degree 0, or the first splats.
+// colours of degree 0, or the first splats. Then decodes the soup's texels as they arrive (formats/early_texels.hpp).
 
 import type { Engine } from './engine.js';
 import type { SceneDescription } from './loader_messages.js';
@@ -19,6 +19,12 @@ interface PreviewSize {
   readonly has_splats: boolean;
 }
 
+/** Bytes of the file. */
+interface Range {
+  readonly offset: number;
+  readonly size: number;
+}
+
 export class Preview {
   /** The next preview; null while unknown. */
   private next: PreviewSize | null = null;
@@ -29,6 +35,8 @@ export class Preview {
   /** The next preview of splats is not made before this time. */
   private notBefore: number;
   private over = false;
+  /** The next texels to decode. */
+  private texels: Range | null = null;
 
   /** `memory`: as SplatOffer.memory. `begun`: when the download began, by performance.now(). */
   constructor(private readonly engine: Engine, private readonly name: string, private readonly memory: number,
@@ -59,6 +67,7 @@ export class Preview {
       this.asked = prefix.length;
       this.engine.setBuffer(this.shown === 0 ? prefix : prefix.subarray(0, maxHeader));
       this.next = this.engine.call<PreviewSize | null>('preview_size', { name: this.name, shown: this.shown });
+      if (this.next && this.shown === 0) this.texels = this.engine.call<Range | null>('begin_texels', { name: this.name });
     }
     const { next } = this;
     if (next === null) return null;
@@ -72,5 +81,16 @@ export class Preview {
     this.next = null;
     this.asked = 0;
     return description;
+  }
+
+  /** Decodes the next texels if they are there. Ignores a broken file, as read(). */
+  decode(prefix: Uint8Array): void {
+    const { texels } = this;
+    if (!texels || prefix.length < texels.offset + texels.size) return;
+    this.texels = null;
+    try {
+      this.engine.setBuffer(prefix.subarray(texels.offset, texels.offset + texels.size));
+      this.texels = this.engine.call<Range | null>('decode_texels');
+    } catch {}
   }
 }
