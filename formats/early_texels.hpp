@@ -1,14 +1,12 @@
 // Texels of a soup that are decoded while their file is still arriving, strip by strip. A page thus
-// decodes during the download. For GLB files of ours with one layer and uncompressed texels; other
-// files have no strips.
+// decodes during the download, and in two workers. For GLB files of ours with one layer and
+// uncompressed texels; other files have no strips.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "formats/file_range.hpp"
@@ -19,34 +17,28 @@ namespace tureen {
 struct TexelStrip {
   FileRange low, high;
   std::size_t texels = 0;
+  /// From the first byte of `low` to the last of `high`.
+  FileRange range() const { return {low.offset, high.end() - low.offset}; }
   bool operator==(const TexelStrip&) const = default;
 };
 
-class EarlyTexels {
- public:
-  /// Without strips.
-  EarlyTexels() = default;
-  /// `prefix`: the first bytes of the file. There are no strips unless they contain the JSON chunk
-  /// and the header of the next one. Errors print `name` as the file. Throws InputError. Safe for
-  /// untrusted bytes.
-  EarlyTexels(std::span<const std::byte> prefix, std::string name);
+/// The strips of the file's only layer, from its first bytes. None unless these contain the JSON
+/// chunk and the header of the next one. Errors print `name` as the file. Throws InputError. Safe
+/// for untrusted bytes.
+std::vector<TexelStrip> texel_strips(std::span<const std::byte> prefix, const std::string& name);
 
-  /// The bytes of the next strip; nullopt if there is none.
-  std::optional<FileRange> next() const;
-  /// Decodes the next strip from its bytes. Throws InputError; then there is no next strip.
-  void add(std::span<const std::byte> bytes);
+/// Appends the strip's texels, eight bytes each, unless it throws. `bytes`: those of strip.range().
+/// Throws InputError.
+void decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
+                  const std::string& name, std::vector<std::uint8_t>& texels);
 
-  /// Number of the first of these strips that are decoded here; 0 if they are not the same strips.
-  std::size_t decoded_of(std::span<const TexelStrip> strips) const;
-  /// The decoded texels, eight bytes each.
-  std::vector<std::uint8_t> take_texels() && { return std::move(texels_); }
+/// Texels of the first strips of a file, for its reader.
+struct EarlyTexels {
+  std::vector<TexelStrip> strips;
+  std::vector<std::uint8_t> texels;  // of all these strips
 
- private:
-  std::string name_;
-  std::vector<TexelStrip> strips_;
-  std::size_t decoded_ = 0;
-  bool failed_ = false;
-  std::vector<std::uint8_t> texels_;
+  /// Whether these are the first of `all` strips of a file.
+  bool begin(std::span<const TexelStrip> all) const;
 };
 
 }  // namespace tureen

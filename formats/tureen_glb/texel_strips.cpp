@@ -26,26 +26,6 @@ std::optional<JsonView> only_layer_extension(const GlbArrays& arrays) {
   return node["extensions"][tureen_extension];
 }
 
-std::vector<TexelStrip> strips_of_beginning(std::span<const std::byte> prefix,
-                                            const std::string& name) {
-  Input input = Input::memory(name, prefix);
-  if (!is_glb(input)) return {};
-  const std::optional<GlbContainer> glb = read_glb_beginning(input);
-  if (!glb || !is_tureen_glb(*glb)) return {};
-  const GlbArrays arrays(input, *glb);
-  const auto layer = only_layer_extension(arrays);
-  const auto appearance = layer ? layer->find("appearance") : std::nullopt;
-  if (!appearance || !appearance->find("strips")) return {};
-  std::uint64_t images_end = 0;
-  return texel_strips(arrays, *appearance, images_end);
-}
-
-std::size_t texel_count(std::span<const TexelStrip> strips) {
-  std::size_t count = 0;
-  for (const TexelStrip& strip : strips) count += strip.texels;
-  return count;
-}
-
 }  // namespace
 
 FileRange image_range(const GlbArrays& arrays, const JsonView& reference) {
@@ -102,37 +82,33 @@ void append_texels(std::span<const glm::u8vec4> low, std::span<const glm::u8vec4
   }
 }
 
-EarlyTexels::EarlyTexels(std::span<const std::byte> prefix, std::string name)
-    : name_(std::move(name)), strips_(strips_of_beginning(prefix, name_)) {
-  texels_.reserve(texel_count(strips_) * texel_bytes);
+std::vector<TexelStrip> texel_strips(std::span<const std::byte> prefix, const std::string& name) {
+  Input input = Input::memory(name, prefix);
+  if (!is_glb(input)) return {};
+  const std::optional<GlbContainer> glb = read_glb_beginning(input);
+  if (!glb || !is_tureen_glb(*glb)) return {};
+  const GlbArrays arrays(input, *glb);
+  const auto layer = only_layer_extension(arrays);
+  const auto appearance = layer ? layer->find("appearance") : std::nullopt;
+  if (!appearance || !appearance->find("strips")) return {};
+  std::uint64_t images_end = 0;
+  return texel_strips(arrays, *appearance, images_end);
 }
 
-std::optional<FileRange> EarlyTexels::next() const {
-  if (failed_ || decoded_ == strips_.size()) return std::nullopt;
-  const TexelStrip& strip = strips_[decoded_];
-  return FileRange{strip.low.offset, strip.high.end() - strip.low.offset};
-}
-
-void EarlyTexels::add(std::span<const std::byte> bytes) {
-  failed_ = true;  // unless all below succeeds
-  const TexelStrip& strip = strips_[decoded_];
+void decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
+                  const std::string& name, std::vector<std::uint8_t>& texels) {
   const auto image = [&](const FileRange& range) {
     const auto first = std::size_t(range.offset - strip.low.offset);
-    return decode_image(bytes.subspan(first, std::size_t(range.size)), name_, MemoryBudget());
+    return decode_image(bytes.subspan(first, std::size_t(range.size)), name, MemoryBudget());
   };
   const Image8 low = image(strip.low), high = image(strip.high);
   if (low.pixels.size() < strip.texels || high.pixels.size() < strip.texels)
-    throw InputError({name_, {}, {}}, "an image has too few pixels");
-  append_texels(std::span(low.pixels).first(strip.texels), high.pixels, texels_);
-  ++decoded_;
-  failed_ = false;
+    throw InputError({name, {}, {}}, "an image has too few pixels");
+  append_texels(std::span(low.pixels).first(strip.texels), high.pixels, texels);
 }
 
-std::size_t EarlyTexels::decoded_of(std::span<const TexelStrip> strips) const {
-  const auto decoded = std::span(strips_).first(decoded_);
-  return strips.size() >= decoded_ && std::equal(decoded.begin(), decoded.end(), strips.begin())
-             ? decoded_
-             : 0;
+bool EarlyTexels::begin(std::span<const TexelStrip> all) const {
+  return strips.size() <= all.size() && std::equal(strips.begin(), strips.end(), all.begin());
 }
 
 }  // namespace tureen

@@ -256,23 +256,62 @@ Json read_block(const Json& arguments) {
   return nullptr;
 }
 
-Json next_strip() {
-  const auto range = early_texels().next();
-  return range ? object({{"offset", range->offset}, {"size", range->size}}) : Json();
+Json range_json(const FileRange& range) {
+  return object({{"offset", range.offset}, {"size", range.size}});
 }
 
-/// {"name"}; the buffer holds the first bytes of a file, as for "preview_size". Returns {"offset",
-/// "size"}: the bytes of the first texels that can be decoded before the whole file is there; null
-/// if there are none.
-Json begin_texels(const Json& arguments) {
-  early_texels() = EarlyTexels(buffer(), arguments.at("name").get<std::string>());
-  return next_strip();
+FileRange range_of(const Json& value) { return {value.at("offset"), value.at("size")}; }
+
+/// Errors of early texels are not shown: "read" reports them again.
+const std::string no_name;
+
+/// The buffer holds the first bytes of a file. Returns the strips of texels that can be decoded before
+/// the whole file is there.
+Json begin_texels(const Json&) {
+  early_texels() = {};
+  const auto strips = texel_strips(buffer(), no_name);
+  std::size_t texels = 0;
+  Json list = Json::array();
+  for (const TexelStrip& strip : strips) {
+    texels += strip.texels;
+    list.push_back(object({{"low", range_json(strip.low)},
+                           {"high", range_json(strip.high)},
+                           {"texels", strip.texels}}));
+  }
+  early_texels().texels.reserve(texels * LatticeTexture::channels);
+  return list;
 }
 
-/// The buffer holds those bytes. Decodes them for "read", and returns the next ones.
-Json decode_texels(const Json&) {
-  early_texels().add(buffer());
-  return next_strip();
+TexelStrip strip_of(const Json& value) {
+  return {range_of(value.at("low")), range_of(value.at("high")), value.at("texels")};
+}
+
+/// An entry of "begin_texels", the next one; the buffer holds its bytes. Decodes them for "read".
+Json decode_texels(const Json& arguments) {
+  const TexelStrip strip = strip_of(arguments);
+  tureen::decode_strip(strip, buffer(), no_name, early_texels().texels);
+  early_texels().strips.push_back(strip);
+  return nullptr;
+}
+
+/// An entry of "begin_texels" of any instance; the buffer holds its bytes. Decodes them to the
+/// buffer, for "add_texels" of that instance.
+Json decode_strip(const Json& arguments) {
+  std::vector<std::uint8_t> texels;
+  const TexelStrip strip = strip_of(arguments);
+  texels.reserve(strip.texels * LatticeTexture::channels);
+  tureen::decode_strip(strip, buffer(), no_name, texels);
+  const auto bytes = std::as_bytes(std::span(texels));
+  buffer().assign(bytes.begin(), bytes.end());
+  return nullptr;
+}
+
+/// The next entry of "begin_texels"; the buffer holds its texels.
+Json add_texels(const Json& arguments) {
+  const auto* texels = reinterpret_cast<const std::uint8_t*>(buffer().data());
+  early_texels().texels.insert(early_texels().texels.end(), texels, texels + buffer().size());
+  early_texels().strips.push_back(strip_of(arguments));
+  return nullptr;
 }
 
 /// The highest level of the scene's lattices, or null.
@@ -296,6 +335,8 @@ Commands loader_commands() {
           {"preview", preview},
           {"begin_texels", begin_texels},
           {"decode_texels", decode_texels},
+          {"decode_strip", decode_strip},
+          {"add_texels", add_texels},
           {"prepare", prepare},
           {"forecast", forecast},
           {"read_block", read_block},

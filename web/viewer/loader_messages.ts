@@ -63,7 +63,22 @@ export type ToLoader =
   | { readonly kind: 'next' }
   /** The answer to an offer: the number of splats to read. */
   | { readonly kind: 'splats'; readonly number: number }
-  | SortMessage;
+  | SortMessage
+  /** Be the second worker of a loader (early_texels.ts). */
+  | { readonly kind: 'help'; readonly program: WebAssembly.Module }
+  | { readonly kind: 'decode'; readonly strip: TexelStrip; readonly bytes: Uint8Array<ArrayBuffer> };
+
+interface FileRange {
+  readonly offset: number;
+  readonly size: number;
+}
+
+/** formats/early_texels.hpp */
+export interface TexelStrip {
+  readonly low: FileRange;
+  readonly high: FileRange;
+  readonly texels: number;
+}
 
 export interface LoadMessage {
   readonly kind: 'load';
@@ -99,5 +114,6 @@ export type FromLoader =
   | { readonly kind: 'offer'; readonly offer: SplatOffer }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
+  | { readonly kind: 'decoded'; readonly texels: Uint8Array<ArrayBuffer> }
   | { readonly kind: 'sorted'; readonly number: number; readonly order: Uint8Array<ArrayBuffer> }
   | { readonly kind: 'error'; readonly error: { readonly kind: ViewerError['kind']; readonly message: string } };

@@ -1,8 +1,9 @@
-// The script of all workers. A worker sorts splats (splat_sorting.ts) or loads one scene: it fetches and reads the
-// scene, prepares the device's data and transfers them. The end of the worker frees all its memory, so a load is
-// cancelled by ending it.
+// The script of all workers. A worker sorts splats (splat_sorting.ts), decodes texels for another one (early_texels.ts),
+// or loads one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the
+// worker frees all its memory, so a load is cancelled by ending it.
 
 import { download } from './download.js';
+import { decoded, EarlyTexels, help } from './early_texels.js';
 import { Engine, type Parcel } from './engine.js';
 import type {
   FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, ToLoader,
@@ -33,20 +34,26 @@ class Loader {
   private readonly from: 'files' | 'url';
 
   private started: Engine | null = null;
+  private knowsLimits = false;
+  private preview: Preview | null = null;
+  private readonly early = new EarlyTexels(() => this.engine, program);
 
   constructor(private readonly starting: Promise<Engine>, private readonly limits: Promise<unknown>,
               private readonly chosen: Promise<number>, private readonly message: LoadMessage) {
     this.from = 'url' in message.source ? 'url' : 'files';
+    starting.then((engine) => { this.started = engine; }, () => {});  // load() reports the error
+    limits.then(() => { this.knowsLimits = true; }, () => {});
   }
 
   async load(): Promise<void> {
     const { source } = this.message;
     const [files] = await Promise.all([
       'url' in source ? this.fetched(source.url, source.name) : this.opened(source),
-      this.starting.then((engine) => { this.started = engine; }),
+      this.starting,
     ]);
     this.engine.onProgress = (fraction) => this.tell('read', fraction);
-    const begin = performance.now();
+    const begin = performance.now(), [only, ...others] = files.bytes.values();
+    if (only && others.length === 0) await this.decodeTexels(only);
     this.description = await this.read(files);
     this.readMs = performance.now() - begin;
     if (this.message.role === 'scene') return this.send();
@@ -54,7 +61,7 @@ class Loader {
     await this.sendLayer();
   }
 
-  /** After the download. */
+  /** After it has started. */
   private get engine(): Engine { return this.started!; }
 
   /** Reads the scene, or a part of its splats if the memory does not hold all. */
@@ -88,25 +95,38 @@ class Loader {
   }
 
   private async fetched(url: string, name: string): Promise<OpenedFiles> {
-    const begun = performance.now();
-    let preview: Preview | null = null;  // none while the engine starts
+    // Added layers have no preview: the scene stays visible.
+    if (this.message.role === 'scene')
+      this.preview = new Preview(() => this.engine, name, this.message.memory, performance.now());
     const bytes = await download(url, async ({ bytes: prefix, total }) => {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
-      // Added layers have none: the scene stays visible. Otherwise, the whole scene follows immediately.
-      if (this.message.role === 'layers' || prefix.length === total || !this.started) return;
-      preview ??= new Preview(this.started, name, this.message.memory, begun);
-      const begin = performance.now(), description = preview.read(prefix, total);
-      if (!description) return preview.decode(prefix);
-      try {
-        post({ kind: 'preview', scene: await this.prepared(description) });
-      } catch {
-        return preview.stop();  // the memory may hold the scene without it
-      }
-      preview.took(performance.now() - begin);
+      if (this.started && prefix.length !== total) await this.use(prefix, total);
     });
     return oneFile(name, bytes);
+  }
+
+  /** Sends a preview, or decodes texels, from the first bytes of a download. */
+  private async use(prefix: Uint8Array, total: number | null): Promise<void> {
+    const { preview, early } = this, begin = performance.now();
+    if (!preview) return early.decode(prefix);
+    const description = this.knowsLimits ? preview.read(prefix, total) : null;
+    if (preview.knowsHeader) early.begin(prefix);
+    if (!description) return early.decode(prefix);
+    try {
+      post({ kind: 'preview', scene: await this.prepared(description) });
+    } catch {
+      return preview.stop();  // the memory may hold the scene without it
+    }
+    preview.took(performance.now() - begin);
+  }
+
+  /** Decodes the texels that are left. */
+  private async decodeTexels(bytes: Uint8Array): Promise<void> {
+    this.early.begin(bytes);
+    while (this.early.isLeft) await this.use(bytes, bytes.length);
+    this.early.end();
   }
 
   private async opened({ files, name }: FilesToLoad): Promise<OpenedFiles> {
@@ -167,6 +187,8 @@ function post(message: FromLoader): void {
     transferred.push(head, ...blobs);
   } else if (message.kind === 'sorted') {
     transferred.push(message.order.buffer);
+  } else if (message.kind === 'decoded') {
+    transferred.push(message.texels.buffer);
   }
   self.postMessage(message, { transfer: transferred });
 }
@@ -200,6 +222,8 @@ async function handle(message: ToLoader): Promise<void> {
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
     case 'sort': return sortSplats(message);
+    case 'help': return post(await help(message.program));
+    case 'decode': return post(decoded(message.strip, message.bytes));
   }
 }
 

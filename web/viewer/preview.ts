@@ -1,5 +1,5 @@
 // Reads previews from the first bytes of a file (formats/scene_preview.hpp): a soup in mean colours, splats in the
-// colours of degree 0, or the first splats. Then decodes the soup's texels as they arrive (formats/early_texels.hpp).
+// colours of degree 0, or the first splats.
 
 import type { Engine } from './engine.js';
 import type { SceneDescription } from './loader_messages.js';
@@ -19,12 +19,6 @@ interface PreviewSize {
   readonly has_splats: boolean;
 }
 
-/** Bytes of the file. */
-interface Range {
-  readonly offset: number;
-  readonly size: number;
-}
-
 export class Preview {
   /** The next preview; null while unknown. */
   private next: PreviewSize | null = null;
@@ -35,17 +29,19 @@ export class Preview {
   /** The next preview of splats is not made before this time. */
   private notBefore: number;
   private over = false;
-  /** The next texels to decode. */
-  private texels: Range | null = null;
 
-  /** `memory`: as SplatOffer.memory. `begun`: when the download began, by performance.now(). */
-  constructor(private readonly engine: Engine, private readonly name: string, private readonly memory: number,
+  /** `engine`: called for a preview. `memory`: as SplatOffer.memory. `begun`: when the download began, by
+   *  performance.now(). */
+  constructor(private readonly engine: () => Engine, private readonly name: string, private readonly memory: number,
               begun: number) {
     this.notBefore = begun + patienceMs;
   }
 
   /** Ends the previews. */
   stop(): void { this.over = true; }
+
+  /** Whether the bytes contained the file's whole header. */
+  get knowsHeader(): boolean { return this.next !== null || this.shown > 0 || this.over; }
 
   /** Time that a preview took in all. At most a third of the time is spent on previews. */
   took(ms: number): void { this.notBefore = performance.now() + 2 * ms; }
@@ -65,9 +61,8 @@ export class Preview {
   private tryToRead(prefix: Uint8Array, total: number | null): SceneDescription | null {
     if (this.next === null && prefix.length >= 2 * this.asked) {
       this.asked = prefix.length;
-      this.engine.setBuffer(this.shown === 0 ? prefix : prefix.subarray(0, maxHeader));
-      this.next = this.engine.call<PreviewSize | null>('preview_size', { name: this.name, shown: this.shown });
-      if (this.next && this.shown === 0) this.texels = this.engine.call<Range | null>('begin_texels', { name: this.name });
+      this.engine().setBuffer(this.shown === 0 ? prefix : prefix.subarray(0, maxHeader));
+      this.next = this.engine().call<PreviewSize | null>('preview_size', { name: this.name, shown: this.shown });
     }
     const { next } = this;
     if (next === null) return null;
@@ -75,22 +70,11 @@ export class Preview {
     // The whole scene follows soon after three quarters of the file.
     this.over = next.size === 0 || (next.has_splats && size > Math.min(maxSplatBytes, maxSplatPart * this.memory, 0.75 * (total ?? Infinity)));
     if (this.over || prefix.length < next.size || (next.has_splats && performance.now() < this.notBefore)) return null;
-    this.engine.setBuffer(prefix.subarray(0, size));
-    const description = this.engine.call<SceneDescription | null>('preview', { name: this.name });
+    this.engine().setBuffer(prefix.subarray(0, size));
+    const description = this.engine().call<SceneDescription | null>('preview', { name: this.name });
     this.shown = size;
     this.next = null;
     this.asked = 0;
     return description;
-  }
-
-  /** Decodes the next texels if they are there. Ignores a broken file, as read(). */
-  decode(prefix: Uint8Array): void {
-    const { texels } = this;
-    if (!texels || prefix.length < texels.offset + texels.size) return;
-    this.texels = null;
-    try {
-      this.engine.setBuffer(prefix.subarray(texels.offset, texels.offset + texels.size));
-      this.texels = this.engine.call<Range | null>('decode_texels');
-    } catch {}
   }
 }
