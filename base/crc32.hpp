@@ -7,8 +7,8 @@
 
 namespace tureen {
 
-/// CRC-32 as in PNG's annex D, one byte at a time. A browser build has no zlib, and decoding the
-/// checked bytes takes several times as long.
+/// CRC-32 as in PNG's annex D, eight bytes at a time with a table for each (slicing: Kounavis and
+/// Berry, 2008). A browser build has no zlib.
 std::uint32_t crc32_of(std::span<const std::byte> bytes);
 
 }  // namespace tureen
