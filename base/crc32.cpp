@@ -8,9 +8,11 @@ namespace {
 
 constexpr std::size_t lanes = 8;
 
-/// tables[k][b]: the sum of byte b and k zeros after it.
-constexpr auto tables = [] {
-  std::array<std::array<std::uint32_t, 256>, lanes> sums{};
+/// [k][b]: the sum of byte b and k zeros after it.
+using Tables = std::array<std::array<std::uint32_t, 256>, lanes>;
+
+Tables made_tables() {
+  Tables sums;
   for (std::uint32_t b = 0; b < 256; ++b) {
     std::uint32_t sum = b;
     for (int bit = 0; bit < 8; ++bit) sum = sum >> 1 ^ (sum & 1 ? 0xedb88320u : 0u);
@@ -20,11 +22,13 @@ constexpr auto tables = [] {
     for (std::size_t b = 0; b < 256; ++b)
       sums[k][b] = sums[0][sums[k - 1][b] & 0xff] ^ sums[k - 1][b] >> 8;
   return sums;
-}();
+}
 
 }  // namespace
 
 std::uint32_t crc32_of(std::span<const std::byte> bytes) {
+  // Made by the first call: as constants, they would be 7 KB of the page.
+  static const Tables tables = made_tables();
   const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(bytes[i]); };
   std::uint32_t sum = ~0u;
   for (; bytes.size() >= lanes; bytes = bytes.subspan(lanes)) {
