@@ -113,10 +113,8 @@ Bearing bearing_of(NamedView view) {
 }
 
 CameraControls::CameraControls(const Subject& subject) {
-  const double length = glm::length(subject.up);
-  if (length > 0 && std::isfinite(length)) goal_.up = subject.up / length;
-  shown_.up = goal_.up;
-  set_box(subject.low, subject.high);
+  set_subject(subject);
+  goal_.up = shown_.up = first_up_;
   speed_ = 0.5 * radius_;
   home();
   arrive();
@@ -124,6 +122,12 @@ CameraControls::CameraControls(const Subject& subject) {
 
 void CameraControls::set_viewport(int width, int height) {
   if (width > 0 && height > 0) viewport_ = {width, height};
+}
+
+void CameraControls::set_subject(const Subject& subject) {
+  const double length = glm::length(subject.up);
+  if (length > 0 && std::isfinite(length)) first_up_ = subject.up / length;
+  set_box(subject.low, subject.high);
 }
 
 void CameraControls::set_box(const glm::dvec3& low, const glm::dvec3& high) {
@@ -302,7 +306,10 @@ void CameraControls::home() {
   show_box(next, low_, high_);
 }
 
-void CameraControls::reset() { first_view_ ? adopt(*first_view_) : home(); }
+void CameraControls::reset() {
+  set_up(first_up_);
+  first_view_ ? adopt(*first_view_) : home();
+}
 
 void CameraControls::focus(const glm::dvec3& point) {
   const double depth = -glm::dot(point - eye_of(goal_), rotation_of(goal_)[2]);

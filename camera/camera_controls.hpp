@@ -140,8 +140,9 @@ class CameraControls {
   /// Shows the goal immediately.
   void arrive();
 
-  /// The box for frame(), the views and all limits; the up axis and the view are unchanged.
-  void set_box(const glm::dvec3& low, const glm::dvec3& high);
+  /// The box for frame(), the views and all limits, and the up axis for reset(); the present up
+  /// axis and the view are unchanged.
+  void set_subject(const Subject& subject);
 
   /// Shows the whole box from the present direction. Keeps bearing and field of view; resets roll
   /// and principal point. The second overload frames another box than the subject's.
@@ -154,7 +155,7 @@ class CameraControls {
   /// The three-quarter view with a field of view of 40 degrees, as after construction.
   void home();
 
-  /// The first view: its camera if set, otherwise home().
+  /// The subject's up axis and the first view: its camera if set, otherwise home().
   void reset();
   void set_first_view(const std::optional<Camera>& camera) { first_view_ = camera; }
 
@@ -211,7 +212,10 @@ class CameraControls {
   void dolly_about(double steps, const glm::dvec3& fixed_ray);
   void show_box(ViewState next, const glm::dvec3& low, const glm::dvec3& high);
 
+  void set_box(const glm::dvec3& low, const glm::dvec3& high);
+
   glm::dvec3 low_{-1.0}, high_{1.0};
+  glm::dvec3 first_up_{0, 1, 0};  // of unit length
   double radius_ = 1;
   glm::dvec2 viewport_{1280, 720};
   NavigationMode mode_ = NavigationMode::orbit;

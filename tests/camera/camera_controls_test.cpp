@@ -603,6 +603,28 @@ TEST(CameraControls, ResetShowsTheFirstView) {
   EXPECT_LT(largest_difference(home, shown(controls)), 1e-9);
 }
 
+TEST(CameraControls, ResetRestoresTheUpAxis) {
+  Random random(6);
+  Subject subject = random_subject(random, 1);
+  CameraControls controls = stiff(subject);
+  const Camera home = shown(controls);
+  const glm::dvec3 up = controls.up();
+  controls.set_up(-up);
+  controls.reset();
+  EXPECT_EQ(controls.up(), up);
+  EXPECT_LT(largest_difference(home, shown(controls)), 1e-9);
+  // Also after a recorded camera, and of a subject that followed.
+  const Camera first = random_camera(random, 1);
+  controls.set_first_view(first);
+  subject.up = {0, 0, 3};
+  controls.set_subject(subject);
+  EXPECT_EQ(controls.up(), up);
+  controls.set_up({1, 0, 0});
+  controls.reset();
+  EXPECT_EQ(controls.up(), glm::dvec3(0, 0, 1));
+  EXPECT_TRUE(same_bits(controls.camera(first.width, first.height), first));
+}
+
 TEST(CameraControls, KeyframesOfAnOrbitMakeAPathAroundItsTarget) {
   CameraControls controls = stiff();
   CameraPathData data;

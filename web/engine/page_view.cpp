@@ -73,7 +73,7 @@ void PageView::keep_view(Stage& stage) const {
       before.camera(view_side, view_side) == preview_->first_view)
     return;
   stage.controls = before;
-  stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
+  stage.controls.set_subject(stage.scene.subject);
 }
 
 void PageView::show_preview(PreparedScene prepared, ShownScene scene) {
@@ -126,7 +126,7 @@ void PageView::follow_layers(Stage& stage) {
   for (const ShownLayer& layer : stage.layers)
     if (layer.visible || !any) boxes.push_back(layer.box);
   stage.scene.subject = subject_of(boxes, stage.scene.subject.up, stage.scene.cameras);
-  stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
+  stage.controls.set_subject(stage.scene.subject);
 }
 
 void PageView::add_layers(PreparedScene prepared) {
