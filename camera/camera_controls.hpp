@@ -85,7 +85,8 @@ class CameraControls {
 
   /// Image size in the unit of all deltas: pixels, or points of the window system. Default 1280 x
   /// 720. Sizes below 1 (a minimised window) are ignored. The shown view is kept; call home() and
-  /// arrive() to fit the subject to another aspect ratio.
+  /// arrive() to fit the subject to another aspect ratio. The first view's camera, unmoved, is
+  /// fitted again.
   void set_viewport(int width, int height);
 
   NavigationMode mode() const { return mode_; }
@@ -155,9 +156,12 @@ class CameraControls {
   /// The three-quarter view with a field of view of 40 degrees, as after construction.
   void home();
 
-  /// The subject's up axis and the first view: its camera if set, otherwise home().
+  /// The subject's up axis and the first view: its camera if set, otherwise home(). In a viewport
+  /// narrower than the camera's image, the vertical angle grows until the whole width is inside.
   void reset();
   void set_first_view(const std::optional<Camera>& camera) { first_view_ = camera; }
+  /// Whether the goal is still that of reset().
+  bool goes_to_first_view() const { return at_first_view_; }
 
   /// Makes a point of the scene the target and centres it. Its depth, and so its scale in the
   /// image, does not change. Ignored if it is not in front of the eye.
@@ -223,6 +227,7 @@ class CameraControls {
   bool moving_ = false;
   std::optional<Camera> adopted_;  // the exact camera at the goal
   std::optional<Camera> first_view_;
+  bool at_first_view_ = false;  // the goal
   double speed_ = 0.5;
   double smoothing_ = 0.06;
 };

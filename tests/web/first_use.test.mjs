@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { sceneShown, stage, view } from './support.mjs';
+import { sceneShown, stage, still, view } from './support.mjs';
 
 const { visit } = await stage();
 
@@ -20,3 +20,21 @@ test('R restores the up axis, and the panel its reason', () => visit('?scene=sou
     assert.deepEqual(await state(), before, keys);
   }
 }, { viewport: { width: 1100, height: 700 } }));
+
+test('an upright phone shows the whole width of the first recorded image, also when it is turned', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const angles = async () => {
+    await still(page);
+    const { width, height } = await page.locator('#canvas').boundingBox();
+    const vertical = Number(await page.inputValue('#fov')), tangent = Math.tan(vertical * Math.PI / 360);
+    return { upright: width < height, vertical, horizontal: 360 / Math.PI * Math.atan(tangent * width / height) };
+  };
+  const recorded = 2 * Math.atan(200 / 634.319) * 180 / Math.PI;  // 400x400 pixels
+  const near = (angle) => assert.ok(Math.abs(angle - recorded) < 1, `${angle} and ${recorded} degrees`);
+  for (const [width, height] of [[390, 844], [844, 390], [320, 700]]) {
+    await page.setViewportSize({ width, height });
+    const { upright, vertical, horizontal } = await angles();
+    assert.equal(upright, width < height);
+    near(upright ? horizontal : vertical);
+  }
+}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }));

@@ -723,10 +723,11 @@ class CanvasViewer implements Viewer {
 
   draw(): void { this.drawFrame(performance.now()); }
 
-  /** Sets the viewport of the controls, in CSS pixels. */
+  /** Sets the viewport of the controls, in CSS pixels. The first view's angle may follow it. */
   private lay(): void {
-    const { clientWidth, clientHeight } = this.canvas;
+    const { clientWidth, clientHeight } = this.canvas, { fov } = this;
     if (clientWidth > 0 && clientHeight > 0) this.engine.call('viewport', [clientWidth, clientHeight]);
+    if (this.fov !== fov) this.moved = true;
   }
 
   /** Fits the canvas to its CSS size. A new size clears the canvas, so a frame must follow. */
