@@ -1,10 +1,17 @@
-// What a first-time user does with the page: the way back to the first view.
+// What a first-time user does with the page: photographs, the way back to the first view, a phone.
 
 import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
-import { sceneShown, stage, still, view } from './support.mjs';
+import { errorShown, pick, scratch, sceneShown, stage, still, view } from './support.mjs';
 
 const { visit } = await stage();
+
+const photograph = Buffer.from('\xFF\xD8\xFF\xE0 of a fox', 'latin1');
+const dataset = join(scratch(), 'fox');
+mkdirSync(join(dataset, 'images'), { recursive: true });
+writeFileSync(join(dataset, 'images/0001.jpg'), photograph);
 
 test('R restores the up axis, and the panel its reason', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
@@ -38,3 +45,14 @@ test('an upright phone shows the whole width of the first recorded image, also w
     near(upright ? horizontal : vertical);
   }
 }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }));
+
+test('the page names the program that opens photographs', () => visit('', async (page) => {
+  await pick(page, { name: '0001.jpg', mimeType: 'image/jpeg', buffer: photograph });
+  assert.match(await errorShown(page), /0001\.jpg.*image.*tureen view FOLDER/);
+  await page.click('#errors button');
+  await pick(page, dataset, '#choose-folder');
+  assert.match(await errorShown(page), /tureen view FOLDER/);
+  await pick(page, { name: 'notes.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('no scene') });
+  await page.locator('#errors .message', { hasText: 'notes.glb' }).waitFor();
+  assert.doesNotMatch(await errorShown(page), /photographs/);
+}));

@@ -18,17 +18,17 @@ export class Messages {
   private readonly errors = block('errors');
   private readonly notices = block('notices');
 
-  /** Shows an error and returns a function that removes it. The element's data-kind is `kind`. */
-  error(sentence: string, kind: ErrorKind | 'page'): () => void {
-    const message = this.show(this.errors, sentence);
+  /** Shows an error and returns a function that removes it. The element's data-kind is `kind`. `hint`: a line below. */
+  error(sentence: string, kind: ErrorKind | 'page', hint = ''): () => void {
+    const message = this.show(this.errors, sentence, hint);
     message.dataset.kind = kind;
     return () => message.remove();
   }
 
-  /** Shows the message for a thrown value, if it has one. */
-  thrown(what: unknown): void {
-    const sentence = sentenceOf(what);
-    if (sentence) this.error(sentence, what instanceof ViewerError ? what.kind : 'page');
+  /** Shows the message for a thrown value, if it has one. `hint`: for files that cannot be read. */
+  thrown(what: unknown, hint = ''): void {
+    const sentence = sentenceOf(what), kind = what instanceof ViewerError ? what.kind : 'page';
+    if (sentence) this.error(sentence, kind, kind === 'input' ? hint : '');
   }
 
   notice(sentence: string): void {
@@ -43,11 +43,12 @@ export class Messages {
 
   clearErrors(): void { this.errors.replaceChildren(); }
 
-  private show(where: HTMLElement, sentence: string): HTMLElement {
+  private show(where: HTMLElement, sentence: string, hint = ''): HTMLElement {
+    const text = make('p', {}, sentence, ...(hint ? [make('br', {}), hint] : []));
     for (const before of where.children)
-      if (before.firstChild?.textContent === sentence) before.remove();
+      if (before.firstChild?.textContent === text.textContent) before.remove();
     const close = make('button', { type: 'button', class: 'plain', 'aria-label': 'Close this message' }, icon('close'));
-    const message = make('div', { class: 'message' }, make('p', {}, sentence), close);
+    const message = make('div', { class: 'message' }, text, close);
     close.addEventListener('click', () => message.remove());
     where.append(message);
     return message;
