@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { errorShown, pick, scratch, sceneShown, stage, still, view } from './support.mjs';
+import { errorShown, pick, scratch, sceneShown, source, stage, still, view } from './support.mjs';
 
 const { visit } = await stage();
 
@@ -55,4 +55,10 @@ test('the page names the program that opens photographs', () => visit('', async 
   await pick(page, { name: 'notes.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('no scene') });
   await page.locator('#errors .message', { hasText: 'notes.glb' }).waitFor();
   assert.doesNotMatch(await errorShown(page), /photographs/);
+}));
+
+test('the link of a local file names the way to send the scene', () => visit('', async (page) => {
+  await pick(page, join(source, 'examples/soup.glb'));
+  await sceneShown(page, 'soup');
+  assert.match(await page.textContent('#link-hint'), /only the camera.*tureen convert SCENE scene\.html/);
 }));
