@@ -62,3 +62,20 @@ test('the link of a local file names the way to send the scene', () => visit('',
   await sceneShown(page, 'soup');
   assert.match(await page.textContent('#link-hint'), /only the camera.*tureen convert SCENE scene\.html/);
 }));
+
+test('at most three messages are shown, and an error until a scene is opened', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const messages = () => page.locator('.message p').allTextContents();
+  for (const key of 'uuuuu') await page.keyboard.press(key);
+  assert.equal((await messages()).length, 3);
+  await pick(page, { name: 'bad.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('no scene') });
+  const error = await errorShown(page);
+  assert.equal((await messages()).length, 3);
+  for (const key of 'iuuuu') await page.keyboard.press(key);
+  const shown = await messages();
+  assert.equal(shown.length, 3);
+  assert.ok(shown.includes(error), 'the error stays');
+  assert.match(shown.at(-1), /up axis/, 'the last notice');
+  await pick(page, join(source, 'examples/soup.glb'));
+  await page.locator('#errors .message').waitFor({ state: 'detached' });
+}));

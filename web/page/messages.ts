@@ -1,11 +1,13 @@
 // Messages on the page: errors, which stay until they are closed or a load begins, and notices, which
-// disappear. Screen readers read both.
+// disappear after some seconds or before newer ones. Screen readers read both.
 
 import { type ErrorKind, ViewerError } from '../viewer/types.js';
 import { block, icon, make } from './dom.js';
 
 /** Time to read two sentences twice. */
 const noticeMs = 10_000;
+/** More messages would cover the image. */
+const maxMessages = 3;
 
 /** The message for a thrown value; null if the user cancelled. */
 export function sentenceOf(thrown: unknown): string | null {
@@ -51,6 +53,8 @@ export class Messages {
     const message = make('div', { class: 'message' }, text, close);
     close.addEventListener('click', () => message.remove());
     where.append(message);
+    for (const old of [...this.notices.children])
+      if (this.errors.childElementCount + this.notices.childElementCount > maxMessages && old !== message) old.remove();
     return message;
   }
 }
