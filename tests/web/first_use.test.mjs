@@ -8,6 +8,8 @@ import { errorShown, pick, scratch, sceneShown, source, stage, still, view } fro
 
 const { visit } = await stage();
 
+const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
 const photograph = Buffer.from('\xFF\xD8\xFF\xE0 of a fox', 'latin1');
 const dataset = join(scratch(), 'fox');
 mkdirSync(join(dataset, 'images'), { recursive: true });
@@ -44,7 +46,7 @@ test('an upright phone shows the whole width of the first recorded image, also w
     assert.equal(upright, width < height);
     near(upright ? horizontal : vertical);
   }
-}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }));
+}, phone));
 
 test('the page names the program that opens photographs', () => visit('', async (page) => {
   await pick(page, { name: '0001.jpg', mimeType: 'image/jpeg', buffer: photograph });
@@ -79,3 +81,14 @@ test('at most three messages are shown, and an error until a scene is opened', (
   await pick(page, join(source, 'examples/soup.glb'));
   await page.locator('#errors .message').waitFor({ state: 'detached' });
 }));
+
+test('a phone saves images from the bar, and its help begins with touch', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const download = page.waitForEvent('download');
+  await page.tap('#quick-image');
+  assert.equal((await download).suggestedFilename(), 'soup.png');
+  await page.setViewportSize({ width: 320, height: 568 });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'the bar fits');
+  await page.tap('#open-help');
+  assert.equal(await page.textContent('#help-tables h3'), 'Touch');
+}, phone));
