@@ -92,3 +92,14 @@ test('a phone saves images from the bar, and its help begins with touch', () => 
   await page.tap('#open-help');
   assert.equal(await page.textContent('#help-tables h3'), 'Touch');
 }, phone));
+
+for (const [where, how] of [['a wide page', {}], ['a phone', phone]])
+  test(`the gallery opens the example from its corner, on ${where}`, () => visit('', async (page) => {
+    await page.click('#gallery-list button');
+    await sceneShown(page, 'soup');
+    const opened = await view(page);
+    await page.keyboard.press('7');  // the same view, by the page's keys
+    await still(page);
+    const corner = await view(page);
+    for (const axis of [0, 1, 2]) assert.ok(Math.abs(opened.eye[axis] - corner.eye[axis]) < 1e-3, `${opened.hash} and ${corner.hash}`);
+  }, how));

@@ -261,7 +261,8 @@ export interface Viewer {
   /** Returns to the first view and the scene's up axis. A canvas narrower than the first recorded camera's image shows
    *  the whole width of this image. */
   home(): void;
-  showNamedView(view: NamedView): void;
+  /** Shows the whole scene. `glide`: true by default. */
+  showNamedView(view: NamedView, options?: { readonly glide?: boolean }): void;
   /** `index` into SceneSummary.cameras. Throws ViewerError if it is out of range. */
   showCamera(index: number): void;
   setUp(axis: Vec3): void;
