@@ -1,6 +1,9 @@
 // The gallery: the models in models.json, next to the page. Addresses are relative to that file.
 //
-//   [{"name": "Tureen", "url": "soup.glb", "view": "view=three-quarter", "picture": "soup.jpg", "triangles": 7000, "bytes": 2567840}]
+//   [{"name": "Tureen", "url": "soup.glb", "view": "view=three-quarter", "picture": "soup.jpg",
+//     "triangles": 7000, "bytes": 2567840}]
+//
+// "view" is the part of a link after '#' (camera_link.ts).
 
 import { readFragment, type LinkedView } from './camera_link.js';
 import { block, make } from './dom.js';
@@ -22,7 +25,8 @@ function readModel(entry: unknown): Model | null {
   const { name, url, view, picture: image, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
   if (typeof name !== 'string' || typeof url !== 'string' || !url) return null;
   return {
-    name, url, view: readFragment(typeof view === 'string' ? view : ''), image: typeof image === 'string' ? image : null,
+    name, url, view: readFragment(typeof view === 'string' ? view : ''),
+    image: typeof image === 'string' ? image : null,
     triangles: count(triangles), bytes: count(bytes),
   };
 }

@@ -8,7 +8,8 @@ import { hasPhotographs } from './files.js';
 import type { Messages } from './messages.js';
 import { bytesText, primitivesText } from './numbers.js';
 
-const photographsHint = 'The desktop program trains scenes from photographs, and compares scenes with them: tureen view FOLDER.';
+const photographsHint =
+  'The desktop program trains scenes from photographs, and compares scenes with them: tureen view FOLDER.';
 
 const stageText: Readonly<Record<LoadStage, string>> = {
   download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'uploading to the graphics device',
