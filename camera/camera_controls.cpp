@@ -55,6 +55,16 @@ bool is_sound(const Camera& camera) {
   return finite && camera.width > 0 && camera.height > 0 && camera.fx > 0 && camera.fy > 0;
 }
 
+/// The camera's image with more at the top and at the bottom, so that it is not wider than the
+/// viewport. The camera itself if it is not.
+Camera whole_in(const glm::dvec2& viewport, Camera camera) {
+  const double height = std::ceil(camera.width * viewport.y / viewport.x);
+  if (!(height > camera.height && height < max_pixels)) return camera;
+  camera.cy += 0.5 * (height - camera.height);
+  camera.height = int(height);
+  return camera;
+}
+
 }  // namespace
 
 const char* name_of(NamedView view) {
@@ -113,17 +123,27 @@ Bearing bearing_of(NamedView view) {
 }
 
 CameraControls::CameraControls(const Subject& subject) {
-  const double length = glm::length(subject.up);
-  if (length > 0 && std::isfinite(length)) goal_.up = subject.up / length;
-  shown_.up = goal_.up;
-  set_box(subject.low, subject.high);
+  set_subject(subject);
+  goal_.up = shown_.up = first_up_;
   speed_ = 0.5 * radius_;
   home();
   arrive();
 }
 
 void CameraControls::set_viewport(int width, int height) {
-  if (width > 0 && height > 0) viewport_ = {width, height};
+  const glm::dvec2 viewport(width, height);
+  if (width <= 0 || height <= 0 || viewport == viewport_) return;
+  viewport_ = viewport;
+  if (!at_first_view_ || !first_view_) return;
+  const bool arrived = !moving_;
+  reset();
+  if (arrived) arrive();
+}
+
+void CameraControls::set_subject(const Subject& subject) {
+  const double length = glm::length(subject.up);
+  if (length > 0 && std::isfinite(length)) first_up_ = subject.up / length;
+  set_box(subject.low, subject.high);
 }
 
 void CameraControls::set_box(const glm::dvec3& low, const glm::dvec3& high) {
@@ -147,6 +167,7 @@ bool CameraControls::usable(const ViewState& next) const {
 void CameraControls::move_to(const ViewState& next) {
   if (!usable(next)) return;
   adopted_.reset();
+  at_first_view_ = false;
   goal_ = next;
   // Whole turns are removed after 100 turns, since large angles lose precision: 100 turns cost
   // three of sixteen digits.
@@ -302,7 +323,11 @@ void CameraControls::home() {
   show_box(next, low_, high_);
 }
 
-void CameraControls::reset() { first_view_ ? adopt(*first_view_) : home(); }
+void CameraControls::reset() {
+  set_up(first_up_);
+  first_view_ ? adopt(whole_in(viewport_, *first_view_)) : home();
+  at_first_view_ = true;
+}
 
 void CameraControls::focus(const glm::dvec3& point) {
   const double depth = -glm::dot(point - eye_of(goal_), rotation_of(goal_)[2]);
@@ -322,6 +347,7 @@ void CameraControls::set_target_depth(double depth) {
     return state;
   };
   if (!usable(at_depth(goal_))) return;
+  at_first_view_ = false;
   goal_ = at_depth(goal_);
   shown_ = at_depth(shown_);
 }
@@ -349,6 +375,7 @@ void CameraControls::adopt(const Camera& camera) {
   take_short_way(next, shown_);
   goal_ = next;
   adopted_ = camera;
+  at_first_view_ = false;
   moving_ = true;
   if (!(smoothing_ > 0)) arrive();
 }

@@ -85,7 +85,8 @@ class CameraControls {
 
   /// Image size in the unit of all deltas: pixels, or points of the window system. Default 1280 x
   /// 720. Sizes below 1 (a minimised window) are ignored. The shown view is kept; call home() and
-  /// arrive() to fit the subject to another aspect ratio.
+  /// arrive() to fit the subject to another aspect ratio. The first view's camera, unmoved, is
+  /// fitted again.
   void set_viewport(int width, int height);
 
   NavigationMode mode() const { return mode_; }
@@ -140,8 +141,9 @@ class CameraControls {
   /// Shows the goal immediately.
   void arrive();
 
-  /// The box for frame(), the views and all limits; the up axis and the view are unchanged.
-  void set_box(const glm::dvec3& low, const glm::dvec3& high);
+  /// The box for frame(), the views and all limits, and the up axis for reset(); the present up
+  /// axis and the view are unchanged.
+  void set_subject(const Subject& subject);
 
   /// Shows the whole box from the present direction. Keeps bearing and field of view; resets roll
   /// and principal point. The second overload frames another box than the subject's.
@@ -154,9 +156,12 @@ class CameraControls {
   /// The three-quarter view with a field of view of 40 degrees, as after construction.
   void home();
 
-  /// The first view: its camera if set, otherwise home().
+  /// The subject's up axis and the first view: its camera if set, otherwise home(). In a viewport
+  /// narrower than the camera's image, the vertical angle grows until the whole width is inside.
   void reset();
   void set_first_view(const std::optional<Camera>& camera) { first_view_ = camera; }
+  /// Whether the goal is still that of reset().
+  bool goes_to_first_view() const { return at_first_view_; }
 
   /// Makes a point of the scene the target and centres it. Its depth, and so its scale in the
   /// image, does not change. Ignored if it is not in front of the eye.
@@ -211,7 +216,10 @@ class CameraControls {
   void dolly_about(double steps, const glm::dvec3& fixed_ray);
   void show_box(ViewState next, const glm::dvec3& low, const glm::dvec3& high);
 
+  void set_box(const glm::dvec3& low, const glm::dvec3& high);
+
   glm::dvec3 low_{-1.0}, high_{1.0};
+  glm::dvec3 first_up_{0, 1, 0};  // of unit length
   double radius_ = 1;
   glm::dvec2 viewport_{1280, 720};
   NavigationMode mode_ = NavigationMode::orbit;
@@ -219,6 +227,7 @@ class CameraControls {
   bool moving_ = false;
   std::optional<Camera> adopted_;  // the exact camera at the goal
   std::optional<Camera> first_view_;
+  bool at_first_view_ = false;  // the goal
   double speed_ = 0.5;
   double smoothing_ = 0.06;
 };

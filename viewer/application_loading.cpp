@@ -237,7 +237,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     state_.recorded = -1;
   const Subject& subject = state_.stage->subject;
   if (keep_view) {
-    state_.controls.set_box(subject.low, subject.high);
+    state_.controls.set_subject(subject);
   } else {
     state_.layer_editing = {};
     state_.controls = CameraControls(subject);

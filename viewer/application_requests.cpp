@@ -79,8 +79,7 @@ void Application::carry_out(const ArrangeLayers& request) {
 }
 
 void Application::after_change_of_layers() {
-  const Subject& subject = state_.stage->subject;
-  state_.controls.set_box(subject.low, subject.high);
+  state_.controls.set_subject(state_.stage->subject);
   if (why_not(state_.debug_view.what, *state_.stage)) state_.debug_view.what = DebugView::color;
   state_.comparison.forget();
   worker_.abandon(JobKind::comparison);

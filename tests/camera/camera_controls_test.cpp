@@ -603,6 +603,64 @@ TEST(CameraControls, ResetShowsTheFirstView) {
   EXPECT_LT(largest_difference(home, shown(controls)), 1e-9);
 }
 
+TEST(CameraControls, TheFirstViewShowsTheWholeRecordedImage) {
+  Random random(8);
+  const Camera first = random_camera(random, 1);
+  const auto corners_are_inside = [&](const Camera& view) {
+    for (const double x : {0, first.width})
+      for (const double y : {0, first.height}) {
+        const glm::dvec4 corner((x - first.cx) / first.fx, -(y - first.cy) / first.fy, -1, 1);
+        const glm::dvec3 pixel =
+            pixel_of(view, glm::dvec3(glm::inverse(first.view_from_world) * corner));
+        EXPECT_GE(std::min(pixel.x, pixel.y), -1e-9);
+        EXPECT_LE(pixel.x, view.width + 1e-9);
+        EXPECT_LE(pixel.y, view.height + 1e-9);
+      }
+  };
+  CameraControls controls = stiff();
+  controls.set_first_view(first);
+  controls.reset();
+  EXPECT_EQ(shown(controls), resized(first, width, height)) << "at least as wide as the image";
+  controls.set_viewport(390, 844);  // a phone that is turned
+  EXPECT_TRUE(controls.goes_to_first_view());
+  const Camera upright = controls.camera(390, 844);
+  corners_are_inside(upright);
+  EXPECT_NEAR(upright.fx, first.fx * 390 / first.width, 1) << "not smaller than necessary";
+  controls.set_viewport(width, height);
+  EXPECT_EQ(shown(controls), resized(first, width, height));
+  controls.set_viewport(390, 844);
+  controls.orbit(10, 0);
+  EXPECT_FALSE(controls.goes_to_first_view());
+  const double fov = controls.fov();
+  controls.set_viewport(width, height);
+  EXPECT_EQ(controls.fov(), fov) << "a moved view is kept";
+  controls.adopt(first);
+  controls.set_viewport(390, 844);
+  EXPECT_EQ(controls.camera(390, 844), resized(first, 390, 844)) << "as is any other camera";
+}
+
+TEST(CameraControls, ResetRestoresTheUpAxis) {
+  Random random(6);
+  Subject subject = random_subject(random, 1);
+  CameraControls controls = stiff(subject);
+  const Camera home = shown(controls);
+  const glm::dvec3 up = controls.up();
+  controls.set_up(-up);
+  controls.reset();
+  EXPECT_EQ(controls.up(), up);
+  EXPECT_LT(largest_difference(home, shown(controls)), 1e-9);
+  // Also after a recorded camera, and of a subject that followed.
+  const Camera first = random_camera(random, 1);
+  controls.set_first_view(first);
+  subject.up = {0, 0, 3};
+  controls.set_subject(subject);
+  EXPECT_EQ(controls.up(), up);
+  controls.set_up({1, 0, 0});
+  controls.reset();
+  EXPECT_EQ(controls.up(), glm::dvec3(0, 0, 1));
+  EXPECT_TRUE(same_bits(controls.camera(first.width, first.height), first));
+}
+
 TEST(CameraControls, KeyframesOfAnOrbitMakeAPathAroundItsTarget) {
   CameraControls controls = stiff();
   CameraPathData data;

@@ -61,5 +61,14 @@ TEST(Shortcuts, ITurnsTheSceneUpsideDown) {
   EXPECT_EQ(state.controls.up(), up);
 }
 
+TEST(Shortcuts, RRestoresTheUpAxis) {
+  State state;
+  const glm::dvec3 up = state.controls.up();
+  ASSERT_TRUE(run_shortcut(Key::u, false, state));
+  ASSERT_NE(state.controls.up(), up);
+  ASSERT_TRUE(run_shortcut(Key::r, false, state));
+  EXPECT_EQ(state.controls.up(), up);
+}
+
 }  // namespace shortcuts_test
 }  // namespace tureen::viewer

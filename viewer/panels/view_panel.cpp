@@ -47,7 +47,7 @@ void up_menu(State& state) {
         controls.set_up(axis);
     ImGui::EndCombo();
   }
-  tip(describe(state.stage->up) + ". U changes it");
+  tip(describe(state.stage->up) + ". U changes it, R restores it");
 }
 
 void recorded_slider(State& state) {

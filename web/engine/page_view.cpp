@@ -33,9 +33,6 @@ std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
   return layers;
 }
 
-/// The side of an image in which views are compared.
-constexpr int view_side = 1024;
-
 /// Notes the memory of the layers of an ordinary frame's renderer.
 void weigh(std::vector<ShownLayer>& layers, const Renderer& renderer) {
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].device_bytes = renderer.layer_bytes(i);
@@ -60,20 +57,13 @@ PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene) c
   if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
   controls.reset();
   controls.arrive();
-  Stage stage{{}, std::move(renderer), std::move(scene), controls, std::move(layers), {}, {}};
-  stage.first_target = controls.target();
-  stage.first_view = controls.camera(view_side, view_side);
-  return stage;
+  return {{}, std::move(renderer), std::move(scene), controls, std::move(layers)};
 }
 
 void PageView::keep_view(Stage& stage) const {
-  if (!preview_) return;
-  const CameraControls& before = preview_->controls;
-  if (before.target() == preview_->first_target &&
-      before.camera(view_side, view_side) == preview_->first_view)
-    return;
-  stage.controls = before;
-  stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
+  if (!preview_ || preview_->controls.goes_to_first_view()) return;
+  stage.controls = preview_->controls;
+  stage.controls.set_subject(stage.scene.subject);
 }
 
 void PageView::show_preview(PreparedScene prepared, ShownScene scene) {
@@ -126,7 +116,7 @@ void PageView::follow_layers(Stage& stage) {
   for (const ShownLayer& layer : stage.layers)
     if (layer.visible || !any) boxes.push_back(layer.box);
   stage.scene.subject = subject_of(boxes, stage.scene.subject.up, stage.scene.cameras);
-  stage.controls.set_box(stage.scene.subject.low, stage.scene.subject.high);
+  stage.controls.set_subject(stage.scene.subject);
 }
 
 void PageView::add_layers(PreparedScene prepared) {

@@ -123,8 +123,6 @@ class PageView {
     ShownScene scene;
     CameraControls controls;
     std::vector<ShownLayer> layers;
-    glm::dvec3 first_target;  // of the controls, as is:
-    Camera first_view;        // in a square image
   };
   bool rests(const FrameInput& input);
   void prepare_renderer(bool for_debug_views);

@@ -1,11 +1,12 @@
 // The part of a link after '#': a camera, a debug view and layers (layer_link.ts), in readable numbers.
 //
 //   #eye=4.269,-5.968,3.39&target=0,0,0.7&up=0,0,1&fov=35&look=depth
+//   #view=three-quarter
 //
 // Lengths are in the scene's units, as in `tureen render --eye --target --up --fov`. `fov` (the vertical
 // angle) and `roll` are in degrees; only recorded cameras have a roll.
 
-import type { Vec3, ViewPose } from '../viewer/types.js';
+import { namedViews, type NamedView, type Vec3, type ViewPose } from '../viewer/types.js';
 import { readLayers, type LinkedLayer } from './layer_link.js';
 import { degreesPerRadian, plainNumber } from './numbers.js';
 
@@ -14,6 +15,8 @@ export type LinkedPose = Omit<ViewPose, 'up'> & { readonly up: Vec3 | null };
 
 export interface LinkedView {
   readonly pose: LinkedPose | null;
+  /** A view of the whole scene, instead of a pose. */
+  readonly named: NamedView | null;
   /** The debug view; null for the final colours. */
   readonly debugView: string | null;
   /** The layers in their order; null if they are as in the files. */
@@ -54,7 +57,8 @@ export function readFragment(fragment: string): LinkedView {
   const debugView = parts.get('look') || null, layers = readLayers(parts.get('layers'));
   const layersDefect = layers === 'defect' ?
     'The link\'s layers cannot be read: each needs a number and its place, layers=1;2,at:3:0:0.' : null;
-  const rest = { debugView, layers: layers === 'defect' ? null : layers };
+  const named = namedViews.find((view) => view === parts.get('view')) ?? null;
+  const rest = { named, debugView, layers: layers === 'defect' ? null : layers };
   if (!parts.has('eye') && !parts.has('target')) return { pose: null, ...rest, defect: layersDefect };
 
   const without = (defect: string): LinkedView => ({ pose: null, ...rest, defect });

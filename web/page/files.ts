@@ -29,6 +29,13 @@ function sourcesOf(files: readonly SceneFile[], folder: string | null): readonly
   return [sourceOf(files, folder)];
 }
 
+/** Whether a source has the names of photographs or of their dataset. An only file may be a photograph, too. */
+export function hasPhotographs(source: SceneSource): boolean {
+  const names = 'files' in source ? source.files.map(({ path }) => path) : [source.url];
+  return names.some((name) => /(?:\.jpe?g|\btransforms\w*\.json|\bcameras\.(?:bin|txt))$/i.test(name)) ||
+    (names.length === 1 && /\.png$/i.test(names[0]!));
+}
+
 /** The scenes of an <input type=file>, with or without webkitdirectory. */
 export function sourcesOfPicked(list: FileList): readonly SceneSource[] {
   if (list.length > maxFiles) throw tooMany();

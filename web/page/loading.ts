@@ -4,8 +4,12 @@
 import { nameOf } from '../viewer/addresses.js';
 import type { LoadProgress, LoadStage, SceneLayer, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import { block, button } from './dom.js';
+import { hasPhotographs } from './files.js';
 import type { Messages } from './messages.js';
 import { bytesText, primitivesText } from './numbers.js';
+
+const photographsHint =
+  'The desktop program trains scenes from photographs, and compares scenes with them: tureen view FOLDER.';
 
 const stageText: Readonly<Record<LoadStage, string>> = {
   download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'uploading to the graphics device',
@@ -47,13 +51,8 @@ export class Loading {
   }
 
   /** The scene; null if loading failed (the page then shows the error) or was cancelled. */
-  async load(source: SceneSource): Promise<SceneSummary | null> {
-    try {
-      return await this.attempt(source);
-    } catch (error) {
-      this.messages.thrown(error);
-      return null;
-    }
+  load(source: SceneSource): Promise<SceneSummary | null> {
+    return this.attempt(source).catch((error: unknown) => this.report(error, source));
   }
 
   /** The same, but rejects with the error for the caller. */
@@ -65,18 +64,18 @@ export class Loading {
   }
 
   /** The added layers; null if that failed (the page then shows the error) or was cancelled. */
-  async add(source: SceneSource): Promise<readonly SceneLayer[] | null> {
-    try {
-      return await this.attemptToAdd(source);
-    } catch (error) {
-      this.messages.thrown(error);
-      return null;
-    }
+  add(source: SceneSource): Promise<readonly SceneLayer[] | null> {
+    return this.attemptToAdd(source).catch((error: unknown) => this.report(error, source));
   }
 
   /** The same, but rejects with the error for the caller. */
   attemptToAdd(source: SceneSource): Promise<readonly SceneLayer[]> {
     return this.run(source, (signal) => this.viewer.addLayers(source, { signal }));
+  }
+
+  private report(error: unknown, source: SceneSource): null {
+    this.messages.thrown(error, hasPhotographs(source) ? photographsHint : '');
+    return null;
   }
 
   private async run<T>(source: SceneSource, start: (signal: AbortSignal) => Promise<T>): Promise<T> {

@@ -16,7 +16,7 @@ export type Origin =
   /** The scene is part of the page. */
   | { readonly kind: 'page' };
 
-const noView: LinkedView = { pose: null, debugView: null, layers: null, defect: null };
+const noView: LinkedView = { pose: null, named: null, debugView: null, layers: null, defect: null };
 
 /** A scene that was opened or added. */
 interface Opened {
@@ -132,7 +132,8 @@ export class Openings {
     }
   }
 
-  private lookFrom({ pose }: LinkedView): void {
+  private lookFrom({ pose, named }: LinkedView): void {
+    if (named) this.viewer.showNamedView(named, { glide: false });
     if (pose) this.viewer.setView({ ...pose, up: pose.up ?? this.viewer.getView().up });
   }
 
@@ -155,12 +156,16 @@ export class Openings {
                      view: LinkedView): Promise<boolean> {
     const [first, ...others] = scenes;
     if (!first) return false;
-    // The preview already has this view, and the user may move it before the whole scene arrives.
-    let looked = false;
-    const forget = this.viewer.on('preview', () => {
-      if (!looked) this.lookFrom(view);
-      looked = true;
-    });
+    // Previews already have this view, and the user may move it before the whole scene arrives. A named view depends
+    // on the scene, so each part sets it again.
+    let seen: string | null = null;
+    const pose = () => JSON.stringify(this.viewer.getView()), isUnmoved = () => seen === null || seen === pose();
+    const lookAgain = () => {
+      if (!isUnmoved()) return;
+      this.lookFrom(view);
+      seen = pose();
+    };
+    const forget = this.viewer.on('preview', lookAgain);
     const loaded: Promise<SceneSummary | null> = this.loading.load(first.source);
     const { generation } = this;
     const scene = await loaded;
@@ -173,7 +178,7 @@ export class Openings {
     this.opened.set(first.source, { origin: first.origin, layers: this.viewer.layers });
     this.bar.showScenes(scenes.flatMap(({ origin }) => (origin.kind === 'address' ? [origin.address] : [])));
     // With further scenes the view is set before and after them: they take time.
-    if (others.length > 0 && !looked) this.lookFrom(view);
+    if (others.length > 0) lookAgain();
     this.opening = generation;
     let all = true;
     for (const { source, origin } of others) {
@@ -183,7 +188,7 @@ export class Openings {
     if (generation !== this.generation) return true;
     this.opening = null;
     this.incomplete = !all;
-    await this.look(looked || others.length > 0 ? { ...view, pose: null } : view,
+    await this.look(isUnmoved() ? view : { ...view, pose: null, named: null },
                     scenes.filter(({ origin }) => origin.kind === 'address').map(({ source }) => source));
     this.reportOpened();
     return true;

@@ -45,8 +45,9 @@ export class Shortcuts {
   constructor(private readonly canvas: HTMLCanvasElement, private readonly shortcuts: readonly Shortcut[]) {
     const rows = shortcuts.flatMap(({ key, meaning }): Row[] => (meaning === null ? [] : [[capOf(key), meaning]]));
     const gesture = (text: string) => text, cap = (text: string) => make('kbd', {}, text);
-    block('help-tables').append(table('Pointer', pointerRows, gesture), table('Touch', touchRows, gesture),
-                                table('Moving', movingRows, cap), table('Keys', rows, cap));
+    const gestures = [table('Pointer', pointerRows, gesture), table('Touch', touchRows, gesture)];
+    if (matchMedia('(pointer: coarse)').matches) gestures.reverse();
+    block('help-tables').append(...gestures, table('Moving', movingRows, cap), table('Keys', rows, cap));
     block('open-help').addEventListener('click', () => this.showHelp());
     this.everywhere.checked = recall('keys') !== false;
     this.everywhere.addEventListener('change', () => remember('keys', this.everywhere.checked));

@@ -29,7 +29,7 @@ export class Start {
       const address = input('address').value.trim();
       if (address) void this.leaveFor(this.openings.openAddresses([address]));
     });
-    void fillGallery((address) => void this.leaveFor(this.openings.openAddresses([address])));
+    void fillGallery((address, view) => void this.leaveFor(this.openings.openAddresses([address], view)));
     viewer.on('preview', () => this.show(false));
     viewer.on('scene', () => this.update());
   }

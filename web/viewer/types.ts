@@ -258,9 +258,11 @@ export interface Viewer {
   focus(x: number, y: number): boolean;
   /** Frames all visible layers from the current direction. */
   frame(): void;
-  /** Returns to the first view. */
+  /** Returns to the first view and the scene's up axis. A canvas narrower than the first recorded camera's image shows
+   *  the whole width of this image. */
   home(): void;
-  showNamedView(view: NamedView): void;
+  /** Shows the whole scene. `glide`: true by default. */
+  showNamedView(view: NamedView, options?: { readonly glide?: boolean }): void;
   /** `index` into SceneSummary.cameras. Throws ViewerError if it is out of range. */
   showCamera(index: number): void;
   setUp(axis: Vec3): void;

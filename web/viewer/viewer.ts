@@ -621,6 +621,12 @@ class CanvasViewer implements Viewer {
     this.moved = true;
   }
 
+  /** Moves to a view that fits the canvas, whose size may have changed since the last frame. */
+  private moveTo(name: string, given: unknown = null): void {
+    if (!this.lost) this.lay();
+    this.move(name, given);
+  }
+
   get mode(): NavigationMode { return this.navigation; }
   set mode(mode: NavigationMode) {
     if (mode !== 'orbit' && mode !== 'fly') throw new ViewerError(`“${String(mode)}” is not a mode: use orbit or fly.`, 'usage');
@@ -641,9 +647,12 @@ class CanvasViewer implements Viewer {
     this.ask();
     return found;
   }
-  frame(): void { this.move('frame'); }
-  home(): void { this.move('home'); }
-  showNamedView(view: NamedView): void { this.move('named_view', view); }
+  frame(): void { this.moveTo('frame'); }
+  home(): void { this.moveTo('home'); }
+  showNamedView(view: NamedView, options: { readonly glide?: boolean } = {}): void {
+    this.moveTo('named_view', view);
+    if (options.glide === false) this.change('arrive', null);
+  }
   showCamera(index: number): void { this.move('camera', index); }
   setUp(axis: Vec3): void { this.move('up', axis); }
   getView(): ViewPose { return this.engine.call<ViewPose>('pose'); }
@@ -723,10 +732,11 @@ class CanvasViewer implements Viewer {
 
   draw(): void { this.drawFrame(performance.now()); }
 
-  /** Sets the viewport of the controls, in CSS pixels. */
+  /** Sets the viewport of the controls, in CSS pixels. The first view's angle may follow it. */
   private lay(): void {
-    const { clientWidth, clientHeight } = this.canvas;
+    const { clientWidth, clientHeight } = this.canvas, { fov } = this;
     if (clientWidth > 0 && clientHeight > 0) this.engine.call('viewport', [clientWidth, clientHeight]);
+    if (this.fov !== fov) this.moved = true;
   }
 
   /** Fits the canvas to its CSS size. A new size clears the canvas, so a frame must follow. */

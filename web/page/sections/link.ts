@@ -49,7 +49,7 @@ export class LinkSection {
       return 'The link lacks the layers from local files.';
     if (origin?.kind === 'files' || this.openings.lacksScenes)
       return 'The link contains only the camera, because the scene is a local file. Open the same file to use ' +
-        'the link.';
+        'the link. To send the scene, write it as one page: tureen convert SCENE scene.html';
     if (origin?.kind === 'page' && location.protocol === 'file:')
       return 'The link points to this file on this computer: send the file together with the link.';
     if (this.openings.addresses.length > 1) return 'The link opens these scenes with this view.';

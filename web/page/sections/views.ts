@@ -15,7 +15,7 @@ const axes: readonly { readonly name: string; readonly axis: Vec3 }[] = [
   { name: '-y', axis: [0, -1, 0] }, { name: '-z', axis: [0, 0, -1] }, { name: '-x', axis: [-1, 0, 0] },
 ];
 
-/** Whether a direction is within 2.6 degrees of an axis: an up axis from cameras is slightly inexact. */
+/** Whether a direction is within 2.6 degrees of an axis of length 1: an up axis from cameras is slightly inexact. */
 const isAxis = (direction: Vec3, axis: Vec3) =>
   direction[0] * axis[0] + direction[1] * axis[1] + direction[2] * axis[2] > 0.999 * Math.hypot(...direction);
 
@@ -39,15 +39,13 @@ export class ViewsSection {
     this.up.addEventListener('change', () => {
       const chosen = axes[Number(this.up.value)];
       if (chosen) viewer.setUp(chosen.axis);
+      this.update();
     });
     this.fov.addEventListener('input', () => {
       viewer.fov = this.fov.valueAsNumber / degreesPerRadian;
       this.update();
     });
-    viewer.on('scene', (scene) => {
-      block('up-reason').textContent = scene?.upReason ?? '';
-      this.update();
-    });
+    viewer.on('scene', () => this.update());
     viewer.on('view', () => this.update());
     viewer.on('frame', () => this.showMode());  // keys change it too
     this.update();
@@ -73,6 +71,7 @@ export class ViewsSection {
   first(): void {
     this.setMode('orbit');
     this.viewer.home();
+    this.update();
   }
 
   nextUp(): void {
@@ -98,6 +97,9 @@ export class ViewsSection {
   private update(): void {
     const index = this.upIndex();
     this.up.value = index < 0 ? 'own' : String(index);
+    // The reason applies only to the scene's own axis.
+    const { scene } = this.viewer;
+    block('up-reason').textContent = scene && isAxis(this.viewer.getView().up, scene.up) ? scene.upReason : '';
     const degrees = this.viewer.fov * degreesPerRadian;
     this.fov.value = String(degrees);
     block('fov-text').textContent = `${degrees.toFixed(0)}°`;
