@@ -112,6 +112,7 @@ class Application {
   void carry_out(const TellTraining& request);
   void carry_out(const CancelJob& request);
   void carry_out(const StartTraining& request);
+  void carry_out(const StopTraining& request);
   void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
@@ -164,8 +165,6 @@ class Application {
   void prepare_debug_view_when_needed();
   void watch_files();
   void watch_training_program();
-  /// The arguments of tureen that train a scene from the photographs.
-  std::vector<std::string> training_arguments() const;
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
   bool has_scene();

@@ -206,6 +206,11 @@ void Application::carry_out(const ToggleFullscreen&) {
   window_.set_fullscreen(!window_.fullscreen());
 }
 
-void Application::carry_out(const Quit&) { quit_ = true; }
+void Application::carry_out(const Quit& request) {
+  state_.asks_before_quitting = request.training == Quit::Training::ask && training_program_;
+  if (state_.asks_before_quitting) return;
+  if (request.training == Quit::Training::stop) carry_out(StopTraining{});
+  quit_ = true;
+}
 
 }  // namespace tureen::viewer

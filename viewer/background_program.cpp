@@ -7,6 +7,7 @@
 #include <unistd.h>
 #endif
 
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -25,6 +26,7 @@ BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std:
 }
 
 bool BackgroundProgram::ended() { return true; }
+void BackgroundProgram::interrupt() {}
 
 #else
 
@@ -60,6 +62,11 @@ bool BackgroundProgram::ended() {
   if (!exit_code_ && ::waitpid(process_, &status, WNOHANG) == process_)
     exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return exit_code_.has_value();
+}
+
+void BackgroundProgram::interrupt() {
+  // Not after its end, when another process may have its number.
+  if (!ended()) ::kill(-process_, SIGINT);
 }
 
 #endif

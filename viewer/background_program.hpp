@@ -18,6 +18,8 @@ class BackgroundProgram {
 
   /// Whether it has ended.
   bool ended();
+  /// Ends it and the programs that it has started, as Ctrl-C in a terminal does.
+  void interrupt();
   /// The last line of its errors, if it has ended with an exit code other than 0.
   std::optional<std::string> failure();
 

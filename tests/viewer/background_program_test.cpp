@@ -32,6 +32,13 @@ TEST(BackgroundPrograms, OneThatSucceedsHasNoFailure) {
   EXPECT_EQ(good.failure(), std::nullopt);
 }
 
+TEST(BackgroundPrograms, AreInterruptedWithThoseThatTheyStarted) {
+  BackgroundProgram program("sh", {"-c", "sleep 600; exit 0"});
+  program.interrupt();
+  wait(program);
+  EXPECT_EQ(program.failure(), "sh was ended by signal 2");
+}
+
 TEST(BackgroundPrograms, AMissingOneIsNamed) {
   EXPECT_THAT(test::error_of<OutputError>([] { BackgroundProgram("/no/such/program", {}); }),
               test::ErrorIn("/no/such/program"));

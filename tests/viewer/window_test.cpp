@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -133,6 +135,32 @@ class Window : public testing::Test {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     Input input = Input::open(folder_ / "rendered.png");
     return read_image(input);
+  }
+
+  /// A dataset of one training and one test photograph, both drawn from the scene itself.
+  void write_photographs() const {
+    const Scene scene = read_scene(folder_ / "soup.glb");
+    fs::create_directories(folder_ / "photographs");
+    for (const auto& [split, index] : {std::pair("train", 0), std::pair("test", 40)}) {
+      const Camera camera = resized(scene.cameras.at(std::size_t(index)), 240, 200);
+      const Image8 drawn =
+          rendered({"--camera", "soup.glb:" + std::to_string(index), "--size", "240x200"});
+      fs::copy(folder_ / "rendered.png", folder_ / "photographs" / (std::string(split) + ".png"));
+      const glm::dmat4 pose = glm::inverse(camera.view_from_world);
+      nlohmann::json matrix = nlohmann::json::array();
+      for (int row = 0; row < 4; ++row)
+        matrix.push_back({pose[0][row], pose[1][row], pose[2][row], pose[3][row]});
+      std::ofstream(folder_ / "photographs" / ("transforms_" + std::string(split) + ".json"))
+          << nlohmann::json{
+                 {"fl_x", camera.fx},
+                 {"fl_y", camera.fy},
+                 {"cx", camera.cx},
+                 {"cy", camera.cy},
+                 {"w", 240},
+                 {"h", 200},
+                 {"frames",
+                  {{{"file_path", std::string(split) + ".png"}, {"transform_matrix", matrix}}}}};
+    }
   }
 
   fs::path folder_;
@@ -354,31 +382,9 @@ TEST_F(Window, FilesCanBePickedBeforeThereIsAScene) {
   EXPECT_NE(image("empty").pixels, image("files").pixels);
 }
 
-// A dataset with one training and one test photograph, both drawn from the scene itself: the
-// difference must be zero.
+// The photographs are drawn from the scene itself: the difference must be zero.
 TEST_F(Window, ComparesWithThePhotographs) {
-  const Scene scene = read_scene(folder_ / "soup.glb");
-  fs::create_directories(folder_ / "photographs");
-  for (const auto& [split, index] : {std::pair("train", 0), std::pair("test", 40)}) {
-    const Camera camera = resized(scene.cameras.at(std::size_t(index)), 240, 200);
-    const Image8 drawn =
-        rendered({"--camera", "soup.glb:" + std::to_string(index), "--size", "240x200"});
-    fs::copy(folder_ / "rendered.png", folder_ / "photographs" / (std::string(split) + ".png"));
-    const glm::dmat4 pose = glm::inverse(camera.view_from_world);
-    nlohmann::json matrix = nlohmann::json::array();
-    for (int row = 0; row < 4; ++row)
-      matrix.push_back({pose[0][row], pose[1][row], pose[2][row], pose[3][row]});
-    std::ofstream(folder_ / "photographs" / ("transforms_" + std::string(split) + ".json"))
-        << nlohmann::json{
-               {"fl_x", camera.fx},
-               {"fl_y", camera.fy},
-               {"cx", camera.cx},
-               {"cy", camera.cy},
-               {"w", 240},
-               {"h", 200},
-               {"frames",
-                {{{"file_path", std::string(split) + ".png"}, {"transform_matrix", matrix}}}}};
-  }
+  write_photographs();
   const ChildResult result = replay(Person()
                                         .wait()
                                         .press(Key::left_bracket)
@@ -745,6 +751,34 @@ TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
   EXPECT_EQ(replay(person, arguments).exit_code, 0);
   EXPECT_NE(image("training").pixels, ended.pixels);
   EXPECT_FALSE(fs::exists(folder_ / "run.control"));
+}
+
+/// Positions in the card of photographs without a scene, and in the dialog before the window is
+/// closed during a training, in a window of 720 x 450.
+constexpr glm::dvec2 train_button{157, 142}, stop_and_quit_button{147, 235};
+
+TEST_F(Window, ATrainingStartsOnlyAfterAQuestion) {
+  write_photographs();
+  Person person;
+  person.drop("photographs").wait().look("photographs").click(train_button).look("asked");
+  EXPECT_EQ(replay(person.press(Key::escape).look("cancelled"), {}).exit_code, 0);
+  EXPECT_NE(image("asked").pixels, image("photographs").pixels);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));
+}
+
+TEST_F(Window, ClosedDuringItsTrainingAsksWhetherToStopIt) {
+  write_photographs();
+  Person person;
+  person.drop("photographs").wait().click(train_button).wait().press(Key::enter).wait();
+  person.press_with_control(Key::q).look("asked").click(stop_and_quit_button);
+  EXPECT_EQ(replay(person.hold(Key::super, 5).look("closed"), {}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "asked.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "pictures" / "closed.png"));
+  // A training that goes on has its lock by then, and takes minutes.
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));
+  EXPECT_FALSE(fs::exists(folder_ / "photographs.glb"));
 }
 
 TEST_F(Window, TheBaselineRefusesAFurtherLayer) {

@@ -45,6 +45,7 @@ void welcome_overlay(State& state) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
+  started_training_rows(state);
   if (state.photographs) dataset_rows(state);
   {
     const Title title;

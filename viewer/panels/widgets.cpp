@@ -198,6 +198,18 @@ void progress_bar(double fraction) {
   ImGui::Dummy({width, height});
 }
 
+bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false); }
+
+Dialog::Dialog(const char* title) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({0.5f * window.x, 0.45f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(36 * em, window.x - 2 * em), 0});
+  ImGui::Begin(title, nullptr,
+               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings);
+}
+
 Card::Card(const Look& look)
     : look_(look), low_(ImGui::GetCursorScreenPos()), width_(ImGui::GetContentRegionAvail().x) {
   // The rectangle lies behind the items, which determine its height.

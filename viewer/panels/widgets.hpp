@@ -81,6 +81,18 @@ class Card {
   float width_ = 0;
 };
 
+/// A window in the middle of the screen, with the items drawn in its scope.
+class Dialog {
+ public:
+  explicit Dialog(const char* title);
+  ~Dialog() { ImGui::End(); }
+  Dialog(const Dialog&) = delete;
+  Dialog& operator=(const Dialog&) = delete;
+};
+
+/// Whether the user has pressed Escape, also in a field.
+bool escape_pressed();
+
 /// Uses the bold font in its scope.
 class Bold {
  public:
