@@ -509,6 +509,21 @@ TEST_F(Window, OfSeveralDroppedFilesABadOneIsNamedAndTheOthersAreAdded) {
   EXPECT_GT(count(image("bad"), red), 1000);
 }
 
+TEST_F(Window, ATypedNameIsAFileOfTheListedFolder) {
+  fs::create_directories(folder_ / "scenes");
+  fs::copy(folder_ / "soup.glb", folder_ / "scenes/soup.glb");
+  write_square(folder_ / "scenes/floor.off", "255 0 0");
+  // A typing error keeps the dialog, and what was typed.
+  Person person;
+  person.wait().press(Key::o).wait().type("flor.off").look("error");
+  person.press(Key::escape).look("closed").press(Key::o).wait().type("floor.off").wait();
+  const ChildResult result = replay(person.look("opened"), {"scenes/soup.glb"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(image("error").pixels, image("closed").pixels);
+  EXPECT_EQ(count(image("closed"), red), 0);
+  EXPECT_GT(count(image("opened"), red), 1000);
+}
+
 TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
   Person person({320, 240});
