@@ -165,8 +165,9 @@ class Application {
   void prepare_debug_view_when_needed();
   void watch_files();
   void watch_training_program();
-  void write(const std::string& what, const std::filesystem::path& path,
-             std::function<void(const StageRequest&)> work);
+  /// Writes the file in the background. `remark`: for the message after its path.
+  void write(const std::filesystem::path& path, std::function<void(const StageRequest&)> work,
+             const std::string& remark = "");
   bool has_scene();
   std::filesystem::path folder_of_images() const;
   std::filesystem::path image_path(const std::string& extension);

@@ -281,7 +281,7 @@ TEST_F(Window, SavesImagesUnderNewNames) {
 /// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
 /// above are closed first, from the lowest to the highest.
 constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{560, 286},
-    image_size{590, 322}, size_of_4k{540, 427};
+    image_size{590, 322}, size_of_4k{540, 427}, image_folder{590, 356};
 
 TEST_F(Window, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
@@ -299,6 +299,17 @@ TEST_F(Window, SavesImagesLargerThanItself) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("panel"), "window_images");
   expect_equal(image("soup-1"), rendered({"--camera", "soup.glb:0", "--size", "3840x2160"}));
+}
+
+TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
+  Person person({720, 640});
+  person.wait().click(view_header).click(scene_header).click(image_header).click(image_folder);
+  const Session session = person.type("no folder").press_with_control(Key::s).wait().session();
+  std::ofstream(folder_ / "session.json") << session_to_json(session);
+  const ChildResult result = Child({"soup.glb", "--replay", "session.json"}, folder_).wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, Names((folder_ / "no folder").string(), "there is no such folder"));
+  EXPECT_FALSE(fs::exists(folder_ / "no folder"));
 }
 
 TEST_F(Window, PlaysACameraPath) {
