@@ -101,6 +101,7 @@ class Application {
   void carry_out(const ShowRecorded& request);
   void carry_out(const FocusAt& request);
   void carry_out(const TakeImage& request);
+  void carry_out(const SavePage& request);
   void carry_out(const CopyCommand& request);
   void carry_out(const ToggleFullscreen& request);
   void carry_out(const AddKeyframe& request);

@@ -9,6 +9,7 @@
 #include "viewer/application.hpp"
 #include "viewer/files/writing.hpp"
 #include "viewer/names.hpp"
+#include "viewer/page_command.hpp"
 #include "viewer/render_command.hpp"
 
 namespace tureen::viewer {
@@ -62,6 +63,23 @@ void Application::carry_out(const TakeImage& request) {
   write(
       job.path, [job](const StageRequest& with) { write_image(job, with); },
       is_covered ? ", the scene without the photograph" : "");
+}
+
+void Application::carry_out(const SavePage&) {
+  if (!has_scene()) return;
+  if (!state_.stage->is_as_read()) {
+    state_.messages.note("No page can be saved: it would lack the changes of layers.", state_.now);
+    return;
+  }
+  const fs::path page = image_path(".html");
+  const std::vector<std::string> arguments = page_arguments(*state_.stage,
+                                                            {.choice = state_.stage->choice,
+                                                             .max_splats = options_.max_splats,
+                                                             .up = state_.controls.up()},
+                                                            page);
+  write(page, [arguments](const StageRequest& with) {
+    run_to_end(tureen_program(), arguments, [&] { with.progress(0); });
+  });
 }
 
 void Application::carry_out(const WriteAnimation&) {

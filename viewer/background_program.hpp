@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,12 @@ class BackgroundProgram {
   int process_ = 0;
   std::optional<int> exit_code_;
 };
+
+/// Runs a program to its end. Calls `check` 20 times a second; if it throws, interrupts the program
+/// and passes on the exception. Throws OutputError if the program cannot be started, and UsageError
+/// with the last line of its errors if it fails.
+void run_to_end(const std::string& program, const std::vector<std::string>& arguments,
+                const std::function<void()>& check);
 
 /// The program `tureen`: the path beside this one, otherwise the name alone.
 std::string tureen_program();

@@ -63,6 +63,8 @@ struct TakeImage {
   glm::ivec2 size{0};  // (0, 0): the window's
   bool transparent = false;
 };
+/// Writes the scene as a web page, where images are saved.
+struct SavePage {};
 /// Copies the command that draws this image without a window to the clipboard.
 struct CopyCommand {};
 struct ToggleFullscreen {};
@@ -105,10 +107,10 @@ struct Quit {
 
 using Request =
     std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset, ReloadScene,
-                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, CopyCommand, ToggleFullscreen,
-                 AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath, WriteAnimation,
-                 TellTraining, CancelJob, StartTraining, StopTraining, CopyTrainingCommand,
-                 StopWriting, Quit>;
+                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand,
+                 ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath,
+                 WriteAnimation, TellTraining, CancelJob, StartTraining, StopTraining,
+                 CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {

@@ -281,7 +281,7 @@ TEST_F(Window, SavesImagesUnderNewNames) {
 /// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
 /// above are closed first, from the lowest to the highest.
 constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{560, 286},
-    image_size{590, 322}, size_of_4k{540, 427}, image_folder{590, 356};
+    image_size{590, 322}, size_of_4k{540, 427}, image_folder{590, 356}, page_button{445, 446};
 
 TEST_F(Window, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
@@ -310,6 +310,19 @@ TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names((folder_ / "no folder").string(), "there is no such folder"));
   EXPECT_FALSE(fs::exists(folder_ / "no folder"));
+}
+
+/// The program's own template is missing where the page was not built.
+TEST_F(Window, SavesAWebPage) {
+  std::ofstream(folder_ / "template.html")
+      << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
+  ::setenv("TUREEN_WEB_TEMPLATE", (folder_ / "template.html").c_str(), 1);
+  Person person({720, 640});
+  person.wait().click(view_header).click(scene_header).click(image_header).click(page_button);
+  const ChildResult result = replay(person.wait());
+  ::unsetenv("TUREEN_WEB_TEMPLATE");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "soup-1.html"));
 }
 
 TEST_F(Window, PlaysACameraPath) {

@@ -72,6 +72,8 @@ void image_panel(State& state) {
   ImGui::SameLine();
   if (button("Copy the command")) state.ask(CopyCommand{});
   tip("Ctrl+C: the tureen render command that draws this image without a window");
+  if (button("Save as a web page")) state.ask(SavePage{});
+  tip("One file with the scene and its viewer, which opens by double-click");
 }
 
 }  // namespace tureen::viewer
