@@ -48,7 +48,7 @@ void Application::end_loading(const Reading& files) {
   const std::string failure =
       shows_preview_of(files) ? " is shown only in part" : " cannot be shown";
   for (const Reading::Failure& each : files.failures)
-    state_.messages.error(short_name(each.path) + failure, each.reason, state_.now);
+    state_.messages.opening_error(short_name(each.path) + failure, each.reason, state_.now);
 }
 
 /// Runs in the worker's thread; its result runs in the main thread.
@@ -73,6 +73,7 @@ Worker::Completion Application::load_in_background(const Loading& loading,
     auto addition =
         std::make_shared<StageAddition>(prepare_addition(source, before->layers.size(), preparing));
     return [this, addition, files] {
+      state_.messages.dismiss_opening();
       end_loading(*files);
       add(addition);
     };
@@ -82,6 +83,7 @@ Worker::Completion Application::load_in_background(const Loading& loading,
   std::shared_ptr<Stage> stage =
       prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
   return [this, stage = std::move(stage), relation = loading.relation, files] {
+    state_.messages.dismiss_opening();
     end_loading(*files);
     show_read(std::make_unique<Stage>(std::move(*stage)), relation, *files);
     preview_.reset();
@@ -189,14 +191,14 @@ void Application::prepare_grown(const StageSource& source) {
        .failed =
            [this, name = short_name(source.files.back().path)](const std::string& reason) {
              loading_.reset();
-             state_.messages.error(name + " cannot be shown", reason, state_.now);
+             state_.messages.opening_error(name + " cannot be shown", reason, state_.now);
            }});
 }
 
 void Application::report_refused(const std::vector<RefusedLayer>& layers) {
   for (const RefusedLayer& layer : layers)
-    state_.messages.error("The layer " + layer.name + " does not fit the device's memory",
-                          describe(layer), state_.now);
+    state_.messages.opening_error("The layer " + layer.name + " does not fit the device's memory",
+                                  describe(layer), state_.now);
 }
 
 /// After a change of the files.

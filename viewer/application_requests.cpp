@@ -96,6 +96,7 @@ void Application::carry_out(const OpenPhotographs& request) {
            [this, path](const Worker::Progress& progress) {
              auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
              return Worker::Completion([this, path, dataset] {
+               state_.messages.dismiss_opening();
                Photographs photographs{.path = path,
                                        .list = std::move(dataset->train),
                                        .train_count = 0,
@@ -113,7 +114,8 @@ void Application::carry_out(const OpenPhotographs& request) {
            },
        .failed =
            [this, path](const std::string& reason) {
-             state_.messages.error(short_name(path) + " cannot be read", reason, state_.now);
+             state_.messages.opening_error(short_name(path) + " cannot be read", reason,
+                                           state_.now);
            }});
 }
 

@@ -105,6 +105,13 @@ class Person {
   double now_ = 0;
 };
 
+constexpr const char* square = "OFF\n4 2 0\n-2 -2 0.3\n2 -2 0.3\n2 2 0.3\n-2 2 0.3\n";
+
+/// A square of this colour, which cuts the example.
+void write_square(const fs::path& file, const std::string& color) {
+  std::ofstream(file) << square << "3 0 1 2 " << color << "\n3 0 2 3 " << color << "\n";
+}
+
 class Window : public testing::Test {
  protected:
   Window()
@@ -204,6 +211,14 @@ TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names("bad.glb"));
   expect_golden(image("bad"), "window_bad_file");
+}
+
+TEST_F(Window, AnErrorAboutOpeningEndsWhenTheNextSceneOpens) {
+  std::ofstream(folder_ / "bad.glb") << "glTF, it says";
+  write_square(folder_ / "floor.off", "255 0 0");
+  const ChildResult result =
+      replay(Person().wait().drop("bad.glb").wait().drop("floor.off").wait());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST_F(Window, ADamagedLargeFileIsShownInPart) {
@@ -468,13 +483,6 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
 }
 
 // -- layers ---------------------------------------------------------------------------------------
-
-constexpr const char* square = "OFF\n4 2 0\n-2 -2 0.3\n2 -2 0.3\n2 2 0.3\n-2 2 0.3\n";
-
-/// A square of this colour, which cuts the example.
-void write_square(const fs::path& file, const std::string& color) {
-  std::ofstream(file) << square << "3 0 1 2 " << color << "\n3 0 2 3 " << color << "\n";
-}
 
 std::ptrdiff_t count(const Image8& image, glm::u8vec4 color) {
   return std::count(image.pixels.begin(), image.pixels.end(), color);
