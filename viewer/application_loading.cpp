@@ -154,7 +154,7 @@ void Application::add(const std::shared_ptr<StageAddition>& addition) {
   }
   const std::vector<std::string> known = named_notes(stage);
   add_to(stage, std::move(*addition));
-  for (const std::string& note : all_notes(stage.scene->info))
+  for (const std::string& note : window_notes(stage.scene->info))
     if (std::find(known.begin(), known.end(), note) == known.end())
       state_.messages.note(note, state_.now);
   state_.layer_editing.selected = stage.layers.size() - 1;
@@ -254,7 +254,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     }
   }
   show_files_of_scene();
-  for (const std::string& note : all_notes(state_.stage->scene->info))
+  for (const std::string& note : window_notes(state_.stage->scene->info))
     state_.messages.note(note, state_.now);
 }
 
