@@ -1,5 +1,6 @@
 // Reads scenes in the background and shows them.
 #include <algorithm>
+#include <utility>
 
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
@@ -222,6 +223,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     keep_changes(now, *state_.stage);
     arrange_layers(*stage, std::move(now.layers));
   }
+  const bool replaces = state_.stage && !keep_view;
   state_.stage = std::move(stage);
   state_.wanted = state_.stage->choice;
   image_is_current_ = false;
@@ -231,6 +233,10 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
   state_.comparison.forget();
   frame_clock_.clear();
   if (same_scene) return;  // only the method of drawing changed
+  if (replaces && state_.photographs && !std::exchange(state_.photographs->stay_is_noted, true))
+    state_.messages.note("The photographs of " + short_name(state_.photographs->path) +
+                             " stay open. Close them in Photographs.",
+                         state_.now);
   preparing_drawing_ = false;
   report_refused(state_.stage->refused);
   state_.debug_view.features = {};

@@ -100,7 +100,8 @@ void Application::carry_out(const OpenPhotographs& request) {
                Photographs photographs{.path = path,
                                        .list = std::move(dataset->train),
                                        .train_count = 0,
-                                       .notes = described(dataset->remarks)};
+                                       .notes = described(dataset->remarks),
+                                       .stay_is_noted = false};
                photographs.train_count = photographs.list.size();
                std::move(dataset->test.begin(), dataset->test.end(),
                          std::back_inserter(photographs.list));

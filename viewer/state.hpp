@@ -118,6 +118,7 @@ struct Photographs {
   std::vector<Photograph> list;
   std::size_t train_count = 0;
   std::vector<std::string> notes;
+  bool stay_is_noted = false;  // a message has said that they stay when another scene is opened
 };
 
 /// A training that this window has started.
