@@ -10,11 +10,11 @@ void dataset_buttons(State& state) {
     if (strong_button("Train a scene"))
       state.scene_to_train = new_trained_scene(state.photographs->path).string();
     tip("tureen train with these photographs; asks for the file first");
-    ImGui::SameLine();
+    beside("Copy the command");
   }
   if (button("Copy the command")) state.ask(CopyTrainingCommand{});
   tip("The command that trains a scene, for a terminal");
-  ImGui::SameLine();
+  beside("Close");
   if (button("Close")) state.ask(CloseDataset{});
   tip("Closes the dataset");
 }

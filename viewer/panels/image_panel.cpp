@@ -69,9 +69,10 @@ void image_panel(State& state) {
   if (button("Save the image"))
     state.ask(TakeImage{wish.window_size ? glm::ivec2(0) : wish.size, wish.transparent});
   tip("P; each image gets a new name");
-  ImGui::SameLine();
+  beside("Copy the command");
   if (button("Copy the command")) state.ask(CopyCommand{});
   tip("Ctrl+C: the tureen render command that draws this image without a window");
+  beside("Save as a web page");
   if (button("Save as a web page")) state.ask(SavePage{});
   tip("One file with the scene and its viewer, which opens by double-click");
 }
