@@ -247,7 +247,7 @@ TEST_F(Window, WithoutASceneAsksForOne) {
 }
 
 TEST_F(Window, OpensTheExample) {
-  const glm::dvec2 example_button{300, 200};
+  const glm::dvec2 example_button{386, 206};
   const ChildResult result = replay(Person().wait().click(example_button).look("example"), {});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(replay(Person().look("loaded"), {"soup.glb"}).exit_code, 0);
@@ -296,7 +296,8 @@ TEST_F(Window, SavesImagesUnderNewNames) {
 /// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
 /// above are closed first, from the lowest to the highest.
 constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{560, 286},
-    image_size{590, 322}, size_of_4k{540, 427}, image_folder{590, 356}, page_button{445, 446};
+    photographs_header{560, 248}, image_size{590, 322}, size_of_4k{540, 427},
+    image_folder{590, 356}, page_button{445, 446};
 
 TEST_F(Window, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
@@ -436,6 +437,24 @@ TEST_F(Window, ComparesWithThePhotographs) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("split"), "window_split");
   expect_golden(image("difference"), "window_difference");
+}
+
+TEST_F(Window, SaysThatNoPhotographHasTheView) {
+  write_photographs();
+  Person person;
+  person.wait().without_notes().look("off").press(Key::c).look("split");
+  EXPECT_EQ(replay(person, {"soup.glb", "photographs"}).exit_code, 0);
+  EXPECT_NE(image("split").pixels, image("off").pixels);
+}
+
+TEST_F(Window, TheTextsOfThePanelPhotographsFit) {
+  write_photographs();
+  Person person({720, 640});
+  person.wait().click(view_header).click(scene_header).click(photographs_header);
+  const ChildResult result =
+      replay(person.point({200, 540}).without_notes().look("panel"), {"soup.glb", "photographs"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("panel"), "window_photographs");
 }
 
 TEST_F(Window, WorksOnEs) {
