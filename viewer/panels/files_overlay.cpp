@@ -64,7 +64,7 @@ fs::path entries(State& state) {
 
 /// Opens the typed path, except a folder that is no scene and no dataset: then returns it.
 fs::path open_typed(State& state) {
-  const fs::path path = typed_path(state.files);
+  fs::path path = typed_path(state.files);
   std::error_code ignored;
   if (!fs::exists(path, ignored)) {
     state.files.typed_trouble = "There is no file or folder " + path.string() + ".";
