@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 
