@@ -101,6 +101,7 @@ class Application {
   void carry_out(const ShowRecorded& request);
   void carry_out(const FocusAt& request);
   void carry_out(const TakeImage& request);
+  void carry_out(const SavePage& request);
   void carry_out(const CopyCommand& request);
   void carry_out(const ToggleFullscreen& request);
   void carry_out(const AddKeyframe& request);
@@ -112,6 +113,7 @@ class Application {
   void carry_out(const TellTraining& request);
   void carry_out(const CancelJob& request);
   void carry_out(const StartTraining& request);
+  void carry_out(const StopTraining& request);
   void carry_out(const CopyTrainingCommand& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
@@ -164,10 +166,9 @@ class Application {
   void prepare_debug_view_when_needed();
   void watch_files();
   void watch_training_program();
-  /// The arguments of tureen that train a scene from the photographs.
-  std::vector<std::string> training_arguments() const;
-  void write(const std::string& what, const std::filesystem::path& path,
-             std::function<void(const StageRequest&)> work);
+  /// Writes the file in the background. `remark`: for the message after its path.
+  void write(const std::filesystem::path& path, std::function<void(const StageRequest&)> work,
+             const std::string& remark = "");
   bool has_scene();
   std::filesystem::path folder_of_images() const;
   std::filesystem::path image_path(const std::string& extension);

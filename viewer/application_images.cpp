@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <span>
 
+#include "base/error.hpp"
 #include "base/output.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "runtime/passes/accumulation.hpp"
 #include "viewer/application.hpp"
 #include "viewer/files/writing.hpp"
 #include "viewer/names.hpp"
+#include "viewer/page_command.hpp"
 #include "viewer/render_command.hpp"
 
 namespace tureen::viewer {
@@ -25,10 +27,16 @@ fs::path Application::folder_of_images() const {
   return state_.settings.images.empty() ? images_folder() : fs::path(state_.settings.images);
 }
 
-/// A path that no file has, and no image waiting to be written.
+/// An absolute path that no file has, and no image waiting to be written. Throws OutputError if the
+/// user has typed a folder that does not exist.
 fs::path Application::image_path(const std::string& extension) {
-  const fs::path folder = folder_of_images();
-  make_folder(folder);
+  std::error_code unknown;
+  const fs::path folder = fs::absolute(folder_of_images(), unknown).lexically_normal();
+  if (!options_.images.empty())
+    make_folder(folder);
+  else if (!fs::is_directory(folder, unknown))
+    throw OutputError({folder.string(), {}, {}}, "there is no such folder",
+                      "create it, or name another in the panel Image");
   const std::string stem =
       state_.stage ? fs::path(short_name(state_.stage->path())).stem().string() : "tureen";
   for (int number = 1;; ++number) {
@@ -51,8 +59,27 @@ void Application::carry_out(const TakeImage& request) {
                      .transparent = request.transparent,
                      .at_rest = state_.settings.smooth_at_rest,
                      .path = image_path(".png")};
-  write("writing " + short_name(job.path), job.path,
-        [job](const StageRequest& with) { write_image(job, with); });
+  const bool is_covered = state_.photograph() && state_.comparison.show != Comparison::Show::off;
+  write(
+      job.path, [job](const StageRequest& with) { write_image(job, with); },
+      is_covered ? ", the scene without the photograph" : "");
+}
+
+void Application::carry_out(const SavePage&) {
+  if (!has_scene()) return;
+  if (!state_.stage->is_as_read()) {
+    state_.messages.note("No page can be saved: it would lack the changes of layers.", state_.now);
+    return;
+  }
+  const fs::path page = image_path(".html");
+  const std::vector<std::string> arguments = page_arguments(*state_.stage,
+                                                            {.choice = state_.stage->choice,
+                                                             .max_splats = options_.max_splats,
+                                                             .up = state_.controls.up()},
+                                                            page);
+  write(page, [arguments](const StageRequest& with) {
+    run_to_end(tureen_program(), arguments, [&] { with.progress(0); });
+  });
 }
 
 void Application::carry_out(const WriteAnimation&) {
@@ -63,27 +90,26 @@ void Application::carry_out(const WriteAnimation&) {
                          .path = animation.path,
                          .rate = {animation.frames_per_second, animation.size.x, animation.size.y},
                          .output = image_path(endings[int(animation.output)])};
-  write("writing " + short_name(job.output), job.output,
-        [job](const StageRequest& with) { write_animation(job, with); });
+  write(job.output, [job](const StageRequest& with) { write_animation(job, with); });
 }
 
-void Application::write(const std::string& what, const fs::path& path,
-                        std::function<void(const StageRequest&)> work) {
-  writer_.start({.kind = JobKind::writing,
-                 .what = what,
-                 .work =
-                     [this, path, work = std::move(work),
-                      choice = state_.stage->choice](const Worker::Progress& progress) {
-                       work({window_.context(), choice, progress});
-                       return Worker::Completion([this, path] {
-                         state_.messages.note("Saved as " + path.string() + ".", state_.now);
-                       });
-                     },
-                 .failed =
-                     [this, path](const std::string& reason) {
-                       state_.messages.error(short_name(path) + " was not written", reason,
-                                             state_.now);
-                     }});
+void Application::write(const fs::path& path, std::function<void(const StageRequest&)> work,
+                        const std::string& remark) {
+  writer_.start(
+      {.kind = JobKind::writing,
+       .what = "writing " + short_name(path),
+       .work =
+           [this, path, remark, work = std::move(work),
+            choice = state_.stage->choice](const Worker::Progress& progress) {
+             work({window_.context(), choice, progress});
+             return Worker::Completion([this, path, remark] {
+               state_.messages.note("Saved as " + path.string() + remark + ".", state_.now);
+             });
+           },
+       .failed =
+           [this, path](const std::string& reason) {
+             state_.messages.error(short_name(path) + " was not written", reason, state_.now);
+           }});
 }
 
 void Application::carry_out(const StopWriting&) {
@@ -122,7 +148,9 @@ void Application::carry_out(const MakeTurntable&) {
 
 void Application::carry_out(const SavePath& request) {
   write_file(request.file, path_to_json(state_.animation.path.data()));
-  state_.messages.note("Saved as " + request.file.string() + ".", state_.now);
+  std::error_code unknown;
+  const fs::path path = fs::absolute(request.file, unknown).lexically_normal();
+  state_.messages.note("Saved as " + path.string() + ".", state_.now);
 }
 
 void Application::carry_out(const LoadPath& request) {

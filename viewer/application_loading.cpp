@@ -1,6 +1,8 @@
 // Reads scenes in the background and shows them.
 #include <algorithm>
+#include <utility>
 
+#include "base/error.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 
@@ -48,7 +50,7 @@ void Application::end_loading(const Reading& files) {
   const std::string failure =
       shows_preview_of(files) ? " is shown only in part" : " cannot be shown";
   for (const Reading::Failure& each : files.failures)
-    state_.messages.error(short_name(each.path) + failure, each.reason, state_.now);
+    state_.messages.opening_error(short_name(each.path) + failure, each.reason, state_.now);
 }
 
 /// Runs in the worker's thread; its result runs in the main thread.
@@ -73,6 +75,7 @@ Worker::Completion Application::load_in_background(const Loading& loading,
     auto addition =
         std::make_shared<StageAddition>(prepare_addition(source, before->layers.size(), preparing));
     return [this, addition, files] {
+      state_.messages.dismiss_opening();
       end_loading(*files);
       add(addition);
     };
@@ -82,6 +85,7 @@ Worker::Completion Application::load_in_background(const Loading& loading,
   std::shared_ptr<Stage> stage =
       prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
   return [this, stage = std::move(stage), relation = loading.relation, files] {
+    state_.messages.dismiss_opening();
     end_loading(*files);
     show_read(std::make_unique<Stage>(std::move(*stage)), relation, *files);
     preview_.reset();
@@ -152,7 +156,7 @@ void Application::add(const std::shared_ptr<StageAddition>& addition) {
   }
   const std::vector<std::string> known = named_notes(stage);
   add_to(stage, std::move(*addition));
-  for (const std::string& note : all_notes(stage.scene->info))
+  for (const std::string& note : window_notes(stage.scene->info))
     if (std::find(known.begin(), known.end(), note) == known.end())
       state_.messages.note(note, state_.now);
   state_.layer_editing.selected = stage.layers.size() - 1;
@@ -189,14 +193,14 @@ void Application::prepare_grown(const StageSource& source) {
        .failed =
            [this, name = short_name(source.files.back().path)](const std::string& reason) {
              loading_.reset();
-             state_.messages.error(name + " cannot be shown", reason, state_.now);
+             state_.messages.opening_error(name + " cannot be shown", reason, state_.now);
            }});
 }
 
 void Application::report_refused(const std::vector<RefusedLayer>& layers) {
   for (const RefusedLayer& layer : layers)
-    state_.messages.error("The layer " + layer.name + " does not fit the device's memory",
-                          describe(layer), state_.now);
+    state_.messages.opening_error("The layer " + layer.name + " does not fit the device's memory",
+                                  describe(layer), state_.now);
 }
 
 /// After a change of the files.
@@ -220,6 +224,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     keep_changes(now, *state_.stage);
     arrange_layers(*stage, std::move(now.layers));
   }
+  const bool replaces = state_.stage && !keep_view;
   state_.stage = std::move(stage);
   state_.wanted = state_.stage->choice;
   image_is_current_ = false;
@@ -229,6 +234,10 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
   state_.comparison.forget();
   frame_clock_.clear();
   if (same_scene) return;  // only the method of drawing changed
+  if (replaces && state_.photographs && !std::exchange(state_.photographs->stay_is_noted, true))
+    state_.messages.note("The photographs of " + short_name(state_.photographs->path) +
+                             " stay open. Close them in Photographs.",
+                         state_.now);
   preparing_drawing_ = false;
   report_refused(state_.stage->refused);
   state_.debug_view.features = {};
@@ -252,7 +261,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     }
   }
   show_files_of_scene();
-  for (const std::string& note : all_notes(state_.stage->scene->info))
+  for (const std::string& note : window_notes(state_.stage->scene->info))
     state_.messages.note(note, state_.now);
 }
 

@@ -95,10 +95,12 @@ void Application::carry_out(const OpenPhotographs& request) {
            [this, path](const Worker::Progress& progress) {
              auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
              return Worker::Completion([this, path, dataset] {
+               state_.messages.dismiss_opening();
                Photographs photographs{.path = path,
                                        .list = std::move(dataset->train),
                                        .train_count = 0,
-                                       .notes = described(dataset->remarks)};
+                                       .notes = described(dataset->remarks),
+                                       .stay_is_noted = false};
                photographs.train_count = photographs.list.size();
                std::move(dataset->test.begin(), dataset->test.end(),
                          std::back_inserter(photographs.list));
@@ -112,7 +114,8 @@ void Application::carry_out(const OpenPhotographs& request) {
            },
        .failed =
            [this, path](const std::string& reason) {
-             state_.messages.error(short_name(path) + " cannot be read", reason, state_.now);
+             state_.messages.opening_error(short_name(path) + " cannot be read", reason,
+                                           state_.now);
            }});
 }
 
@@ -205,6 +208,11 @@ void Application::carry_out(const ToggleFullscreen&) {
   window_.set_fullscreen(!window_.fullscreen());
 }
 
-void Application::carry_out(const Quit&) { quit_ = true; }
+void Application::carry_out(const Quit& request) {
+  state_.asks_before_quitting = request.training == Quit::Training::ask && training_program_;
+  if (state_.asks_before_quitting) return;
+  if (request.training == Quit::Training::stop) carry_out(StopTraining{});
+  quit_ = true;
+}
 
 }  // namespace tureen::viewer

@@ -7,8 +7,11 @@
 #include <unistd.h>
 #endif
 
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "base/error.hpp"
@@ -25,6 +28,7 @@ BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std:
 }
 
 bool BackgroundProgram::ended() { return true; }
+void BackgroundProgram::interrupt() {}
 
 #else
 
@@ -62,6 +66,11 @@ bool BackgroundProgram::ended() {
   return exit_code_.has_value();
 }
 
+void BackgroundProgram::interrupt() {
+  // Not after its end, when another process may have its number.
+  if (!ended()) ::kill(-process_, SIGINT);
+}
+
 #endif
 
 std::optional<std::string> BackgroundProgram::failure() {
@@ -79,6 +88,25 @@ std::optional<std::string> BackgroundProgram::failure() {
     if (!text.empty()) last = text;
   }
   return last;
+}
+
+void run_to_end(const std::string& program, const std::vector<std::string>& arguments,
+                const std::function<void()>& check) {
+  BackgroundProgram running(program, arguments);
+  const auto wait = [&](const std::function<void()>& before_each) {
+    while (!running.ended()) {
+      before_each();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  };
+  try {
+    wait(check);
+  } catch (...) {
+    running.interrupt();
+    wait([] {});
+    throw;
+  }
+  if (const auto failure = running.failure()) throw UsageError(*failure);
 }
 
 std::string tureen_program() {

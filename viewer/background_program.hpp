@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,8 @@ class BackgroundProgram {
 
   /// Whether it has ended.
   bool ended();
+  /// Ends it and the programs that it has started, as Ctrl-C in a terminal does.
+  void interrupt();
   /// The last line of its errors, if it has ended with an exit code other than 0.
   std::optional<std::string> failure();
 
@@ -30,6 +33,12 @@ class BackgroundProgram {
   int process_ = 0;
   std::optional<int> exit_code_;
 };
+
+/// Runs a program to its end. Calls `check` 20 times a second; if it throws, interrupts the program
+/// and passes on the exception. Throws OutputError if the program cannot be started, and UsageError
+/// with the last line of its errors if it fails.
+void run_to_end(const std::string& program, const std::vector<std::string>& arguments,
+                const std::function<void()>& check);
 
 /// The program `tureen`: the path beside this one, otherwise the name alone.
 std::string tureen_program();

@@ -98,7 +98,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--as-published", arguments.as_published,
                    "also cull splats by the rules of their authors' code that depend on the "
                    "resolution");
-  program.add_option("--images,--pictures", arguments.images, "folder for saved images")
+  program
+      .add_option("--images,--pictures", arguments.images,
+                  "folder for saved images; created if it does not exist")
       ->option_text("FOLDER");
   program
       .add_option_function<std::string>(

@@ -15,6 +15,10 @@ void Messages::error(const std::string& title, const std::string& reason, double
   add({Message::Kind::error, shown_line(title), shown_line(reason), now});
 }
 
+void Messages::opening_error(const std::string& title, const std::string& reason, double now) {
+  add({Message::Kind::error, shown_line(title), shown_line(reason), now, true});
+}
+
 void Messages::add(Message message) {
   // A repeated message replaces the old one.
   std::erase_if(list_, [&](const Message& other) {
@@ -31,6 +35,10 @@ void Messages::add(Message message) {
 
 void Messages::dismiss(std::size_t index) {
   list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void Messages::dismiss_opening() {
+  std::erase_if(list_, [](const Message& message) { return message.is_about_opening; });
 }
 
 void Messages::age(double now) {

@@ -1,5 +1,5 @@
 // The messages of the window: notes and errors. Notes disappear after note_seconds, errors stay
-// until dismissed.
+// until dismissed, those about opening until the next file is opened.
 #pragma once
 
 #include <string>
@@ -13,6 +13,7 @@ struct Message {
   std::string title;  // "bad.glb cannot be shown"
   std::string text;   // the reason
   double since = 0;   // seconds of the window's clock
+  bool is_about_opening = false;
 };
 
 class Messages {
@@ -21,10 +22,14 @@ class Messages {
   static constexpr double note_seconds = 6;
   static constexpr std::size_t most = 5;  // messages; drops the oldest note first
 
-  /// Both pass texts, which may come from files, through shown_line (base/shown_text.hpp).
+  /// All pass texts, which may come from files, through shown_line (base/shown_text.hpp).
   void note(const std::string& text, double now);
   void error(const std::string& title, const std::string& reason, double now);
+  /// An error about a file that was opened.
+  void opening_error(const std::string& title, const std::string& reason, double now);
   void dismiss(std::size_t index);
+  /// Removes the errors about opening, when another file was opened.
+  void dismiss_opening();
   /// Removes notes older than note_seconds.
   void age(double now);
   const std::vector<Message>& list() const { return list_; }

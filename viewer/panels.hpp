@@ -27,6 +27,9 @@ void drawing_panel(State& state);
 void comparison_panel(State& state);
 /// Buttons that train a scene from the photographs, and that close them.
 void dataset_buttons(State& state);
+/// The training that this window has started, with a button that stops it. Nothing if there is
+/// none.
+void started_training_rows(State& state);
 void image_panel(State& state);
 void path_panel(State& state);
 void times_panel(State& state, const FrameClock& clock);
@@ -39,5 +42,7 @@ void message_overlay(State& state);
 void keys_overlay(State& state);
 void files_overlay(State& state);
 void welcome_overlay(State& state);
+/// The dialogs before a training starts, and before the window is closed during it.
+void training_dialogs(State& state);
 
 }  // namespace tureen::viewer

@@ -66,6 +66,12 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string quoted_command(const std::vector<std::string>& arguments) {
+  std::string command = "tureen";
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  return command;
+}
+
 bool needs_camera_file(const Camera& camera) {
   // A camera of look_at has one focal length and its principal point in the middle. Half a
   // thousandth of a pixel is far below the 1/256 that vertices snap to.

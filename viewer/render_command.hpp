@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scene/camera.hpp"
 #include "viewer/debug_view_choice.hpp"
@@ -23,5 +24,8 @@ bool needs_camera_file(const Camera& camera);
 /// The text for a POSIX shell: unchanged if it has only plain characters, otherwise in single
 /// quotes.
 std::string quoted(const std::string& text);
+
+/// "tureen" and its arguments, for a POSIX shell.
+std::string quoted_command(const std::vector<std::string>& arguments);
 
 }  // namespace tureen::viewer

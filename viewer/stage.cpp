@@ -178,6 +178,22 @@ RefusedLayer refused(const StageLayer& layer, const Scene& scene, const StageReq
   return {layer.name, device_forecast(soup, plan.soup(0)).bytes, error.reason()};
 }
 
+/// The panel's control that changes the assumption; "" if there is none.
+const char* control_of(const Remark& remark) {
+  switch (remark.kind) {
+    case Remark::Kind::up_unknown_to_format:
+    case Remark::Kind::up_unknown_to_trimesh:
+    case Remark::Kind::up_unknown_to_checkpoint:
+    case Remark::Kind::up_unknown_to_splats:
+      return "; Up in the panel View changes it";
+    case Remark::Kind::profile_assumed:
+    case Remark::Kind::render_mode_unknown:
+      return "; Profile in the panel Drawing changes it";
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 
 Quality quality_of(const DrawingChoice& choice, const Scene& scene) {
@@ -221,10 +237,16 @@ bool StageSource::is_as_read() const {
   return at == layers.size();
 }
 
+std::vector<std::string> window_notes(const SceneInfo& info) {
+  std::vector<std::string> notes = info.notes;
+  for (const Remark& remark : info.remarks) notes.push_back(describe(remark) + control_of(remark));
+  return notes;
+}
+
 std::vector<std::string> named_notes(const StageSource& source) {
   std::vector<Scene> headers = headers_of(source);
   headers.emplace_back();  // merged() returns a single scene without names
-  return all_notes(merged(std::move(headers)).info);
+  return window_notes(merged(std::move(headers)).info);
 }
 
 std::size_t StageLayer::primitive_count() const {

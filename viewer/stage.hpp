@@ -78,7 +78,9 @@ struct StageSource {
   bool is_as_read() const;
 };
 
-/// The notes of the files as a scene of several files has them: with names.
+/// all_notes() with the window's controls instead of the command line's options.
+std::vector<std::string> window_notes(const SceneInfo& info);
+/// The window_notes() of the files as a scene of several files has them: with names.
 std::vector<std::string> named_notes(const StageSource& source);
 
 /// The layers for the runtime. They refer to the source's primitives.

@@ -63,6 +63,8 @@ struct TakeImage {
   glm::ivec2 size{0};  // (0, 0): the window's
   bool transparent = false;
 };
+/// Writes the scene as a web page, where images are saved.
+struct SavePage {};
 /// Copies the command that draws this image without a window to the clipboard.
 struct CopyCommand {};
 struct ToggleFullscreen {};
@@ -87,18 +89,28 @@ struct CancelJob {
   JobKind kind = JobKind::scene;
 };
 /// Starts a program that trains a scene from the photographs.
-struct StartTraining {};
+struct StartTraining {
+  std::filesystem::path scene;  // the file to write
+};
+/// Ends this program. Its checkpoint stays.
+struct StopTraining {};
 /// Copies the command that trains a scene from the photographs to the clipboard.
 struct CopyTrainingCommand {};
 /// Stops writing images and animations.
 struct StopWriting {};
-struct Quit {};
+/// Closes the window.
+struct Quit {
+  /// What becomes of a training that this window has started.
+  enum class Training { ask, stop, let_continue };
+  Training training = Training::ask;
+};
 
 using Request =
     std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset, ReloadScene,
-                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, CopyCommand, ToggleFullscreen,
-                 AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath, WriteAnimation,
-                 TellTraining, CancelJob, StartTraining, CopyTrainingCommand, StopWriting, Quit>;
+                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand,
+                 ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath,
+                 WriteAnimation, TellTraining, CancelJob, StartTraining, StopTraining,
+                 CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -106,6 +118,13 @@ struct Photographs {
   std::vector<Photograph> list;
   std::size_t train_count = 0;
   std::vector<std::string> notes;
+  bool stay_is_noted = false;  // a message has said that they stay when another scene is opened
+};
+
+/// A training that this window has started.
+struct StartedTraining {
+  std::filesystem::path dataset, scene;
+  bool is_stopped = false;  // it is about to end
 };
 
 /// The fields of the panel *Layers*.
@@ -140,8 +159,7 @@ struct State {
   DebugViewChoice debug_view;
   std::optional<Photographs> photographs;
   std::optional<FollowedTraining> training;
-  /// The scene of the training that this window has started; empty if none is in progress.
-  std::filesystem::path trained_scene;
+  std::optional<StartedTraining> started;  // while it is in progress
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;
@@ -152,7 +170,9 @@ struct State {
   bool show_interface = true;
   bool show_keys = false;
   FileList files;
-  bool show_files = false;  // the window that opens files
+  bool show_files = false;                    // the window that opens files
+  std::optional<std::string> scene_to_train;  // text of the dialog that starts a training
+  bool asks_before_quitting = false;          // the dialog about a training in progress
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;
   /// Size of the image (the window without the panels at its right), in points and in framebuffer

@@ -32,6 +32,23 @@ TEST(BackgroundPrograms, OneThatSucceedsHasNoFailure) {
   EXPECT_EQ(good.failure(), std::nullopt);
 }
 
+TEST(BackgroundPrograms, AreInterruptedWithThoseThatTheyStarted) {
+  BackgroundProgram program("sh", {"-c", "sleep 600; exit 0"});
+  program.interrupt();
+  wait(program);
+  EXPECT_EQ(program.failure(), "sh was ended by signal 2");
+}
+
+TEST(BackgroundPrograms, RunToTheirEndOrUntilTheCheckThrows) {
+  run_to_end("sh", {"-c", "exit 0"}, [] {});
+  EXPECT_THAT(test::error_of<UsageError>([] {
+                run_to_end("sh", {"-c", "echo the reason >&2; exit 3"}, [] {});
+              }),
+              test::ErrorAt("", "the reason"));
+  struct Cancelled {};
+  EXPECT_THROW(run_to_end("sleep", {"600"}, [] { throw Cancelled(); }), Cancelled);
+}
+
 TEST(BackgroundPrograms, AMissingOneIsNamed) {
   EXPECT_THAT(test::error_of<OutputError>([] { BackgroundProgram("/no/such/program", {}); }),
               test::ErrorIn("/no/such/program"));

@@ -31,5 +31,17 @@ TEST(FileList, SaysWhatItCannotList) {
   EXPECT_FALSE(list.trouble.empty());
 }
 
+TEST(FileList, TypedPathsBeginInTheFolder) {
+  FileList list;
+  list.folder = "/scenes/lego";
+  const auto path_of = [&](const char* typed) {
+    list.typed = typed;
+    return typed_path(list);
+  };
+  EXPECT_EQ(path_of("soup.glb"), "/scenes/lego/soup.glb");
+  EXPECT_EQ(path_of("../fox/"), "/scenes/fox");
+  EXPECT_EQ(path_of("/other.glb"), "/other.glb");
+}
+
 }  // namespace file_list_test
 }  // namespace tureen::viewer

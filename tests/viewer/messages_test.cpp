@@ -28,6 +28,16 @@ TEST(Messages, TheSameAgainIsNotASecondOne) {
   EXPECT_EQ(messages.list().back().text, "29");
 }
 
+TEST(Messages, ErrorsAboutOpeningEndWithTheNextFile) {
+  Messages messages;
+  messages.note("saved", 1.0);
+  messages.error("soup-1.png", "the disk is full", 1.0);
+  messages.opening_error("bad.glb", "it is cut short", 1.0);
+  messages.dismiss_opening();
+  ASSERT_EQ(messages.list().size(), 2u);
+  EXPECT_EQ(messages.list()[1].title, "soup-1.png");
+}
+
 TEST(Messages, OfFilesDoNotFillTheWindow) {
   Messages messages;
   messages.error("bad.glb", "it wants " + std::string(1'000'000, 'x') + "\nall is well", 1.0);

@@ -38,6 +38,16 @@ TEST_F(NavigationTest, ALeftDragTurnsAboutTheTarget) {
   EXPECT_GT(glm::distance(controls.eye(), eye), 0.01);
 }
 
+TEST_F(NavigationTest, AKeyPressedWithControlDoesNotFly) {
+  send(KeyChanged{Key::control, true});
+  send(KeyChanged{Key::q, true});
+  send(KeyChanged{Key::control, false});
+  EXPECT_FALSE(input.flying());
+  send(KeyChanged{Key::q, false});
+  send(KeyChanged{Key::q, true});
+  EXPECT_TRUE(input.flying());
+}
+
 TEST_F(NavigationTest, ARightDragAndShiftWithTheLeftMoveAlong) {
   for (const bool shift : {false, true}) {
     const glm::dvec3 target = controls.target();

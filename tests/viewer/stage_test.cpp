@@ -142,5 +142,14 @@ TEST_F(Stages, SmallMissingAndOtherFilesHaveNoPreview) {
   EXPECT_FALSE(read_source_preview(splats("other.glb", std::size_t(1) << 19), 0));
 }
 
+TEST(WindowNotes, NameTheControlsOfTheWindow) {
+  SceneInfo info;
+  info.notes = {"a note"};
+  info.remarks = {{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}};
+  EXPECT_THAT(window_notes(info),
+              ElementsAre("a note", testing::AllOf(testing::HasSubstr("Up in the panel View"),
+                                                   testing::Not(testing::HasSubstr("--up")))));
+}
+
 }  // namespace stage_test
 }  // namespace tureen::viewer

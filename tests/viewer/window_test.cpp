@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -103,6 +105,13 @@ class Person {
   double now_ = 0;
 };
 
+constexpr const char* square = "OFF\n4 2 0\n-2 -2 0.3\n2 -2 0.3\n2 2 0.3\n-2 2 0.3\n";
+
+/// A square of this colour, which cuts the example.
+void write_square(const fs::path& file, const std::string& color) {
+  std::ofstream(file) << square << "3 0 1 2 " << color << "\n3 0 2 3 " << color << "\n";
+}
+
 class Window : public testing::Test {
  protected:
   Window()
@@ -133,6 +142,32 @@ class Window : public testing::Test {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     Input input = Input::open(folder_ / "rendered.png");
     return read_image(input);
+  }
+
+  /// A dataset of one training and one test photograph, both drawn from the scene itself.
+  void write_photographs() const {
+    const Scene scene = read_scene(folder_ / "soup.glb");
+    fs::create_directories(folder_ / "photographs");
+    for (const auto& [split, index] : {std::pair("train", 0), std::pair("test", 40)}) {
+      const Camera camera = resized(scene.cameras.at(std::size_t(index)), 240, 200);
+      const Image8 drawn =
+          rendered({"--camera", "soup.glb:" + std::to_string(index), "--size", "240x200"});
+      fs::copy(folder_ / "rendered.png", folder_ / "photographs" / (std::string(split) + ".png"));
+      const glm::dmat4 pose = glm::inverse(camera.view_from_world);
+      nlohmann::json matrix = nlohmann::json::array();
+      for (int row = 0; row < 4; ++row)
+        matrix.push_back({pose[0][row], pose[1][row], pose[2][row], pose[3][row]});
+      std::ofstream(folder_ / "photographs" / ("transforms_" + std::string(split) + ".json"))
+          << nlohmann::json{
+                 {"fl_x", camera.fx},
+                 {"fl_y", camera.fy},
+                 {"cx", camera.cx},
+                 {"cy", camera.cy},
+                 {"w", 240},
+                 {"h", 200},
+                 {"frames",
+                  {{{"file_path", std::string(split) + ".png"}, {"transform_matrix", matrix}}}}};
+    }
   }
 
   fs::path folder_;
@@ -178,6 +213,14 @@ TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
   expect_golden(image("bad"), "window_bad_file");
 }
 
+TEST_F(Window, AnErrorAboutOpeningEndsWhenTheNextSceneOpens) {
+  std::ofstream(folder_ / "bad.glb") << "glTF, it says";
+  write_square(folder_ / "floor.off", "255 0 0");
+  const ChildResult result =
+      replay(Person().wait().drop("bad.glb").wait().drop("floor.off").wait());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(Window, ADamagedLargeFileIsShownInPart) {
   // 2^19 records of 32 bytes, and a byte too many: small white splats in the plane z = 0.
   std::string record(32, '\xff');
@@ -204,7 +247,7 @@ TEST_F(Window, WithoutASceneAsksForOne) {
 }
 
 TEST_F(Window, OpensTheExample) {
-  const glm::dvec2 example_button{300, 200};
+  const glm::dvec2 example_button{386, 206};
   const ChildResult result = replay(Person().wait().click(example_button).look("example"), {});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(replay(Person().look("loaded"), {"soup.glb"}).exit_code, 0);
@@ -253,7 +296,8 @@ TEST_F(Window, SavesImagesUnderNewNames) {
 /// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
 /// above are closed first, from the lowest to the highest.
 constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{560, 286},
-    image_size{590, 322}, size_of_4k{540, 427};
+    photographs_header{560, 248}, image_size{590, 322}, size_of_4k{540, 427},
+    image_folder{590, 356}, page_button{445, 446};
 
 TEST_F(Window, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
@@ -271,6 +315,30 @@ TEST_F(Window, SavesImagesLargerThanItself) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("panel"), "window_images");
   expect_equal(image("soup-1"), rendered({"--camera", "soup.glb:0", "--size", "3840x2160"}));
+}
+
+TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
+  Person person({720, 640});
+  person.wait().click(view_header).click(scene_header).click(image_header).click(image_folder);
+  const Session session = person.type("no folder").press_with_control(Key::s).wait().session();
+  std::ofstream(folder_ / "session.json") << session_to_json(session);
+  const ChildResult result = Child({"soup.glb", "--replay", "session.json"}, folder_).wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, Names((folder_ / "no folder").string(), "there is no such folder"));
+  EXPECT_FALSE(fs::exists(folder_ / "no folder"));
+}
+
+/// The program's own template is missing where the page was not built.
+TEST_F(Window, SavesAWebPage) {
+  std::ofstream(folder_ / "template.html")
+      << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
+  ::setenv("TUREEN_WEB_TEMPLATE", (folder_ / "template.html").c_str(), 1);
+  Person person({720, 640});
+  person.wait().click(view_header).click(scene_header).click(image_header).click(page_button);
+  const ChildResult result = replay(person.wait());
+  ::unsetenv("TUREEN_WEB_TEMPLATE");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "soup-1.html"));
 }
 
 TEST_F(Window, PlaysACameraPath) {
@@ -354,31 +422,9 @@ TEST_F(Window, FilesCanBePickedBeforeThereIsAScene) {
   EXPECT_NE(image("empty").pixels, image("files").pixels);
 }
 
-// A dataset with one training and one test photograph, both drawn from the scene itself: the
-// difference must be zero.
+// The photographs are drawn from the scene itself: the difference must be zero.
 TEST_F(Window, ComparesWithThePhotographs) {
-  const Scene scene = read_scene(folder_ / "soup.glb");
-  fs::create_directories(folder_ / "photographs");
-  for (const auto& [split, index] : {std::pair("train", 0), std::pair("test", 40)}) {
-    const Camera camera = resized(scene.cameras.at(std::size_t(index)), 240, 200);
-    const Image8 drawn =
-        rendered({"--camera", "soup.glb:" + std::to_string(index), "--size", "240x200"});
-    fs::copy(folder_ / "rendered.png", folder_ / "photographs" / (std::string(split) + ".png"));
-    const glm::dmat4 pose = glm::inverse(camera.view_from_world);
-    nlohmann::json matrix = nlohmann::json::array();
-    for (int row = 0; row < 4; ++row)
-      matrix.push_back({pose[0][row], pose[1][row], pose[2][row], pose[3][row]});
-    std::ofstream(folder_ / "photographs" / ("transforms_" + std::string(split) + ".json"))
-        << nlohmann::json{
-               {"fl_x", camera.fx},
-               {"fl_y", camera.fy},
-               {"cx", camera.cx},
-               {"cy", camera.cy},
-               {"w", 240},
-               {"h", 200},
-               {"frames",
-                {{{"file_path", std::string(split) + ".png"}, {"transform_matrix", matrix}}}}};
-  }
+  write_photographs();
   const ChildResult result = replay(Person()
                                         .wait()
                                         .press(Key::left_bracket)
@@ -391,6 +437,24 @@ TEST_F(Window, ComparesWithThePhotographs) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("split"), "window_split");
   expect_golden(image("difference"), "window_difference");
+}
+
+TEST_F(Window, SaysThatNoPhotographHasTheView) {
+  write_photographs();
+  Person person;
+  person.wait().without_notes().look("off").press(Key::c).look("split");
+  EXPECT_EQ(replay(person, {"soup.glb", "photographs"}).exit_code, 0);
+  EXPECT_NE(image("split").pixels, image("off").pixels);
+}
+
+TEST_F(Window, TheTextsOfThePanelPhotographsFit) {
+  write_photographs();
+  Person person({720, 640});
+  person.wait().click(view_header).click(scene_header).click(photographs_header);
+  const ChildResult result =
+      replay(person.point({200, 540}).without_notes().look("panel"), {"soup.glb", "photographs"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("panel"), "window_photographs");
 }
 
 TEST_F(Window, WorksOnEs) {
@@ -438,13 +502,6 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
 }
 
 // -- layers ---------------------------------------------------------------------------------------
-
-constexpr const char* square = "OFF\n4 2 0\n-2 -2 0.3\n2 -2 0.3\n2 2 0.3\n-2 2 0.3\n";
-
-/// A square of this colour, which cuts the example.
-void write_square(const fs::path& file, const std::string& color) {
-  std::ofstream(file) << square << "3 0 1 2 " << color << "\n3 0 2 3 " << color << "\n";
-}
 
 std::ptrdiff_t count(const Image8& image, glm::u8vec4 color) {
   return std::count(image.pixels.begin(), image.pixels.end(), color);
@@ -501,6 +558,21 @@ TEST_F(Window, OfSeveralDroppedFilesABadOneIsNamedAndTheOthersAreAdded) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names("bad.off cannot be shown"));
   EXPECT_GT(count(image("bad"), red), 1000);
+}
+
+TEST_F(Window, ATypedNameIsAFileOfTheListedFolder) {
+  fs::create_directories(folder_ / "scenes");
+  fs::copy(folder_ / "soup.glb", folder_ / "scenes/soup.glb");
+  write_square(folder_ / "scenes/floor.off", "255 0 0");
+  // A typing error keeps the dialog, and what was typed.
+  Person person;
+  person.wait().press(Key::o).wait().type("flor.off").look("error");
+  person.press(Key::escape).look("closed").press(Key::o).wait().type("floor.off").wait();
+  const ChildResult result = replay(person.look("opened"), {"scenes/soup.glb"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(image("error").pixels, image("closed").pixels);
+  EXPECT_EQ(count(image("closed"), red), 0);
+  EXPECT_GT(count(image("opened"), red), 1000);
 }
 
 TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
@@ -745,6 +817,34 @@ TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
   EXPECT_EQ(replay(person, arguments).exit_code, 0);
   EXPECT_NE(image("training").pixels, ended.pixels);
   EXPECT_FALSE(fs::exists(folder_ / "run.control"));
+}
+
+/// Positions in the card of photographs without a scene, and in the dialog before the window is
+/// closed during a training, in a window of 720 x 450.
+constexpr glm::dvec2 train_button{157, 142}, stop_and_quit_button{147, 235};
+
+TEST_F(Window, ATrainingStartsOnlyAfterAQuestion) {
+  write_photographs();
+  Person person;
+  person.drop("photographs").wait().look("photographs").click(train_button).look("asked");
+  EXPECT_EQ(replay(person.press(Key::escape).look("cancelled"), {}).exit_code, 0);
+  EXPECT_NE(image("asked").pixels, image("photographs").pixels);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));
+}
+
+TEST_F(Window, ClosedDuringItsTrainingAsksWhetherToStopIt) {
+  write_photographs();
+  Person person;
+  person.drop("photographs").wait().click(train_button).wait().press(Key::enter).wait();
+  person.press_with_control(Key::q).look("asked").click(stop_and_quit_button);
+  EXPECT_EQ(replay(person.hold(Key::super, 5).look("closed"), {}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "asked.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "pictures" / "closed.png"));
+  // A training that goes on has its lock by then, and takes minutes.
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));
+  EXPECT_FALSE(fs::exists(folder_ / "photographs.glb"));
 }
 
 TEST_F(Window, TheBaselineRefusesAFurtherLayer) {

@@ -43,4 +43,9 @@ FileList list_files(const fs::path& folder) {
   return list;
 }
 
+fs::path typed_path(const FileList& files) {
+  const fs::path path = (files.folder / files.typed).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();  // without the last slash
+}
+
 }  // namespace tureen::viewer

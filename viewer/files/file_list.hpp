@@ -18,6 +18,7 @@ struct FileList {
   bool cut = false;                // the folder has more
   std::string trouble;             // error of listing it; empty if none
   std::string typed;               // text in the field for paths
+  std::string typed_trouble;       // why that path cannot be opened; empty if it can
 };
 
 /// Largest number of listed entries.
@@ -25,5 +26,8 @@ inline constexpr std::size_t max_entries = 2000;
 
 /// Folders, and files with the name of a scene or a dataset. Errors are in FileList::trouble.
 FileList list_files(const std::filesystem::path& folder);
+
+/// The path of FileList::typed. A relative one begins in the listed folder.
+std::filesystem::path typed_path(const FileList& files);
 
 }  // namespace tureen::viewer

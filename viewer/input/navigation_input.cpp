@@ -76,8 +76,10 @@ void NavigationInput::move(const PointerMoved& event, CameraControls& controls) 
 }
 
 void NavigationInput::change(const KeyChanged& event, bool taken, CameraControls& controls) {
-  const bool modified = held(Key::control) || held(Key::super);  // Ctrl+S does not fly back
-  held_[static_cast<std::size_t>(event.key)] = event.down && !taken;
+  // Ctrl+S does not fly back, even if Ctrl is released before S.
+  const bool modified = held(Key::control) || held(Key::super);
+  held_[static_cast<std::size_t>(event.key)] =
+      event.down && !taken && !(modified && pushes_anywhere(event.key));
   if (!event.down || taken || modified) return;
   if (pushes_anywhere(event.key)) controls.set_mode(NavigationMode::fly);
   if (const glm::dvec2 way = way_of(event.key); way != glm::dvec2(0.0))

@@ -1,26 +1,35 @@
 // Compares the image with the photograph of the same camera.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/training_command.hpp"
 
 namespace tureen::viewer {
 
 void dataset_buttons(State& state) {
-  if (state.trained_scene.empty()) {
-    if (strong_button("Train a scene")) state.ask(StartTraining{});
-    tip("tureen train with these photographs. The scene is written beside them, and another window "
-        "shows the progress");
-    ImGui::SameLine();
-  } else {
-    aside("Training " + state.trained_scene.string());
+  if (!state.started) {
+    if (strong_button("Train a scene"))
+      state.scene_to_train = new_trained_scene(state.photographs->path).string();
+    tip("tureen train with these photographs; asks for the file first");
+    beside("Copy the command");
   }
   if (button("Copy the command")) state.ask(CopyTrainingCommand{});
   tip("The command that trains a scene, for a terminal");
-  ImGui::SameLine();
+  beside("Close");
   if (button("Close")) state.ask(CloseDataset{});
   tip("Closes the dataset");
 }
 
+void started_training_rows(State& state) {
+  if (!state.started) return;
+  aside("Training " + state.started->scene.string());
+  const Disabled disabled(state.started->is_stopped);
+  if (button(state.started->is_stopped ? "Stopping .." : "Stop the training"))
+    state.ask(StopTraining{});
+  tip("As Ctrl-C in a terminal: writes a checkpoint, from which the training can continue");
+}
+
 void comparison_panel(State& state) {
+  started_training_rows(state);
   if (!state.photographs) {
     aside(
         "Drop a dataset on the window (COLMAP, transforms.json) to use its cameras and to compare "

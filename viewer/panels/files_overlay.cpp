@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "formats/dataset/dataset.hpp"
+#include "formats/scene_file.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -42,7 +44,8 @@ fs::path folder_buttons(State& state) {
 fs::path entries(State& state) {
   fs::path next;
   const FileList& files = state.files;
-  ImGui::BeginChild("list", {0, -2 * ImGui::GetFrameHeightWithSpacing()}, true);
+  const float rows_below = files.typed_trouble.empty() ? 2 : 4;
+  ImGui::BeginChild("list", {0, -rows_below * ImGui::GetFrameHeightWithSpacing()}, true);
   if (!files.trouble.empty()) aside(files.trouble);
   if (files.entries.empty() && files.trouble.empty())
     aside("This folder has no scenes, datasets or folders.");
@@ -59,13 +62,36 @@ fs::path entries(State& state) {
   return next;
 }
 
-void typed_path(State& state) {
-  std::string& typed = state.files.typed;
+/// Opens the typed path, except a folder that is no scene and no dataset: then returns it.
+fs::path open_typed(State& state) {
+  fs::path path = typed_path(state.files);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    state.files.typed_trouble = "There is no file or folder " + path.string() + ".";
+    return {};
+  }
+  if (fs::is_directory(path, ignored) && !is_dataset(path) && !is_scene(path)) return path;
+  open(state, path);
+  return {};
+}
+
+/// Returns the selected folder, empty if none.
+fs::path path_field(State& state) {
+  FileList& files = state.files;
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
-  const bool entered = ImGui::InputTextWithHint("##path", "or type a path", &typed,
+  const bool entered = ImGui::InputTextWithHint("##path", "or type a path", &files.typed,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) files.typed_trouble.clear();
+  fs::path next;
+  if (entered && !files.typed.empty()) {
+    next = open_typed(state);
+    if (!files.typed_trouble.empty()) ImGui::SetKeyboardFocusHere(-1);  // Enter ends the editing
+  }
   ImGui::SameLine();
-  if ((button("Open") || entered) && !typed.empty()) open(state, typed);
+  if (button("Open") && !files.typed.empty()) next = open_typed(state);
+  if (!files.typed_trouble.empty()) paragraph(files.typed_trouble);
+  return next;
 }
 
 }  // namespace
@@ -80,11 +106,11 @@ void files_overlay(State& state) {
   ImGui::Begin("Open a scene", &state.show_files,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   paragraph(state.files.folder.string());
-  const fs::path up = folder_buttons(state), into = entries(state);
-  typed_path(state);
+  const fs::path next[] = {folder_buttons(state), entries(state), path_field(state)};
   ImGui::End();
-  if (const fs::path& next = into.empty() ? up : into; !next.empty())
-    state.files = list_files(next);
+  for (const fs::path& folder : next)
+    if (!folder.empty()) state.files = list_files(folder);
+  if (escape_pressed()) state.show_files = false;
   if (!state.show_files) state.files = {};
 }
 

@@ -4,6 +4,7 @@
 #include <imgui/imgui_stdlib.h>
 // clang-format on
 
+#include <filesystem>
 #include <glm/common.hpp>
 
 #include "image/png.hpp"
@@ -13,6 +14,8 @@
 namespace tureen::viewer {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// As on the page: the size of the window's image, common sizes, or numbers.
 void size_rows(ImageWish& wish) {
@@ -58,13 +61,20 @@ void image_panel(State& state) {
   size_rows(wish);
   field("Folder");
   ImGui::InputTextWithHint("##folder", images_folder().string().c_str(), &state.settings.images);
+  std::error_code unknown;
+  const fs::path typed = state.settings.images;
+  const fs::path folder = typed.empty() ? images_folder() : typed;
+  tip(fs::absolute(folder, unknown).lexically_normal().string());
   check("Transparent background", &wish.transparent);
   if (button("Save the image"))
     state.ask(TakeImage{wish.window_size ? glm::ivec2(0) : wish.size, wish.transparent});
   tip("P; each image gets a new name");
-  ImGui::SameLine();
+  beside("Copy the command");
   if (button("Copy the command")) state.ask(CopyCommand{});
   tip("Ctrl+C: the tureen render command that draws this image without a window");
+  beside("Save as a web page");
+  if (button("Save as a web page")) state.ask(SavePage{});
+  tip("One file with the scene and its viewer, which opens by double-click");
 }
 
 }  // namespace tureen::viewer

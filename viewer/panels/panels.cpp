@@ -116,6 +116,7 @@ void draw_overlays(State& state) {
   message_overlay(state);
   if (state.show_files) files_overlay(state);
   if (state.show_keys) keys_overlay(state);
+  training_dialogs(state);
 }
 
 }  // namespace tureen::viewer

@@ -1,5 +1,6 @@
 // Draws the photograph or the map of differences over its part of the image.
 #include <algorithm>
+#include <cmath>
 
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
@@ -32,12 +33,32 @@ float divider(Comparison& comparison, ImVec2 window) {
   return static_cast<float>(comparison.divider) * window.x;
 }
 
+/// A short text at the bottom of the image. `align`: the part of it that lies left of x, 0..1.
+void tag(const char* words, float x, float align, Theme theme) {
+  const Palette& colors = palette(theme);
+  const float em = ImGui::GetFontSize();
+  const ImVec2 text = ImGui::CalcTextSize(words);
+  const ImVec2 padding{0.6f * em, 0.3f * em};
+  const ImVec2 size{text.x + 2 * padding.x, text.y + 2 * padding.y};
+  const ImVec2 low{std::floor(x - align * size.x),
+                   ImGui::GetIO().DisplaySize.y - size.y - 2.5f * em};
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                     ImGui::GetColorU32(color_of(colors.card)), ImGui::GetStyle().WindowRounding);
+  list.AddText({low.x + padding.x, low.y + padding.y}, ImGui::GetColorU32(ImGuiCol_Text), words);
+}
+
 }  // namespace
 
 void photograph_overlay(State& state) {
   Comparison& comparison = state.comparison;
+  if (!state.photographs || comparison.show == Comparison::Show::off) return;
   const Photograph* photograph = state.photograph();
-  if (!photograph || comparison.show == Comparison::Show::off) return;
+  if (!photograph) {
+    tag("No photograph has this view: [ and ] select one", 0.5f * float(state.points.x), 0.5f,
+        state.settings.theme);
+    return;
+  }
   const ImVec2 window{float(state.points.x), float(state.points.y)};
   const double points_per_pixel = double(state.points.x) / state.pixels.x;
   const PlacedPhotograph placed = place(
@@ -60,7 +81,10 @@ void photograph_overlay(State& state) {
   list.AddRectFilled(low, high, ImGui::GetColorU32(ImVec4(back.r, back.g, back.b, 1)));
   list.AddImage(texture->id(), low, high);
   list.PopClipRect();
-  if (split) list.AddLine({edge, 0}, {edge, window.y}, IM_COL32(255, 255, 255, 160), 1.5f);
+  if (!split) return;
+  list.AddLine({edge, 0}, {edge, window.y}, IM_COL32(255, 255, 255, 160), 1.5f);
+  tag("Photograph", edge - grip, 1, state.settings.theme);
+  tag("Scene", edge + grip, 0, state.settings.theme);
 }
 
 }  // namespace tureen::viewer

@@ -71,7 +71,7 @@ void scene_panel(State& state) {
   fact("GPU memory", megabytes(stage.renderer.device_bytes()));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
                   stage.prepare_seconds));
-  if (const auto notes = all_notes(scene.info); !notes.empty()) {
+  if (const auto notes = window_notes(scene.info); !notes.empty()) {
     heading("Notes");
     for (const std::string& note : notes) aside(note);
   }

@@ -45,6 +45,7 @@ void welcome_overlay(State& state) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
+  started_training_rows(state);
   if (state.photographs) dataset_rows(state);
   {
     const Title title;
@@ -54,7 +55,7 @@ void welcome_overlay(State& state) {
       "Choose a file or a folder, or drop one on this window. Files that you drop on a scene "
       "become layers.");
   ImGui::Spacing();
-  if (strong_button("Choose a file")) state.show_files = true;
+  if (strong_button("Choose a file or a folder")) state.show_files = true;
   tip("O");
   if (const auto& example = example_scene()) {
     ImGui::SameLine();

@@ -109,6 +109,13 @@ bool button(const char* name, float width) {
   return pressed;
 }
 
+void beside(const char* label) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  const float width = ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= right) ImGui::SameLine();
+}
+
 bool small_button(const char* name) {
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
   const bool pressed = ImGui::SmallButton(name);
@@ -161,12 +168,24 @@ bool segments(const char* id, std::span<const char* const> labels, int& chosen) 
                                             ImGui::GetColorU32(ImGuiCol_Button),
                                             style.FrameRounding);
   const auto count = float(labels.size());
-  const float width = std::floor((size.x - gap * (count + 1)) / count);
+  const float equal = std::floor((size.x - gap * (count + 1)) / count);
+  float texts = 0, longest = 0;
+  for (const char* label : labels) {
+    const float width = ImGui::CalcTextSize(label).x;
+    texts += width;
+    longest = std::max(longest, width);
+  }
+  const float spare = (size.x - gap * (count + 1) - texts) / count;
+  float left = low.x + gap;
   ImGui::PushID(id);
   ImGui::BeginGroup();
   for (int i = 0; i < int(labels.size()); ++i) {
     const bool on = i == chosen;
-    ImGui::SetCursorScreenPos({low.x + gap + float(i) * (width + gap), low.y + gap});
+    const float width = longest + gap <= equal
+                            ? equal
+                            : std::floor(ImGui::CalcTextSize(labels[std::size_t(i)]).x + spare);
+    ImGui::SetCursorScreenPos({left, low.y + gap});
+    left += width + gap;
     ImGui::PushStyleColor(ImGuiCol_Button, on ? style_color(ImGuiCol_FrameBg) : ImVec4(0, 0, 0, 0));
     ImGui::PushStyleColor(ImGuiCol_Text,
                           style_color(on ? ImGuiCol_CheckMark : ImGuiCol_TextDisabled));
@@ -196,6 +215,18 @@ void progress_bar(double fraction) {
   // Not shorter than its round ends.
   bar(std::max(width * float(std::clamp(fraction, 0.0, 1.0)), height), ImGuiCol_PlotHistogram);
   ImGui::Dummy({width, height});
+}
+
+bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false); }
+
+Dialog::Dialog(const char* title) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({0.5f * window.x, 0.45f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(36 * em, window.x - 2 * em), 0});
+  ImGui::Begin(title, nullptr,
+               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings);
 }
 
 Card::Card(const Look& look)

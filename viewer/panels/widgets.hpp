@@ -46,6 +46,8 @@ void field(const char* label);
 bool button(const char* label);
 /// A button in the accent's colour: the most likely choice.
 bool strong_button(const char* label);
+/// Places the next button beside the last item, or below it where the panel is too narrow.
+void beside(const char* label);
 /// A button as high as a line of text.
 bool small_button(const char* label);
 /// A button of this width, in points. All have the height of a field.
@@ -55,7 +57,8 @@ float share_of_row(int count);
 bool check(const char* label, bool* on);
 /// The same, in the row of a field.
 bool check_beside_field(const char* label, bool* on);
-/// Buttons in one frame, of which one is on. Returns whether the choice changed.
+/// Buttons in one frame, of which one is on: of equal width, unless a label needs more. Returns
+/// whether the choice changed.
 bool segments(const char* id, std::span<const char* const> labels, int& chosen);
 /// A thin bar as wide as the window. `fraction`: 0..1.
 void progress_bar(double fraction);
@@ -80,6 +83,18 @@ class Card {
   ImVec2 low_;
   float width_ = 0;
 };
+
+/// A window in the middle of the screen, with the items drawn in its scope.
+class Dialog {
+ public:
+  explicit Dialog(const char* title);
+  ~Dialog() { ImGui::End(); }
+  Dialog(const Dialog&) = delete;
+  Dialog& operator=(const Dialog&) = delete;
+};
+
+/// Whether the user has pressed Escape, also in a field.
+bool escape_pressed();
 
 /// Uses the bold font in its scope.
 class Bold {

@@ -1,0 +1,38 @@
+// The command that trains a scene from photographs.
+#include "viewer/training_command.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace tureen::viewer {
+namespace training_command_test {
+
+namespace fs = std::filesystem;
+
+TEST(TrainingCommand, NamesASceneBesideTheDatasetThatDoesNotExist) {
+  const fs::path folder = fs::path(testing::TempDir()) / "training_command";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "fox");
+  EXPECT_EQ(new_trained_scene(folder / "fox"), folder / "fox.glb");
+  std::ofstream(folder / "fox.glb") << "x";
+  std::ofstream(folder / "fox-2.checkpoint") << "x";
+  EXPECT_EQ(new_trained_scene(folder / "fox/"), folder / "fox-3.glb");
+}
+
+TEST(TrainingCommand, ContinuesFromACheckpoint) {
+  const fs::path folder = fs::path(testing::TempDir()) / "training_continued";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "fox");
+  const fs::path dataset = folder / "fox", scene = folder / "scene.glb";
+  EXPECT_THAT(training_arguments(dataset, scene),
+              testing::ElementsAre("train", dataset.string(), "-o", scene.string(), "--watch"));
+  EXPECT_EQ(command_that_continues(dataset, scene), "");
+  std::ofstream(folder / "scene.checkpoint") << "x";
+  EXPECT_EQ(command_that_continues(dataset, scene),
+            "tureen train " + dataset.string() + " -o " + scene.string() + " --watch --resume");
+}
+
+}  // namespace training_command_test
+}  // namespace tureen::viewer

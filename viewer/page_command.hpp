@@ -1,0 +1,26 @@
+// The command that writes the scene as a web page.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/stage.hpp"
+
+namespace tureen::viewer {
+
+struct PageRequest {
+  DrawingChoice choice = {};  // the page keeps its profile and quality
+  std::optional<std::uint64_t> max_splats = {};
+  glm::dvec3 up{0.0};  // the up axis that the window shows
+};
+
+/// The arguments of `tureen` that write the scene's files as one page. What the window shows
+/// otherwise than the files is an option: the up axis, the profile, the quality.
+std::vector<std::string> page_arguments(const StageSource& scene, const PageRequest& request,
+                                        const std::filesystem::path& page);
+
+}  // namespace tureen::viewer
