@@ -17,7 +17,7 @@ namespace tureen {
 /// adds a remark.
 enum class VertexColorSpace { automatic, srgb, linear };
 
-struct EarlyTexels;  // formats/early_texels.hpp
+class EarlyTexels;  // formats/early_texels.hpp
 
 struct ReadOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;

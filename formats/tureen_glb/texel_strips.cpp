@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -48,17 +50,19 @@ std::vector<TexelStrip> texel_strips(const GlbArrays& arrays, const JsonView& ap
   // Strips are bounded and contiguous. Deflate compresses by at most 1032 : 1, so a count that
   // exceeds the images is rejected before any allocation.
   std::uint64_t counted = 0, encoded = 0;
-  std::vector<TexelStrip> strips(list.size());
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    const JsonView strip = list.at(i), images = strip["images"];
-    if (strip["first"].natural() != counted)
-      strip["first"].fail("expected " + std::to_string(counted));
-    strips[i].texels = std::size_t(strip["count"].natural(glb_layout::strip_texels));
-    counted += strips[i].texels;
+  std::vector<TexelStrip> strips;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonView view = list.at(i), images = view["images"];
+    if (view["first"].natural() != counted)
+      view["first"].fail("expected " + std::to_string(counted));
     if (images.size() != 2) images.fail("expected two images");
-    strips[i].low = next_image_range(arrays, images.at(0), images_end);
-    strips[i].high = next_image_range(arrays, images.at(1), images_end);
-    encoded += strips[i].low.size + strips[i].high.size;
+    TexelStrip strip;
+    strip.texels = std::size_t(view["count"].natural(glb_layout::strip_texels));
+    strip.low = next_image_range(arrays, images.at(0), images_end);
+    strip.high = next_image_range(arrays, images.at(1), images_end);
+    counted += strip.texels;
+    encoded += strip.low.size + strip.high.size;
+    strips.push_back(strip);
   }
   if (counted != texels)
     list.fail("its strips hold " + std::to_string(counted) + " texels, expected " +
@@ -95,8 +99,9 @@ std::vector<TexelStrip> texel_strips(std::span<const std::byte> prefix, const st
   return texel_strips(arrays, *appearance, images_end);
 }
 
-void decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
-                  const std::string& name, std::vector<std::uint8_t>& texels) {
+std::vector<std::uint8_t> decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
+                                       const std::string& name) {
+  assert(bytes.size() == strip.range().size);
   const auto image = [&](const FileRange& range) {
     const auto first = std::size_t(range.offset - strip.low.offset);
     return decode_image(bytes.subspan(first, std::size_t(range.size)), name, MemoryBudget());
@@ -104,11 +109,29 @@ void decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
   const Image8 low = image(strip.low), high = image(strip.high);
   if (low.pixels.size() < strip.texels || high.pixels.size() < strip.texels)
     throw InputError({name, {}, {}}, "an image has too few pixels");
+  std::vector<std::uint8_t> texels;
+  texels.reserve(strip.texel_bytes());
   append_texels(std::span(low.pixels).first(strip.texels), high.pixels, texels);
+  return texels;
 }
 
-bool EarlyTexels::begin(std::span<const TexelStrip> all) const {
-  return strips.size() <= all.size() && std::equal(strips.begin(), strips.end(), all.begin());
+EarlyTexels::EarlyTexels(std::vector<TexelStrip> strips) : strips_(std::move(strips)) {
+  std::size_t bytes = 0;
+  for (const TexelStrip& strip : strips_) bytes += strip.texel_bytes();
+  texels_.reserve(bytes);
+}
+
+void EarlyTexels::add(std::size_t index, std::vector<std::uint8_t> texels) {
+  assert(texels.size() == strips_[index].texel_bytes());
+  waiting_.emplace(index, std::move(texels));
+  for (auto next = waiting_.find(added_); next != waiting_.end(); next = waiting_.find(++added_)) {
+    texels_.insert(texels_.end(), next->second.begin(), next->second.end());
+    waiting_.erase(next);
+  }
+}
+
+std::size_t EarlyTexels::decoded_of(std::span<const TexelStrip> strips) const {
+  return std::equal(strips.begin(), strips.end(), strips_.begin(), strips_.end()) ? added_ : 0;
 }
 
 }  // namespace tureen

@@ -347,9 +347,9 @@ class Reader {
     input_.take_memory(count, LatticeTexture::channels, "texels");
     std::vector<std::uint8_t> texels;
     std::size_t decoded = 0;
-    if (EarlyTexels* early = options_.early_texels; early && early->begin(strips)) {
-      decoded = std::exchange(early->strips, {}).size();
-      texels = std::move(early->texels);
+    if (options_.early_texels) {
+      decoded = options_.early_texels->decoded_of(strips);
+      if (decoded > 0) texels = std::move(*options_.early_texels).take();
     }
     texels.reserve(static_cast<std::size_t>(count) * LatticeTexture::channels);
     for (std::size_t i = decoded; i < strips.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "scene/lattice.hpp"
@@ -17,13 +18,15 @@ constexpr int channels = LatticeTexture::channels;
 template <class Value>
 constexpr float scale_of = sizeof(Value) == 1 ? 1.0f / 255.0f : 1.0f;
 
-/// A texel's channels in a vector of the processor.
+/// A texel's channels in a vector of the processor; GCC and Clang know the attribute.
 template <class Value>
 struct Texel {
   using Vector __attribute__((vector_size(channels * sizeof(Value)))) = Value;
   Vector values;
 
+  explicit Texel(Value fill) : values(fill - Vector{}) {}
   explicit Texel(const Value* from) { std::memcpy(&values, from, sizeof values); }
+  /// NaN changes nothing.
   void lower(const Texel& other) { values = other.values < values ? other.values : values; }
   void raise(const Texel& other) { values = other.values > values ? other.values : values; }
   float operator[](int channel) const { return float(values[channel]) * scale_of<Value>; }
@@ -41,7 +44,10 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
     return &values[std::size_t(texture.patches[face].first_texel) * channels];
   };
   traits.lowest_level = lattice::max_level;
-  Texel<Value> low(texels_of(faces.front())), high = low;
+  using Limits = std::numeric_limits<Value>;
+  constexpr bool floats = Limits::has_infinity;
+  Texel<Value> low(floats ? Limits::infinity() : Limits::max());
+  Texel<Value> high(floats ? -Limits::infinity() : Limits::min());
   std::vector<std::pair<std::uint64_t, std::uint64_t>> runs(faces.size());  // first, end
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const LatticePatch& patch = texture.patches[faces[i]];

@@ -19,7 +19,7 @@ double largest_blend(const ColorMlp& mlp, const FeatureRanges& ranges) {
 void plan_view_direction(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
   if (!draft.may(Specialisation::view_direction) || mlp.encoding == DirectionEncoding::none) return;
   const double moves = view_dependence(mlp) * largest_blend(mlp, ranges);
-  if (moves > double(half_step)) return;
+  if (!(moves <= double(half_step))) return;
   draft.plan.view_direction = false;
   draft.apply({.what = Specialisation::view_direction, .margin = steps_of(moves)});
 }

@@ -9,11 +9,10 @@ void preview(Bytes bytes) {
   for (const char* name : {"fuzz.glb", "fuzz.splat"}) {
     preview_size(bytes, name, bytes.size() / 2);
     if (const auto scene = read_preview(bytes, name)) require_whole(*scene);
-    std::vector<std::uint8_t> texels;
     for (const TexelStrip& strip : texel_strips(bytes, name)) {
       const FileRange range = strip.range();
       if (range.end() <= bytes.size())
-        decode_strip(strip, bytes.subspan(range.offset, range.size), name, texels);
+        decode_strip(strip, bytes.subspan(range.offset, range.size), name);
     }
   }
 }

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/crc32.hpp"
 #include "base/error.hpp"
 #include "tests/support/errors.hpp"
 
@@ -78,14 +77,6 @@ TEST(Png, ChunksCarryTheirSums) {
     place += 12 + size;
   }
   EXPECT_EQ(types, "IHDR IDAT IEND ");
-}
-
-TEST(Crc32, IsThatOfZlibForEveryLength) {
-  Bytes bytes;
-  for (unsigned size = 0; size < 40; ++size) {
-    EXPECT_EQ(crc32_of(bytes), crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), size));
-    bytes.push_back(std::byte(37 * size + 5));
-  }
 }
 
 TEST(Png, NoBitOfAnImageIsReadAsAnotherOne) {

@@ -529,7 +529,7 @@ TEST(InitialModel, BeginsOnGaussiansInTheirPlanes) {
     }
 }
 
-TEST(InitialModel, LeavesOutTransparentGaussians) {
+TEST(InitialModel, SkipsTransparentGaussians) {
   const Dataset dataset = ring(102, {0, 0, 0}, 4.0);
   Config config = preset(Preset::object);
   config.initial_triangles = 100;

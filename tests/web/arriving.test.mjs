@@ -1,7 +1,13 @@
-// Splats: images while a file arrives, and the question how many to read if the memory does not hold all.
+// Splats: images while a file arrives, and the question how many to read if the memory does not hold all. Soups: texels
+// that are decoded meanwhile.
 
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { test } from 'node:test';
+import { programs } from './browser.mjs';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { splatPly } from './splat_ply.mjs';
 import { sceneShown, stage } from './support.mjs';
@@ -10,22 +16,34 @@ const splats = 60_000, bytes = splatPly(splats);
 /** Forecast: four times the 56 bytes of each in memory, and 64 bytes of its projection. */
 const bytesEach = 288;
 
-/** Sends the file in parts, each after more than the time before a preview. */
-function slowly(request, response) {
-  response.writeHead(200, { 'content-length': bytes.length });
-  const parts = 10, part = Math.ceil(bytes.length / parts);
+/** Sends a file in ten parts, each after `ms`. */
+const slowly = (file, ms) => (request, response) => {
+  response.writeHead(200, { 'content-length': file.length });
+  const part = Math.ceil(file.length / 10);
   let sent = 0;
   const timer = setInterval(() => {
-    response.write(bytes.subarray(sent, sent += part));
-    if (sent < bytes.length) return;
+    response.write(file.subarray(sent, sent += part));
+    if (sent < file.length) return;
     clearInterval(timer);
     response.end();
-  }, 400);
+  }, ms);
+};
+
+/** 15,000 triangles, whose texels are in nine strips. */
+function cloud() {
+  const folder = mkdtempSync(join(tmpdir(), 'tureen-cloud-'));
+  try {
+    execFileSync(join(programs, 'make_cutout_cloud'), [join(folder, 'cloud.glb'), '--coverage', 'third']);
+    return readFileSync(join(folder, 'cloud.glb'));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
 }
 
 const { visit } = await stage({ routes: {
   ...drawingRoutes,
-  '/slow.ply': slowly,
+  '/slow.ply': slowly(bytes, 400),  // more than the time before a preview
+  '/slow.glb': slowly(cloud(), 200),
   '/many.ply': (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes),
 } });
 
@@ -44,6 +62,23 @@ test('more and more splats are shown while the file arrives', () => visit('drawi
   assert.ok(previews.length >= 2, `previews: ${previews}`);
   assert.ok(previews[0] >= 16_384 && previews.every((count, at) => at === 0 || count >= 2 * previews[at - 1]), `${previews}`);
   assert.deepEqual(eye, [0, 0, 5], 'the view that was chosen during the load');
+}));
+
+test('a second worker decodes texels while the file arrives', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const { triangles, helped } = await page.evaluate(async () => {
+    let helped = null;
+    window.Worker = class extends window.Worker {
+      constructor(...given) {
+        super(...given);
+        this.addEventListener('message', ({ data }) => { if (data.kind === 'scene') ({ helped } = data.scene); });
+      }
+    };
+    const { triangles } = await viewer.load({ url: '/slow.glb' });
+    return { triangles, helped };
+  });
+  assert.equal(triangles, 15_000);
+  assert.ok(helped > 3, `${helped} of 9 strips`);  // most arrive long before the end
 }));
 
 /** The splats of a viewer with little memory, and what it asked. */

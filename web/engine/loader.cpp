@@ -268,49 +268,45 @@ const std::string no_name;
 /// The buffer holds the first bytes of a file. Returns the strips of texels that can be decoded before
 /// the whole file is there.
 Json begin_texels(const Json&) {
+  // The header alone decides about this memory. Larger scenes are read as without early texels.
+  constexpr std::uint64_t max_bytes = 512 << 20;
   early_texels() = {};
-  const auto strips = texel_strips(buffer(), no_name);
-  std::size_t texels = 0;
+  std::vector<TexelStrip> strips = texel_strips(buffer(), no_name);
+  std::uint64_t bytes = 0;
   Json list = Json::array();
   for (const TexelStrip& strip : strips) {
-    texels += strip.texels;
+    bytes += strip.texel_bytes();
     list.push_back(object({{"low", range_json(strip.low)},
                            {"high", range_json(strip.high)},
                            {"texels", strip.texels}}));
   }
-  early_texels().texels.reserve(texels * LatticeTexture::channels);
+  if (bytes > max_bytes) return Json::array();
+  early_texels() = EarlyTexels(std::move(strips));
   return list;
 }
 
-TexelStrip strip_of(const Json& value) {
-  return {range_of(value.at("low")), range_of(value.at("high")), value.at("texels")};
-}
-
-/// An entry of "begin_texels", the next one; the buffer holds its bytes. Decodes them for "read".
-Json decode_texels(const Json& arguments) {
-  const TexelStrip strip = strip_of(arguments);
-  tureen::decode_strip(strip, buffer(), no_name, early_texels().texels);
-  early_texels().strips.push_back(strip);
+/// The index of a strip; the buffer holds its bytes. Decodes them for "read".
+Json decode_texels(const Json& index) {
+  const TexelStrip& strip = early_texels().strips()[index.get<std::size_t>()];
+  early_texels().add(index, tureen::decode_strip(strip, buffer(), no_name));
   return nullptr;
 }
 
-/// An entry of "begin_texels" of any instance; the buffer holds its bytes. Decodes them to the
+/// An entry of "begin_texels" in another instance; the buffer holds its bytes. Decodes them to the
 /// buffer, for "add_texels" of that instance.
-Json decode_strip(const Json& arguments) {
-  std::vector<std::uint8_t> texels;
-  const TexelStrip strip = strip_of(arguments);
-  texels.reserve(strip.texels * LatticeTexture::channels);
-  tureen::decode_strip(strip, buffer(), no_name, texels);
+Json decode_strip(const Json& entry) {
+  const auto texels = tureen::decode_strip(
+      {range_of(entry.at("low")), range_of(entry.at("high")), entry.at("texels")}, buffer(),
+      no_name);
   const auto bytes = std::as_bytes(std::span(texels));
   buffer().assign(bytes.begin(), bytes.end());
   return nullptr;
 }
 
-/// The next entry of "begin_texels"; the buffer holds its texels.
-Json add_texels(const Json& arguments) {
+/// The index of a strip; the buffer holds its texels.
+Json add_texels(const Json& index) {
   const auto* texels = reinterpret_cast<const std::uint8_t*>(buffer().data());
-  early_texels().texels.insert(early_texels().texels.end(), texels, texels + buffer().size());
-  early_texels().strips.push_back(strip_of(arguments));
+  early_texels().add(index, std::vector<std::uint8_t>(texels, texels + buffer().size()));
   return nullptr;
 }
 

@@ -58,8 +58,9 @@ export function readFragment(fragment: string): LinkedView {
   const layersDefect = layers === 'defect' ?
     'The link\'s layers cannot be read: each needs a number and its place, layers=1;2,at:3:0:0.' : null;
   const named = namedViews.find((view) => view === parts.get('view')) ?? null;
+  const viewDefect = parts.has('view') && !named ? `The link's view is none of ${namedViews.join(', ')}.` : null;
   const rest = { named, debugView, layers: layers === 'defect' ? null : layers };
-  if (!parts.has('eye') && !parts.has('target')) return { pose: null, ...rest, defect: layersDefect };
+  if (!parts.has('eye') && !parts.has('target')) return { pose: null, ...rest, defect: viewDefect ?? layersDefect };
 
   const without = (defect: string): LinkedView => ({ pose: null, ...rest, defect });
   const eye = readVector(parts.get('eye')), target = readVector(parts.get('target'));

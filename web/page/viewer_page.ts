@@ -114,7 +114,7 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
 
   new Shortcuts(viewer.canvas, [
     { key: 'f', meaning: 'frame the whole scene', run: () => views.frame() },
-    { key: 'r', meaning: 'return to the first view', run: () => views.first() },
+    { key: 'r', meaning: 'return to the first view and its up axis', run: () => views.first() },
     { key: 'm', meaning: 'switch between orbit and fly', run: () => views.changeMode() },
     { key: 'u', meaning: 'change the up axis', run: () => views.nextUp() },
     { key: 'i', meaning: 'turn the scene upside down', run: () => views.turnOver() },

@@ -1,5 +1,5 @@
-// Decodes a soup's texels while their file arrives (formats/early_texels.hpp): every second strip in another worker,
-// because strips are independent images and most computers have several cores.
+// Decodes a soup's texels while their file arrives (formats/early_texels.hpp). A second worker decodes, because the
+// loader must receive the file; when the file is there, both do.
 
 import { Engine } from './engine.js';
 import type { FromLoader, TexelStrip, ToLoader } from './loader_messages.js';
@@ -10,85 +10,119 @@ const maxHeader = 1 << 20;
 /** A second worker of the same script. */
 class Helper {
   private readonly worker = new Worker(self.location.href);
-  private settle: { resolve(texels: Uint8Array): void; reject(why: unknown): void } | null = null;
-  /** Whether it can decode: it has started, is idle, and has not failed. */
-  ready = false;
+  private readonly tasks: { resolve(texels: Uint8Array): void; reject(why: unknown): void }[] = [];
+  private works = false;  // it has started and has not failed
 
   constructor(program: Promise<WebAssembly.Module>) {
     this.worker.onerror = (event) => {
       event.preventDefault();
-      this.ready = false;
-      this.settle?.reject(event);
+      this.fail(event);
     };
     this.worker.onmessage = ({ data }: MessageEvent<FromLoader>) => {
-      this.ready = data.kind === 'started' || data.kind === 'decoded';
-      if (data.kind === 'decoded') this.settle!.resolve(data.texels);
-      else this.settle?.reject(data);
+      if (data.kind === 'started') this.works = true;
+      else if (data.kind === 'decoded') this.tasks.shift()!.resolve(data.texels);
+      else this.fail(data);
     };
-    void program.then((compiled) => this.tell({ kind: 'help', program: compiled }));
+    program.then((compiled) => this.send({ kind: 'help', program: compiled }), () => {});
   }
 
+  /** Whether it can take another strip. A second one lets it work while the loader decodes. `left`: strips that nobody
+   *  decodes; the last ones are shared evenly. */
+  isFree(left: number): boolean { return this.works && this.tasks.length < (left > 2 ? 2 : 1); }
+
   decode(strip: TexelStrip, bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
-    this.ready = false;
-    const decoded = new Promise<Uint8Array>((resolve, reject) => { this.settle = { resolve, reject }; });
-    this.tell({ kind: 'decode', strip, bytes }, [bytes.buffer]);
+    const decoded = new Promise<Uint8Array>((resolve, reject) => { this.tasks.push({ resolve, reject }); });
+    this.send({ kind: 'decode', strip, bytes }, [bytes.buffer]);
     return decoded;
   }
 
   end(): void { this.worker.terminate(); }
 
-  private tell(message: ToLoader, transfer: Transferable[] = []): void { this.worker.postMessage(message, transfer); }
+  private fail(why: unknown): void {
+    this.works = false;
+    for (const { reject } of this.tasks) reject(why);
+  }
+
+  private send(message: ToLoader, transfer: Transferable[] = []): void { this.worker.postMessage(message, transfer); }
 }
 
-/** Lets the worker hear messages. */
-const tick = () => new Promise<null>((resolve) => { setTimeout(() => resolve(null)); });
-
-const endOf = ({ high }: TexelStrip) => high.offset + high.size;
+/** Lets the worker receive messages. */
+const tick = () => new Promise((resolve) => { setTimeout(resolve); });
 
 export class EarlyTexels {
-  /** The strips that are not decoded; null before begin(). */
-  private left: TexelStrip[] | null = null;
+  /** Number of strips that the second worker decoded. */
+  helped = 0;
+  private strips: readonly TexelStrip[] | null = null;  // null before begin()
+  /** The next strip that nobody decodes yet. */
+  private next = 0;
   private helper: Helper | null = null;
+  private helping: Promise<void> | null = null;
+  /** The bytes so far. */
+  private prefix: Uint8Array = new Uint8Array();
 
   /** `engine`: called when texels are decoded. */
   constructor(private readonly engine: () => Engine, private readonly program: Promise<WebAssembly.Module>) {}
 
-  /** Finds the strips. `prefix`: the first bytes of the file with its whole header. */
-  begin(prefix: Uint8Array): void {
-    if (this.left) return;
-    this.left = [];
+  /** Starts the second worker, which takes a tenth of a second. */
+  prepare(): void {
+    try {
+      this.helper ??= new Helper(this.program);
+    } catch {}  // the browser allows no worker in a worker
+  }
+
+  /** Finds the strips once `prefix`, the first bytes of the file, has its whole header. `known`: it has. */
+  begin(prefix: Uint8Array, known: boolean): void {
+    if (this.strips || !(known || prefix.length >= maxHeader)) return;
+    this.strips = [];
     try {
       this.engine().setBuffer(prefix.subarray(0, maxHeader));
-      this.left = this.engine().call<TexelStrip[]>('begin_texels');
-      if (this.left.length > 1) this.helper = new Helper(this.program);
+      this.strips = this.engine().call<TexelStrip[]>('begin_texels');
+      if (this.strips.length > 1) this.prepare();
     } catch {}  // the reader reports what is broken
   }
 
-  /** Decodes the next strips, at most two, if they are in `prefix`. */
-  async decode(prefix: Uint8Array): Promise<void> {
-    const [strip, second] = this.left ?? [];
-    const helper = second && this.helper?.ready ? this.helper : null;
-    if (!strip || prefix.length < endOf(helper ? second! : strip)) return;
-    const left = this.left!.slice(helper ? 2 : 1);
-    this.left = [];
-    try {
-      const other = helper?.decode(second!, new Uint8Array(prefix.subarray(second!.low.offset, endOf(second!))));
-      other?.catch(() => {});  // awaited below
-      this.engine().setBuffer(prefix.subarray(strip.low.offset, endOf(strip)));
-      this.engine().call('decode_texels', strip);
-      const texels = await (other ?? tick());
-      if (texels) {
+  /** Gives the second worker the next strips that are in `prefix`. */
+  feed(prefix: Uint8Array): void {
+    this.prefix = prefix;
+    while (this.strips && this.helper?.isFree(this.strips.length - this.next)) {
+      const taken = this.take();
+      if (!taken) return;
+      this.helping = this.helper.decode(taken.strip, new Uint8Array(taken.bytes)).then((texels) => {
+        ++this.helped;
         this.engine().setBuffer(texels);
-        this.engine().call('add_texels', second);
-      }
-      this.left = left;
-    } catch {}
+        this.engine().call('add_texels', taken.index);
+        this.feed(this.prefix);
+      }).catch(() => { this.next = Infinity; });  // the reader decodes what is missing
+    }
   }
 
-  /** Whether there are more, after begin(). */
-  get isLeft(): boolean { return this.left!.length > 0; }
+  /** Decodes all that is left. `bytes`: the whole file. `each`: called after each strip with the fraction done. */
+  async finish(bytes: Uint8Array, each: (fraction: number) => Promise<void>): Promise<void> {
+    try {
+      this.begin(bytes, true);
+      for (;;) {
+        await tick();
+        this.feed(bytes);
+        const taken = this.take();
+        if (!taken) break;
+        this.engine().setBuffer(taken.bytes);
+        this.engine().call('decode_texels', taken.index);
+        await each(this.next / this.strips!.length);
+      }
+      for (let last: Promise<void> | null = null; last !== this.helping;) await (last = this.helping);
+    } catch {
+    } finally {
+      this.helper?.end();
+    }
+  }
 
-  end(): void { this.helper?.end(); }
+  /** The next strip that nobody decodes; null if there is none in the bytes so far. */
+  private take(): { readonly index: number; readonly strip: TexelStrip; readonly bytes: Uint8Array } | null {
+    const index = this.next, strip = this.strips?.[index];
+    if (!strip || this.prefix.length < strip.high.offset + strip.high.size) return null;
+    this.next = index + 1;
+    return { index, strip, bytes: this.prefix.subarray(strip.low.offset, strip.high.offset + strip.high.size) };
+  }
 }
 
 let engine: Engine | null = null;

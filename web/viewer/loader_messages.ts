@@ -33,6 +33,8 @@ export interface PreparedScene {
   readonly parcel: Parcel;
   /** The reduced lattice level if memory is too small; otherwise null. */
   readonly level: number | null;
+  /** Number of strips of texels that a second worker decoded. */
+  readonly helped: number;
   /** Time in the loader: from the file's bytes to the soup (readMs), and from there to the device's data. */
   readonly readMs: number;
   readonly prepareMs: number;

@@ -19,12 +19,17 @@ const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
   url: { download: 0, read: 0.6, prepare: 0.9, upload: 0.97 },
 };
+/** A GLB file of this size probably has several strips of texels (early_texels.ts), in bytes. */
+const largeFile = 8 << 20;
+/** Part of the time for reading that is spent on decoding texels early, if there are any. An estimate. */
+const decodingPart = 0.8;
 const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
 
 class Loader {
   private description: SceneDescription | null = null;
   private level: number | null = null;
   private readMs = 0;
+  private readFrom = 0;
   private loaded = 0;
   private total: number | null = null;
   private told = { stage: '', permille: -1 };
@@ -51,9 +56,9 @@ class Loader {
       'url' in source ? this.fetched(source.url, source.name) : this.opened(source),
       this.starting,
     ]);
-    this.engine.onProgress = (fraction) => this.tell('read', fraction);
     const begin = performance.now(), [only, ...others] = files.bytes.values();
     if (only && others.length === 0) await this.decodeTexels(only);
+    this.engine.onProgress = (fraction) => this.tell('read', this.readFrom + (1 - this.readFrom) * fraction);
     this.description = await this.read(files);
     this.readMs = performance.now() - begin;
     if (this.message.role === 'scene') return this.send();
@@ -102,31 +107,39 @@ class Loader {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
+      if (total !== null && total >= largeFile && /\.glb$/i.test(name)) this.early.prepare();
       if (this.started && prefix.length !== total) await this.use(prefix, total);
     });
     return oneFile(name, bytes);
   }
 
-  /** Sends a preview, or decodes texels, from the first bytes of a download. */
+  /** Uses the first bytes of a download. */
   private async use(prefix: Uint8Array, total: number | null): Promise<void> {
-    const { preview, early } = this, begin = performance.now();
-    if (!preview) return early.decode(prefix);
-    const description = this.knowsLimits ? preview.read(prefix, total) : null;
-    if (preview.knowsHeader) early.begin(prefix);
-    if (!description) return early.decode(prefix);
+    await this.showPreview(prefix, total);
+    if (!this.preview) return;
+    this.early.begin(prefix, this.preview.knowsHeader);
+    this.early.feed(prefix);
+  }
+
+  private async showPreview(prefix: Uint8Array, total: number | null): Promise<void> {
+    const { preview } = this, begin = performance.now();
+    const description = preview && this.knowsLimits ? preview.read(prefix, total) : null;
+    if (!description) return;
     try {
       post({ kind: 'preview', scene: await this.prepared(description) });
     } catch {
-      return preview.stop();  // the memory may hold the scene without it
+      return preview!.stop();  // the memory may hold the scene without it
     }
-    preview.took(performance.now() - begin);
+    preview!.took(performance.now() - begin);
   }
 
   /** Decodes the texels that are left. */
   private async decodeTexels(bytes: Uint8Array): Promise<void> {
-    this.early.begin(bytes);
-    while (this.early.isLeft) await this.use(bytes, bytes.length);
-    this.early.end();
+    await this.early.finish(bytes, async (fraction) => {
+      this.tell('read', decodingPart * fraction);
+      this.readFrom = decodingPart;
+      await this.showPreview(bytes, bytes.length);  // the device may have started only now
+    });
   }
 
   private async opened({ files, name }: FilesToLoad): Promise<OpenedFiles> {
@@ -144,7 +157,7 @@ class Loader {
   private async prepared(description: SceneDescription): Promise<PreparedScene> {
     const limits = await this.limits, begin = performance.now();
     const parcel = this.packed(limits), prepareMs = performance.now() - begin;
-    return { description, parcel, level: this.level, readMs: this.readMs, prepareMs };
+    return { description, parcel, level: this.level, helped: this.early.helped, readMs: this.readMs, prepareMs };
   }
 
   /** Prepares the scene. The engine's memory grows meanwhile, so its buffer is fetched again for each block. */

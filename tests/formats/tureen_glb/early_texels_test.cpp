@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "formats/scene_file.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"
@@ -38,15 +40,16 @@ Scene read(std::span<const std::byte> bytes, EarlyTexels early) {
 
 class EarlyTexelsTest : public testing::Test {
  protected:
-  EarlyTexels decoded(std::size_t count) const {
-    EarlyTexels early;
-    for (const TexelStrip& strip : std::span(strips_).first(count)) {
-      const FileRange range = strip.range();
-      decode_strip(strip, std::span(bytes_).subspan(range.offset, range.size), "a.glb",
-                   early.texels);
-      early.strips.push_back(strip);
-    }
-    return early;
+  std::vector<std::uint8_t> decoded(std::size_t index) const {
+    const FileRange range = strips_[index].range();
+    return decode_strip(strips_[index], std::span(bytes_).subspan(range.offset, range.size),
+                        "a.glb");
+  }
+  /// With an error, to tell them from those that the reader decodes.
+  std::vector<std::uint8_t> marked(std::size_t index) const {
+    auto texels = decoded(index);
+    texels[5] ^= 1;
+    return texels;
   }
 
   const Scene scene_ = two_strips();
@@ -54,44 +57,60 @@ class EarlyTexelsTest : public testing::Test {
   const std::vector<TexelStrip> strips_ = texel_strips(std::span(bytes_).first(20'000), "a.glb");
 };
 
-TEST_F(EarlyTexelsTest, AreThoseOfTheFile) {
+TEST_F(EarlyTexelsTest, AreThoseOfTheFileInAnyOrder) {
   ASSERT_EQ(strips_.size(), 2u);
-  for (const std::size_t count : {0, 1, 2}) {
-    SCOPED_TRACE(count);
-    EarlyTexels early = decoded(count);
+  for (const auto& order : {std::vector<std::size_t>{}, {0}, {0, 1}, {1, 0}}) {
+    EarlyTexels early(strips_);
+    for (const std::size_t index : order) early.add(index, decoded(index));
+    EXPECT_EQ(early.decoded_of(strips_), order.size());
     EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
-    if (count == 0) continue;
-    early.texels[5] ^= 1;
-    EXPECT_FALSE(texels_of(read(bytes_, early)) == texels_of(scene_)) << "they were not taken";
   }
 }
 
+TEST_F(EarlyTexelsTest, AreTaken) {
+  EarlyTexels early(strips_);
+  early.add(0, marked(0));
+  std::vector<std::uint8_t> expected = texels_of(scene_);
+  expected[5] ^= 1;
+  EXPECT_TRUE(texels_of(read(bytes_, early)) == expected);
+}
+
+TEST_F(EarlyTexelsTest, WaitForTheStripsBefore) {
+  EarlyTexels early(strips_);
+  early.add(1, marked(1));
+  EXPECT_EQ(early.decoded_of(strips_), 0u);
+  EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
+}
+
 TEST_F(EarlyTexelsTest, OfAnotherFileAreNotTaken) {
-  EarlyTexels early = decoded(1);
-  early.texels[5] ^= 1;
-  --early.strips[0].low.size;
-  EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
-  early = decoded(2);
-  early.texels[5] ^= 1;
-  early.strips.push_back(early.strips.back());
+  auto strips = strips_;
+  --strips[1].high.size;
+  EarlyTexels early(strips);
+  early.add(0, marked(0));
   EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
 }
 
-TEST_F(EarlyTexelsTest, HaveNoStripsWithoutTheHeader) {
-  EXPECT_TRUE(texel_strips(std::span(bytes_).first(100), "a.glb").empty());
-  EXPECT_TRUE(texel_strips({}, "a.glb").empty());
+TEST_F(EarlyTexelsTest, HaveStripsOnceTheHeaderIsThere) {
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, &bytes_[12], 4);
+  const std::size_t header = 20 + json_size + 8;
+  for (std::size_t length = 0; length < header; ++length)
+    EXPECT_TRUE(texel_strips(std::span(bytes_).first(length), "a.glb").empty()) << length;
+  EXPECT_EQ(texel_strips(std::span(bytes_).first(header), "a.glb"), strips_);
 }
 
-TEST_F(EarlyTexelsTest, OfADamagedImageStayAsTheyWere) {
+TEST_F(EarlyTexelsTest, AreThoseOfTheOnlyLayer) {
+  Scene scene = scene_;
+  scene.layers[0].name = "one";
+  scene.layers[0].world_from_layer[3].x = 1;
+  EXPECT_EQ(texel_strips(test::glb_bytes(scene, "early_layer"), "a.glb").size(), 2u);
+  scene.layers.push_back(scene.layers[0]);
+  EXPECT_TRUE(texel_strips(test::glb_bytes(scene, "early_layers"), "a.glb").empty());
+}
+
+TEST_F(EarlyTexelsTest, OfADamagedImageAreAnError) {
   bytes_[std::size_t(strips_[1].high.offset) + 60] ^= std::byte{1};
-  EarlyTexels early = decoded(1);
-  const std::size_t before = early.texels.size();
-  const FileRange range = strips_[1].range();
-  EXPECT_THROW(decode_strip(strips_[1], std::span(bytes_).subspan(range.offset, range.size),
-                            "a.glb", early.texels),
-               InputError);
-  EXPECT_EQ(early.texels.size(), before);
-  EXPECT_THROW(read(bytes_, early), InputError);
+  EXPECT_THROW(decoded(1), InputError);
 }
 
 }  // namespace early_texels_test
