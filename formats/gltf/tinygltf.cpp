@@ -2,7 +2,7 @@
 // formats/gltf/gltf_document.hpp has the reason.
 #include "formats/gltf/tinygltf.hpp"
 
-// All that tinygltf (2.8 and 2.9) includes, because `std` is another word below.
+// All that tinygltf 2.7 includes, because `std` is another word below.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
