@@ -77,8 +77,8 @@ void Application::carry_out(const SavePage&) {
                                                              .max_splats = options_.max_splats,
                                                              .up = state_.controls.up()},
                                                             page);
-  write(page, [arguments](const StageRequest& with) {
-    run_to_end(tureen_program(), arguments, [&] { with.progress(0); });
+  write(page, [arguments, page](const StageRequest& with) {
+    run_to_end(tureen_program(), arguments, page, [&] { with.progress(0); });
   });
 }
 
