@@ -23,6 +23,7 @@
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/stage.hpp"
+#include "viewer/training_command.hpp"
 #include "viewer/worker.hpp"
 
 namespace tureen::viewer {
@@ -100,7 +101,7 @@ struct CopyTrainingCommand {};
 struct StopWriting {};
 /// Closes the window.
 struct Quit {
-  /// What becomes of a training that this window has started.
+  /// Fate of a training that this window has started.
   enum class Training { ask, stop, let_continue };
   Training training = Training::ask;
 };
@@ -118,12 +119,14 @@ struct Photographs {
   std::vector<Photograph> list;
   std::size_t train_count = 0;
   std::vector<std::string> notes;
-  bool stay_is_noted = false;  // a message has said that they stay when another scene is opened
+  bool stay_is_noted = false;  // a message has said that
 };
 
 /// A training that this window has started.
 struct StartedTraining {
   std::filesystem::path dataset, scene;
+  /// Of the scene at the start, and of the checkpoint when it was stopped; nullopt: no such file.
+  FileTime scene_before = {}, checkpoint_before = {};
   bool is_stopped = false;  // it is about to end
 };
 

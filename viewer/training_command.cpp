@@ -1,5 +1,6 @@
 #include "viewer/training_command.hpp"
 
+#include "viewer/names.hpp"
 #include "viewer/render_command.hpp"
 
 namespace tureen::viewer {
@@ -14,9 +15,17 @@ fs::path folder_of(const fs::path& dataset) {
   return (fs::absolute(dataset, ignored).lexically_normal() / "").parent_path();
 }
 
-fs::path checkpoint_of(fs::path scene) { return scene.replace_extension(".checkpoint"); }
-
 }  // namespace
+
+FileTime time_of(const fs::path& file) {
+  std::error_code error;
+  const fs::file_time_type time = fs::last_write_time(file, error);
+  return error ? FileTime{} : time;
+}
+
+fs::path checkpoint_of(const fs::path& scene) {
+  return fs::path(scene).replace_extension(".checkpoint");
+}
 
 fs::path new_trained_scene(const fs::path& dataset) {
   std::error_code ignored;
@@ -36,6 +45,17 @@ std::string command_that_continues(const fs::path& dataset, const fs::path& scen
   std::error_code ignored;
   if (!fs::exists(checkpoint_of(scene), ignored)) return "";
   return quoted_command(training_arguments(dataset, scene)) + " --resume";
+}
+
+std::string note_of(const EndedTraining& training) {
+  const std::string name = "The training of " + short_name(training.scene);
+  const std::string further = command_that_continues(training.dataset, training.scene);
+  // Also if it was stopped while it measured the complete scene.
+  if (!training.failure || (training.wrote_scene && further.empty())) return name + " has ended.";
+  if (!training.is_stopped) return "";
+  const std::string reason = training.wrote_checkpoint ? "." : ": " + *training.failure + ".";
+  return name + " was stopped" + reason +
+         (further.empty() ? " It has no checkpoint." : " To continue: " + further);
 }
 
 }  // namespace tureen::viewer

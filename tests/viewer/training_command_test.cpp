@@ -34,5 +34,26 @@ TEST(TrainingCommand, ContinuesFromACheckpoint) {
             "tureen train " + dataset.string() + " -o " + scene.string() + " --watch --resume");
 }
 
+TEST(TrainingCommand, TheNoteOfItsEndHasTheReasonWithoutACheckpoint) {
+  const fs::path folder = fs::path(testing::TempDir()) / "training_ended";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "fox");
+  EndedTraining training{.dataset = folder / "fox", .scene = folder / "scene.glb"};
+  EXPECT_EQ(note_of(training), "The training of scene.glb has ended.");
+  training.failure = "no space";
+  EXPECT_EQ(note_of(training), "");
+  training.is_stopped = true;
+  EXPECT_EQ(note_of(training),
+            "The training of scene.glb was stopped: no space. It has no checkpoint.");
+  training.wrote_scene = true;  // stopped while it measured the scene
+  EXPECT_EQ(note_of(training), "The training of scene.glb has ended.");
+  std::ofstream(folder / "scene.checkpoint") << "x";
+  const std::string further =
+      " To continue: " + command_that_continues(training.dataset, training.scene);
+  EXPECT_EQ(note_of(training), "The training of scene.glb was stopped: no space." + further);
+  training.wrote_checkpoint = true;
+  EXPECT_EQ(note_of(training), "The training of scene.glb was stopped." + further);
+}
+
 }  // namespace training_command_test
 }  // namespace tureen::viewer
