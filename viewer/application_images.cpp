@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "base/memory_budget.hpp"
 #include "base/output.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "runtime/passes/accumulation.hpp"
@@ -68,13 +69,15 @@ void Application::carry_out(const TakeImage& request) {
 void Application::carry_out(const SavePage&) {
   if (!has_scene()) return;
   if (!state_.stage->is_as_read()) {
-    state_.messages.note("No page can be saved: it would lack the changes of layers.", state_.now);
+    state_.messages.note(
+        "Pages cannot store changed layers: reload the scene (F5) or save an image.", state_.now);
     return;
   }
   const fs::path page = image_path(".html");
   const std::vector<std::string> arguments = page_arguments(*state_.stage,
                                                             {.choice = state_.stage->choice,
                                                              .max_splats = options_.max_splats,
+                                                             .max_memory = max_memory(),
                                                              .up = state_.controls.up()},
                                                             page);
   write(page, [arguments, page](const StageRequest& with) {
