@@ -89,7 +89,7 @@ const std::array table = {
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
     Shortcut{Key::f, false, keys, "frame the whole scene",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},
-    Shortcut{Key::r, false, keys, "return to the first view",
+    Shortcut{Key::r, false, keys, "return to the first view and its up axis",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.reset(); }},
     Shortcut{Key::m, false, keys, "switch between orbit and fly", switch_mode},
     Shortcut{Key::tab, false, keys, nullptr, switch_mode},
