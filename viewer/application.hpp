@@ -168,7 +168,6 @@ class Application {
   void write(const std::filesystem::path& path, std::function<void(const StageRequest&)> work,
              const std::string& remark = "");
   bool has_scene();
-  std::filesystem::path folder_of_images() const;
   std::filesystem::path image_path(const std::string& extension);
   void save_window_image(const std::string& name);
 

@@ -23,16 +23,11 @@ bool Application::has_scene() {
   return state_.stage != nullptr;
 }
 
-fs::path Application::folder_of_images() const {
-  if (!options_.images.empty()) return options_.images;
-  return state_.settings.images.empty() ? images_folder() : fs::path(state_.settings.images);
-}
-
 /// An absolute path that no file has, and no image waiting to be written. Throws OutputError if the
 /// user has typed a folder that does not exist.
 fs::path Application::image_path(const std::string& extension) {
   std::error_code unknown;
-  const fs::path folder = fs::absolute(folder_of_images(), unknown).lexically_normal();
+  const fs::path folder = state_.folder_of_images();
   if (!options_.images.empty())
     make_folder(folder);
   else if (!fs::is_directory(folder, unknown))

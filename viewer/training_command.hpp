@@ -19,9 +19,20 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& scene);
 /// fox-2.glb.
 std::filesystem::path new_trained_scene(const std::filesystem::path& dataset);
 
+/// The file that the user has typed for the scene of a training.
+struct TypedScene {
+  std::string remark;          // to show; empty: none
+  bool is_possible = true;     // otherwise the training would be refused
+  bool is_unfinished = false;  // there is a checkpoint: a training can only continue from it
+};
+TypedScene check_typed_scene(const std::filesystem::path& scene);
+
+enum class TrainingStart { new_run, from_checkpoint };
+
 /// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it.
 std::vector<std::string> training_arguments(const std::filesystem::path& dataset,
-                                            const std::filesystem::path& scene);
+                                            const std::filesystem::path& scene,
+                                            TrainingStart start = TrainingStart::new_run);
 
 /// The command that continues this training from its checkpoint; empty if there is none.
 std::string command_that_continues(const std::filesystem::path& dataset,

@@ -125,7 +125,7 @@ const std::array table = {
     Shortcut{Key::f1, false, window, "show this list; also ?", show_keys},
     Shortcut{Key::f5, false, window, "read the files again", [](State& s) { s.ask(ReloadScene{}); }},
     Shortcut{Key::escape, false, window, "close lists over the image",
-             [](State& s) { s.show_keys = s.show_files = false; }},
+             [](State& s) { (s.show_keys ? s.show_keys : s.show_files) = false; }},
     Shortcut{Key::q, true, window, "quit", [](State& s) { s.ask(Quit{}); }},
 };
 // clang-format on
