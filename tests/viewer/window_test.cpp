@@ -353,7 +353,7 @@ TEST_F(Window, SavesAWebPage) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   std::ifstream file(folder_ / "pictures" / "soup-1.html");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_THAT(page, testing::HasSubstr(R"(id="scene" data-name="soup.glb)"));
+  EXPECT_THAT(page, testing::HasSubstr(R"(id="scene" data-name="soup")"));
   // "glTF" in Base64, and most of the scene's bytes.
   EXPECT_THAT(page, testing::HasSubstr(">Z2xURg"));
   EXPECT_GT(page.size(), fs::file_size(folder_ / "soup.glb"));
@@ -366,6 +366,26 @@ TEST_F(Window, ReportsWhyAPageWasNotWritten) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names("soup-1.html was not written", "none.html"));
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "soup-1.html"));
+}
+
+TEST_F(Window, SavesNoPageOfChangedLayers) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  std::ofstream(folder_ / "template.html")
+      << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
+  const Template other(folder_ / "template.html");
+  // The panel Layers is above the others, here closed like the scene's.
+  const glm::dvec2 second_layer{391, 448}, layers_header{560, 390}, below(0, 38.5);
+  for (const bool changes : {false, true}) {
+    Person person({720, 640});
+    person.wait();
+    if (changes) person.click(second_layer);
+    person.click(layers_header).click(scene_header).click(glm::dvec2(560, 65) + below);
+    person.click(image_header + below).click(page_button + below).look("panel");
+    const ChildResult result = replay(person, {"soup.glb", "floor.off"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(fs::exists(folder_ / "pictures" / "soup-1.html"), !changes);
+    fs::remove(folder_ / "pictures" / "soup-1.html");
+  }
 }
 
 TEST_F(Window, PlaysACameraPath) {
