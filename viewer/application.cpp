@@ -98,6 +98,7 @@ Application::Application(ApplicationOptions options)
       writer_(window_, 1) {
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
+  state_.images_option = options_.images;
   if (!options_.smooth_at_rest) state_.settings.smooth_at_rest = false;
   if (!options_.record.empty()) recorder_.emplace(window_.size());
   // A replay does not wait for the screen.
@@ -276,7 +277,8 @@ void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
 }
 
 void Application::dispatch(const std::vector<Event>& events) {
-  const NavigationInput::Taken taken{.pointer = gui_->takes_pointer(), .keys = gui_->takes_keys()};
+  const NavigationInput::Taken taken{.pointer = gui_->takes_pointer(),
+                                     .keys = gui_->takes_keys() || state_.has_dialog()};
   for (const Event& event : events) {
     navigation_.handle(event, taken, state_.controls);
     if (double_click_.handle(event, taken.pointer, state_.now))
@@ -396,7 +398,7 @@ void Application::save_window_image(const std::string& name) {
   glFinish();
   const glm::ivec2 size = window_.pixels();
   const Image8 image = read_pixels(0, size.x, size.y);
-  const std::filesystem::path folder = folder_of_images();
+  const std::filesystem::path folder = state_.folder_of_images();
   make_folder(folder);
   write_file(folder / name, encode_png(image));
 }

@@ -147,15 +147,13 @@ class Application {
   struct Preview {
     std::shared_ptr<const Reading> reading;
     std::shared_ptr<const Scene> scene;
-    Camera view;
-    bool is_changed;  // whether the user moved the view, or a layer, of a preview before
   };
   void post_previews(const std::filesystem::path& path, const StageRequest& request,
                      const std::shared_ptr<const Reading>& reading);
   bool shows_preview() const;
   bool shows_preview_of(const Reading& reading) const;
   void show_read(std::unique_ptr<Stage> stage, Relation relation, const Reading& reading);
-  void end_loading(const Reading& files);
+  void end_loading(const Reading& files, Relation relation);
   void add(const std::shared_ptr<StageAddition>& addition);
   void prepare_grown(const StageSource& source);
   void show(std::unique_ptr<Stage> stage, Relation relation);
@@ -170,7 +168,6 @@ class Application {
   void write(const std::filesystem::path& path, std::function<void(const StageRequest&)> work,
              const std::string& remark = "");
   bool has_scene();
-  std::filesystem::path folder_of_images() const;
   std::filesystem::path image_path(const std::string& extension);
   void save_window_image(const std::string& name);
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "base/memory_budget.hpp"
 #include "base/output.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "runtime/passes/accumulation.hpp"
@@ -22,16 +23,11 @@ bool Application::has_scene() {
   return state_.stage != nullptr;
 }
 
-fs::path Application::folder_of_images() const {
-  if (!options_.images.empty()) return options_.images;
-  return state_.settings.images.empty() ? images_folder() : fs::path(state_.settings.images);
-}
-
 /// An absolute path that no file has, and no image waiting to be written. Throws OutputError if the
 /// user has typed a folder that does not exist.
 fs::path Application::image_path(const std::string& extension) {
   std::error_code unknown;
-  const fs::path folder = fs::absolute(folder_of_images(), unknown).lexically_normal();
+  const fs::path folder = state_.folder_of_images();
   if (!options_.images.empty())
     make_folder(folder);
   else if (!fs::is_directory(folder, unknown))
@@ -68,17 +64,19 @@ void Application::carry_out(const TakeImage& request) {
 void Application::carry_out(const SavePage&) {
   if (!has_scene()) return;
   if (!state_.stage->is_as_read()) {
-    state_.messages.note("No page can be saved: it would lack the changes of layers.", state_.now);
+    state_.messages.note(
+        "Pages cannot store changed layers: reload the scene (F5) or save an image.", state_.now);
     return;
   }
   const fs::path page = image_path(".html");
   const std::vector<std::string> arguments = page_arguments(*state_.stage,
                                                             {.choice = state_.stage->choice,
                                                              .max_splats = options_.max_splats,
+                                                             .max_memory = max_memory(),
                                                              .up = state_.controls.up()},
                                                             page);
-  write(page, [arguments](const StageRequest& with) {
-    run_to_end(tureen_program(), arguments, [&] { with.progress(0); });
+  write(page, [arguments, page](const StageRequest& with) {
+    run_to_end(tureen_program(), arguments, page, [&] { with.progress(0); });
   });
 }
 

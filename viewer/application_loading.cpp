@@ -39,18 +39,21 @@ void Application::load(const Loading& loading) {
                                                  {window_.context(), choice, progress}, files);
                      },
                  .failed =
-                     [this, files](const std::string& reason) {
+                     [this, files, relation = loading.relation](const std::string& reason) {
                        files->failures.push_back({files->current, reason});
-                       end_loading(*files);
+                       end_loading(*files, relation);
                      }});
 }
 
-void Application::end_loading(const Reading& files) {
+void Application::end_loading(const Reading& files, Relation relation) {
   loading_.reset();
-  const std::string failure =
-      shows_preview_of(files) ? " is shown only in part" : " cannot be shown";
+  const bool in_part = shows_preview_of(files);
+  const auto report =
+      in_part || relation == Relation::changed ? &Messages::scene_error : &Messages::opening_error;
   for (const Reading::Failure& each : files.failures)
-    state_.messages.opening_error(short_name(each.path) + failure, each.reason, state_.now);
+    (state_.messages.*report)(
+        short_name(each.path) + (in_part ? " is shown only in part" : " cannot be shown"),
+        each.reason, state_.now);
 }
 
 /// Runs in the worker's thread; its result runs in the main thread.
@@ -76,7 +79,7 @@ Worker::Completion Application::load_in_background(const Loading& loading,
         std::make_shared<StageAddition>(prepare_addition(source, before->layers.size(), preparing));
     return [this, addition, files] {
       state_.messages.dismiss_opening();
-      end_loading(*files);
+      end_loading(*files, Relation::grown);
       add(addition);
     };
   }
@@ -84,9 +87,14 @@ Worker::Completion Application::load_in_background(const Loading& loading,
   if (!again && loading.paths.size() == 1) post_previews(loading.paths.front(), request, files);
   std::shared_ptr<Stage> stage =
       prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
-  return [this, stage = std::move(stage), relation = loading.relation, files] {
-    state_.messages.dismiss_opening();
-    end_loading(*files);
+  return [this, stage = std::move(stage), relation = loading.relation,
+          is_alone = loading.paths.empty(), files] {
+    // A changed file is not another one, unless it was read together with further files.
+    if (relation == Relation::changed && is_alone)
+      state_.messages.dismiss_scene();
+    else
+      state_.messages.dismiss_opening();
+    end_loading(*files, relation);
     show_read(std::make_unique<Stage>(std::move(*stage)), relation, *files);
     preview_.reset();
   };
@@ -110,8 +118,7 @@ void Application::post_previews(const fs::path& path, const StageRequest& reques
     }
     worker_.post([this, stage, reading] {
       show_read(std::make_unique<Stage>(std::move(*stage)), Relation::other, *reading);
-      const bool is_changed = shows_preview_of(*reading) && preview_->is_changed;
-      preview_ = Preview{reading, state_.stage->scene, state_.controls.camera(1, 1), is_changed};
+      preview_ = Preview{reading, state_.stage->scene};
     });
   }
 }
@@ -130,9 +137,8 @@ void Application::show_read(std::unique_ptr<Stage> stage, Relation relation,
                             const Reading& reading) {
   std::optional<DrawingChoice> chosen;
   if (shows_preview_of(reading)) {
-    preview_->is_changed |=
-        state_.controls.camera(1, 1) != preview_->view || !state_.stage->is_as_read();
-    if (preview_->is_changed) relation = Relation::changed;
+    if (!state_.controls.goes_to_first_view() || !state_.stage->is_as_read())
+      relation = Relation::changed;
     if (preparing_drawing_) chosen = state_.wanted;
     preview_->scene = stage->scene;
   }
@@ -199,8 +205,8 @@ void Application::prepare_grown(const StageSource& source) {
 
 void Application::report_refused(const std::vector<RefusedLayer>& layers) {
   for (const RefusedLayer& layer : layers)
-    state_.messages.opening_error("The layer " + layer.name + " does not fit the device's memory",
-                                  describe(layer), state_.now);
+    state_.messages.scene_error("The layer " + layer.name + " does not fit the device's memory",
+                                describe(layer), state_.now);
 }
 
 /// After a change of the files.
@@ -251,14 +257,11 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     state_.layer_editing = {};
     state_.controls = CameraControls(subject);
     lay_out(window_.size(), window_.pixels());  // with the panels of a scene
-    state_.controls.home();                     // for this viewport
-    state_.controls.arrive();
     state_.recorded = -1;
-    if (!state_.stage->scene->cameras.empty()) {
+    if (!state_.stage->scene->cameras.empty())
       state_.controls.set_first_view(state_.stage->scene->cameras.front());
-      state_.controls.reset();
-      state_.controls.arrive();
-    }
+    state_.controls.reset();  // for this viewport
+    state_.controls.arrive();
   }
   show_files_of_scene();
   for (const std::string& note : window_notes(state_.stage->scene->info))

@@ -16,39 +16,51 @@ void Application::carry_out(const StartTraining& request) {
   if (!state_.photographs || training_program_) return;
   std::error_code ignored;
   const fs::path dataset = state_.photographs->path, scene = fs::absolute(request.scene, ignored);
-  training_program_.emplace(tureen_program(), training_arguments(dataset, scene));
-  state_.started = StartedTraining{.dataset = dataset, .scene = scene};
+  const FileTime scene_before = time_of(scene);
+  training_program_.emplace(tureen_program(), training_arguments(dataset, scene, request.start));
+  state_.started = StartedTraining{
+      .dataset = dataset, .scene = scene, .start = request.start, .scene_before = scene_before};
   state_.messages.note("The training has started. Another window will show its progress.",
                        state_.now);
 }
 
 void Application::carry_out(const StopTraining&) {
   if (!training_program_) return;
-  training_program_->interrupt();
-  state_.started->is_stopped = true;
+  StartedTraining& training = *state_.started;
+  const FileTime before = time_of(checkpoint_of(training.scene));
+  if (training.is_stopped || !training_program_->interrupt()) return;
+  training.checkpoint_before = before;
+  training.is_stopped = true;
 }
 
 void Application::carry_out(const CopyTrainingCommand&) {
   if (!state_.photographs) return;
   const fs::path& dataset = state_.photographs->path;
-  window_.set_clipboard(quoted_command(training_arguments(dataset, new_trained_scene(dataset))));
+  const auto& started = state_.started;
+  window_.set_clipboard(
+      quoted_command(started && started->dataset == dataset
+                         ? training_arguments(dataset, started->scene, started->start)
+                         : training_arguments(dataset, new_trained_scene(dataset))));
   state_.messages.note("Copied the training command to the clipboard.", state_.now);
 }
 
 void Application::watch_training_program() {
   if (!training_program_ || !training_program_->ended()) return;
   const StartedTraining& training = *state_.started;
-  const std::string name = short_name(training.scene);
-  const std::string further = command_that_continues(training.dataset, training.scene);
-  if (training.is_stopped)
-    state_.messages.note(
-        "The training of " + name + " was stopped. " +
-            (further.empty() ? "It has no checkpoint." : "To continue: " + further),
-        state_.now);
-  else if (const auto failure = training_program_->failure())
-    state_.messages.error("The training of " + name + " failed", *failure, state_.now);
+  const FileTime scene = time_of(training.scene),
+                 checkpoint = time_of(checkpoint_of(training.scene));
+  const EndedTraining ended{
+      .dataset = training.dataset,
+      .scene = training.scene,
+      .is_stopped = training.is_stopped,
+      .wrote_scene = scene && scene != training.scene_before,
+      .wrote_checkpoint = checkpoint && checkpoint != training.checkpoint_before,
+      .failure = training_program_->failure()};
+  if (const std::string note = note_of(ended); !note.empty())
+    state_.messages.note(note, state_.now);
   else
-    state_.messages.note("The training of " + name + " has ended.", state_.now);
+    state_.messages.error("The training of " + short_name(training.scene) + " failed",
+                          *ended.failure, state_.now);
   training_program_.reset();
   state_.started.reset();
   state_.asks_before_quitting = false;

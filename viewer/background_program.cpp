@@ -19,6 +19,13 @@
 
 namespace tureen::viewer {
 
+namespace {
+
+/// Between two checks whether a program has ended.
+constexpr std::chrono::milliseconds poll{50};
+
+}  // namespace
+
 #ifdef _WIN32
 
 BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std::string>&)
@@ -28,7 +35,7 @@ BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std:
 }
 
 bool BackgroundProgram::ended() { return true; }
-void BackgroundProgram::interrupt() {}
+bool BackgroundProgram::send(int) { return false; }
 
 #else
 
@@ -47,8 +54,13 @@ BackgroundProgram::BackgroundProgram(std::string program, const std::vector<std:
   // A group of its own: Ctrl-C in the window's terminal ends the window only.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   posix_spawnattr_setpgroup(&attributes, 0);
+  // A shell starts programs of the background with SIGINT ignored, and children inherit this.
+  sigset_t ending;
+  sigemptyset(&ending);
+  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&ending, signal);
+  posix_spawnattr_setsigdefault(&attributes, &ending);
   pid_t process = 0;
   const int reason =
       posix_spawnp(&process, program_.c_str(), &actions, &attributes, argv.data(), environ);
@@ -66,12 +78,25 @@ bool BackgroundProgram::ended() {
   return exit_code_.has_value();
 }
 
-void BackgroundProgram::interrupt() {
+bool BackgroundProgram::send(int signal) {
   // Not after its end, when another process may have its number.
-  if (!ended()) ::kill(-process_, SIGINT);
+  return !ended() && ::kill(-process_, signal) == 0;
 }
 
 #endif
+
+bool BackgroundProgram::interrupt() { return send(SIGINT); }
+
+void BackgroundProgram::end(std::chrono::milliseconds patience) {
+#ifndef _WIN32
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    send(signal);
+    const auto until = std::chrono::steady_clock::now() + patience;
+    while (!ended() && (signal == SIGKILL || std::chrono::steady_clock::now() < until))
+      std::this_thread::sleep_for(poll);
+  }
+#endif
+}
 
 std::optional<std::string> BackgroundProgram::failure() {
   if (!ended() || exit_code_ == 0) return {};
@@ -91,22 +116,19 @@ std::optional<std::string> BackgroundProgram::failure() {
 }
 
 void run_to_end(const std::string& program, const std::vector<std::string>& arguments,
-                const std::function<void()>& check) {
+                const std::filesystem::path& output, const std::function<void()>& check) {
   BackgroundProgram running(program, arguments);
-  const auto wait = [&](const std::function<void()>& before_each) {
-    while (!running.ended()) {
-      before_each();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-  };
   try {
-    wait(check);
+    while (!running.ended()) {
+      check();
+      std::this_thread::sleep_for(poll);
+    }
   } catch (...) {
-    running.interrupt();
-    wait([] {});
+    running.end();
     throw;
   }
-  if (const auto failure = running.failure()) throw UsageError(*failure);
+  if (const auto failure = running.failure())
+    throw OutputError({output.string(), {}, {}}, *failure);
 }
 
 std::string tureen_program() {

@@ -2,7 +2,9 @@
 // the window is closed.
 #pragma once
 
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -19,12 +21,18 @@ class BackgroundProgram {
 
   /// Whether it has ended.
   bool ended();
-  /// Ends it and the programs that it has started, as Ctrl-C in a terminal does.
-  void interrupt();
+  /// Interrupts it and the programs that it has started, as Ctrl-C in a terminal does. Returns
+  /// whether it was still running.
+  bool interrupt();
+  /// Interrupts it and waits for its end. After `patience` terminates it, after the same time again
+  /// kills it.
+  void end(std::chrono::milliseconds patience = std::chrono::seconds(5));
   /// The last line of its errors, if it has ended with an exit code other than 0.
   std::optional<std::string> failure();
 
  private:
+  /// To its group. Returns false after its end.
+  bool send(int signal);
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
@@ -34,11 +42,11 @@ class BackgroundProgram {
   std::optional<int> exit_code_;
 };
 
-/// Runs a program to its end. Calls `check` 20 times a second; if it throws, interrupts the program
-/// and passes on the exception. Throws OutputError if the program cannot be started, and UsageError
-/// with the last line of its errors if it fails.
+/// Runs a program that writes `output` to its end. Calls `check` 20 times a second; if it throws,
+/// ends the program and passes on the exception. Throws OutputError with the program if it cannot
+/// be started, and with `output` and the last line of the program's errors if it fails.
 void run_to_end(const std::string& program, const std::vector<std::string>& arguments,
-                const std::function<void()>& check);
+                const std::filesystem::path& output, const std::function<void()>& check);
 
 /// The program `tureen`: the path beside this one, otherwise the name alone.
 std::string tureen_program();

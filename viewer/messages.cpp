@@ -16,7 +16,11 @@ void Messages::error(const std::string& title, const std::string& reason, double
 }
 
 void Messages::opening_error(const std::string& title, const std::string& reason, double now) {
-  add({Message::Kind::error, shown_line(title), shown_line(reason), now, true});
+  add({Message::Kind::error, shown_line(title), shown_line(reason), now, Message::About::opening});
+}
+
+void Messages::scene_error(const std::string& title, const std::string& reason, double now) {
+  add({Message::Kind::error, shown_line(title), shown_line(reason), now, Message::About::scene});
 }
 
 void Messages::add(Message message) {
@@ -38,7 +42,13 @@ void Messages::dismiss(std::size_t index) {
 }
 
 void Messages::dismiss_opening() {
-  std::erase_if(list_, [](const Message& message) { return message.is_about_opening; });
+  std::erase_if(list_,
+                [](const Message& message) { return message.about != Message::About::other; });
+}
+
+void Messages::dismiss_scene() {
+  std::erase_if(list_,
+                [](const Message& message) { return message.about == Message::About::scene; });
 }
 
 void Messages::age(double now) {

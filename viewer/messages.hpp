@@ -1,5 +1,6 @@
 // The messages of the window: notes and errors. Notes disappear after note_seconds, errors stay
-// until dismissed, those about opening until the next file is opened.
+// until dismissed, those about opening until the next file is opened, those about the shown scene
+// also until its files are read again.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@ struct Message {
   std::string title;  // "bad.glb cannot be shown"
   std::string text;   // the reason
   double since = 0;   // seconds of the window's clock
-  bool is_about_opening = false;
+  enum class About { other, opening, scene };
+  About about = About::other;
 };
 
 class Messages {
@@ -25,11 +27,15 @@ class Messages {
   /// All pass texts, which may come from files, through shown_line (base/shown_text.hpp).
   void note(const std::string& text, double now);
   void error(const std::string& title, const std::string& reason, double now);
-  /// An error about a file that was opened.
+  /// An error about a file that was to be opened.
   void opening_error(const std::string& title, const std::string& reason, double now);
+  /// An error about a file or a layer of the shown scene.
+  void scene_error(const std::string& title, const std::string& reason, double now);
   void dismiss(std::size_t index);
-  /// Removes the errors about opening, when another file was opened.
+  /// Removes the errors about opening and about the scene, when another file was opened.
   void dismiss_opening();
+  /// Removes the errors about the scene, when its files were read again.
+  void dismiss_scene();
   /// Removes notes older than note_seconds.
   void age(double now);
   const std::vector<Message>& list() const { return list_; }

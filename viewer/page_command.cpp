@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "viewer/axes.hpp"
+#include "viewer/render_command.hpp"
 
 namespace tureen::viewer {
 
@@ -20,16 +21,10 @@ std::vector<std::string> page_arguments(const StageSource& scene, const PageRequ
   if (!is_axis(request.up, scene.subject.up))
     add("--up", fmt::format("{},{},{}", request.up.x, request.up.y, request.up.z));
   if (request.max_splats) add("--max-splats", std::to_string(*request.max_splats));
-  if (const auto& profile = request.choice.plan.splat_profile)
-    add("--profile", std::string(name_of(*profile)));
-  const Quality quality = quality_of(request.choice, *scene.scene), own = scene.scene->quality;
-  if (quality.splat_order != own.splat_order)
-    add("--splat-order", std::string(name_of(quality.splat_order)));
-  if (quality.resolution_scale < 1 && quality.resolution_scale != own.resolution_scale)
-    add("--resolution-scale", fmt::format("{}", quality.resolution_scale));
-  else if (quality.resolution_scale == 1 &&
-           (own.resolution_scale < 1 || quality.supersampling != own.supersampling))
-    add("--supersample", std::to_string(quality.supersampling));
+  if (request.max_memory != default_max_memory)
+    add("--max-memory", std::to_string(request.max_memory));
+  const auto quality = quality_arguments(scene, request.choice, "--resolution-scale");
+  arguments.insert(arguments.end(), quality.begin(), quality.end());
   return arguments;
 }
 

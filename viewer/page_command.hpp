@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.hpp"
 #include "viewer/stage.hpp"
 
 namespace tureen::viewer {
@@ -15,11 +16,12 @@ namespace tureen::viewer {
 struct PageRequest {
   DrawingChoice choice = {};  // the page keeps its profile and quality
   std::optional<std::uint64_t> max_splats = {};
+  std::uint64_t max_memory = default_max_memory;
   glm::dvec3 up{0.0};  // the up axis that the window shows
 };
 
-/// The arguments of `tureen` that write the scene's files as one page. What the window shows
-/// otherwise than the files is an option: the up axis, the profile, the quality.
+/// The arguments of `tureen` that write the scene's files as one page. Options carry the
+/// differences between window and files: the up axis, the profile, the quality.
 std::vector<std::string> page_arguments(const StageSource& scene, const PageRequest& request,
                                         const std::filesystem::path& page);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string_view>
+#include <utility>
 
 #include "viewer/axes.hpp"
 
@@ -16,11 +17,9 @@ namespace {
 /// The shortest texts that read back as the same doubles.
 std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-void add_choice(std::string& command, const DrawingChoice& choice, const Scene& scene) {
+void add_choice(std::string& command, const DrawingChoice& choice, const StageSource& scene) {
   if (choice.pipeline == PipelineKind::baseline) command += " --pipeline baseline";
   if (!choice.plan.specialise) command += " --no-specialise";
-  if (choice.plan.splat_profile)
-    command += " --profile " + std::string(name_of(*choice.plan.splat_profile));
   if (choice.plan.as_published) command += " --as-published";
   if (choice.plan.splat_blending != SplatBlending::automatic)
     command +=
@@ -30,14 +29,8 @@ void add_choice(std::string& command, const DrawingChoice& choice, const Scene& 
     if (!choice.plan.specialisations.has(entry.what))
       kept += (kept.empty() ? "" : ",") + std::string(entry.name);
   if (choice.plan.specialise && !kept.empty()) command += " --keep " + kept;
-  const Quality quality = quality_of(choice, scene);
-  if (quality.splat_order != scene.quality.splat_order)
-    command += fmt::format(" --splat-order {}", name_of(quality.splat_order));
-  if (quality.resolution_scale == scene.quality.resolution_scale &&
-      quality.supersampling == scene.quality.supersampling)
-    return;
-  command += quality.resolution_scale < 1 ? fmt::format(" --scale {}", quality.resolution_scale)
-                                          : fmt::format(" --supersample {}", quality.supersampling);
+  for (const std::string& argument : quality_arguments(scene, choice, "--scale"))
+    command += " " + argument;
 }
 
 /// "depth"; "features:0" and "features:4-6" for a choice of them.
@@ -72,6 +65,30 @@ std::string quoted_command(const std::vector<std::string>& arguments) {
   return command;
 }
 
+std::vector<std::string> quality_arguments(const StageSource& scene, const DrawingChoice& choice,
+                                           const char* resolution_scale) {
+  std::vector<std::string> arguments;
+  const auto add = [&](const char* option, std::string value) {
+    arguments.emplace_back(option);
+    arguments.push_back(std::move(value));
+  };
+  const Quality quality = quality_of(choice, *scene.scene), own = scene.scene->quality;
+  if (has_splats(scene)) {
+    if (const auto& profile = choice.plan.splat_profile)
+      add("--profile", std::string(name_of(*profile)));
+    if (quality.splat_order != own.splat_order)
+      add("--splat-order", std::string(name_of(quality.splat_order)));
+  }
+  if (quality.resolution_scale == own.resolution_scale &&
+      quality.supersampling == own.supersampling)
+    return arguments;
+  if (quality.resolution_scale < 1)
+    add(resolution_scale, fmt::format("{}", quality.resolution_scale));
+  else
+    add("--supersample", std::to_string(quality.supersampling));
+  return arguments;
+}
+
 bool needs_camera_file(const Camera& camera) {
   // A camera of look_at has one focal length and its principal point in the middle. Half a
   // thousandth of a pixel is far below the 1/256 that vertices snap to.
@@ -100,7 +117,7 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
   }
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
   if (debug_view.what == DebugView::color)
-    add_choice(command, choice, *scene.scene);
+    add_choice(command, choice, scene);
   else
     command += " --debug-view " + shown(debug_view);
   return command + " -o image.png";

@@ -19,6 +19,12 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file);
 
+/// The options of `tureen render` and `tureen convert` for the profile and the quality where the
+/// choice differs from the files. Without splats, none about splats: the commands refuse them.
+/// `resolution_scale`: the command's option for Quality::resolution_scale.
+std::vector<std::string> quality_arguments(const StageSource& scene, const DrawingChoice& choice,
+                                           const char* resolution_scale);
+
 bool needs_camera_file(const Camera& camera);
 
 /// The text for a POSIX shell: unchanged if it has only plain characters, otherwise in single

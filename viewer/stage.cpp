@@ -237,6 +237,11 @@ bool StageSource::is_as_read() const {
   return at == layers.size();
 }
 
+bool has_splats(const StageSource& source) {
+  return std::any_of(source.layers.begin(), source.layers.end(),
+                     [](const StageLayer& layer) { return layer.primitives && !layer.soup(); });
+}
+
 std::vector<std::string> window_notes(const SceneInfo& info) {
   std::vector<std::string> notes = info.notes;
   for (const Remark& remark : info.remarks) notes.push_back(describe(remark) + control_of(remark));

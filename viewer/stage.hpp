@@ -78,6 +78,8 @@ struct StageSource {
   bool is_as_read() const;
 };
 
+bool has_splats(const StageSource& source);
+
 /// all_notes() with the window's controls instead of the command line's options.
 std::vector<std::string> window_notes(const SceneInfo& info);
 /// The window_notes() of the files as a scene of several files has them: with names.

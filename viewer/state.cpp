@@ -2,6 +2,14 @@
 
 namespace tureen::viewer {
 
+std::filesystem::path State::folder_of_images() const {
+  std::filesystem::path folder = images_option;
+  if (folder.empty()) folder = settings.images;
+  if (folder.empty()) folder = images_folder();
+  std::error_code unknown;
+  return std::filesystem::absolute(folder, unknown).lexically_normal();
+}
+
 std::vector<const Camera*> State::recorded_cameras() const {
   std::vector<const Camera*> cameras;
   if (photographs)

@@ -23,6 +23,7 @@
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/stage.hpp"
+#include "viewer/training_command.hpp"
 #include "viewer/worker.hpp"
 
 namespace tureen::viewer {
@@ -91,16 +92,18 @@ struct CancelJob {
 /// Starts a program that trains a scene from the photographs.
 struct StartTraining {
   std::filesystem::path scene;  // the file to write
+  TrainingStart start = TrainingStart::new_run;
 };
 /// Ends this program. Its checkpoint stays.
 struct StopTraining {};
-/// Copies the command that trains a scene from the photographs to the clipboard.
+/// Copies the command that trains a scene from the photographs to the clipboard; that of the
+/// training in progress if it has these photographs.
 struct CopyTrainingCommand {};
 /// Stops writing images and animations.
 struct StopWriting {};
 /// Closes the window.
 struct Quit {
-  /// What becomes of a training that this window has started.
+  /// Fate of a training that this window has started.
   enum class Training { ask, stop, let_continue };
   Training training = Training::ask;
 };
@@ -118,12 +121,15 @@ struct Photographs {
   std::vector<Photograph> list;
   std::size_t train_count = 0;
   std::vector<std::string> notes;
-  bool stay_is_noted = false;  // a message has said that they stay when another scene is opened
+  bool stay_is_noted = false;  // a message has said that
 };
 
 /// A training that this window has started.
 struct StartedTraining {
   std::filesystem::path dataset, scene;
+  TrainingStart start = TrainingStart::new_run;
+  /// Of the scene at the start, and of the checkpoint when it was stopped; nullopt: no such file.
+  FileTime scene_before = {}, checkpoint_before = {};
   bool is_stopped = false;  // it is about to end
 };
 
@@ -154,8 +160,9 @@ inline constexpr double progress_delay_seconds = 0.5;
 
 struct State {
   Settings settings;
-  std::unique_ptr<Stage> stage;  // null before the first scene
-  DrawingChoice wanted;          // options of the stage in preparation, otherwise of `stage`
+  std::filesystem::path images_option;  // folder of --images, before the settings'; empty: none
+  std::unique_ptr<Stage> stage;         // null before the first scene
+  DrawingChoice wanted;                 // options of the stage in preparation, otherwise of `stage`
   DebugViewChoice debug_view;
   std::optional<Photographs> photographs;
   std::optional<FollowedTraining> training;
@@ -180,6 +187,10 @@ struct State {
   glm::ivec2 points{1, 1}, pixels{1, 1};
   double now = 0;  // seconds of the window's clock
 
+  /// Absolute folder for images.
+  std::filesystem::path folder_of_images() const;
+  /// Whether a dialog is open, which takes the keys.
+  bool has_dialog() const { return scene_to_train || asks_before_quitting; }
   /// The cameras of the photographs if there are any, otherwise of the scene.
   std::vector<const Camera*> recorded_cameras() const;
   /// The current view as a keyframe; `seconds` is its time in the path.

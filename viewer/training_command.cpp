@@ -1,5 +1,7 @@
 #include "viewer/training_command.hpp"
 
+#include "base/extension.hpp"
+#include "viewer/names.hpp"
 #include "viewer/render_command.hpp"
 
 namespace tureen::viewer {
@@ -14,9 +16,17 @@ fs::path folder_of(const fs::path& dataset) {
   return (fs::absolute(dataset, ignored).lexically_normal() / "").parent_path();
 }
 
-fs::path checkpoint_of(fs::path scene) { return scene.replace_extension(".checkpoint"); }
-
 }  // namespace
+
+FileTime time_of(const fs::path& file) {
+  std::error_code error;
+  const fs::file_time_type time = fs::last_write_time(file, error);
+  return error ? FileTime{} : time;
+}
+
+fs::path checkpoint_of(const fs::path& scene) {
+  return fs::path(scene).replace_extension(".checkpoint");
+}
 
 fs::path new_trained_scene(const fs::path& dataset) {
   std::error_code ignored;
@@ -28,14 +38,45 @@ fs::path new_trained_scene(const fs::path& dataset) {
   return scene;
 }
 
-std::vector<std::string> training_arguments(const fs::path& dataset, const fs::path& scene) {
-  return {"train", folder_of(dataset).string(), "-o", scene.string(), "--watch"};
+TypedScene check_typed_scene(const fs::path& scene) {
+  std::error_code error;
+  if (scene.empty()) return {.remark = "", .is_possible = false};
+  if (fs::is_directory(scene, error))
+    return {.remark = "This is a folder: type the name of a file.", .is_possible = false};
+  const fs::path folder = fs::absolute(scene, error).parent_path();
+  if (!fs::is_directory(folder, error))
+    return {.remark = "There is no folder " + folder.string() + ".", .is_possible = false};
+  if (extension_of(scene) != ".glb")
+    return {.remark = "The name must end in .glb.", .is_possible = false};
+  if (fs::exists(checkpoint_of(scene), error))
+    return {.remark = "There is an unfinished training of this file, which can continue.",
+            .is_unfinished = true};
+  return {.remark = fs::exists(scene, error) ? "This file exists. The training replaces it." : ""};
+}
+
+std::vector<std::string> training_arguments(const fs::path& dataset, const fs::path& scene,
+                                            TrainingStart start) {
+  std::vector<std::string> arguments{"train", folder_of(dataset).string(), "-o", scene.string(),
+                                     "--watch"};
+  if (start == TrainingStart::from_checkpoint) arguments.emplace_back("--resume");
+  return arguments;
 }
 
 std::string command_that_continues(const fs::path& dataset, const fs::path& scene) {
   std::error_code ignored;
   if (!fs::exists(checkpoint_of(scene), ignored)) return "";
-  return quoted_command(training_arguments(dataset, scene)) + " --resume";
+  return quoted_command(training_arguments(dataset, scene, TrainingStart::from_checkpoint));
+}
+
+std::string note_of(const EndedTraining& training) {
+  const std::string name = "The training of " + short_name(training.scene);
+  const std::string further = command_that_continues(training.dataset, training.scene);
+  // Also if it was stopped while it measured the complete scene.
+  if (!training.failure || (training.wrote_scene && further.empty())) return name + " has ended.";
+  if (!training.is_stopped) return "";
+  const std::string reason = training.wrote_checkpoint ? "." : ": " + *training.failure + ".";
+  return name + " was stopped" + reason +
+         (further.empty() ? " It has no checkpoint." : " To continue: " + further);
 }
 
 }  // namespace tureen::viewer

@@ -2,21 +2,52 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tureen::viewer {
 
+/// Time of the last change; nullopt: there is no such file.
+using FileTime = std::optional<std::filesystem::file_time_type>;
+FileTime time_of(const std::filesystem::path& file);
+
+/// OUT.checkpoint of OUT.glb.
+std::filesystem::path checkpoint_of(const std::filesystem::path& scene);
+
 /// A path beside the dataset, absolute, that no scene and no unfinished run has: fox.glb,
 /// fox-2.glb.
 std::filesystem::path new_trained_scene(const std::filesystem::path& dataset);
 
+/// The file that the user has typed for the scene of a training.
+struct TypedScene {
+  std::string remark;          // to show; empty: none
+  bool is_possible = true;     // otherwise the training would be refused
+  bool is_unfinished = false;  // there is a checkpoint: a training can only continue from it
+};
+TypedScene check_typed_scene(const std::filesystem::path& scene);
+
+enum class TrainingStart { new_run, from_checkpoint };
+
 /// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it.
 std::vector<std::string> training_arguments(const std::filesystem::path& dataset,
-                                            const std::filesystem::path& scene);
+                                            const std::filesystem::path& scene,
+                                            TrainingStart start = TrainingStart::new_run);
 
 /// The command that continues this training from its checkpoint; empty if there is none.
 std::string command_that_continues(const std::filesystem::path& dataset,
                                    const std::filesystem::path& scene);
+
+/// A training that has ended.
+struct EndedTraining {
+  std::filesystem::path dataset, scene;
+  bool is_stopped = false;                  // the window has interrupted it
+  bool wrote_scene = false;                 // since its start
+  bool wrote_checkpoint = false;            // since it was stopped
+  std::optional<std::string> failure = {};  // BackgroundProgram::failure()
+};
+/// The window's note about its end: complete, or stopped with a checkpoint or the reason why there
+/// is none. Empty if it failed.
+std::string note_of(const EndedTraining& training);
 
 }  // namespace tureen::viewer

@@ -33,9 +33,19 @@ TEST(Messages, ErrorsAboutOpeningEndWithTheNextFile) {
   messages.note("saved", 1.0);
   messages.error("soup-1.png", "the disk is full", 1.0);
   messages.opening_error("bad.glb", "it is cut short", 1.0);
+  messages.scene_error("soup.glb", "it is cut short", 1.0);
   messages.dismiss_opening();
   ASSERT_EQ(messages.list().size(), 2u);
   EXPECT_EQ(messages.list()[1].title, "soup-1.png");
+}
+
+TEST(Messages, ThoseAboutOpeningStayWhenTheSceneIsReadAgain) {
+  Messages messages;
+  messages.opening_error("bad.glb", "it is cut short", 1.0);
+  messages.scene_error("soup.glb", "it is cut short", 1.0);
+  messages.dismiss_scene();
+  ASSERT_EQ(messages.list().size(), 1u);
+  EXPECT_EQ(messages.list()[0].title, "bad.glb");
 }
 
 TEST(Messages, OfFilesDoNotFillTheWindow) {

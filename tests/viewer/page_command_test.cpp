@@ -13,7 +13,8 @@ StageSource source() {
   StageSource result;
   for (const char* path : {"/scenes/a.glb", "/scenes/b.ply"})
     result.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  result.layers = {{.file = 0}, {.file = 1}};
+  result.layers = {{.primitives = std::make_shared<const Primitives>(TriangleSoup()), .file = 0},
+                   {.primitives = std::make_shared<const Primitives>(Splats()), .file = 1}};
   result.scene = std::make_shared<const Scene>();
   result.subject.up = {0, 0, 1};
   return result;
@@ -32,6 +33,23 @@ TEST(PageCommand, HasWhatTheWindowShowsOtherwiseThanTheFiles) {
       page_arguments(source(), {.choice = choice, .max_splats = 900, .up = {0, -1, 0}}, "/a.html"),
       ElementsAre("convert", "/scenes/a.glb", "/scenes/b.ply", "-o", "/a.html", "--up", "0,-1,0",
                   "--max-splats", "900", "--profile", "2dgs", "--supersample", "2"));
+}
+
+/// The profile that the user wants stays when another scene opens.
+TEST(PageCommand, OfASoupHasNoOptionsForSplats) {
+  StageSource soup = source();
+  soup.layers = {{.primitives = std::make_shared<const Primitives>(TriangleSoup()), .file = 0}};
+  DrawingChoice choice;
+  choice.plan.splat_profile = profile_named("2dgs");
+  choice.quality = Quality{.splat_order = Quality::SplatOrder::exact};
+  EXPECT_THAT(page_arguments(soup, {.choice = choice, .up = {0, 0, 1}}, "/a.html"),
+              ElementsAre("convert", "/scenes/a.glb", "-o", "/a.html"));
+}
+
+TEST(PageCommand, HasTheWindowsLimitOfMemory) {
+  EXPECT_THAT(page_arguments(source(), {.max_memory = 1000, .up = {0, 0, 1}}, "/a.html"),
+              ElementsAre("convert", "/scenes/a.glb", "/scenes/b.ply", "-o", "/a.html",
+                          "--max-memory", "1000"));
 }
 
 }  // namespace page_command_test

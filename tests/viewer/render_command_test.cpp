@@ -42,6 +42,7 @@ glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string
 StageSource source(const std::string& path) {
   StageSource result;
   result.files.push_back({.path = path, .watch = {}, .header = nullptr});
+  result.layers = {{.primitives = std::make_shared<const Primitives>(Splats())}};
   result.scene = std::make_shared<const Scene>();
   return result;
 }
@@ -118,8 +119,11 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   choice.plan.splat_blending = SplatBlending::raster;
   choice.quality = Quality{};
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
-              AllOf(HasSubstr("--supersample 1"),
-                    HasSubstr("--profile mip --as-published --blend raster")));
+              AllOf(HasSubstr("--as-published --blend raster"),
+                    HasSubstr("--profile mip --supersample 1")));
+  fine.layers = {{.primitives = std::make_shared<const Primitives>(TriangleSoup())}};
+  EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
+              AllOf(HasSubstr("--supersample 1"), Not(HasSubstr("--profile"))));
 }
 
 }  // namespace render_command_test

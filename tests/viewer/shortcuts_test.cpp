@@ -51,6 +51,16 @@ TEST(Shortcuts, HaveTheWordsOfThePage) {
   }
 }
 
+TEST(Shortcuts, EscapeClosesTheTopmostList) {
+  State state;
+  state.show_keys = state.show_files = true;
+  ASSERT_TRUE(run_shortcut(Key::escape, false, state));
+  EXPECT_FALSE(state.show_keys);
+  EXPECT_TRUE(state.show_files);
+  ASSERT_TRUE(run_shortcut(Key::escape, false, state));
+  EXPECT_FALSE(state.show_files);
+}
+
 TEST(Shortcuts, ITurnsTheSceneUpsideDown) {
   State state;
   const glm::dvec3 up(0, 0, 1);

@@ -34,5 +34,46 @@ TEST(TrainingCommand, ContinuesFromACheckpoint) {
             "tureen train " + dataset.string() + " -o " + scene.string() + " --watch --resume");
 }
 
+TEST(TrainingCommand, OfATypedSceneChecksWhatTheTrainingWouldRefuse) {
+  const fs::path folder = fs::path(testing::TempDir()) / "training_typed";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "folder.glb");
+  EXPECT_FALSE(check_typed_scene("").is_possible);
+  EXPECT_FALSE(check_typed_scene(folder / "folder.glb").is_possible);
+  EXPECT_FALSE(check_typed_scene(folder / "scene.ply").is_possible);
+  const TypedScene missing = check_typed_scene(folder / "none" / "scene.glb");
+  EXPECT_FALSE(missing.is_possible);
+  EXPECT_THAT(missing.remark, testing::HasSubstr((folder / "none").string()));
+  const TypedScene good = check_typed_scene(folder / "scene.glb");
+  EXPECT_TRUE(good.is_possible);
+  EXPECT_EQ(good.remark, "");
+  std::ofstream(folder / "scene.glb") << "x";
+  EXPECT_TRUE(check_typed_scene(folder / "scene.glb").is_possible);
+  EXPECT_NE(check_typed_scene(folder / "scene.glb").remark, "");
+  std::ofstream(folder / "scene.checkpoint") << "x";
+  EXPECT_TRUE(check_typed_scene(folder / "scene.glb").is_unfinished);
+}
+
+TEST(TrainingCommand, TheNoteOfItsEndHasTheReasonWithoutACheckpoint) {
+  const fs::path folder = fs::path(testing::TempDir()) / "training_ended";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "fox");
+  EndedTraining training{.dataset = folder / "fox", .scene = folder / "scene.glb"};
+  EXPECT_EQ(note_of(training), "The training of scene.glb has ended.");
+  training.failure = "no space";
+  EXPECT_EQ(note_of(training), "");
+  training.is_stopped = true;
+  EXPECT_EQ(note_of(training),
+            "The training of scene.glb was stopped: no space. It has no checkpoint.");
+  training.wrote_scene = true;  // stopped while it measured the scene
+  EXPECT_EQ(note_of(training), "The training of scene.glb has ended.");
+  std::ofstream(folder / "scene.checkpoint") << "x";
+  const std::string further =
+      " To continue: " + command_that_continues(training.dataset, training.scene);
+  EXPECT_EQ(note_of(training), "The training of scene.glb was stopped: no space." + further);
+  training.wrote_checkpoint = true;
+  EXPECT_EQ(note_of(training), "The training of scene.glb was stopped." + further);
+}
+
 }  // namespace training_command_test
 }  // namespace tureen::viewer

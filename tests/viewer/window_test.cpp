@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/matrix.hpp>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
@@ -328,17 +329,63 @@ TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
   EXPECT_FALSE(fs::exists(folder_ / "no folder"));
 }
 
-/// The program's own template is missing where the page was not built.
+/// Opens the panel Image in a window of 720 x 640, and saves a page.
+Person& save_page(Person& person) {
+  person.wait().click(view_header).click(scene_header).click(image_header);
+  return person.click(page_button).wait();
+}
+
+/// The template of a page. The program's own is missing where the page was not built.
+class Template {
+ public:
+  explicit Template(const fs::path& file) { ::setenv("TUREEN_WEB_TEMPLATE", file.c_str(), 1); }
+  ~Template() { ::unsetenv("TUREEN_WEB_TEMPLATE"); }
+  Template(const Template&) = delete;
+  Template& operator=(const Template&) = delete;
+};
+
 TEST_F(Window, SavesAWebPage) {
   std::ofstream(folder_ / "template.html")
       << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
-  ::setenv("TUREEN_WEB_TEMPLATE", (folder_ / "template.html").c_str(), 1);
+  const Template other(folder_ / "template.html");
   Person person({720, 640});
-  person.wait().click(view_header).click(scene_header).click(image_header).click(page_button);
-  const ChildResult result = replay(person.wait());
-  ::unsetenv("TUREEN_WEB_TEMPLATE");
+  const ChildResult result = replay(save_page(person));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "soup-1.html"));
+  std::ifstream file(folder_ / "pictures" / "soup-1.html");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(page, testing::HasSubstr(R"(id="scene" data-name="soup")"));
+  // "glTF" in Base64, and most of the scene's bytes.
+  EXPECT_THAT(page, testing::HasSubstr(">Z2xURg"));
+  EXPECT_GT(page.size(), fs::file_size(folder_ / "soup.glb"));
+}
+
+TEST_F(Window, ReportsWhyAPageWasNotWritten) {
+  const Template none(folder_ / "none.html");
+  Person person({720, 640});
+  const ChildResult result = replay(save_page(person));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, Names("soup-1.html was not written", "none.html"));
+  EXPECT_FALSE(fs::exists(folder_ / "pictures" / "soup-1.html"));
+}
+
+TEST_F(Window, SavesNoPageOfChangedLayers) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  std::ofstream(folder_ / "template.html")
+      << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
+  const Template other(folder_ / "template.html");
+  // The panel Layers is above the others, here closed like the scene's.
+  const glm::dvec2 second_layer{391, 448}, layers_header{560, 390}, below(0, 38.5);
+  for (const bool changes : {false, true}) {
+    Person person({720, 640});
+    person.wait();
+    if (changes) person.click(second_layer);
+    person.click(layers_header).click(scene_header).click(glm::dvec2(560, 65) + below);
+    person.click(image_header + below).click(page_button + below).look("panel");
+    const ChildResult result = replay(person, {"soup.glb", "floor.off"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(fs::exists(folder_ / "pictures" / "soup-1.html"), !changes);
+    fs::remove(folder_ / "pictures" / "soup-1.html");
+  }
 }
 
 TEST_F(Window, PlaysACameraPath) {
@@ -439,7 +486,7 @@ TEST_F(Window, ComparesWithThePhotographs) {
   expect_golden(image("difference"), "window_difference");
 }
 
-TEST_F(Window, SaysThatNoPhotographHasTheView) {
+TEST_F(Window, ReportsThatNoPhotographHasTheView) {
   write_photographs();
   Person person;
   person.wait().without_notes().look("off").press(Key::c).look("split");
@@ -821,13 +868,18 @@ TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
 
 /// Positions in the card of photographs without a scene, and in the dialog before the window is
 /// closed during a training, in a window of 720 x 450.
-constexpr glm::dvec2 train_button{157, 142}, stop_and_quit_button{147, 235};
+constexpr glm::dvec2 train_button{157, 142}, stop_and_quit_button{147, 235},
+    words_of_dialog{360, 172};
 
 TEST_F(Window, ATrainingStartsOnlyAfterAQuestion) {
   write_photographs();
   Person person;
   person.drop("photographs").wait().look("photographs").click(train_button).look("asked");
-  EXPECT_EQ(replay(person.press(Key::escape).look("cancelled"), {}).exit_code, 0);
+  // Outside of its field, its keys are no shortcuts; Escape closes the dialog alone.
+  person.without_notes().click(words_of_dialog).look("words").press(Key::f1).press(Key::t);
+  person.look("behind").press(Key::escape).look("cancelled");
+  EXPECT_EQ(replay(person, {}).exit_code, 0);
+  expect_equal(image("behind"), image("words"));
   EXPECT_NE(image("asked").pixels, image("photographs").pixels);
   std::this_thread::sleep_for(std::chrono::seconds(1));
   EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));

@@ -89,7 +89,7 @@ const std::array table = {
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
     Shortcut{Key::f, false, keys, "frame the whole scene",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},
-    Shortcut{Key::r, false, keys, "return to the first view",
+    Shortcut{Key::r, false, keys, "return to the first view and its up axis",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.reset(); }},
     Shortcut{Key::m, false, keys, "switch between orbit and fly", switch_mode},
     Shortcut{Key::tab, false, keys, nullptr, switch_mode},
@@ -125,7 +125,7 @@ const std::array table = {
     Shortcut{Key::f1, false, window, "show this list; also ?", show_keys},
     Shortcut{Key::f5, false, window, "read the files again", [](State& s) { s.ask(ReloadScene{}); }},
     Shortcut{Key::escape, false, window, "close lists over the image",
-             [](State& s) { s.show_keys = s.show_files = false; }},
+             [](State& s) { (s.show_keys ? s.show_keys : s.show_files) = false; }},
     Shortcut{Key::q, true, window, "quit", [](State& s) { s.ask(Quit{}); }},
 };
 // clang-format on

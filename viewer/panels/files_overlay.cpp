@@ -110,7 +110,9 @@ void files_overlay(State& state) {
   ImGui::End();
   for (const fs::path& folder : next)
     if (!folder.empty()) state.files = list_files(folder);
-  if (escape_pressed()) state.show_files = false;
+  // Outside of the field, Escape is a shortcut.
+  if (escape_pressed() && ImGui::GetIO().WantTextInput && !state.has_dialog())
+    state.show_files = false;
   if (!state.show_files) state.files = {};
 }
 

@@ -4,8 +4,8 @@
 #include <imgui/imgui_stdlib.h>
 // clang-format on
 
-#include <filesystem>
 #include <glm/common.hpp>
+#include <string>
 
 #include "image/png.hpp"
 #include "viewer/panels.hpp"
@@ -14,8 +14,6 @@
 namespace tureen::viewer {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// As on the page: the size of the window's image, common sizes, or numbers.
 void size_rows(ImageWish& wish) {
@@ -60,11 +58,14 @@ void image_panel(State& state) {
   ImageWish& wish = state.image;
   size_rows(wish);
   field("Folder");
-  ImGui::InputTextWithHint("##folder", images_folder().string().c_str(), &state.settings.images);
-  std::error_code unknown;
-  const fs::path typed = state.settings.images;
-  const fs::path folder = typed.empty() ? images_folder() : typed;
-  tip(fs::absolute(folder, unknown).lexically_normal().string());
+  if (state.images_option.empty()) {
+    ImGui::InputTextWithHint("##folder", images_folder().string().c_str(), &state.settings.images);
+  } else {
+    const Disabled disabled(true);
+    std::string folder = state.images_option.string();
+    ImGui::InputText("##folder", &folder);
+  }
+  tip(state.folder_of_images().string());
   check("Transparent background", &wish.transparent);
   if (button("Save the image"))
     state.ask(TakeImage{wish.window_size ? glm::ivec2(0) : wish.size, wish.transparent});

@@ -4,33 +4,38 @@
 #include <imgui/imgui_stdlib.h>
 // clang-format on
 
-#include <filesystem>
+#include <string>
 
 #include "base/decimal_text.hpp"
 #include "viewer/names.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/training_command.hpp"
 
 namespace tureen::viewer {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 void start_dialog(State& state) {
+  const Dialog dialog("Train a scene", state.scene_to_train.has_value());
+  if (!dialog.is_open()) return;
   std::string& scene = *state.scene_to_train;
   const Photographs& photographs = *state.photographs;
-  const Dialog dialog("Train a scene");
   paragraph("Trains a scene from the " + counted(photographs.list.size(), "photograph") + " of " +
             short_name(photographs.path) + ". This takes minutes to hours.");
   field("Scene");
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputText("##scene", &scene, ImGuiInputTextFlags_EnterReturnsTrue);
-  std::error_code ignored;
-  if (fs::exists(scene, ignored)) aside("This file exists. The training replaces it.");
+  const TypedScene typed = check_typed_scene(scene);
+  if (!typed.remark.empty()) aside(typed.remark);
   aside("Another window shows the progress, and pauses or ends the training.");
-  if ((strong_button("Start") || entered) && !scene.empty()) {
-    state.ask(StartTraining{scene});
+  const bool pressed = [&] {
+    const Disabled disabled(!typed.is_possible);
+    return strong_button(typed.is_unfinished ? "Continue" : "Start");
+  }();
+  if ((pressed || entered) && typed.is_possible) {
+    state.ask(StartTraining{
+        scene, typed.is_unfinished ? TrainingStart::from_checkpoint : TrainingStart::new_run});
     state.scene_to_train.reset();
     return;
   }
@@ -39,7 +44,8 @@ void start_dialog(State& state) {
 }
 
 void quit_dialog(State& state) {
-  const Dialog dialog("Quit");
+  const Dialog dialog("Quit", state.asks_before_quitting);
+  if (!dialog.is_open()) return;
   paragraph("The training of " + short_name(state.started->scene) +
             " is in progress. After its first step, a stopped training can continue from its "
             "checkpoint.");
@@ -54,8 +60,8 @@ void quit_dialog(State& state) {
 
 void training_dialogs(State& state) {
   if (!state.photographs) state.scene_to_train.reset();
-  if (state.scene_to_train) start_dialog(state);
-  if (state.asks_before_quitting) quit_dialog(state);
+  start_dialog(state);
+  quit_dialog(state);
 }
 
 }  // namespace tureen::viewer

@@ -73,7 +73,7 @@ void fact(const char* name, const std::string& value) {
 }
 
 void tip(const std::string& words) {
-  if (!ImGui::IsItemHovered()) return;
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
   unformatted(words);
@@ -219,14 +219,21 @@ void progress_bar(double fraction) {
 
 bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false); }
 
-Dialog::Dialog(const char* title) {
+Dialog::Dialog(const char* title, bool open) {
+  if (open && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({0.5f * window.x, 0.45f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(36 * em, window.x - 2 * em), 0});
-  ImGui::Begin(title, nullptr,
-               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings);
+  begun_ = ImGui::BeginPopupModal(
+      title, nullptr,
+      ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  if (begun_ && !open) ImGui::CloseCurrentPopup();
+  open_ = begun_ && open;
+}
+
+Dialog::~Dialog() {
+  if (begun_) ImGui::EndPopup();
 }
 
 Card::Card(const Look& look)

@@ -32,7 +32,7 @@ void sentence(std::string words);
 void heading(const std::string& words);
 /// A dimmed name and its value, which wraps.
 void fact(const char* name, const std::string& value);
-/// A tooltip of the previous item.
+/// A tooltip of the previous item, also of a disabled one.
 void tip(const std::string& words);
 /// The legend of colours, one row each.
 void legend_rows(const Legend& legend);
@@ -84,13 +84,19 @@ class Card {
   float width_ = 0;
 };
 
-/// A window in the middle of the screen, with the items drawn in its scope.
+/// A window in the middle of the screen, with the items drawn in its scope. While it is open, the
+/// other windows take no events. Constructed in every frame, also while it is closed.
 class Dialog {
  public:
-  explicit Dialog(const char* title);
-  ~Dialog() { ImGui::End(); }
+  Dialog(const char* title, bool open);
+  ~Dialog();
   Dialog(const Dialog&) = delete;
   Dialog& operator=(const Dialog&) = delete;
+  /// Whether its items are to be drawn.
+  bool is_open() const { return open_; }
+
+ private:
+  bool begun_ = false, open_ = false;
 };
 
 /// Whether the user has pressed Escape, also in a field.

@@ -138,8 +138,11 @@ class Loader {
     await this.early.finish(bytes, async (fraction) => {
       this.tell('read', decodingPart * fraction);
       this.readFrom = decodingPart;
-      await this.showPreview(bytes, bytes.length);  // the device may have started only now
+      await this.showPreview(bytes, bytes.length);
     });
+    if (this.readFrom === 0) return;
+    await this.limits;  // the device may start only now: a preview is still earlier than the scene
+    await this.showPreview(bytes, bytes.length);
   }
 
   private async opened({ files, name }: FilesToLoad): Promise<OpenedFiles> {

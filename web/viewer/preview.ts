@@ -12,6 +12,8 @@ const patienceMs = 300;
 const maxSplatBytes = 256 << 20, maxSplatPart = 1 / 16;
 /** The headers of files with several previews are not larger. */
 const maxHeader = 1 << 20;
+/** A GLB whose JSON does not fit has no preview. */
+const maxJson = 8 << 20;
 
 /** web/engine/loader.cpp */
 interface PreviewSize {
@@ -61,7 +63,7 @@ export class Preview {
   private tryToRead(prefix: Uint8Array, total: number | null): SceneDescription | null {
     if (this.next === null && prefix.length >= 2 * this.asked) {
       this.asked = prefix.length;
-      this.engine().setBuffer(this.shown === 0 ? prefix : prefix.subarray(0, maxHeader));
+      this.engine().setBuffer(prefix.subarray(0, this.shown === 0 ? maxJson : maxHeader));
       this.next = this.engine().call<PreviewSize | null>('preview_size', { name: this.name, shown: this.shown });
     }
     const { next } = this;
