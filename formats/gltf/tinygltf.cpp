@@ -11,8 +11,9 @@
 #include <string>
 #include <utility>
 
-/// The standard library as tinygltf sees it. The only streams that it uses here build error messages.
-/// With those of the library, a page would contain all locales: 24 KB more with brotli, of 400.
+/// The standard library as tinygltf sees it. The only streams that it uses here build error
+/// messages. With those of the library, a page would contain all locales: 24 KB more with brotli,
+/// of 400.
 namespace tinygltf_std {
 
 using namespace std;

@@ -35,8 +35,7 @@ FileRange image_range(const GlbArrays& arrays, const JsonView& reference) {
   return arrays.view_location(image["bufferView"]);
 }
 
-FileRange next_image_range(const GlbArrays& arrays, const JsonView& reference,
-                           std::uint64_t& end) {
+FileRange next_image_range(const GlbArrays& arrays, const JsonView& reference, std::uint64_t& end) {
   const FileRange range = image_range(arrays, reference);
   if (range.offset < end) reference.fail("begins before the end of the previous image");
   end = range.end();

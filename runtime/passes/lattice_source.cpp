@@ -61,8 +61,8 @@ class Placement {
   std::uint64_t cells() const { return cell_count_; }
   std::span<const glm::uvec4> patches() const { return patches_; }
 
-  /// Calls visit(i, source, n) for pieces of the texels [first, first + count) on the device: texels
-  /// i .. i + n are the soup's texels source .. source + n.
+  /// Calls visit(i, source, n) for pieces of the texels [first, first + count) on the device:
+  /// texels i .. i + n are the soup's texels source .. source + n.
   template <class Visit>
   void for_each_piece(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
     if (!repacked_) return visit(0, first, count);
@@ -75,9 +75,9 @@ class Placement {
         });
   }
 
-  /// Calls visit(i, sources) for cells [first, first + count): `sources` are the soup's texels at the
-  /// corners (x+1, y), (x, y+1), (x, y) and (x+1, y+1), the last one moved to the border for cells on
-  /// the last diagonal.
+  /// Calls visit(i, sources) for cells [first, first + count): `sources` are the soup's texels at
+  /// the corners (x+1, y), (x, y+1), (x, y) and (x+1, y+1), the last one moved to the border for
+  /// cells on the last diagonal.
   template <class Visit>
   void for_each_cell(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
     for_each_run(
@@ -118,8 +118,8 @@ class Placement {
     std::array<std::uint32_t, 3> corners_;
   };
 
-  /// Calls visit(run, i, k, n) for the parts of runs in [first, first + count): elements k .. k + n of
-  /// the run are elements i .. i + n of this range.
+  /// Calls visit(run, i, k, n) for the parts of runs in [first, first + count): elements k .. k + n
+  /// of the run are elements i .. i + n of this range.
   template <class Length, class Visit>
   static void for_each_run(const std::vector<Run>& runs, std::uint64_t first, std::uint64_t count,
                            const Length& length, const Visit& visit) {

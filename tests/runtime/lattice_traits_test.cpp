@@ -26,8 +26,8 @@ LatticeTexture mixed(std::uint32_t seed, bool shares) {
   std::vector<Value> values;
   for (std::uint32_t face = 0; face < 30; ++face) {
     const int level = int(face % 5), n = lattice::resolution(level);
-    texture.patches.push_back({std::uint32_t(values.size() / LatticeTexture::channels),
-                               std::uint32_t(level)});
+    texture.patches.push_back(
+        {std::uint32_t(values.size() / LatticeTexture::channels), std::uint32_t(level)});
     float corners[LatticeTexture::channels][3];
     for (auto& channel : corners)
       for (float& corner : channel) corner = real(random);
@@ -78,8 +78,8 @@ void expect_measured(const LatticeTexture& texture) {
     bool same = true;
     for_each_texel(texture, face, [&](std::size_t texel, lattice::Coordinates) {
       for (int c = 0; c < LatticeTexture::channels; ++c)
-        same = same && texture.value(texel, c) ==
-                           texture.value(texture.patches[face].first_texel, c);
+        same =
+            same && texture.value(texel, c) == texture.value(texture.patches[face].first_texel, c);
     });
     constant += same ? 1 : 0;
   }

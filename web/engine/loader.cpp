@@ -265,8 +265,8 @@ FileRange range_of(const Json& value) { return {value.at("offset"), value.at("si
 /// Errors of early texels are not shown: "read" reports them again.
 const std::string no_name;
 
-/// The buffer holds the first bytes of a file. Returns the strips of texels that can be decoded before
-/// the whole file is there.
+/// The buffer holds the first bytes of a file. Returns the strips of texels that can be decoded
+/// before the whole file is there.
 Json begin_texels(const Json&) {
   // The header alone decides about this memory. Larger scenes are read as without early texels.
   constexpr std::uint64_t max_bytes = 512 << 20;
