@@ -1,4 +1,4 @@
-// What a first-time user does with the page: photographs, the way back to the first view, a phone.
+// A first-time user's steps in the page: photographs, the way back to the first view, a phone.
 
 import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';

@@ -26,8 +26,8 @@ class Helper {
     program.then((compiled) => this.send({ kind: 'help', program: compiled }), () => {});
   }
 
-  /** Whether it can take another strip. A second one lets it work while the loader decodes. `left`: strips that nobody
-   *  decodes; the last ones are shared evenly. */
+  /** Whether it can take another strip. A second one lets it work while the loader decodes. `left`: number of strips
+   *  without a decoder; the last ones are shared evenly. */
   isFree(left: number): boolean { return this.works && this.tasks.length < (left > 2 ? 2 : 1); }
 
   decode(strip: TexelStrip, bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
@@ -53,7 +53,7 @@ export class EarlyTexels {
   /** Number of strips that the second worker decoded. */
   helped = 0;
   private strips: readonly TexelStrip[] | null = null;  // null before begin()
-  /** The next strip that nobody decodes yet. */
+  /** The next strip without a decoder. */
   private next = 0;
   private helper: Helper | null = null;
   private helping: Promise<void> | null = null;
@@ -116,7 +116,7 @@ export class EarlyTexels {
     }
   }
 
-  /** The next strip that nobody decodes; null if there is none in the bytes so far. */
+  /** Takes the next strip without a decoder; null if the bytes so far contain none. */
   private take(): { readonly index: number; readonly strip: TexelStrip; readonly bytes: Uint8Array } | null {
     const index = this.next, strip = this.strips?.[index];
     if (!strip || this.prefix.length < strip.high.offset + strip.high.size) return null;
