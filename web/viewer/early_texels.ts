@@ -46,8 +46,11 @@ class Helper {
   private send(message: ToLoader, transfer: Transferable[] = []): void { this.worker.postMessage(message, transfer); }
 }
 
+/** A strip takes a tenth of a second. After this time, a browser has ended the second worker without an event. */
+const patienceMs = 10_000;
+
 /** Lets the worker receive messages. */
-const tick = () => new Promise((resolve) => { setTimeout(resolve); });
+const pause = (ms = 0) => new Promise((resolve) => { setTimeout(resolve, ms); });
 
 export class EarlyTexels {
   /** Number of strips that the second worker decoded. */
@@ -101,7 +104,7 @@ export class EarlyTexels {
     try {
       this.begin(bytes, true);
       for (;;) {
-        await tick();
+        await pause();
         this.feed(bytes);
         const taken = this.take();
         if (!taken) break;
@@ -109,7 +112,8 @@ export class EarlyTexels {
         this.engine().call('decode_texels', taken.index);
         await each(this.next / this.strips!.length);
       }
-      for (let last: Promise<void> | null = null; last !== this.helping;) await (last = this.helping);
+      for (let last: Promise<void> | null = null; last !== this.helping;)
+        await Promise.race([last = this.helping, pause(patienceMs)]);
     } catch {
     } finally {
       this.helper?.end();
