@@ -41,6 +41,8 @@ class Loader {
   private started: Engine | null = null;
   private knowsLimits = false;
   private preview: Preview | null = null;
+  /** The bytes of an unfinished download. */
+  private prefix: Uint8Array | null = null;
   private readonly early = new EarlyTexels(() => this.engine, program);
 
   constructor(private readonly starting: Promise<Engine>, private readonly limits: Promise<unknown>,
@@ -48,6 +50,7 @@ class Loader {
     this.from = 'url' in message.source ? 'url' : 'files';
     starting.then((engine) => { this.started = engine; }, () => {});  // load() reports the error
     limits.then(() => { this.knowsLimits = true; }, () => {});
+    Promise.all([starting, limits]).then(() => this.use()).catch(() => {});
   }
 
   async load(): Promise<void> {
@@ -108,15 +111,18 @@ class Loader {
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
       if (total !== null && total >= largeFile && /\.glb$/i.test(name)) this.early.prepare();
-      if (this.started && prefix.length !== total) await this.use(prefix, total);
+      this.prefix = prefix.length === total ? null : prefix;
+      if (this.started) await this.use();
     });
+    this.prefix = null;
     return oneFile(name, bytes);
   }
 
-  /** Uses the first bytes of a download. */
-  private async use(prefix: Uint8Array, total: number | null): Promise<void> {
+  /** Uses the first bytes of a download: after each arrival, and when engine and device are ready. */
+  private async use(): Promise<void> {
+    const { prefix, total } = this;
+    if (!prefix || !this.preview) return;
     await this.showPreview(prefix, total);
-    if (!this.preview) return;
     this.early.begin(prefix, this.preview.knowsHeader);
     this.early.feed(prefix);
   }
