@@ -36,8 +36,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
       .value_name("NAME");
   add_choice<std::optional<Preset>>(
       command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},
-      "constants for the kind of dataset: object (default if the images have alpha) or scene "
-      "(default otherwise)")
+      "constants for the kind of dataset: object (default if the images have alpha, or borders of "
+      "one colour) or scene (default otherwise)")
       .value_name("NAME");
   command.add_option("--config", options.file, "JSON file with constants; --list-config lists them")
       .value_name("FILE");

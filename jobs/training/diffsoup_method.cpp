@@ -3,6 +3,7 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "jobs/training/methods.hpp"
+#include "trainer/common/plain_background.hpp"
 #include "trainer/diffsoup/config_file.hpp"
 #include "trainer/diffsoup/texture_level.hpp"
 #include "trainer/diffsoup/training.hpp"
@@ -26,10 +27,14 @@ class DiffsoupMethod final : public TrainingMethod {
   }
 
   void settle(const Dataset* dataset) override {
-    const Preset otherwise = dataset && !dataset->has_alpha ? Preset::scene : Preset::object;
+    if (dataset && !dataset->has_alpha) background_ = trainer::plain_background(*dataset);
+    const bool is_place = dataset && !dataset->has_alpha && !background_;
     const bool is_new = !checkpoint_ || options_.name_a_base();
-    config_ =
-        with_options(is_new ? base_config(options_, otherwise) : checkpoint_->config, options_);
+    Config base = is_new ? base_config(options_, is_place ? Preset::scene : Preset::object)
+                         : checkpoint_->config;
+    if (is_new && background_ && base.preset == Preset::object && options_.file.empty())
+      for (int c = 0; c < 3; ++c) base.background[c] = (*background_)[c];
+    config_ = with_options(base, options_);
     // Without the dataset, a preset that no option names is unknown.
     if (checkpoint_ && (dataset || !is_new))
       if (const auto reason = difference(config_, checkpoint_->config))
@@ -64,6 +69,8 @@ class DiffsoupMethod final : public TrainingMethod {
          .begun = [&](const trainer::Backend& backend, bool visible) {
            if (preset_by_alpha)
              say(dataset.has_alpha ? "The images have alpha: --preset object"
+                 : background_     ? "The images have no alpha, but borders of one colour, their "
+                                     "background: --preset object"
                                    : "The images have no alpha: --preset scene");
            say(fmt::format("{}; {} to {} with textures of level {}; {}", describe_views(dataset),
                            counted(std::uint64_t(config_.steps), "step"),
@@ -84,6 +91,7 @@ class DiffsoupMethod final : public TrainingMethod {
  private:
   const TrainingOptions& options_;
   std::optional<Checkpoint> checkpoint_;
+  std::optional<glm::vec3> background_;  // of photographs without alpha
   Config config_;
 };
 

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/memory_budget.hpp"
 #include "jobs/training/methods.hpp"
+#include "trainer/common/plain_background.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_start.hpp"
 #include "trainer/splats/splat_training.hpp"
@@ -41,8 +42,10 @@ class SplatMethod final : public TrainingMethod {
     // Photographs of a scene have no background: a pixel without a splat is an error. With a white
     // background it would match white walls.
     if (dataset && !dataset->has_alpha) {
-      std::fill_n(base.background, 3, 0.0f);
-      base.far_splats = 0.5;
+      const auto plain = trainer::plain_background(*dataset);
+      const glm::vec3 background = plain.value_or(glm::vec3(0));
+      for (int c = 0; c < 3; ++c) base.background[c] = background[c];
+      if (!plain) base.far_splats = 0.5;
     }
     if (!options_.file.empty())
       base = base_config(options_, base);

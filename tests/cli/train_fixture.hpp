@@ -18,9 +18,18 @@ class Train : public Program {
  protected:
   static constexpr int size = 32;
 
+  /// Behind the ball. A place is black with a brown lower half.
+  enum class Behind { transparent, white, place };
+
   /// The unit ball; its colour is the surface normal. One ray a pixel.
-  static Image8 image(const Camera& camera, bool with_alpha) {
-    Image8 image(size, size, with_alpha ? glm::u8vec4(0) : glm::u8vec4(0, 0, 0, 255));
+  static Image8 image(const Camera& camera, Behind behind) {
+    Image8 image(size, size,
+                 behind == Behind::transparent ? glm::u8vec4(0)
+                 : behind == Behind::white     ? glm::u8vec4(255)
+                                               : glm::u8vec4(0, 0, 0, 255));
+    if (behind == Behind::place)
+      std::fill(image.pixels.begin() + size * size / 2, image.pixels.end(),
+                glm::u8vec4(90, 60, 30, 255));
     const glm::dmat3 axes = camera.world_from_view_rotation();
     const glm::dvec3 eye = camera.eye();
     for (int y = 0; y < size; ++y)
@@ -37,7 +46,7 @@ class Train : public Program {
     return image;
   }
 
-  void write_split(const std::string& split, int count, double turn, bool with_alpha) const {
+  void write_split(const std::string& split, int count, double turn, Behind behind) const {
     std::filesystem::create_directories(folder / "ball" / split);
     nlohmann::json document;
     for (int i = 0; i < count; ++i) {
@@ -45,16 +54,16 @@ class Train : public Program {
       const Camera camera = look_at({4 * std::cos(angle), 4 * std::sin(angle), i % 2 ? 1.5 : -0.5},
                                     {0, 0, 0}, {0, 0, 1}, 0.7, size, size);
       const std::string name = split + "/r_" + std::to_string(i) + ".png";
-      write_png("ball/" + name, image(camera, with_alpha));
+      write_png("ball/" + name, image(camera, behind));
       if (i == 0) document = transforms_of(camera);
       document["frames"].push_back(frame_of(name, camera));
     }
     write("ball/transforms_" + split + ".json", document.dump());
   }
 
-  void make_dataset(bool with_alpha = true) const {
-    write_split("train", 8, 0, with_alpha);
-    write_split("test", 2, 0.25, with_alpha);
+  void make_dataset(Behind behind = Behind::transparent) const {
+    write_split("train", 8, 0, behind);
+    write_split("test", 2, 0.25, behind);
   }
 
   static std::vector<std::string> arguments(const std::string& output,

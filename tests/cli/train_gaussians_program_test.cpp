@@ -177,7 +177,7 @@ TEST_F(TrainGaussians, BeginsWithGaussiansOrTriangles) {
 }
 
 TEST_F(TrainGaussians, ReadsConstantsFromFileAndOptions) {
-  make_dataset(false);
+  make_dataset(Behind::place);
   write("few.json", R"({"steps": 30, "max_splats": 60, "seed": 5, "degree": 1})");
   const auto print = [&](const std::vector<std::string>& more) {
     std::vector<std::string> all{"train", "ball", "--method", "gaussians", "--print-config"};
@@ -187,6 +187,9 @@ TEST_F(TrainGaussians, ReadsConstantsFromFileAndOptions) {
     return nlohmann::json::parse(result.out);
   };
   EXPECT_EQ(print({})["background"], nlohmann::json({0, 0, 0}));  // no alpha
+  make_dataset(Behind::white);
+  EXPECT_EQ(print({})["background"], nlohmann::json({1, 1, 1}));
+  make_dataset(Behind::place);
   const auto mixed = print({"--config", "few.json", "--max-splats", "40", "--init", "random"});
   EXPECT_EQ(mixed["steps"], 30);
   EXPECT_EQ(mixed["max_splats"], 40);
@@ -293,7 +296,8 @@ TEST_F(TrainGaussians, AreAStartForASoup) {
 }
 
 TEST_F(TrainGaussians, ResumesWithAMemoryLimitAndAFileWithoutBackground) {
-  make_dataset(false);  // without alpha the background is black, which the file does not say
+  make_dataset(
+      Behind::place);  // without alpha the background is black, which the file does not say
   write("few.json", R"({"steps": 600, "seed": 5})");
   const std::vector<std::string> more{"--config", "few.json", "--max-memory", "80MiB"};
   {
@@ -322,7 +326,7 @@ TEST_F(TrainGaussians, ResumesWithAMemoryLimitAndAFileWithoutBackground) {
 }
 
 TEST_F(TrainGaussians, NeedsNeitherTestViewsNorPointsNorTwoPhotographs) {
-  write_split("train", 1, 0, false);
+  write_split("train", 1, 0, Behind::place);
   write("ball/transforms.json", bytes("ball/transforms_train.json"));
   fs::remove(folder / "ball/transforms_train.json");
   for (const std::string method : {"gaussians", "diffsoup"}) {

@@ -76,7 +76,7 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
 }
 
 TEST_F(Train, MeasuresItsOwnDrawingWhereTheDeviceCannotDrawTheTestViews) {
-  write_split("train", 8, 0, true);
+  write_split("train", 8, 0, Behind::transparent);
   // The widest image that the trainer accepts. llvmpipe and most devices draw at most 16,384 pixels
   // a side.
   constexpr int width = 32767, height = 11;
@@ -282,7 +282,7 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
 }
 
 TEST_F(Train, TakesItsConstantsFromPresetFileAndOptions) {
-  make_dataset(false);
+  make_dataset(Behind::place);
   write("few.json", R"({"steps": 30, "triangles": 60, "initial_triangles": 120, "seed": 5})");
   const auto print = [&](const std::vector<std::string>& more) {
     std::vector<std::string> all{"train", "ball", "--print-config"};
@@ -292,6 +292,10 @@ TEST_F(Train, TakesItsConstantsFromPresetFileAndOptions) {
     return nlohmann::json::parse(result.out);
   };
   EXPECT_EQ(print({})["preset"], "scene");  // no alpha
+  make_dataset(Behind::white);
+  EXPECT_EQ(print({})["preset"], "object");
+  EXPECT_EQ(print({})["background"], nlohmann::json({1, 1, 1}));
+  make_dataset(Behind::place);
   EXPECT_EQ(print({"--preset", "object"})["preset"], "object");
   EXPECT_EQ(print({"--compat"})["max_level"], 5);
   EXPECT_EQ(print({"--init", "random"})["initialisation"], "random");
