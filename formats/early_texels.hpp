@@ -43,12 +43,13 @@ class EarlyTexels {
   explicit EarlyTexels(std::vector<TexelStrip> strips);
 
   std::span<const TexelStrip> strips() const { return strips_; }
-  /// Adds the texels of strip `index`, in any order of the strips.
+  /// Adds the texels of strip `index` < strips().size(), as many as it has. Each strip once, in any
+  /// order.
   void add(std::size_t index, std::vector<std::uint8_t> texels);
 
   /// Number of the first strips of a file that are decoded here; 0 if its strips are other ones.
   std::size_t decoded_of(std::span<const TexelStrip> strips) const;
-  /// The texels of these strips.
+  /// The texels of these strips, strip by strip, in the form of LatticeTexture::texels.
   std::vector<std::uint8_t> take() && { return std::move(texels_); }
 
  private:
