@@ -6,37 +6,48 @@
 
 namespace tureen {
 
-namespace {
+bool is_png(std::span<const std::byte> bytes) {
+  return bytes.size() >= png_signature_bytes &&
+         std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", png_signature_bytes) == 0;
+}
 
-std::uint32_t big_endian(std::span<const std::byte> bytes) {
+std::uint32_t png_number(std::span<const std::byte> bytes) {
   std::uint32_t value = 0;
   for (const std::byte byte : bytes.first(4))
     value = value << 8 | std::to_integer<std::uint32_t>(byte);
   return value;
 }
 
-}  // namespace
+bool PngChunk::is(const char* name) const { return std::memcmp(type, name, 4) == 0; }
+
+bool PngChunk::defines_image() const {
+  return (std::to_integer<unsigned>(type[0]) & 0x20) == 0 || is("tRNS");
+}
+
+PngChunk first_png_chunk(std::span<const std::byte> bytes) {
+  return {&bytes[4], bytes.subspan(8, png_number(bytes))};
+}
+
+bool begins_with_last_chunk(std::span<const std::byte> bytes) {
+  return bytes.size() >= 8 && std::memcmp(&bytes[4], "IEND", 4) == 0;
+}
 
 std::optional<PngDamage> png_damage(std::span<const std::byte> bytes) {
-  // head: length and type; around: length, type and checksum.
-  constexpr std::size_t signature = 8, head = 8, around = 12;
-  if (bytes.size() < signature || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", signature) != 0)
-    return std::nullopt;
-  for (std::size_t at = signature;;) {
-    const std::span<const std::byte> chunk = bytes.subspan(at);
-    const auto is = [&](const char* type) { return std::memcmp(&chunk[4], type, 4) == 0; };
-    const bool is_last = chunk.size() >= head && is("IEND");
-    if (is_last && chunk.size() < around) return std::nullopt;
-    if (chunk.size() < around || big_endian(chunk) > chunk.size() - around)
+  constexpr std::size_t around = 12;  // length, type and checksum
+  if (!is_png(bytes)) return std::nullopt;
+  for (std::size_t at = png_signature_bytes;;) {
+    const std::span<const std::byte> rest = bytes.subspan(at);
+    const bool is_last = begins_with_last_chunk(rest);
+    if (is_last && rest.size() < around) return std::nullopt;
+    if (rest.size() < around || png_number(rest) > rest.size() - around)
       return PngDamage{at, "it is truncated"};
-    const std::size_t length = big_endian(chunk);
-    // The names of critical chunks begin with a capital letter. stb also reads tRNS.
-    const bool is_critical = (std::to_integer<unsigned>(chunk[4]) & 0x20) == 0;
-    if ((is_critical || is("tRNS")) &&
-        crc32_of(chunk.subspan(4, 4 + length)) != big_endian(chunk.subspan(8 + length)))
+    const PngChunk chunk = first_png_chunk(rest);
+    const auto type_and_data = rest.subspan(4, 4 + chunk.data.size());
+    if (chunk.defines_image() &&
+        crc32_of(type_and_data) != png_number(rest.subspan(8 + chunk.data.size())))
       return PngDamage{at, "a chunk has a wrong checksum"};
     if (is_last) return std::nullopt;
-    at += around + length;
+    at += chunk.file_bytes();
   }
 }
 

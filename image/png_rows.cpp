@@ -9,6 +9,8 @@
 #include <limits>
 #include <new>
 
+#include "image/png_filters.hpp"
+
 namespace tureen {
 
 namespace {
@@ -18,21 +20,6 @@ constexpr std::size_t chunk_bytes = 1 << 18;  // maximum of compressed data
 std::array<std::uint8_t, 4> big_endian(std::uint32_t value) {
   return {std::uint8_t(value >> 24), std::uint8_t(value >> 16), std::uint8_t(value >> 8),
           std::uint8_t(value)};
-}
-
-/// The prediction by PNG's filters 0..4: zero, left, above, their mean, and Paeth's choice between
-/// left, above and above left.
-template <int filter>
-std::uint8_t predicted(int left, int above, int above_left) {
-  if constexpr (filter == 1) return std::uint8_t(left);
-  if constexpr (filter == 2) return std::uint8_t(above);
-  if constexpr (filter == 3) return std::uint8_t((left + above) / 2);
-  if constexpr (filter == 4) {
-    const int a = std::abs(above - above_left), b = std::abs(left - above_left);
-    const int c = std::abs(left + above - 2 * above_left);
-    return std::uint8_t(a <= b && a <= c ? left : b <= c ? above : above_left);
-  }
-  return 0;
 }
 
 using Row = std::vector<std::uint8_t>;
