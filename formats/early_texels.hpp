@@ -1,17 +1,18 @@
-// Texels of a soup that are decoded while their file is still arriving, strip by strip. A page thus
-// decodes during the download and in two workers. For GLB files of ours with one layer and
-// uncompressed texels; other files have no strips.
+// Texels of a soup that are decoded while their file is still arriving, strip by strip. The caller
+// inflates them (image/deflated_png.hpp). For GLB files of ours with one layer and uncompressed
+// texels; other files have no strips.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "formats/file_range.hpp"
+#include "image/deflated_png.hpp"
 
 namespace tureen {
 
@@ -31,9 +32,14 @@ struct TexelStrip {
 /// for untrusted bytes.
 std::vector<TexelStrip> texel_strips(std::span<const std::byte> prefix, const std::string& name);
 
-/// The strip's texels. `bytes`: those of strip.range(). Throws InputError.
-std::vector<std::uint8_t> decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
-                                       const std::string& name);
+struct DeflatedStrip {
+  DeflatedPng low, high;
+};
+
+/// The images of a strip. `bytes`: those of strip.range(). Returns nullopt if they are damaged, of
+/// different sizes, or have another number of rows than the texels need. Safe for untrusted bytes.
+std::optional<DeflatedStrip> deflated_strip(const TexelStrip& strip,
+                                            std::span<const std::byte> bytes);
 
 /// Texels of the first strips of a file, for its reader.
 class EarlyTexels {
@@ -43,9 +49,10 @@ class EarlyTexels {
   explicit EarlyTexels(std::vector<TexelStrip> strips);
 
   std::span<const TexelStrip> strips() const { return strips_; }
-  /// Adds the texels of strip `index` < strips().size(), as many as it has. Each strip once, in any
-  /// order.
-  void add(std::size_t index, std::vector<std::uint8_t> texels);
+  /// Adds the next strip: its inflated images, whose rows have `width` pixels; their contents are
+  /// overwritten. Returns false, and adds no further strip, if a row is missing or has an unknown
+  /// filter.
+  bool add(int width, std::span<std::byte> low, std::span<std::byte> high);
 
   /// Number of the first strips of a file that are decoded here; 0 if its strips are other ones.
   std::size_t decoded_of(std::span<const TexelStrip> strips) const;
@@ -54,9 +61,9 @@ class EarlyTexels {
 
  private:
   std::vector<TexelStrip> strips_;
-  std::size_t added_ = 0;  // the first strips, whose texels are in texels_
+  std::size_t added_ = 0;
+  bool is_broken_ = false;
   std::vector<std::uint8_t> texels_;
-  std::map<std::size_t, std::vector<std::uint8_t>> waiting_;  // strips after these
 };
 
 }  // namespace tureen

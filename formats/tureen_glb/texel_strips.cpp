@@ -98,20 +98,20 @@ std::vector<TexelStrip> texel_strips(std::span<const std::byte> prefix, const st
   return texel_strips(arrays, *appearance, images_end);
 }
 
-std::vector<std::uint8_t> decode_strip(const TexelStrip& strip, std::span<const std::byte> bytes,
-                                       const std::string& name) {
+std::optional<DeflatedStrip> deflated_strip(const TexelStrip& strip,
+                                            std::span<const std::byte> bytes) {
   assert(bytes.size() == strip.range().size);
   const auto image = [&](const FileRange& range) {
     const auto first = std::size_t(range.offset - strip.low.offset);
-    return decode_image(bytes.subspan(first, std::size_t(range.size)), name, MemoryBudget());
+    return deflated_png(bytes.subspan(first, std::size_t(range.size)));
   };
-  const Image8 low = image(strip.low), high = image(strip.high);
-  if (low.pixels.size() < strip.texels || high.pixels.size() < strip.texels)
-    throw InputError({name, {}, {}}, "an image has too few pixels");
-  std::vector<std::uint8_t> texels;
-  texels.reserve(strip.texel_bytes());
-  append_texels(std::span(low.pixels).first(strip.texels), high.pixels, texels);
-  return texels;
+  auto low = image(strip.low), high = image(strip.high);
+  if (!low || !high || low->width != high->width || low->height != high->height)
+    return std::nullopt;
+  // A taller image could take any memory.
+  const auto width = std::size_t(low->width);
+  if (std::size_t(low->height) != (strip.texels + width - 1) / width) return std::nullopt;
+  return DeflatedStrip{std::move(*low), std::move(*high)};
 }
 
 EarlyTexels::EarlyTexels(std::vector<TexelStrip> strips) : strips_(std::move(strips)) {
@@ -120,13 +120,26 @@ EarlyTexels::EarlyTexels(std::vector<TexelStrip> strips) : strips_(std::move(str
   texels_.reserve(bytes);
 }
 
-void EarlyTexels::add(std::size_t index, std::vector<std::uint8_t> texels) {
-  assert(texels.size() == strips_[index].texel_bytes());
-  waiting_.emplace(index, std::move(texels));
-  for (auto next = waiting_.find(added_); next != waiting_.end(); next = waiting_.find(++added_)) {
-    texels_.insert(texels_.end(), next->second.begin(), next->second.end());
-    waiting_.erase(next);
+bool EarlyTexels::add(int width, std::span<std::byte> low, std::span<std::byte> high) {
+  assert(width > 0 && added_ < strips_.size());
+  const std::size_t row_pixels = std::size_t(width), row_bytes = 1 + 4 * row_pixels;
+  std::size_t left = strips_[added_].texels;
+  const std::size_t needed = (left + row_pixels - 1) / row_pixels * row_bytes;
+  if (is_broken_ || std::min(low.size(), high.size()) < needed ||
+      !unfilter(low.first(needed), width) || !unfilter(high.first(needed), width)) {
+    is_broken_ = true;
+    return false;
   }
+  const auto pixels = [](const std::byte* row, std::size_t count) {
+    return std::span(reinterpret_cast<const glm::u8vec4*>(row + 1), count);
+  };
+  for (std::size_t at = 0; left > 0; at += row_bytes) {
+    const std::size_t count = std::min(left, row_pixels);
+    append_texels(pixels(&low[at], count), pixels(&high[at], count), texels_);
+    left -= count;
+  }
+  ++added_;
+  return true;
 }
 
 std::size_t EarlyTexels::decoded_of(std::span<const TexelStrip> strips) const {

@@ -260,54 +260,49 @@ Json range_json(const FileRange& range) {
   return object({{"offset", range.offset}, {"size", range.size}});
 }
 
-FileRange range_of(const Json& value) { return {value.at("offset"), value.at("size")}; }
-
-/// Errors of early texels are not shown: "read" reports them again.
-const std::string no_name;
-
-/// The buffer holds the first bytes of a file. Returns the strips of texels that can be decoded
-/// before the whole file is there.
+/// The buffer holds the first bytes of a file. Returns the places of the strips of texels that can
+/// be decoded before the whole file is there.
 Json begin_texels(const Json&) {
   // The header alone decides about this memory. Larger scenes are read as without early texels.
   constexpr std::uint64_t max_bytes = 512 << 20;
   early_texels() = {};
-  std::vector<TexelStrip> strips = texel_strips(buffer(), no_name);
+  // The page ignores this error: "read" reports it again.
+  std::vector<TexelStrip> strips = texel_strips(buffer(), std::string());
   std::uint64_t bytes = 0;
   Json list = Json::array();
   for (const TexelStrip& strip : strips) {
     bytes += strip.texel_bytes();
-    list.push_back(object({{"low", range_json(strip.low)},
-                           {"high", range_json(strip.high)},
-                           {"texels", strip.texels}}));
+    list.push_back(range_json(strip.range()));
   }
   if (bytes > max_bytes) return Json::array();
   early_texels() = EarlyTexels(std::move(strips));
   return list;
 }
 
-/// The index of a strip; the buffer holds its bytes. Decodes them for "read".
-Json decode_texels(const Json& index) {
-  const TexelStrip& strip = early_texels().strips()[index.get<std::size_t>()];
-  early_texels().add(index, tureen::decode_strip(strip, buffer(), no_name));
-  return nullptr;
+/// The buffer holds the bytes of the strip with this index. Returns the width of its two images,
+/// the size of each inflated stream, and the pieces of each zlib stream in these bytes; null if they
+/// are damaged.
+Json deflated_images(const Json& index) {
+  const auto strip = deflated_strip(early_texels().strips()[index.get<std::size_t>()], buffer());
+  if (!strip) return nullptr;
+  const auto pieces_of = [](const DeflatedPng& image) {
+    Json pieces = Json::array();
+    for (const auto& piece : image.pieces)
+      pieces.push_back(range_json({std::uint64_t(piece.data() - buffer().data()), piece.size()}));
+    return pieces;
+  };
+  const std::size_t inflated = strip->low.row_bytes() * std::size_t(strip->low.height);
+  return object({{"width", strip->low.width},
+                 {"inflated", inflated},
+                 {"images", Json{pieces_of(strip->low), pieces_of(strip->high)}}});
 }
 
-/// An entry of "begin_texels" in another instance; the buffer holds its bytes. Decodes them to the
-/// buffer, for "add_texels" of that instance.
-Json decode_strip(const Json& entry) {
-  const auto texels = tureen::decode_strip(
-      {range_of(entry.at("low")), range_of(entry.at("high")), entry.at("texels")}, buffer(),
-      no_name);
-  const auto bytes = std::as_bytes(std::span(texels));
-  buffer().assign(bytes.begin(), bytes.end());
-  return nullptr;
-}
-
-/// The index of a strip; the buffer holds its texels.
-Json add_texels(const Json& index) {
-  const auto* texels = reinterpret_cast<const std::uint8_t*>(buffer().data());
-  early_texels().add(index, std::vector<std::uint8_t>(texels, texels + buffer().size()));
-  return nullptr;
+/// {"width"}: of both images of the next strip. The buffer holds their inflated streams, which have
+/// the same size. Decodes the texels for "read"; returns whether they are intact.
+Json add_texels(const Json& arguments) {
+  const std::span<std::byte> streams = buffer();
+  const std::size_t half = streams.size() / 2;
+  return early_texels().add(arguments.at("width"), streams.first(half), streams.subspan(half));
 }
 
 /// The highest level of the scene's lattices, or null.
@@ -330,8 +325,7 @@ Commands loader_commands() {
           {"preview_size", preview_size},
           {"preview", preview},
           {"begin_texels", begin_texels},
-          {"decode_texels", decode_texels},
-          {"decode_strip", decode_strip},
+          {"deflated_images", deflated_images},
           {"add_texels", add_texels},
           {"prepare", prepare},
           {"forecast", forecast},

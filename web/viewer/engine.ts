@@ -77,12 +77,16 @@ export class Engine {
     }
   }
 
-  /** Sets the bytes for the next command. */
-  setBuffer(bytes: Uint8Array): void {
-    const at = this.module.ccall('tureen_buffer', 'number', ['number'], [bytes.length]);
-    if (at === 0 && bytes.length > 0)
+  /** Sets the bytes for the next command: those of all parts, one after the other. */
+  setBuffer(...parts: readonly Uint8Array[]): void {
+    const size = parts.reduce((sum, { length }) => sum + length, 0);
+    let at = this.module.ccall('tureen_buffer', 'number', ['number'], [size]);
+    if (at === 0 && size > 0)
       throw new ViewerError('The page has not enough memory for this scene.', 'memory');
-    this.module.HEAPU8.set(bytes, at);
+    for (const part of parts) {
+      this.module.HEAPU8.set(part, at);
+      at += part.length;
+    }
   }
 
   /** The bytes from the last command; a view of memory that is valid until the next call. */

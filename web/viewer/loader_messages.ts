@@ -33,8 +33,8 @@ export interface PreparedScene {
   readonly parcel: Parcel;
   /** The reduced lattice level if memory is too small; otherwise null. */
   readonly level: number | null;
-  /** Number of strips of texels that a second worker decoded. */
-  readonly helped: number;
+  /** Number of strips of texels that were decoded early (early_texels.ts). */
+  readonly decoded: number;
   /** Time in the loader: from the file's bytes to the soup (readMs), and from there to the device's data. */
   readonly readMs: number;
   readonly prepareMs: number;
@@ -66,21 +66,17 @@ export type ToLoader =
   /** The answer to an offer: the number of splats to read. */
   | { readonly kind: 'splats'; readonly number: number }
   | SortMessage
-  /** Be the second worker of a loader (early_texels.ts). */
-  | { readonly kind: 'help'; readonly program: WebAssembly.Module }
-  | { readonly kind: 'decode'; readonly strip: TexelStrip; readonly bytes: Uint8Array<ArrayBuffer> };
+  /** Inflate these streams (inflating.ts). */
+  | { readonly kind: 'inflate'; readonly streams: readonly Deflated[] };
 
-interface FileRange {
-  readonly offset: number;
+/** The pieces of a zlib stream, and its size when it is inflated. */
+export interface Deflated {
+  readonly pieces: readonly Uint8Array<ArrayBuffer>[];
   readonly size: number;
 }
 
-/** formats/early_texels.hpp */
-export interface TexelStrip {
-  readonly low: FileRange;
-  readonly high: FileRange;
-  readonly texels: number;
-}
+/** The parts of inflated streams, one after the other. */
+export type Inflated = readonly Uint8Array<ArrayBuffer>[];
 
 export interface LoadMessage {
   readonly kind: 'load';
@@ -108,14 +104,12 @@ export interface SortTask {
 }
 
 export type FromLoader =
-  /** The worker runs. */
-  | { readonly kind: 'started' }
   | { readonly kind: 'progress'; readonly progress: LoadProgress }
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
   /** The loader waits for the answer, 'splats'. */
   | { readonly kind: 'offer'; readonly offer: SplatOffer }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
-  | { readonly kind: 'decoded'; readonly texels: Uint8Array<ArrayBuffer> }
+  | { readonly kind: 'inflated'; readonly inflated: Inflated }
   | { readonly kind: 'sorted'; readonly number: number; readonly order: Uint8Array<ArrayBuffer> }
   | { readonly kind: 'error'; readonly error: { readonly kind: ViewerError['kind']; readonly message: string } };

@@ -1,10 +1,11 @@
-// The script of all workers. A worker sorts splats (splat_sorting.ts), decodes texels for another one (early_texels.ts),
-// or loads one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the
-// worker frees all its memory, so a load is cancelled by ending it.
+// The script of all workers. A worker sorts splats (splat_sorting.ts), inflates for another one (inflating.ts), or loads
+// one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the worker frees
+// all its memory, so a load is cancelled by ending it.
 
 import { download } from './download.js';
-import { decoded, EarlyTexels, help } from './early_texels.js';
+import { EarlyTexels } from './early_texels.js';
 import { Engine, type Parcel } from './engine.js';
+import { inflate } from './inflating.js';
 import type {
   FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, ToLoader,
 } from './loader_messages.js';
@@ -19,8 +20,6 @@ const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
   url: { download: 0, read: 0.6, prepare: 0.9, upload: 0.97 },
 };
-/** A GLB file of this size probably has several strips of texels (early_texels.ts), in bytes. */
-const largeFile = 8 << 20;
 /** Part of the time for reading that is spent on decoding texels early, if there are any. An estimate. */
 const decodingPart = 0.8;
 const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
@@ -41,9 +40,9 @@ class Loader {
   private started: Engine | null = null;
   private knowsLimits = false;
   private preview: Preview | null = null;
-  /** The bytes of an unfinished download. */
-  private prefix: Uint8Array | null = null;
-  private readonly early = new EarlyTexels(() => this.engine, program);
+  /** The bytes so far, until a reader has all. */
+  private prefix: Uint8Array<ArrayBuffer> | null = null;
+  private readonly early = new EarlyTexels(() => this.engine);
 
   constructor(private readonly starting: Promise<Engine>, private readonly limits: Promise<unknown>,
               private readonly chosen: Promise<number>, private readonly message: LoadMessage) {
@@ -110,7 +109,6 @@ class Loader {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
-      if (total !== null && total >= largeFile && /\.glb$/i.test(name)) this.early.prepare();
       this.prefix = prefix.length === total ? null : prefix;
       if (this.started) await this.use();
     });
@@ -140,12 +138,13 @@ class Loader {
   }
 
   /** Decodes the texels that are left. */
-  private async decodeTexels(bytes: Uint8Array): Promise<void> {
-    await this.early.finish(bytes, async (fraction) => {
+  private async decodeTexels(bytes: Uint8Array<ArrayBuffer>): Promise<void> {
+    this.prefix = bytes;  // for a preview
+    await this.early.finish(bytes, (fraction) => {
       this.tell('read', decodingPart * fraction);
       this.readFrom = decodingPart;
-      await this.showPreview(bytes, bytes.length);
     });
+    this.prefix = null;
     if (this.readFrom === 0) return;
     await this.limits;  // the device may start only now: a preview is still earlier than the scene
     await this.showPreview(bytes, bytes.length);
@@ -166,7 +165,7 @@ class Loader {
   private async prepared(description: SceneDescription): Promise<PreparedScene> {
     const limits = await this.limits, begin = performance.now();
     const parcel = this.packed(limits), prepareMs = performance.now() - begin;
-    return { description, parcel, level: this.level, helped: this.early.helped, readMs: this.readMs, prepareMs };
+    return { description, parcel, level: this.level, decoded: this.early.decoded, readMs: this.readMs, prepareMs };
   }
 
   /** Prepares the scene. The engine's memory grows meanwhile, so its buffer is fetched again for each block. */
@@ -209,8 +208,8 @@ function post(message: FromLoader): void {
     transferred.push(head, ...blobs);
   } else if (message.kind === 'sorted') {
     transferred.push(message.order.buffer);
-  } else if (message.kind === 'decoded') {
-    transferred.push(message.texels.buffer);
+  } else if (message.kind === 'inflated') {
+    transferred.push(...message.inflated.map(({ buffer }) => buffer));
   }
   self.postMessage(message, { transfer: transferred });
 }
@@ -235,7 +234,6 @@ const chosen = new Promise<number>((resolve) => { choose = resolve; });
 async function handle(message: ToLoader): Promise<void> {
   switch (message.kind) {
     case 'load':
-      post({ kind: 'started' });
       loader = new Loader(program.then((compiled) => Engine.create(compiled)), limits, chosen, message);
       return loader.load();
     case 'program': return giveProgram(message.program);
@@ -244,8 +242,7 @@ async function handle(message: ToLoader): Promise<void> {
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
     case 'sort': return sortSplats(message);
-    case 'help': return post(await help(message.program));
-    case 'decode': return post(decoded(message.strip, message.bytes));
+    case 'inflate': return post({ kind: 'inflated', inflated: await inflate(message.streams) });
   }
 }
 

@@ -40,10 +40,7 @@ export const isShortage = (error: unknown): error is ViewerError => error instan
 
 /** Begins in the constructor with the work that needs no graphics device. Its messages wait for run(). */
 export class Loading {
-  /** Resolves when the worker runs, or when the load ends before. */
-  readonly running: Promise<void>;
   private readonly shown: Promise<void>;
-  private isRunning!: () => void;
   private settle!: { resolve(): void; reject(why: unknown): void };
   private events: LoadingEvents | AddingEvents | null = null;
   private worker: Worker | null = null;
@@ -55,7 +52,6 @@ export class Loading {
   constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource,
               private readonly memory: number, private readonly maxSplats: number | null,
               private readonly role: LoadRole = 'scene') {
-    this.running = new Promise((resolve) => { this.isRunning = resolve; });
     this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
     this.shown.catch(() => {});  // run() returns the error
     limits.catch(() => {});  // begin() awaits it later, after the worker
@@ -82,8 +78,7 @@ export class Loading {
       this.end(new ViewerError(`The loader cannot run: ${event.message || 'its script is incomplete'}.`, 'device'));
     };
     worker.onmessage = ({ data }: MessageEvent<FromLoader>) => {
-      if (data.kind === 'started') this.isRunning();
-      else if (this.events) this.hear(data);
+      if (this.events) this.hear(data);
       else this.unheard.push(data);
     };
     const { role, memory, maxSplats } = this;
@@ -95,7 +90,6 @@ export class Loading {
   private end(error: unknown = null): void {
     if (this.over) return;
     this.ending.abort();
-    this.isRunning();
     this.worker?.terminate();
     if (error === null) this.settle.resolve();
     else this.settle.reject(error);

@@ -7,12 +7,12 @@ import type { SceneFile } from './types.js';
 const folder = '/scene';
 
 export interface OpenedFiles {
-  readonly bytes: ReadonlyMap<string, Uint8Array>;
+  readonly bytes: ReadonlyMap<string, Uint8Array<ArrayBuffer>>;
   /** Candidates for the scene: the folder of several files, then the file that refers to the others. */
   readonly paths: readonly [string, ...string[]];
 }
 
-export function oneFile(name: string, bytes: Uint8Array): OpenedFiles {
+export function oneFile(name: string, bytes: Uint8Array<ArrayBuffer>): OpenedFiles {
   const path = name.replaceAll('/', ' ');
   return { bytes: new Map([[path, bytes]]), paths: [path] };
 }
@@ -20,7 +20,7 @@ export function oneFile(name: string, bytes: Uint8Array): OpenedFiles {
 export async function openFiles(files: readonly SceneFile[], name: string): Promise<OpenedFiles> {
   const bytesOf = async ({ data }: SceneFile) => new Uint8Array(await data.arrayBuffer());
   if (files.length === 1) return oneFile(files[0]!.path, await bytesOf(files[0]!));
-  const whole = name.replaceAll('/', ' '), bytes = new Map<string, Uint8Array>();
+  const whole = name.replaceAll('/', ' '), bytes = new Map<string, Uint8Array<ArrayBuffer>>();
   for (const file of files) bytes.set(`${whole}/${file.path}`, await bytesOf(file));
   const alone = ['.gltf', '.obj', '.glb', '.off', '.ply']
     .map((kind) => [...bytes.keys()].filter((path) => path.toLowerCase().endsWith(kind)))

@@ -45,11 +45,6 @@ interface Device {
   readonly max_image_side: number;
 }
 
-/** The page does not wait longer for a worker to start: it starts in a tenth of this time, or not at all. */
-const longestStartMs = 500;
-
-const delay = (ms: number) => new Promise<void>((resolve) => { setTimeout(resolve, ms); });
-
 /** Whether both are the same file on a server, or the same object with local files. */
 const isSame = (a: SceneSource, b: SceneSource) =>
   a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name);
@@ -163,8 +158,6 @@ class CanvasViewer implements Viewer {
 
   private async startEngine(): Promise<void> {
     const engine = await Engine.create(await this.program);
-    // The page is blocked for tenths of a second while it gets a context, and a worker cannot start then.
-    if (this.expected) await Promise.race([this.expected.loading.running, delay(longestStartMs)]);
     engine.takeCanvas(this.canvas);
     this.engine = engine;
     this.device = engine.call<Device>('start', { blend: this.options.blend });

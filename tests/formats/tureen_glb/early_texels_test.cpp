@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
+#include <optional>
 
 #include "formats/scene_file.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
-#include "tests/support/errors.hpp"
+#include "tests/support/inflated.hpp"
 
 namespace tureen {
 namespace early_texels_test {
@@ -40,16 +42,18 @@ Scene read(std::span<const std::byte> bytes, EarlyTexels early) {
 
 class EarlyTexelsTest : public testing::Test {
  protected:
-  std::vector<std::uint8_t> decoded(std::size_t index) const {
+  std::optional<DeflatedStrip> deflated(std::size_t index) const {
     const FileRange range = strips_[index].range();
-    return decode_strip(strips_[index], std::span(bytes_).subspan(range.offset, range.size),
-                        "a.glb");
+    return deflated_strip(strips_[index], std::span(bytes_).subspan(range.offset, range.size));
   }
-  /// With an error, to tell them from those that the reader decodes.
-  std::vector<std::uint8_t> marked(std::size_t index) const {
-    auto texels = decoded(index);
-    texels[5] ^= 1;
-    return texels;
+  /// Adds the next strip, whose index it is, with `changes` made to its lower image.
+  bool add(EarlyTexels& early, std::size_t index,
+           const std::function<void(std::vector<std::byte>&)>& changes = {}) const {
+    const auto strip = deflated(index);
+    EXPECT_TRUE(strip);
+    auto low = test::inflated(strip->low), high = test::inflated(strip->high);
+    if (changes) changes(low);
+    return early.add(strip->low.width, low, high);
   }
 
   const Scene scene_ = two_strips();
@@ -57,37 +61,45 @@ class EarlyTexelsTest : public testing::Test {
   const std::vector<TexelStrip> strips_ = texel_strips(std::span(bytes_).first(20'000), "a.glb");
 };
 
-TEST_F(EarlyTexelsTest, AreThoseOfTheFileInAnyOrder) {
+TEST_F(EarlyTexelsTest, AreThoseOfTheFile) {
   ASSERT_EQ(strips_.size(), 2u);
-  for (const auto& order : {std::vector<std::size_t>{}, {0}, {0, 1}, {1, 0}}) {
+  for (std::size_t count = 0; count <= 2; ++count) {
     EarlyTexels early(strips_);
-    for (const std::size_t index : order) early.add(index, decoded(index));
-    EXPECT_EQ(early.decoded_of(strips_), order.size());
+    for (std::size_t index = 0; index < count; ++index) EXPECT_TRUE(add(early, index));
+    EXPECT_EQ(early.decoded_of(strips_), count);
     EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
   }
 }
 
+/// Changes the second byte of the first texel, which changes those below, too.
+void mark(std::vector<std::byte>& low) { low[2] ^= std::byte{1}; }
+
 TEST_F(EarlyTexelsTest, AreTaken) {
   EarlyTexels early(strips_);
-  early.add(0, marked(0));
-  std::vector<std::uint8_t> expected = texels_of(scene_);
-  expected[5] ^= 1;
-  EXPECT_TRUE(texels_of(read(bytes_, early)) == expected);
-}
-
-TEST_F(EarlyTexelsTest, WaitForTheStripsBefore) {
-  EarlyTexels early(strips_);
-  early.add(1, marked(1));
-  EXPECT_EQ(early.decoded_of(strips_), 0u);
-  EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
+  ASSERT_TRUE(add(early, 0, mark));
+  EXPECT_EQ(texels_of(read(bytes_, early))[1], texels_of(scene_)[1] ^ 1);
 }
 
 TEST_F(EarlyTexelsTest, OfAnotherFileAreNotTaken) {
   auto strips = strips_;
   --strips[1].high.size;
   EarlyTexels early(strips);
-  early.add(0, marked(0));
+  ASSERT_TRUE(add(early, 0, mark));
   EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
+}
+
+TEST_F(EarlyTexelsTest, EndAtADamagedStrip) {
+  const auto shorten = [](std::vector<std::byte>& low) { low.resize(low.size() / 2); };
+  const auto confuse = [](std::vector<std::byte>& low) { low[0] = std::byte{7}; };
+  for (const std::size_t broken : {0u, 1u})
+    for (const auto& damage : {std::function(shorten), std::function(confuse)}) {
+      EarlyTexels early(strips_);
+      for (std::size_t index = 0; index < broken; ++index) ASSERT_TRUE(add(early, index));
+      EXPECT_FALSE(add(early, broken, damage));
+      EXPECT_FALSE(add(early, broken));  // the reader decodes the rest
+      EXPECT_EQ(early.decoded_of(strips_), broken);
+      EXPECT_TRUE(texels_of(read(bytes_, early)) == texels_of(scene_));
+    }
 }
 
 TEST_F(EarlyTexelsTest, HaveStripsOnceTheHeaderIsThere) {
@@ -108,9 +120,19 @@ TEST_F(EarlyTexelsTest, AreThoseOfTheOnlyLayer) {
   EXPECT_TRUE(texel_strips(test::glb_bytes(scene, "early_layers"), "a.glb").empty());
 }
 
-TEST_F(EarlyTexelsTest, OfADamagedImageAreAnError) {
+TEST_F(EarlyTexelsTest, NeedIntactImages) {
+  EXPECT_TRUE(deflated(1));
   bytes_[std::size_t(strips_[1].high.offset) + 60] ^= std::byte{1};
-  EXPECT_THROW(decoded(1), InputError);
+  EXPECT_FALSE(deflated(1));
+}
+
+TEST_F(EarlyTexelsTest, NeedImagesOfTheirSize) {
+  const FileRange range = strips_[0].range();
+  for (const int more : {-1024, 1024}) {
+    TexelStrip other = strips_[0];
+    other.texels = std::size_t(int(other.texels) + more);
+    EXPECT_FALSE(deflated_strip(other, std::span(bytes_).subspan(range.offset, range.size)));
+  }
 }
 
 }  // namespace early_texels_test
