@@ -1,6 +1,6 @@
-// PNG files that the caller decompresses: in a browser, its decompressor is several times as fast as
-// stb_image in WebAssembly. deflated_png() finds the compressed pieces, and unfilter() makes pixels
-// of the inflated stream. For images as encode_png() writes them; decode_image() reads all.
+// PNG files that the caller decompresses: in a browser, its decompressor is several times as fast
+// as stb_image in WebAssembly. deflated_png() finds the compressed pieces, and unfilter() makes
+// pixels of the inflated stream. For images as encode_png() writes them; decode_image() reads all.
 #pragma once
 
 #include <cstddef>

@@ -55,9 +55,9 @@ void append_filtered(const Image8& image, int y, Bytes& stream) {
   };
   for (int x = 0; x < image.width; ++x)
     for (int c = 0; c < 4; ++c)
-      stream.push_back(std::byte(
-          value(x, y, c) -
-          predicted<filter>(value(x - 1, y, c), value(x, y - 1, c), value(x - 1, y - 1, c))));
+      stream.push_back(
+          std::byte(value(x, y, c) - predicted<filter>(value(x - 1, y, c), value(x, y - 1, c),
+                                                       value(x - 1, y - 1, c))));
 }
 
 TEST(DeflatedPng, ReversesEveryFilter) {
@@ -71,9 +71,8 @@ TEST(DeflatedPng, ReversesEveryFilter) {
       filters[std::size_t(first + y) % filters.size()](image, y, stream);
     ASSERT_TRUE(unfilter(stream, width));
     for (int y = 0; y < image.height; ++y)
-      EXPECT_EQ(std::memcmp(&stream[std::size_t(y) * (1 + 4 * width) + 1], &image.at(0, y),
-                            4 * width),
-                0)
+      EXPECT_EQ(
+          std::memcmp(&stream[std::size_t(y) * (1 + 4 * width) + 1], &image.at(0, y), 4 * width), 0)
           << "row " << y << ", first filter " << first;
   }
 }

@@ -280,8 +280,8 @@ Json begin_texels(const Json&) {
 }
 
 /// The buffer holds the bytes of the strip with this index. Returns the width of its two images,
-/// the size of each inflated stream, and the pieces of each zlib stream in these bytes; null if they
-/// are damaged.
+/// the size of each inflated stream, and the pieces of each zlib stream in these bytes; null if
+/// they are damaged.
 Json deflated_images(const Json& index) {
   const auto strip = deflated_strip(early_texels().strips()[index.get<std::size_t>()], buffer());
   if (!strip) return nullptr;
