@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/plan/texel_ranges.hpp"
 #include "scene/lattice.hpp"
 
 namespace tureen {
@@ -91,19 +92,27 @@ struct Classify {
 
   template <class Value>
   void lattice(const LatticeTexture& texture, const std::vector<Value>& values) const {
-    const float scale = sizeof(Value) == 1 ? 1.0f / 255.0f : 1.0f;
     for (std::size_t t = 0; t < result.size(); ++t) {
       const LatticePatch& patch = texture.patches[t];
-      const Value* alpha = &values[std::size_t(patch.first_texel) * LatticeTexture::channels +
-                                   LatticeTexture::features];
-      AlphaRange range(float(*alpha) * scale);
-      const std::uint32_t count = lattice::texel_count(int(patch.level));
-      for (std::uint32_t k = 1; k < count && !range.is_cut_out(); ++k) {
-        alpha += LatticeTexture::channels;
-        range.add(float(*alpha) * scale);
-      }
-      result[t] = range.classified();
+      result[t] = of_texels(&values[std::size_t(patch.first_texel) * LatticeTexture::channels],
+                            lattice::texel_count(int(patch.level)));
     }
+  }
+
+  static FaceAlpha of_texels(const std::uint8_t* texels, std::uint32_t count) {
+    TexelRanges<std::uint8_t> ranges;
+    ranges.add(texels, count);
+    const auto alpha = [](std::uint8_t value) { return float(value) * scale_of<std::uint8_t>; };
+    return classify(alpha(ranges.low(LatticeTexture::features)),
+                    alpha(ranges.high(LatticeTexture::features)), alpha_threshold);
+  }
+
+  static FaceAlpha of_texels(const float* texels, std::uint32_t count) {
+    const float* alpha = texels + LatticeTexture::features;
+    AlphaRange range(*alpha);
+    for (std::uint32_t k = 1; k < count && !range.is_cut_out(); ++k)
+      range.add(*(alpha += LatticeTexture::channels));
+    return range.classified();
   }
 
   void operator()(const UvTextures& textures) const {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <utility>
 
+#include "runtime/plan/texel_ranges.hpp"
 #include "scene/lattice.hpp"
 
 namespace tureen {
@@ -14,66 +13,10 @@ namespace {
 
 constexpr int channels = LatticeTexture::channels;
 
-/// Factor from stored values to [0, 1].
-template <class Value>
-constexpr float scale_of = sizeof(Value) == 1 ? 1.0f / 255.0f : 1.0f;
-
-/// The channels of consecutive texels in a vector of the processor; GCC and Clang know the
-/// attribute.
-template <class Value, int count>
-struct Texels {
-  using Vector __attribute__((vector_size(count * channels * sizeof(Value)))) = Value;
-  Vector values;
-
-  explicit Texels(Value fill) : values(fill - Vector{}) {}
-  explicit Texels(const Value* from) { std::memcpy(&values, from, sizeof values); }
-  /// NaN changes nothing.
-  void lower(const Texels& other) { values = other.values < values ? other.values : values; }
-  void raise(const Texels& other) { values = other.values > values ? other.values : values; }
-};
-
 template <class Value>
 struct Texel : Texels<Value, 1> {
   using Texels<Value, 1>::Texels;
   float operator[](int channel) const { return float(this->values[channel]) * scale_of<Value>; }
-};
-
-/// The range of each channel, of texels that are added face by face.
-template <class Value>
-class Ranges {
- public:
-  /// `count` is at least 3, the texels of level 0.
-  void add(const Value* texels, std::size_t count) {
-    Block low = low_, high = high_;  // in registers: a member might be one of the texels
-    // The last block may overlap the one before: a texel that is added twice changes nothing.
-    const Value* last = texels + (count - block_texels) * channels;
-    for (const Value* at = texels;; at = std::min(at + block_texels * channels, last)) {
-      const Block block(at);
-      low.lower(block);
-      high.raise(block);
-      if (at == last) break;
-    }
-    low_ = low;
-    high_ = high;
-  }
-
-  FeatureRange of(int channel) const {
-    Value low = low_.values[channel], high = high_.values[channel];
-    for (int c = channel; c < block_texels * channels; c += channels) {
-      low = std::min(low, Value(low_.values[c]));
-      high = std::max(high, Value(high_.values[c]));
-    }
-    return {float(low) * scale_of<Value>, float(high) * scale_of<Value>};
-  }
-
- private:
-  /// 16 bytes, the size of vectors in WebAssembly, or a texel.
-  static constexpr int block_texels = sizeof(Value) == 1 ? 2 : 1;
-  using Block = Texels<Value, block_texels>;
-  using Limits = std::numeric_limits<Value>;
-  static constexpr bool floats = Limits::has_infinity;
-  Block low_{floats ? Limits::infinity() : Limits::max()};
-  Block high_{floats ? -Limits::infinity() : Limits::min()};
 };
 
 template <class Value>
@@ -88,7 +31,7 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
     return &values[std::size_t(texture.patches[face].first_texel) * channels];
   };
   traits.lowest_level = lattice::max_level;
-  Ranges<Value> ranges;
+  TexelRanges<Value> ranges;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> runs(faces.size());  // first, end
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const LatticePatch& patch = texture.patches[faces[i]];
@@ -101,7 +44,8 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
     ranges.add(first, count);
     traits.constant_faces += std::equal(first + channels, first + count * channels, first) ? 1 : 0;
   }
-  for (int c = 0; c < LatticeTexture::features; ++c) traits.ranges[c] = ranges.of(c);
+  for (int c = 0; c < LatticeTexture::features; ++c)
+    traits.ranges[c] = {ranges.low(c) * scale_of<Value>, ranges.high(c) * scale_of<Value>};
   traits.ranges[LatticeTexture::features] = {};  // lattices have seven features
   std::sort(runs.begin(), runs.end());
   traits.shares_texels =
