@@ -25,8 +25,8 @@ TexelLayout TexelLayout::fitted(std::uint64_t max_texels) const {
   return layout;
 }
 
-TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
-  const TexelFormat& format = source.format;
+TexelUpload::TexelUpload(const TexelLayout& layout, const TexelSource& source)
+    : format_(source.format) {
   const std::uint64_t count = source.count;
   const std::string& what = source.what;
   if (count > layout.capacity())
@@ -35,48 +35,70 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
                            std::to_string(layout.max_layers) + " layers; " +
                            std::to_string(layout.capacity() * 100 / count) +
                            "% of the scene fits, or a lower lattice level");
-  const std::uint64_t columns = std::uint64_t(1) << layout.row_bits;
   const std::uint64_t rows_per_layer = std::uint64_t(1) << layout.layer_bits;
-  const std::uint64_t rows = std::max<std::uint64_t>((count + columns - 1) / columns, 1);
-  const std::uint64_t layers = (rows + rows_per_layer - 1) / rows_per_layer;
-  const std::uint64_t height = std::min(rows, rows_per_layer);
+  width_ = layout.row_texels();
+  rows_ = std::max<std::uint64_t>((count + width_ - 1) / width_, 1);
+  const std::uint64_t layers = (rows_ + rows_per_layer - 1) / rows_per_layer;
+  height_ = std::min(rows_, rows_per_layer);
   // A store shorter than a row is as wide as its contents.
-  const std::uint64_t width = rows == 1 ? std::max<std::uint64_t>(count, 1) : columns;
+  if (rows_ == 1) width_ = std::max<std::uint64_t>(count, 1);
 
-  texture_ = gl::Texture::create();
-  device_bytes_ = width * height * layers * format.bytes;
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.id());
+  store_.texture_ = gl::Texture::create();
+  store_.device_bytes_ = row_bytes() * height_ * layers;
+  glBindTexture(GL_TEXTURE_2D_ARRAY, store_.texture());
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
   if (gl::is_refused([&] {
-        glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(format.internal_format),
-                     static_cast<GLsizei>(width), static_cast<GLsizei>(height),
-                     static_cast<GLsizei>(layers), 0, format.format, format.type, nullptr);
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(format_.internal_format),
+                     static_cast<GLsizei>(width_), static_cast<GLsizei>(height_),
+                     static_cast<GLsizei>(layers), 0, format_.format, format_.type, nullptr);
       }))
     throw DeviceLimitError(what + ": the device refuses a texture of " +
-                           std::to_string(device_bytes_ >> 20) +
+                           std::to_string(store_.device_bytes_ >> 20) +
                            " MiB: use fewer triangles or a lower lattice level");
+}
 
+void TexelUpload::put(std::uint64_t first, std::span<const std::byte> bytes) {
+  glBindTexture(GL_TEXTURE_2D_ARRAY, store_.texture());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  // About 1 MiB at a time, so that the second copy stays small.
-  const std::uint64_t rows_per_block =
-      std::clamp<std::uint64_t>((std::uint64_t(1) << 20) / (width * format.bytes), 1, height);
-  std::vector<std::byte> block(rows_per_block * width * format.bytes);
-  for (std::uint64_t row = 0; row < rows;) {
-    const std::uint64_t layer = row / rows_per_layer, row_in_layer = row % rows_per_layer;
-    const std::uint64_t count_rows = std::min({rows_per_block, rows - row, height - row_in_layer});
-    const std::uint64_t first = row * width;
-    const std::uint64_t texels = std::min(count_rows * width, count - std::min(first, count));
-    const std::span<std::byte> bytes(block.data(), texels * format.bytes);
-    source.fill(first, bytes);
-    std::fill(block.begin() + static_cast<std::ptrdiff_t>(bytes.size()), block.end(), std::byte{0});
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, static_cast<GLint>(row_in_layer),
-                    static_cast<GLint>(layer), static_cast<GLsizei>(width),
-                    static_cast<GLsizei>(count_rows), 1, format.format, format.type, block.data());
-    row += count_rows;
+  const auto upload = [&](std::uint64_t row, std::uint64_t rows, const std::byte* data) {
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, static_cast<GLint>(row % height_),
+                    static_cast<GLint>(row / height_), static_cast<GLsizei>(width_),
+                    static_cast<GLsizei>(rows), 1, format_.format, format_.type, data);
+  };
+  std::uint64_t row = first / width_;
+  while (bytes.size() >= row_bytes()) {
+    const std::uint64_t rows =
+        std::min<std::uint64_t>(bytes.size() / row_bytes(), height_ - row % height_);
+    upload(row, rows, bytes.data());
+    bytes = bytes.subspan(static_cast<std::size_t>(rows) * row_bytes());
+    row += rows;
+  }
+  if (!bytes.empty()) {
+    last_row_.assign(row_bytes(), std::byte{0});
+    std::copy(bytes.begin(), bytes.end(), last_row_.begin());
+    upload(row, 1, last_row_.data());
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
+  if (source.store) {
+    *this = std::move(*source.store);
+    return;
+  }
+  TexelUpload upload(layout, source);
+  // About 1 MiB at a time, so that the second copy stays small.
+  const std::uint64_t block_texels =
+      std::max<std::uint64_t>((std::uint64_t(1) << 20) / upload.row_bytes(), 1) * upload.width_;
+  std::vector<std::byte> block;
+  for (std::uint64_t first = 0; first < source.count; first += block_texels) {
+    block.resize(std::size_t(std::min(block_texels, source.count - first)) * source.format.bytes);
+    source.fill(first, block);
+    upload.put(first, block);
+  }
+  *this = std::move(upload).finish();
 }
 
 }  // namespace tureen

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,6 +29,7 @@ struct TexelLayout {
   /// layout is unchanged. Otherwise layers get fewer rows, so that the largest store has at least
   /// 32 layers, if the device allows it. Its last layer then wastes at most 1/32 of the store.
   TexelLayout fitted(std::uint64_t max_texels) const;
+  std::uint64_t row_texels() const { return std::uint64_t(1) << row_bits; }
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
   /// Largest number of texels in one store: shaders count them in 32 bits.
   std::uint64_t capacity() const {
@@ -52,6 +54,8 @@ inline constexpr TexelFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8
 inline constexpr TexelFormat rgba32ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
 }  // namespace texel_formats
 
+class TexelStore;
+
 /// The contents of a store before a device exists.
 struct TexelSource {
   TexelFormat format = texel_formats::rgba8;
@@ -60,6 +64,9 @@ struct TexelSource {
   /// Writes out.size() / format.bytes texels from `first` on. `first` increases from call to call,
   /// so the complete contents never need to be in memory twice.
   std::function<void(std::uint64_t first, std::span<std::byte> out)> fill;
+  /// If it is set, the texels are on the device already (TexelUpload), and the first TexelStore of
+  /// this source takes it.
+  std::shared_ptr<TexelStore> store = {};
 
   /// A source that owns its values. Each texel takes format.bytes bytes of them.
   template <class T>
@@ -85,8 +92,32 @@ class TexelStore {
   std::size_t device_bytes() const { return device_bytes_; }
 
  private:
+  friend class TexelUpload;
   gl::Texture texture_;
   std::size_t device_bytes_ = 0;
+};
+
+/// Fills a store piece by piece, for texels that arrive while the device draws other things.
+class TexelUpload {
+ public:
+  /// Throws as TexelStore does. The source's texels are not read.
+  TexelUpload(const TexelLayout& layout, const TexelSource& source);
+
+  /// Uploads texels from `first` on, a multiple of the layout's row. `bytes` are whole rows, or end
+  /// with the last texel. All pixel-transfer parameters must have their initial values, which they
+  /// have afterwards.
+  void put(std::uint64_t first, std::span<const std::byte> bytes);
+  /// After all texels.
+  TexelStore finish() && { return std::move(store_); }
+
+ private:
+  friend class TexelStore;
+  std::size_t row_bytes() const { return std::size_t(width_) * format_.bytes; }
+
+  TexelFormat format_;
+  std::uint64_t width_ = 1, rows_ = 1, height_ = 1;  // height: of a layer
+  TexelStore store_;
+  std::vector<std::byte> last_row_;  // padded
 };
 
 }  // namespace tureen

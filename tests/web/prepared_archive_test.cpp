@@ -1,18 +1,18 @@
 // A soup that is packed in the reading worker and unpacked for drawing has the same image and plan
 // as a soup that was never packed, for every appearance.
-#include "web/engine/prepared_archive.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "camera/navigation.hpp"
+#include "runtime/gl/api.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
 #include "tests/support/trait_soups.hpp"
+#include "web/engine/arriving_scene.hpp"
 
 namespace tureen::web {
 namespace prepared_archive_test {
@@ -67,14 +67,59 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
       ASSERT_LE(offset + out.size(), blobs[blob].size());
       std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
     };
-    Renderer there(context(), unpack(head, read), options);
-    there.draw({camera});
-    EXPECT_EQ(there.read_color().pixels, expected.pixels);
-    EXPECT_EQ(faces_of(there), faces_of(here));
-    EXPECT_EQ(describe(there.plan()), describe(here.plan()));
-    EXPECT_EQ(there.device_bytes(), here.device_bytes());
+    for (const bool uploads_early : {false, true}) {
+      SCOPED_TRACE(uploads_early);
+      ArrivingScene arriving(head, read);
+      if (uploads_early) upload_stores(arriving, head, blobs);
+      Renderer there(context(), std::move(arriving).take(), options);
+      there.draw({camera});
+      EXPECT_EQ(there.read_color().pixels, expected.pixels);
+      EXPECT_EQ(faces_of(there), faces_of(here));
+      EXPECT_EQ(describe(there.plan()), describe(here.plan()));
+      EXPECT_EQ(there.device_bytes(), here.device_bytes());
+    }
+  }
+
+  /// In blocks of two rows. Then the blobs of the stores are worthless.
+  static void upload_stores(ArrivingScene& arriving, std::span<const std::byte> head,
+                            Blobs& blobs) {
+    const BlobReader none;
+    PreparedScene sizes = unpack(head, none);
+    for (std::size_t blob = 0; blob < blobs.size(); ++blob) {
+      if (!store_of(sizes, blob).source) continue;
+      std::vector<std::byte>& bytes = blobs[blob];
+      const std::size_t block = 2 * blob_grain(sizes, blob);
+      for (std::size_t offset = 0; offset < bytes.size(); offset += block)
+        arriving.upload(blob, offset,
+                        std::span(bytes).subspan(offset, std::min(block, bytes.size() - offset)));
+      std::fill(bytes.begin(), bytes.end(), std::byte{0xff});
+    }
   }
 };
+
+/// Layers with few rows, so that blocks reach over their ends.
+TEST(TexelUpload, FillsTheStoreInAnyPieces) {
+  const gl::Context context = gl::Context::create(test::osmesa);
+  const TexelLayout layout{.row_bits = 3, .layer_bits = 2, .max_layers = 8};
+  for (const std::size_t count : {1u, 5u, 8u, 9u, 32u, 40u, 61u, 96u}) {
+    std::vector<std::uint32_t> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = std::uint32_t(i + 1);
+    const TexelSource source = TexelSource::of(texel_formats::r32ui, values, "numbers");
+    const std::size_t row = count < 8 ? count : 8;
+    for (const std::size_t rows : {1u, 3u, 100u}) {
+      TexelUpload upload(layout, source);
+      for (std::size_t first = 0; first < count; first += rows * row)
+        upload.put(first, std::as_bytes(std::span(values).subspan(
+                              first, std::min(rows * row, count - first))));
+      const TexelStore store = std::move(upload).finish();
+      std::vector<std::uint32_t> back(96, 0);
+      glBindTexture(GL_TEXTURE_2D_ARRAY, store.texture());
+      glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, back.data());
+      back.resize(count);
+      EXPECT_EQ(back, values) << count << " texels, " << rows << " rows a block";
+    }
+  }
+}
 
 TEST_P(PreparedArchive, DrawsAsIfItHadNotTravelled) {
   expect_same(test::random_soup(81, {.kind = GetParam(), .faces = 300, .degree = 2}), {});

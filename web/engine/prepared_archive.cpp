@@ -68,7 +68,7 @@ void archive_plan(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_store(Archive& archive, Value& value) {
-  auto& [format, count, what, fill] = value;  // `fill` reads a blob
+  auto& [format, count, what, fill, store] = value;  // `fill` reads a blob; no store exists yet
   archive(format, count, what);
 }
 
@@ -164,6 +164,7 @@ struct Blob {
   const PreparedSoup* soup = nullptr;  // its corners
   const TexelSource* store = nullptr;
   const splatting::ParameterRows* rows = nullptr;
+  TexelLayout layout = {};  // of the store
 };
 
 /// Blobs of a layer.
@@ -175,9 +176,11 @@ std::size_t blobs_of(const PreparedLayer& layer) {
 Blob blob_of(const PreparedLayer& layer, std::size_t index) {
   if (layer.tiled_splats) return {.rows = &layer.tiled_splats->rows};
   if (layer.splats)
-    return {.store = index == 0 ? &layer.splats->kernel : &layer.splats->coefficients};
+    return {.store = index == 0 ? &layer.splats->kernel : &layer.splats->coefficients,
+            .layout = layer.splats->layout};
   if (index == 0) return {.soup = &*layer.soup};
-  return {.store = &layer.soup->appearance.samplers[index - 1].source};
+  const AppearanceSource& appearance = layer.soup->appearance;
+  return {.store = &appearance.samplers[index - 1].source, .layout = appearance.layout};
 }
 
 Blob blob_at(const PreparedScene& prepared, std::size_t index) {
@@ -205,32 +208,32 @@ std::size_t blob_count(const PreparedScene& prepared) {
 }
 
 std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob) {
-  const auto [soup, store, rows] = blob_at(prepared, blob);
+  const auto [soup, store, rows, layout] = blob_at(prepared, blob);
   if (rows) return rows->values().size_bytes();
-  return (store ? store->count : soup->geometry.face_count) * blob_grain(prepared, blob);
+  return store ? store->count * store->format.bytes
+               : soup->geometry.face_count * sizeof(FaceCorners);
 }
 
 std::size_t blob_grain(const PreparedScene& prepared, std::size_t blob) {
-  const auto [soup, store, rows] = blob_at(prepared, blob);
+  const auto [soup, store, rows, layout] = blob_at(prepared, blob);
   if (rows) return sizeof(float);
-  return store ? store->format.bytes : sizeof(FaceCorners);
+  return store ? std::size_t(layout.row_texels()) * store->format.bytes : sizeof(FaceCorners);
 }
 
 void read_blob(const PreparedScene& prepared, std::size_t blob, std::uint64_t offset,
                std::span<std::byte> out) {
-  const auto [soup, store, rows] = blob_at(prepared, blob);
+  const auto [soup, store, rows, layout] = blob_at(prepared, blob);
   if (rows) {
     const auto bytes = std::as_bytes(rows->values());
     std::memcpy(out.data(), bytes.data() + offset, out.size());
     return;
   }
-  const std::uint64_t first = offset / blob_grain(prepared, blob);
   if (store) {
-    store->fill(first, out);
+    store->fill(offset / store->format.bytes, out);
     return;
   }
   std::vector<FaceCorners> corners(out.size() / sizeof(FaceCorners));
-  soup->geometry.fill(static_cast<std::size_t>(first), corners);
+  soup->geometry.fill(static_cast<std::size_t>(offset / sizeof(FaceCorners)), corners);
   std::memcpy(out.data(), corners.data(), out.size());
 }
 
@@ -248,7 +251,7 @@ PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read) {
   };
   for (PreparedLayer& layer : prepared.layers) {
     if (layer.tiled_splats) {
-      read(blob++, 0, std::as_writable_bytes(layer.tiled_splats->rows.values()));
+      ++blob;
       continue;
     }
     if (layer.splats) {
@@ -264,6 +267,20 @@ PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read) {
       fill_from(sampler.source);
   }
   return prepared;
+}
+
+void read_rows(PreparedScene& prepared, const BlobReader& read) {
+  std::size_t blob = 0;
+  for (PreparedLayer& layer : prepared.layers) {
+    if (layer.tiled_splats)
+      read(blob, 0, std::as_writable_bytes(layer.tiled_splats->rows.values()));
+    blob += blobs_of(layer);
+  }
+}
+
+BlobStore store_of(PreparedScene& prepared, std::size_t blob) {
+  const Blob found = blob_at(prepared, blob);
+  return {const_cast<TexelSource*>(found.store), found.layout};
 }
 
 }  // namespace tureen::web

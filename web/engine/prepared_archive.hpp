@@ -25,12 +25,22 @@ std::uint64_t blob_size(const PreparedScene& prepared, std::size_t blob);
 /// except at the blob's end.
 void read_blob(const PreparedScene& prepared, std::size_t blob, std::uint64_t offset,
                std::span<std::byte> out);
+/// Of a store: a row on the device.
 std::size_t blob_grain(const PreparedScene& prepared, std::size_t blob);
 
 using BlobReader =
     std::function<void(std::size_t blob, std::uint64_t offset, std::span<std::byte> out)>;
 
-/// Reads the rows for TilePass. The sources of the result use `read`, which must outlive them.
+/// The sources of the result use `read`, which must outlive them. Call read_rows() before drawing.
 PreparedScene unpack(std::span<const std::byte> head, const BlobReader& read);
+/// Reads the rows for TilePass.
+void read_rows(PreparedScene& prepared, const BlobReader& read);
+
+/// The store with the texels of a blob, and its layout; null for other blobs.
+struct BlobStore {
+  TexelSource* source = nullptr;
+  TexelLayout layout = {};
+};
+BlobStore store_of(PreparedScene& prepared, std::size_t blob);
 
 }  // namespace tureen::web

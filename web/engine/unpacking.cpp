@@ -1,28 +1,42 @@
 #include "web/engine/unpacking.hpp"
 
+#include <optional>
 #include <utility>
 
-#include "web/engine/prepared_archive.hpp"
+#include "web/engine/arriving_scene.hpp"
 
 namespace tureen::web {
 
 namespace {
 
-std::vector<std::byte>& taken_head() {
-  static std::vector<std::byte> head;
-  return head;
+std::optional<ArrivingScene>& arriving() {
+  static std::optional<ArrivingScene> one;
+  return one;
 }
 
 }  // namespace
 
 Json take_head(const Json&) {
-  taken_head() = std::exchange(buffer(), {});
+  static const BlobReader read = pull_block;  // the scene refers to it
+  arriving().reset();
+  arriving().emplace(std::exchange(buffer(), {}), read);
+  return nullptr;
+}
+
+Json upload_block(const Json& arguments) {
+  arriving().value().upload(arguments.at("blob"), arguments.at("offset"), buffer());
+  return nullptr;
+}
+
+Json forget_head(const Json&) {
+  arriving().reset();
   return nullptr;
 }
 
 PreparedScene unpacked() {
-  static const BlobReader read = pull_block;  // the sources refer to it
-  return unpack(std::exchange(taken_head(), {}), read);
+  ArrivingScene scene = std::move(arriving().value());
+  arriving().reset();
+  return std::move(scene).take();
 }
 
 }  // namespace tureen::web

@@ -83,7 +83,14 @@ Json show(const Json& arguments) {
 }
 
 Json clear(const Json&) {
+  forget_head({});
   view().drop_preview();
+  view().drop_scene();
+  return nullptr;
+}
+
+/// Before the blocks of another scene: the device's memory may not hold both.
+Json drop_scene(const Json&) {
   view().drop_scene();
   return nullptr;
 }
@@ -330,6 +337,9 @@ Commands viewer_commands() {
   commands.insert(
       {{"start", start},
        {"take_head", take_head},
+       {"upload_block", upload_block},
+       {"forget_head", forget_head},
+       {"drop_scene", drop_scene},
        {"show", show},
        {"clear", clear},
        {"drop_preview", drop_preview},
