@@ -57,8 +57,9 @@ const opened = (browser, site, scene) => inPage(browser, `${site}?${scene}`, asy
     const images = {};
     for (const which of ['first', 'whole'])
       images[which] = new Promise((resolve) => { images[`${which}IsThere`] = resolve; });
-    // The frame after next begins when this one has been drawn.
-    const drawn = (tell) => requestAnimationFrame(() => requestAnimationFrame(() => tell(performance.now())));
+    // The frame after next begins when this one has been drawn. Its callback gets the time of its beginning: the page may
+    // smooth the image before.
+    const drawn = (tell) => requestAnimationFrame(() => requestAnimationFrame(tell));
     new MutationObserver(() => {
       const { body } = document, loading = document.getElementById('loading');
       if (!body || !loading || body.classList.contains('empty')) return;
