@@ -47,6 +47,7 @@ const { visit } = await stage({ routes: {
   ...drawingRoutes,
   '/slow.ply': slowly(bytes, 400),  // more than the time before a preview
   '/slow.glb': slowly(scene, 200),
+  '/cloud.glb': (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene),
   '/native.png': (request, response) => response.end(image),
   '/many.ply': (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes),
 } });
@@ -67,6 +68,22 @@ test('more and more splats are shown while the file arrives', () => visit('drawi
   assert.ok(previews[0] >= 16_384 && previews.every((count, at) => at === 0 || count >= 2 * previews[at - 1]), `${previews}`);
   assert.deepEqual(eye, [0, 0, 5], 'the view that was chosen during the load');
 }));
+
+/** The mean difference of the viewer's image from the native one, in steps of 255. On the page. */
+async function differenceFromNative() {
+  const pixels = async (png) => {
+    const canvas = new OffscreenCanvas(160, 90), context = canvas.getContext('2d');
+    context.drawImage(await createImageBitmap(png), 0, 0);
+    return context.getImageData(0, 0, 160, 90).data;
+  };
+  // The scene's first camera; the first view is wider on a narrow canvas.
+  viewer.setView({ eye: [3.2, 0, 1.2], target: [0, 0, 0], up: [0, 0, 1], fov: 2 * Math.atan(360 / 989.0918710036641), roll: 0 });
+  const drawn = await pixels(await viewer.screenshot({ width: 160, height: 90 }));
+  const native = await pixels(await (await fetch('/native.png')).blob());
+  return drawn.reduce((sum, value, at) => sum + Math.abs(value - native[at]), 0) / drawn.length;
+}
+/** Strips or blocks in a wrong order differ by tens of steps; the two programs by less than one. */
+const likeNative = (difference) => assert.ok(difference < 1, `${difference} steps of 255`);
 
 /** For the worker: adds the number of messages to its own workers to its messages. */
 const countSent = `{
@@ -90,7 +107,7 @@ for (const { what, lacking, strips, atLeast, atMost } of [
     await drawingPage(page);  // without the route
     await page.reload();
     await drawingPage(page);
-    const { triangles, decoded, sent, difference } = await page.evaluate(async () => {
+    const { triangles, decoded, sent } = await page.evaluate(async () => {
       let decoded = null, sent = null;
       window.Worker = class extends window.Worker {
         constructor(...given) {
@@ -101,24 +118,80 @@ for (const { what, lacking, strips, atLeast, atMost } of [
         }
       };
       const { triangles } = await viewer.load({ url: '/slow.glb' });
-      const pixels = async (png) => {
-        const canvas = new OffscreenCanvas(160, 90), context = canvas.getContext('2d');
-        context.drawImage(await createImageBitmap(png), 0, 0);
-        return context.getImageData(0, 0, 160, 90).data;
-      };
-      // The scene's first camera; the first view is wider on a narrow canvas.
-      viewer.setView({ eye: [3.2, 0, 1.2], target: [0, 0, 0], up: [0, 0, 1], fov: 2 * Math.atan(360 / 989.0918710036641), roll: 0 });
-      const drawn = await pixels(await viewer.screenshot({ width: 160, height: 90 }));
-      const native = await pixels(await (await fetch('/native.png')).blob());
-      const difference = drawn.reduce((sum, value, at) => sum + Math.abs(value - native[at]), 0) / drawn.length;
-      return { triangles, decoded, sent, difference };
+      return { triangles, decoded, sent };
     });
     assert.equal(triangles, 15_000);
     assert.equal(decoded, strips);
     assert.ok(sent >= atLeast && sent <= atMost, `${sent} messages to the second worker`);
-    // Strips in a wrong order differ by tens of steps; the two programs by less than one.
-    assert.ok(difference < 1, `${difference} steps of 255`);
+    likeNative(await page.evaluate(differenceFromNative));
   }));
+
+/** Calls window.onBlock() for each block that arrives, before the viewer gets it. On the page. */
+function watchBlocks() {
+  window.onBlock = () => {};
+  window.Worker = class extends window.Worker {
+    constructor(...given) {
+      super(...given);
+      this.addEventListener('message', ({ data }) => { if (data.kind === 'block') window.onBlock(); });
+    }
+  };
+}
+
+test('a large scene replaces another one, and a load that ends between its blocks changes nothing', () =>
+  visit('drawing.html', async (page) => {
+    await drawingPage(page);
+    await page.evaluate(watchBlocks);
+    for (let time = 0; time < 2; ++time) {  // the first time without a scene on the device
+      const { triangles } = await page.evaluate(() => viewer.load({ url: '/cloud.glb' }));
+      assert.equal(triangles, 15_000);
+      likeNative(await page.evaluate(differenceFromNative));
+    }
+    const end = await page.evaluate(async () => {
+      const ending = new AbortController();
+      let blocks = 0;
+      window.onBlock = () => { if (++blocks === 10) ending.abort(); };
+      return viewer.load({ url: '/cloud.glb' }, { signal: ending.signal }).catch(({ kind }) => kind);
+    });
+    assert.equal(end, 'cancelled');
+    likeNative(await page.evaluate(differenceFromNative));
+    const cleared = await page.evaluate(async () => {
+      viewer.clear();
+      let blocks = 0;
+      window.onBlock = () => { if (++blocks === 10) viewer.clear(); };  // while they are uploaded
+      return viewer.load({ url: '/cloud.glb' }).catch(({ kind }) => kind);
+    });
+    assert.equal(cleared, 'cancelled');
+    await page.evaluate(async () => {
+      window.onBlock = () => {};
+      await viewer.load({ url: '/cloud.glb' });
+    });
+    likeNative(await page.evaluate(differenceFromNative));
+  }));
+
+test('without memory for the blocks of a large scene, a lower lattice level is drawn', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const { triangles, notices } = await page.evaluate(async () => {
+    // A store of 8-bit texels takes 34 MB at level 5, 9 MB at level 4.
+    const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
+    let missing = false;
+    gl.texImage3D = function (...given) {
+      const [, , , width, height, depth] = given;
+      if (4 * width * height * depth > 20e6) missing = true;
+      else texImage3D.apply(this, given);
+    };
+    gl.getError = function () {
+      const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
+      missing = false;
+      return error;
+    };
+    const notices = [];
+    viewer.on('notice', (sentence) => notices.push(sentence));
+    const { triangles } = await viewer.load({ url: '/cloud.glb' });
+    return { triangles, notices };
+  });
+  assert.equal(triangles, 15_000);
+  assert.ok(notices.some((sentence) => /\b4\b/.test(sentence)), `${notices}`);
+}));
 
 /** The splats of a viewer with little memory, and what it asked. */
 const loaded = (page, choice) => page.evaluate(async ([memory, wanted]) => {

@@ -1,6 +1,7 @@
 // An engine for measurements: several scenes on one canvas, and frames timed by the protocol of
 // `tureen bench` (web/engine/bench.cpp). It draws with the viewer's pipeline.
 
+import { ArrivingScene } from '../viewer/arriving_scene.js';
 import { assetsAt, type Assets } from '../viewer/assets.js';
 import { compile, Engine } from '../viewer/engine.js';
 import type { PreparedScene, SceneDescription } from '../viewer/loader_messages.js';
@@ -146,7 +147,7 @@ export class BenchEngine {
 
   /** Adds a scene; its number is the previous count. Rejects with ViewerError or the signal's reason. */
   async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
-    let added: AddedScene | null = null;
+    let added: AddedScene | null = null, arriving: ArrivingScene | null = null;
     const program = Promise.resolve(this.program), limits = Promise.resolve(this.device.limits);
     // A benchmark measures all splats.
     const loading = new Loading(this.assets, program, limits, files, Number.MAX_VALUE, null);
@@ -154,8 +155,12 @@ export class BenchEngine {
       progress: tell,
       offer: ({ splats }) => Promise.resolve(splats),
       preview: () => {},
+      head: (head) => { arriving = new ArrivingScene(this.engine, head, null); },
+      block: (block) => arriving!.take(block),
       scene: (scene) => {
         try {
+          arriving?.finish();
+          arriving = null;
           added = this.unpack(scene);
           return null;
         } catch (error) {
@@ -174,8 +179,10 @@ export class BenchEngine {
   }
 
   private unpack({ description, parcel, level, readMs, prepareMs }: PreparedScene): AddedScene {
-    this.engine.setBuffer(new Uint8Array(parcel.head));
-    this.engine.call('take_head');
+    if (parcel.head.byteLength > 0) {
+      this.engine.setBuffer(new Uint8Array(parcel.head));
+      this.engine.call('take_head');
+    }
     this.engine.setBlobs(parcel.blobs);
     try {
       const facts = this.engine.call<Omit<Pipeline, 'plan_ms'>>('bench_add_scene', { scene: description });

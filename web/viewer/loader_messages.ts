@@ -30,6 +30,7 @@ export interface SceneDescription {
 
 export interface PreparedScene {
   readonly description: SceneDescription;
+  /** Without the head and the blobs that were sent before. */
   readonly parcel: Parcel;
   /** The reduced lattice level if memory is too small; otherwise null. */
   readonly level: number | null;
@@ -38,6 +39,15 @@ export interface PreparedScene {
   /** Time in the loader: from the file's bytes to the soup (readMs), and from there to the device's data. */
   readonly readMs: number;
   readonly prepareMs: number;
+}
+
+/** A part of a blob. The blocks of a blob arrive in order, and all before those of the next blob. */
+export interface Block {
+  readonly blob: number;
+  readonly offset: number;
+  readonly size: number;
+  /** Its first `size` bytes are the block's. */
+  readonly bytes: ArrayBuffer;
 }
 
 /** One layer of a source, prepared alone. */
@@ -63,6 +73,8 @@ export type ToLoader =
   | { readonly kind: 'lower'; readonly why: string }
   /** Prepare the next layer: the page holds no more than one at a time. */
   | { readonly kind: 'next' }
+  /** The page has taken a block. Its memory can have another one; empty if the page keeps it. */
+  | { readonly kind: 'taken'; readonly bytes: ArrayBuffer }
   /** The answer to an offer: the number of splats to read. */
   | { readonly kind: 'splats'; readonly number: number }
   | SortMessage
@@ -108,6 +120,9 @@ export type FromLoader =
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
   /** The loader waits for the answer, 'splats'. */
   | { readonly kind: 'offer'; readonly offer: SplatOffer }
+  /** The head of a large scene, whose blocks and 'scene' follow. */
+  | { readonly kind: 'head'; readonly head: ArrayBuffer }
+  | { readonly kind: 'block'; readonly block: Block }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
   | { readonly kind: 'inflated'; readonly inflated: Inflated }

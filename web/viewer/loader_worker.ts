@@ -15,6 +15,10 @@ import { ViewerError, type LoadStage, type SplatOffer } from './types.js';
 
 /** Maximum size of a blob's part in the engine's memory. */
 const blockBytes = 1 << 20;
+/** Larger blobs are sent in blocks, which the page uploads meanwhile. */
+const largeBlob = 4 * blockBytes;
+/** Number of blocks on their way. */
+const maxBlocks = 4;
 /** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
 const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
@@ -23,6 +27,17 @@ const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
 /** Part of the time for reading that is spent on decoding texels early, if there are any. An estimate. */
 const decodingPart = 0.8;
 const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
+
+/** web/engine/loader.cpp */
+interface BlobSize {
+  readonly size: number;
+  readonly grain: number;
+  /** It goes to the device, and can be uploaded before the rest is there. */
+  readonly isStore: boolean;
+}
+
+/** A multiple of the grain. */
+const blockSize = (grain: number) => Math.max(Math.floor(blockBytes / grain), 1) * grain;
 
 class Loader {
   private description: SceneDescription | null = null;
@@ -34,6 +49,9 @@ class Loader {
   private told = { stage: '', permille: -1 };
   private forecasts: readonly number[] = [];  // of added layers
   private nextLayer = 0;
+  private readonly spares: ArrayBuffer[] = [];
+  private onTheirWay = 0;  // blocks
+  private onTaken: () => void = () => {};
 
   private readonly from: 'files' | 'url';
 
@@ -130,7 +148,7 @@ class Loader {
     const description = preview && this.knowsLimits ? preview.read(prefix, total) : null;
     if (!description) return;
     try {
-      post({ kind: 'preview', scene: await this.prepared(description) });
+      post({ kind: 'preview', scene: await this.preparedPreview(description) });
     } catch {
       return preview!.stop();  // the memory may hold the scene without it
     }
@@ -157,32 +175,77 @@ class Loader {
 
   private async send(): Promise<void> {
     this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
-    const scene = await this.prepared(this.description!);
+    const limits = await this.limits, begin = performance.now(), { head, blobs } = this.prepare(limits);
+    const isLarge = blobs.some(({ size, isStore }) => isStore && size >= largeBlob);
+    if (isLarge) post({ kind: 'head', head });
+    const given: ArrayBuffer[] = [];
+    for (const [index, blob] of blobs.entries()) {
+      const inBlocks = isLarge && blob.isStore;
+      given.push(inBlocks ? new ArrayBuffer() : this.blob(index, blob));
+      if (inBlocks) await this.sendBlocks(index, blob);
+    }
+    const scene = this.prepared(this.description!, { head: isLarge ? new ArrayBuffer() : head, blobs: given }, begin);
     this.tell('upload', 0);
     post({ kind: 'scene', scene });
   }
 
-  private async prepared(description: SceneDescription): Promise<PreparedScene> {
+  private async preparedPreview(description: SceneDescription): Promise<PreparedScene> {
     const limits = await this.limits, begin = performance.now();
-    const parcel = this.packed(limits), prepareMs = performance.now() - begin;
+    return this.prepared(description, this.packed(limits), begin);
+  }
+
+  /** `begin`: of the preparation, by performance.now(). */
+  private prepared(description: SceneDescription, parcel: Parcel, begin: number): PreparedScene {
+    const prepareMs = performance.now() - begin;
     return { description, parcel, level: this.level, decoded: this.early.decoded, readMs: this.readMs, prepareMs };
   }
 
-  /** Prepares the scene. The engine's memory grows meanwhile, so its buffer is fetched again for each block. */
-  private packed(limits: unknown, layer: number | null = null): Parcel {
+  /** Prepares the scene, or a layer. */
+  private prepare(limits: unknown, layer: number | null = null): { head: ArrayBuffer; blobs: readonly BlobSize[] } {
     const level = this.level === null ? {} : { level: this.level }, only = layer === null ? {} : { layer };
-    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, ...level, ...only });
-    const head = this.engine.buffer().slice().buffer;
-    return { head, blobs: blobs.map(({ size, grain }, blob) => this.blob(blob, size, grain)) };
+    const blobs = this.engine.call<BlobSize[]>('prepare', { limits, ...level, ...only });
+    return { head: this.engine.buffer().slice().buffer, blobs };
   }
 
-  private blob(blob: number, size: number, grain: number): ArrayBuffer {
-    const bytes = new Uint8Array(size), block = Math.floor(blockBytes / grain) * grain;
-    for (let offset = 0; offset < size; offset += block) {
-      this.engine.call('read_block', { blob, offset, size: Math.min(block, size - offset) });
-      bytes.set(this.engine.buffer(), offset);
-    }
+  private packed(limits: unknown, layer: number | null = null): Parcel {
+    const { head, blobs } = this.prepare(limits, layer);
+    return { head, blobs: blobs.map((blob, index) => this.blob(index, blob)) };
+  }
+
+  private blob(index: number, { size, grain }: BlobSize): ArrayBuffer {
+    const bytes = new Uint8Array(size), step = blockSize(grain);
+    for (let offset = 0; offset < size; offset += step)
+      bytes.set(this.block(index, offset, Math.min(step, size - offset)), offset);
     return bytes.buffer;
+  }
+
+  private async sendBlocks(blob: number, { size, grain }: BlobSize): Promise<void> {
+    const step = blockSize(grain);
+    for (let offset = 0; offset < size; offset += step) {
+      const part = Math.min(step, size - offset), bytes = await this.spareBlock(part);
+      new Uint8Array(bytes).set(this.block(blob, offset, part));
+      post({ kind: 'block', block: { blob, offset, size: part, bytes } });
+    }
+  }
+
+  /** A view of the engine's memory, which grows meanwhile; valid until the next command. */
+  private block(blob: number, offset: number, size: number): Uint8Array {
+    this.engine.call('read_block', { blob, offset, size });
+    return this.engine.buffer();
+  }
+
+  /** Memory for a block, as soon as the page has taken the earlier ones. New memory takes longer than to fill it. */
+  private async spareBlock(size: number): Promise<ArrayBuffer> {
+    while (this.onTheirWay === maxBlocks) await new Promise<void>((resolve) => { this.onTaken = resolve; });
+    ++this.onTheirWay;
+    const spare = this.spares.pop();
+    return spare && spare.byteLength >= size ? spare : new ArrayBuffer(size);
+  }
+
+  taken(bytes: ArrayBuffer): void {
+    --this.onTheirWay;
+    this.spares.push(bytes);
+    this.onTaken();
   }
 
   /** Reports progress, but only after a change of 0.1 % or 100 kB. */
@@ -203,6 +266,10 @@ function post(message: FromLoader): void {
   if (message.kind === 'scene' || message.kind === 'preview') {
     const { head, blobs } = message.scene.parcel;
     transferred.push(head, ...blobs);
+  } else if (message.kind === 'head') {
+    transferred.push(message.head);
+  } else if (message.kind === 'block') {
+    transferred.push(message.block.bytes);
   } else if (message.kind === 'layer') {
     const { head, blobs } = message.layer.parcel;
     transferred.push(head, ...blobs);
@@ -241,6 +308,7 @@ async function handle(message: ToLoader): Promise<void> {
     case 'splats': return choose(message.number);
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
+    case 'taken': return loader!.taken(message.bytes);
     case 'sort': return sortSplats(message);
     case 'inflate': return post({ kind: 'inflated', inflated: await inflate(message.streams) });
   }

@@ -3,6 +3,7 @@
 // views and frames all change it.
 
 import { urlOf } from './addresses.js';
+import { ArrivingScene } from './arriving_scene.js';
 import { assetsAt, type Assets } from './assets.js';
 import { attachControls } from './controls.js';
 import { compile, Engine, type Parcel } from './engine.js';
@@ -111,6 +112,8 @@ class CanvasViewer implements Viewer {
   private layers_: readonly SceneLayer[] = [];
   private shown: SceneSummary | null = null;
   private previewed = false;
+  /** A large scene whose blocks arrive. */
+  private arriving: ArrivingScene | null = null;
   private debugView_ = { name: 'color', features: { first: 0, count: 3 } };
   private debugViewsAsked = 0;
   /** Resolves when no debug view is being shown by show(). */
@@ -225,6 +228,7 @@ class CanvasViewer implements Viewer {
     if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
     const { cancellations } = this;
     this.loading?.cancel();
+    this.dropArriving();
     this.dropPreview();
     const loading = this.begin(source);
     let layers = 1;
@@ -233,13 +237,19 @@ class CanvasViewer implements Viewer {
         progress: (progress) => this.emit('progress', progress),
         offer: this.offering(source),
         preview: (scene) => this.showPreview(scene),
+        // A load that ends must not have changed the shown scene.
+        head: (head) => { this.arriving = new ArrivingScene(this.engine, head, this.shown ? [] : null); },
+        block: (block) => this.arriving!.take(block),
         scene: (scene) => {
           layers = scene.description.layer_names.length;
           return this.showScene(scene, source, first ?? scene.description);
         },
       });
     } catch (error) {
-      if (this.loading === null) this.dropPreview();  // no later load has begun
+      if (this.loading === null) {  // no later load has begun
+        this.dropArriving();
+        this.dropPreview();
+      }
       if (layers === 1 || !isShortage(error)) throw error;
       if (this.cancellations !== cancellations) throw cancelled();
       await this.add(source, options.signal, first);  // layer by layer: draws those that fit
@@ -281,6 +291,11 @@ class CanvasViewer implements Viewer {
       this.maxSplats.set(source, splats);
       return splats;
     };
+  }
+
+  private dropArriving(): void {
+    if (!this.lost) this.arriving?.drop();
+    this.arriving = null;
   }
 
   private showPreview(scene: PreparedScene): void {
@@ -333,6 +348,9 @@ class CanvasViewer implements Viewer {
   private showScene(scene: PreparedScene, source: SceneSource, first: SceneDescription): string | null {
     let facts;
     try {
+      if (this.arriving) this.engine.call('drop_scene');
+      this.arriving?.finish();
+      this.arriving = null;
       facts = this.unpack({ description: first, parcel: scene.parcel }, 'scene');
     } catch (error) {
       if (this.isGone) throw new ViewerError('The browser reset the graphics device: open the scene again.', 'device');
@@ -376,8 +394,10 @@ class CanvasViewer implements Viewer {
 
   /** Runs a command that takes a prepared scene. */
   private give({ head, blobs }: Parcel, command: string, given: object): ShownFacts {
-    this.engine.setBuffer(new Uint8Array(head));
-    this.engine.call('take_head');
+    if (head.byteLength > 0) {
+      this.engine.setBuffer(new Uint8Array(head));
+      this.engine.call('take_head');
+    }
     this.engine.setBlobs(blobs);
     try {
       return this.engine.call<ShownFacts>(command, given);
