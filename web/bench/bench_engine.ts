@@ -147,7 +147,7 @@ export class BenchEngine {
 
   /** Adds a scene; its number is the previous count. Rejects with ViewerError or the signal's reason. */
   async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
-    let added: AddedScene | null = null, arriving: ArrivingScene | null = null;
+    let added: AddedScene | null = null, arriving: ArrivingScene | null = null, uploadMs = 0;
     const program = Promise.resolve(this.program), limits = Promise.resolve(this.device.limits);
     // A benchmark measures all splats.
     const loading = new Loading(this.assets, program, limits, files, Number.MAX_VALUE, null);
@@ -156,12 +156,16 @@ export class BenchEngine {
       offer: ({ splats }) => Promise.resolve(splats),
       preview: () => {},
       head: (head) => { arriving = new ArrivingScene(this.engine, head, null); },
-      block: (block) => arriving!.take(block),
+      block: (block) => {
+        const begin = performance.now(), isFree = arriving!.take(block);
+        uploadMs += performance.now() - begin;
+        return isFree;
+      },
       scene: (scene) => {
         try {
           arriving?.finish();
           arriving = null;
-          added = this.unpack(scene);
+          added = this.unpack(scene, uploadMs);
           return null;
         } catch (error) {
           if (isShortage(error) && !this.isLost) return error.message;
@@ -178,7 +182,8 @@ export class BenchEngine {
     return added!;
   }
 
-  private unpack({ description, parcel, level, readMs, prepareMs }: PreparedScene): AddedScene {
+  /** `uploadMs`: time for the blocks before. */
+  private unpack({ description, parcel, level, readMs, planMs }: PreparedScene, uploadMs: number): AddedScene {
     if (parcel.head.byteLength > 0) {
       this.engine.setBuffer(new Uint8Array(parcel.head));
       this.engine.call('take_head');
@@ -186,7 +191,7 @@ export class BenchEngine {
     this.engine.setBlobs(parcel.blobs);
     try {
       const facts = this.engine.call<Omit<Pipeline, 'plan_ms'>>('bench_add_scene', { scene: description });
-      return { description, level, readMs, pipeline: { ...facts, plan_ms: prepareMs } };
+      return { description, level, readMs, pipeline: { ...facts, plan_ms: planMs, upload_ms: facts.upload_ms + uploadMs } };
     } finally {
       this.engine.setBlobs([]);
     }

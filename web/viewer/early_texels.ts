@@ -5,9 +5,7 @@ import type { Engine } from './engine.js';
 import { canInflate, inflate, SecondInflater } from './inflating.js';
 import type { Deflated, Inflated } from './loader_messages.js';
 import { pause } from './pause.js';
-
-/** The strips are in the first bytes of a file if its header is not larger. */
-const maxHeader = 1 << 20;
+import { maxHeader } from './preview.js';
 
 /** Bytes of a file, or of a strip. */
 interface Range {

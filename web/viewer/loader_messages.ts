@@ -36,9 +36,9 @@ export interface PreparedScene {
   readonly level: number | null;
   /** Number of strips of texels that were decoded early (early_texels.ts). */
   readonly decoded: number;
-  /** Time in the loader: from the file's bytes to the soup (readMs), and from there to the device's data. */
+  /** Time in the loader: from the file's bytes to the soup, and from there to its plan. */
   readonly readMs: number;
-  readonly prepareMs: number;
+  readonly planMs: number;
 }
 
 /** A part of a blob. The blocks of a blob arrive in order, and all before those of the next blob. */

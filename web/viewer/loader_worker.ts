@@ -43,6 +43,7 @@ class Loader {
   private description: SceneDescription | null = null;
   private level: number | null = null;
   private readMs = 0;
+  private planMs = 0;
   private readFrom = 0;
   private loaded = 0;
   private total: number | null = null;
@@ -175,7 +176,7 @@ class Loader {
 
   private async send(): Promise<void> {
     this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
-    const limits = await this.limits, begin = performance.now(), { head, blobs } = this.prepare(limits);
+    const { head, blobs } = this.prepare(await this.limits);
     const isLarge = blobs.some(({ size, isStore }) => isStore && size >= largeBlob);
     if (isLarge) post({ kind: 'head', head });
     const given: ArrayBuffer[] = [];
@@ -184,26 +185,25 @@ class Loader {
       given.push(inBlocks ? new ArrayBuffer() : this.blob(index, blob));
       if (inBlocks) await this.sendBlocks(index, blob);
     }
-    const scene = this.prepared(this.description!, { head: isLarge ? new ArrayBuffer() : head, blobs: given }, begin);
+    const scene = this.prepared(this.description!, { head: isLarge ? new ArrayBuffer() : head, blobs: given });
     this.tell('upload', 0);
     post({ kind: 'scene', scene });
   }
 
   private async preparedPreview(description: SceneDescription): Promise<PreparedScene> {
-    const limits = await this.limits, begin = performance.now();
-    return this.prepared(description, this.packed(limits), begin);
+    return this.prepared(description, this.packed(await this.limits));
   }
 
-  /** `begin`: of the preparation, by performance.now(). */
-  private prepared(description: SceneDescription, parcel: Parcel, begin: number): PreparedScene {
-    const prepareMs = performance.now() - begin;
-    return { description, parcel, level: this.level, decoded: this.early.decoded, readMs: this.readMs, prepareMs };
+  private prepared(description: SceneDescription, parcel: Parcel): PreparedScene {
+    const { level, readMs, planMs } = this;
+    return { description, parcel, level, decoded: this.early.decoded, readMs, planMs };
   }
 
   /** Prepares the scene, or a layer. */
   private prepare(limits: unknown, layer: number | null = null): { head: ArrayBuffer; blobs: readonly BlobSize[] } {
     const level = this.level === null ? {} : { level: this.level }, only = layer === null ? {} : { layer };
-    const blobs = this.engine.call<BlobSize[]>('prepare', { limits, ...level, ...only });
+    const begin = performance.now(), blobs = this.engine.call<BlobSize[]>('prepare', { limits, ...level, ...only });
+    this.planMs = performance.now() - begin;
     return { head: this.engine.buffer().slice().buffer, blobs };
   }
 

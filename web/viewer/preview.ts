@@ -10,8 +10,8 @@ const patienceMs = 300;
 /** Largest part of a file for a preview of splats, in bytes, and as a fraction of the memory for a scene: the part and
  *  its splats are in the loader's memory at once. */
 const maxSplatBytes = 256 << 20, maxSplatPart = 1 / 16;
-/** The headers of files with several previews are not larger. */
-const maxHeader = 1 << 20;
+/** The headers of files with several previews, or with strips of texels, are not larger. */
+export const maxHeader = 1 << 20;
 /** A GLB whose JSON does not fit has no preview. */
 const maxJson = 8 << 20;
 
