@@ -115,11 +115,11 @@ std::optional<DeflatedPng> deflated_png(std::span<const std::byte> file) {
 }
 
 bool unfilter(std::span<std::byte> stream, int width) {
-  const std::size_t row_bytes = 4 * std::size_t(width);
+  const std::size_t row_bytes = png_row_bytes(width);
   const std::vector<std::byte> none(row_bytes);  // above the first row
   const std::byte* above = none.data();
-  for (; !stream.empty(); stream = stream.subspan(1 + row_bytes)) {
-    const std::span<std::byte> row = stream.subspan(1, row_bytes);
+  for (; !stream.empty(); stream = stream.subspan(row_bytes)) {
+    const std::span<std::byte> row = stream.subspan(1, row_bytes - 1);
     if (!unfilter_row(stream[0], row, above)) return false;
     above = row.data();
   }

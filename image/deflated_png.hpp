@@ -11,12 +11,14 @@
 
 namespace tureen {
 
+/// Bytes of a row in the inflated stream: the number of its filter, and its filtered pixels.
+inline std::size_t png_row_bytes(int width) { return 1 + 4 * std::size_t(width); }
+
 /// An RGBA image with 8 bits a channel, not interlaced.
 struct DeflatedPng {
   int width = 0, height = 0;
   std::vector<std::span<const std::byte>> pieces;  // of the file; together one zlib stream
-  /// Of a row in the inflated stream: the number of its filter, and its filtered pixels.
-  std::size_t row_bytes() const { return 1 + 4 * std::size_t(width); }
+  std::size_t inflated_bytes() const { return png_row_bytes(width) * std::size_t(height); }
 };
 
 /// Checks the chunks of a file. Returns nullopt if it is damaged or another kind of image. Safe for
@@ -24,7 +26,7 @@ struct DeflatedPng {
 std::optional<DeflatedPng> deflated_png(std::span<const std::byte> file);
 
 /// Reverses the filters of an inflated stream's rows in place (PNG specification, 3rd edition,
-/// section 9). `stream`: whole rows of 1 + 4 `width` bytes. Returns false for an unknown filter.
+/// section 9). `stream`: whole rows. Returns false for an unknown filter.
 bool unfilter(std::span<std::byte> stream, int width);
 
 }  // namespace tureen

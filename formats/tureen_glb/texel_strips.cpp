@@ -7,10 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
-#include "image/png.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
@@ -122,7 +120,7 @@ EarlyTexels::EarlyTexels(std::vector<TexelStrip> strips) : strips_(std::move(str
 
 bool EarlyTexels::add(int width, std::span<std::byte> low, std::span<std::byte> high) {
   assert(width > 0 && added_ < strips_.size());
-  const std::size_t row_pixels = std::size_t(width), row_bytes = 1 + 4 * row_pixels;
+  const std::size_t row_pixels = std::size_t(width), row_bytes = png_row_bytes(width);
   std::size_t left = strips_[added_].texels;
   const std::size_t needed = (left + row_pixels - 1) / row_pixels * row_bytes;
   if (is_broken_ || std::min(low.size(), high.size()) < needed ||

@@ -1,6 +1,7 @@
 #include "runtime/passes/texel_store.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 #include "base/error.hpp"
@@ -60,8 +61,8 @@ TexelUpload::TexelUpload(const TexelLayout& layout, const TexelSource& source)
 }
 
 void TexelUpload::put(std::uint64_t first, std::span<const std::byte> bytes) {
+  // Rows of several are multiples of 4 bytes, the initial alignment.
   glBindTexture(GL_TEXTURE_2D_ARRAY, store_.texture());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const auto upload = [&](std::uint64_t row, std::uint64_t rows, const std::byte* data) {
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, static_cast<GLint>(row % height_),
                     static_cast<GLint>(row / height_), static_cast<GLsizei>(width_),
@@ -80,11 +81,11 @@ void TexelUpload::put(std::uint64_t first, std::span<const std::byte> bytes) {
     std::copy(bytes.begin(), bytes.end(), last_row_.begin());
     upload(row, 1, last_row_.data());
   }
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
 TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
   if (source.store) {
+    assert(source.store->texture() != 0);  // taken once
     *this = std::move(*source.store);
     return;
   }

@@ -20,7 +20,7 @@ namespace tureen {
 /// The split of the index into column, row and layer, equal for all stores of a scene. Every device
 /// supports at least 256 layers. With layers of 2^21 texels, they hold 2^29 texels.
 struct TexelLayout {
-  int row_bits = 12;   // 4096 columns; 2048 on devices with that limit
+  int row_bits = 12;   // 4096 columns; 2048 on devices with that limit; at least 2
   int layer_bits = 9;  // 512 rows a layer
   int max_layers = 256;
 
@@ -104,8 +104,7 @@ class TexelUpload {
   TexelUpload(const TexelLayout& layout, const TexelSource& source);
 
   /// Uploads texels from `first` on, a multiple of the layout's row. `bytes` are whole rows, or end
-  /// with the last texel. All pixel-transfer parameters must have their initial values, which they
-  /// have afterwards.
+  /// with the last texel. The pixel-transfer parameters must have their initial values.
   void put(std::uint64_t first, std::span<const std::byte> bytes);
   /// After all texels.
   TexelStore finish() && { return std::move(store_); }

@@ -32,8 +32,8 @@ struct Texels {
 template <class Value>
 class TexelRanges {
  public:
-  /// Adds the texels of a face: at least 3, those of level 0. Never inline: browsers optimise
-  /// functions that are called often, so not the loops of a function that is called once.
+  /// Adds the texels of a face: at least 3, those of level 0. Never inline: browsers optimise a
+  /// function after many calls, so a loop in a function that is called once stays slow.
   [[gnu::noinline]] void add(const Value* texels, std::size_t count) {
     Block low = low_, high = high_;  // in registers: a member might be one of the texels
     // The last block may overlap the one before: a texel that is added twice changes nothing.
@@ -49,16 +49,16 @@ class TexelRanges {
   }
 
   Value low(int channel) const {
-    Value least = low_.values[channel];
+    Value lowest = low_.values[channel];
     for (int i = channel; i < block_values; i += LatticeTexture::channels)
-      least = std::min(least, Value(low_.values[i]));
-    return least;
+      lowest = std::min(lowest, Value(low_.values[i]));
+    return lowest;
   }
   Value high(int channel) const {
-    Value most = high_.values[channel];
+    Value highest = high_.values[channel];
     for (int i = channel; i < block_values; i += LatticeTexture::channels)
-      most = std::max(most, Value(high_.values[i]));
-    return most;
+      highest = std::max(highest, Value(high_.values[i]));
+    return highest;
   }
 
  private:

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "image/png.hpp"
 #include "image/png_filters.hpp"
@@ -30,7 +34,7 @@ std::vector<glm::u8vec4> pixels_of(const DeflatedPng& png) {
   std::vector<glm::u8vec4> pixels(std::size_t(png.width) * std::size_t(png.height));
   for (int y = 0; y < png.height; ++y)
     std::memcpy(&pixels[std::size_t(y) * std::size_t(png.width)],
-                &stream[std::size_t(y) * png.row_bytes() + 1], png.row_bytes() - 1);
+                &stream[std::size_t(y) * png_row_bytes(png.width) + 1], 4 * std::size_t(png.width));
   return pixels;
 }
 
@@ -77,7 +81,7 @@ TEST(DeflatedPng, ReversesEveryFilter) {
   }
 }
 
-TEST(DeflatedPng, RefusesAnUnknownFilter) {
+TEST(DeflatedPng, RejectsAnUnknownFilter) {
   Bytes stream(2 * (1 + 4 * 3));
   EXPECT_TRUE(unfilter(stream, 3));
   stream[1 + 4 * 3] = std::byte{5};
@@ -147,7 +151,7 @@ TEST(DeflatedPng, LeavesOtherImagesToStb) {
   EXPECT_FALSE(deflated_png(Bytes(100)));
 }
 
-TEST(DeflatedPng, RefusesDamage) {
+TEST(DeflatedPng, RejectsDamage) {
   const Bytes file = encode_png(noise(9, 9));
   for (std::size_t length = 0; length < file.size() - 4; ++length)  // the last checksum may lack
     EXPECT_FALSE(deflated_png(std::span(file).first(length))) << length;

@@ -14,7 +14,7 @@ namespace tureen::test {
 inline std::vector<std::byte> inflated(const DeflatedPng& png) {
   std::vector<std::byte> packed;
   for (const auto& piece : png.pieces) packed.insert(packed.end(), piece.begin(), piece.end());
-  std::vector<std::byte> stream(png.row_bytes() * std::size_t(png.height));
+  std::vector<std::byte> stream(png.inflated_bytes());
   uLongf size = uLongf(stream.size());
   const int result =
       uncompress(reinterpret_cast<Bytef*>(stream.data()), &size,

@@ -7,6 +7,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { crc32 } from 'node:zlib';
 import { programs } from './browser.mjs';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { splatPly } from './splat_ply.mjs';
@@ -48,6 +49,8 @@ const { visit } = await stage({ routes: {
   '/slow.ply': slowly(bytes, 400),  // more than the time before a preview
   '/slow.glb': slowly(scene, 200),
   '/cloud.glb': (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene),
+  '/damaged.glb': slowly(damaged(scene, false), 50),
+  '/odd.glb': slowly(damaged(scene, true), 50),
   '/native.png': (request, response) => response.end(image),
   '/many.ply': (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes),
 } });
@@ -93,10 +96,23 @@ const countSent = `{
   self.postMessage = (message, ...more) => post.call(self, { ...message, sent }, ...more);
 }`;
 
+/** The file with a wrong byte in the fifth strip's first image: its last byte of texels' checksum, or a byte of its texels.
+ *  The checksum of the chunk is right after `mend`. */
+function damaged(file, mend) {
+  let at = 0;
+  for (let image = 0; image < 9; ++image) at = file.indexOf('\x89PNG', at + 1, 'latin1');
+  const data = file.indexOf('IDAT', at), size = file.readUInt32BE(data - 4), copy = Buffer.from(file);
+  copy[mend ? data + 4 + size - 1 : data + 4 + (size >> 1)] ^= 1;
+  if (mend) copy.writeUInt32BE(crc32(copy.subarray(data, data + 4 + size)), data + 4 + size);
+  return copy;
+}
+
 for (const { what, lacking, strips, atLeast, atMost } of [
   // One message asks whether the second worker runs. Most strips arrive long before the end of the file.
   { what: 'in two workers', lacking: '', strips: 9, atLeast: 5, atMost: 10 },
   { what: 'in a browser without workers in workers', lacking: 'self.Worker = undefined;', strips: 9, atLeast: 0, atMost: 0 },
+  { what: 'with a second worker that fails', strips: 0, atLeast: 2, atMost: 4,
+    lacking: "if (self.name === 'inflater') self.DecompressionStream = class { constructor() { throw new Error('broken'); } };" },
   { what: 'in a browser without DecompressionStream', lacking: 'self.DecompressionStream = undefined;', strips: 0, atLeast: 0, atMost: 0 },
 ])
   test(`texels are decoded while the file arrives, ${what}`, () => visit('drawing.html', async (page) => {
@@ -126,9 +142,43 @@ for (const { what, lacking, strips, atLeast, atMost } of [
     likeNative(await page.evaluate(differenceFromNative));
   }));
 
-/** Calls window.onBlock() for each block that arrives, before the viewer gets it. On the page. */
+test('a damaged strip is an error, as without early texels; a wrong checksum of its texels is not', () =>
+  visit('drawing.html', async (page) => {
+    await drawingPage(page);
+    const load = (url) => page.evaluate(async (address) => {
+      const fractions = [];
+      const end = viewer.on('progress', ({ fraction }) => fractions.push(fraction));
+      const result = await viewer.load({ url: address }).then(({ triangles }) => triangles, ({ kind }) => kind);
+      end();
+      return { result, fractions };
+    }, url);
+    const broken = await load('/damaged.glb'), odd = await load('/odd.glb');
+    assert.equal(broken.result, 'input');
+    assert.equal(odd.result, 15_000);
+    for (const fraction of [...broken.fractions, ...odd.fractions]) assert.ok(fraction >= 0 && fraction <= 1, `${fraction}`);
+    likeNative(await page.evaluate(differenceFromNative));
+  }));
+
+/** Calls window.onBlock() for each block that arrives, before the viewer gets it; keeps the context's textures in
+ *  window.textures, and counts window.uploads. On the page. */
 function watchBlocks() {
   window.onBlock = () => {};
+  window.textures = new Set();
+  window.uploads = 0;
+  const gl = WebGL2RenderingContext.prototype, { createTexture, deleteTexture, texSubImage3D } = gl;
+  gl.createTexture = function () {
+    const texture = createTexture.call(this);
+    textures.add(texture);
+    return texture;
+  };
+  gl.deleteTexture = function (texture) {
+    textures.delete(texture);
+    deleteTexture.call(this, texture);
+  };
+  gl.texSubImage3D = function (...given) {
+    ++window.uploads;
+    texSubImage3D.apply(this, given);
+  };
   window.Worker = class extends window.Worker {
     constructor(...given) {
       super(...given);
@@ -149,18 +199,26 @@ test('a large scene replaces another one, and a load that ends between its block
     const end = await page.evaluate(async () => {
       const ending = new AbortController();
       let blocks = 0;
+      window.uploads = 0;
       window.onBlock = () => { if (++blocks === 10) ending.abort(); };
-      return viewer.load({ url: '/cloud.glb' }, { signal: ending.signal }).catch(({ kind }) => kind);
+      const kind = await viewer.load({ url: '/cloud.glb' }, { signal: ending.signal }).catch((error) => error.kind);
+      return { kind, kept: uploads < 10 };  // a preview has a few
     });
-    assert.equal(end, 'cancelled');
+    assert.deepEqual(end, { kind: 'cancelled', kept: true });
     likeNative(await page.evaluate(differenceFromNative));
     const cleared = await page.evaluate(async () => {
       viewer.clear();
-      let blocks = 0;
-      window.onBlock = () => { if (++blocks === 10) viewer.clear(); };  // while they are uploaded
-      return viewer.load({ url: '/cloud.glb' }).catch(({ kind }) => kind);
+      const before = textures.size;
+      let blocks = 0, during = 0;
+      window.onBlock = () => {
+        if (++blocks < 10) return;
+        during = textures.size;
+        viewer.clear();
+      };
+      const kind = await viewer.load({ url: '/cloud.glb' }).catch((error) => error.kind);
+      return { kind, uploading: during > before, left: textures.size - before };
     });
-    assert.equal(cleared, 'cancelled');
+    assert.deepEqual(cleared, { kind: 'cancelled', uploading: true, left: 0 });
     await page.evaluate(async () => {
       window.onBlock = () => {};
       await viewer.load({ url: '/cloud.glb' });
@@ -168,29 +226,60 @@ test('a large scene replaces another one, and a load that ends between its block
     likeNative(await page.evaluate(differenceFromNative));
   }));
 
-test('without memory for the blocks of a large scene, a lower lattice level is drawn', () => visit('drawing.html', async (page) => {
+for (const { what, maxBytes, level } of [
+  // A store of 8-bit texels takes 34 MB at level 5, 9 MB at level 4, and 2.7 MB at level 3, which is sent as a whole.
+  { what: 'the next lower lattice level', maxBytes: 20e6, level: 4 },
+  { what: 'a level without blocks', maxBytes: 5e6, level: 3 },
+])
+  test(`without memory for the blocks of a large scene, ${what} is drawn`, () => visit('drawing.html', async (page) => {
+    await drawingPage(page);
+    for (let time = 0; time < 2; ++time) {  // the second time while the scene is shown
+      const { triangles, notices } = await page.evaluate(async (most) => {
+        const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = (window.real ??= { texImage3D: gl.texImage3D, getError: gl.getError });
+        let missing = false;
+        gl.texImage3D = function (...given) {
+          const [, , , width, height, depth] = given;
+          if (4 * width * height * depth > most) missing = true;
+          else texImage3D.apply(this, given);
+        };
+        gl.getError = function () {
+          const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
+          missing = false;
+          return error;
+        };
+        const notices = [], end = viewer.on('notice', (sentence) => notices.push(sentence));
+        const { triangles } = await viewer.load({ url: '/cloud.glb' });
+        end();
+        return { triangles, notices };
+      }, maxBytes);
+      assert.equal(triangles, 15_000);
+      assert.ok(notices.some((sentence) => sentence.includes(`level ${level}`)), `${notices}`);
+      // The texels are noise, whose means differ from it; a black image would differ by more.
+      const difference = await page.evaluate(differenceFromNative);
+      assert.ok(difference > 0 && difference < 30, `${difference} steps of 255`);
+    }
+  }));
+
+test('the context is lost between the blocks of a large scene', () => visit('drawing.html', async (page) => {
   await drawingPage(page);
-  const { triangles, notices } = await page.evaluate(async () => {
-    // A store of 8-bit texels takes 34 MB at level 5, 9 MB at level 4.
-    const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
-    let missing = false;
-    gl.texImage3D = function (...given) {
-      const [, , , width, height, depth] = given;
-      if (4 * width * height * depth > 20e6) missing = true;
-      else texImage3D.apply(this, given);
-    };
-    gl.getError = function () {
-      const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
-      missing = false;
-      return error;
-    };
-    const notices = [];
-    viewer.on('notice', (sentence) => notices.push(sentence));
-    const { triangles } = await viewer.load({ url: '/cloud.glb' });
-    return { triangles, notices };
+  await page.evaluate(watchBlocks);
+  const lost = await page.evaluate(async () => {
+    const loss = viewer.canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+    const becomes = (wanted) => new Promise((resolve) => { viewer.on('context', (state) => { if (state === wanted) resolve(); }); });
+    const gone = becomes('lost'), back = becomes('restored');
+    let blocks = 0;
+    window.onBlock = () => { if (++blocks === 10) loss.loseContext(); };
+    const kind = await viewer.load({ url: '/cloud.glb' }).catch((error) => error.kind);
+    window.onBlock = () => {};
+    await gone;
+    await new Promise((resolve) => { setTimeout(resolve); });  // a context cannot be restored during its event
+    loss.restoreContext();
+    await back;
+    return kind;
   });
-  assert.equal(triangles, 15_000);
-  assert.ok(notices.some((sentence) => /\b4\b/.test(sentence)), `${notices}`);
+  assert.equal(lost, 'device');
+  await page.evaluate(() => viewer.load({ url: '/cloud.glb' }));
+  likeNative(await page.evaluate(differenceFromNative));
 }));
 
 /** The splats of a viewer with little memory, and what it asked. */

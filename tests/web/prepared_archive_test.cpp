@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "camera/navigation.hpp"
-#include "runtime/gl/api.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/random_splats.hpp"
 #include "tests/support/renderer_of.hpp"
 #include "tests/support/trait_soups.hpp"
 #include "web/engine/arriving_scene.hpp"
@@ -63,10 +63,7 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
       head = pack_head(prepared);
       blobs = all_blobs(prepared);
     }
-    const BlobReader read = [&](std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
-      ASSERT_LE(offset + out.size(), blobs[blob].size());
-      std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
-    };
+    const BlobReader read = reader_of(blobs);
     for (const bool uploads_early : {false, true}) {
       SCOPED_TRACE(uploads_early);
       ArrivingScene arriving(head, read);
@@ -78,6 +75,13 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
       EXPECT_EQ(describe(there.plan()), describe(here.plan()));
       EXPECT_EQ(there.device_bytes(), here.device_bytes());
     }
+  }
+
+  static BlobReader reader_of(const Blobs& blobs) {
+    return [&](std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
+      ASSERT_LE(offset + out.size(), blobs[blob].size());
+      std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
+    };
   }
 
   /// In blocks of two rows. Then the blobs of the stores are worthless.
@@ -97,30 +101,6 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
   }
 };
 
-/// Layers with few rows, so that blocks reach over their ends.
-TEST(TexelUpload, FillsTheStoreInAnyPieces) {
-  const gl::Context context = gl::Context::create(test::osmesa);
-  const TexelLayout layout{.row_bits = 3, .layer_bits = 2, .max_layers = 8};
-  for (const std::size_t count : {1u, 5u, 8u, 9u, 32u, 40u, 61u, 96u}) {
-    std::vector<std::uint32_t> values(count);
-    for (std::size_t i = 0; i < count; ++i) values[i] = std::uint32_t(i + 1);
-    const TexelSource source = TexelSource::of(texel_formats::r32ui, values, "numbers");
-    const std::size_t row = count < 8 ? count : 8;
-    for (const std::size_t rows : {1u, 3u, 100u}) {
-      TexelUpload upload(layout, source);
-      for (std::size_t first = 0; first < count; first += rows * row)
-        upload.put(first, std::as_bytes(std::span(values).subspan(
-                              first, std::min(rows * row, count - first))));
-      const TexelStore store = std::move(upload).finish();
-      std::vector<std::uint32_t> back(96, 0);
-      glBindTexture(GL_TEXTURE_2D_ARRAY, store.texture());
-      glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, back.data());
-      back.resize(count);
-      EXPECT_EQ(back, values) << count << " texels, " << rows << " rows a block";
-    }
-  }
-}
-
 TEST_P(PreparedArchive, DrawsAsIfItHadNotTravelled) {
   expect_same(test::random_soup(81, {.kind = GetParam(), .faces = 300, .degree = 2}), {});
 }
@@ -137,6 +117,39 @@ TEST_P(PreparedArchive, NorAtAnotherResolution) {
   expect_same(test::random_soup(85, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
   options.plan.quality = {.supersampling = 2, .splat_order = Quality::SplatOrder::stochastic};
   expect_same(test::random_soup(85, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
+}
+
+/// Blobs of every kind, in an order that a mistake would change.
+TEST_F(PreparedArchive, DrawsAllLayersOfAScene) {
+  Scene scene;
+  const auto add = [&](Primitives primitives) {
+    Layer& layer = scene.layers.emplace_back();
+    layer.primitives = std::move(primitives);
+    layer.name = std::to_string(scene.layers.size());
+  };
+  add(test::random_soup(83, {.kind = test::Kind::lattice_mlp, .faces = 80}));
+  add(test::random_splats(test::splat_kinds[1], 50, 0.2, 1));
+  add(test::random_soup(84, {.kind = test::Kind::uv_textures, .faces = 60}));
+  add(test::random_splats(test::splat_kinds[1], 70, 0.1, 2));
+  for (const SplatBlending blending : {SplatBlending::tiles, SplatBlending::raster}) {
+    RenderOptions options;
+    options.plan.splat_blending = blending;
+    SCOPED_TRACE(blending == SplatBlending::tiles ? "tiles" : "raster");
+    const Camera camera = test::camera_of_ball(3, 160, 120);
+    const DeviceLimits limits = device_limits(context().capabilities());
+    Renderer here(context(), prepare_scene(scene, limits, options), options);
+    here.draw({camera});
+    const Image8 expected = here.read_color();
+    const PreparedScene prepared = prepare_scene(scene, limits, options);
+    const std::vector<std::byte> head = pack_head(prepared);
+    Blobs blobs = all_blobs(prepared);
+    const BlobReader read = reader_of(blobs);
+    ArrivingScene arriving(head, read);
+    upload_stores(arriving, head, blobs);
+    Renderer there(context(), std::move(arriving).take(), options);
+    there.draw({camera});
+    EXPECT_EQ(there.read_color().pixels, expected.pixels);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, PreparedArchive, testing::ValuesIn(test::all_kinds),

@@ -155,16 +155,20 @@ export class BenchEngine {
       progress: tell,
       offer: ({ splats }) => Promise.resolve(splats),
       preview: () => {},
-      head: (head) => { arriving = new ArrivingScene(this.engine, head, null); },
+      head: (head) => {
+        arriving = new ArrivingScene(this.engine, head, null);
+        uploadMs = 0;
+      },
       block: (block) => {
-        const begin = performance.now(), isFree = arriving!.take(block);
+        const begin = performance.now(), taken = arriving!.take(block);
         uploadMs += performance.now() - begin;
-        return isFree;
+        return taken;
       },
       scene: (scene) => {
         try {
-          arriving?.finish();
+          const whole = arriving;
           arriving = null;
+          whole?.finish();
           added = this.unpack(scene, uploadMs);
           return null;
         } catch (error) {
@@ -178,6 +182,7 @@ export class BenchEngine {
     } finally {
       loading.cancel();
       load.catch(() => {});
+      if (!this.isLost) (arriving as ArrivingScene | null)?.drop();
     }
     return added!;
   }

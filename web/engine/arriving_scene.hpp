@@ -15,8 +15,8 @@ class ArrivingScene {
   /// `read` must outlive the scene.
   ArrivingScene(std::span<const std::byte> head, const BlobReader& read);
 
-  /// Uploads bytes of a store, from `offset` on, a multiple of blob_grain(). The blocks of a blob
-  /// come in order, and all before those of another blob. The context must be current. Throws
+  /// Uploads bytes of a store, from `offset` on, a multiple of blob_grain(). All blocks of a blob
+  /// come in order, before those of another blob. The context must be current. Throws
   /// DeviceLimitError.
   void upload(std::size_t blob, std::uint64_t offset, std::span<const std::byte> bytes);
 

@@ -72,7 +72,8 @@ Json facts(const Renderer& renderer, double start) {
                  {"upload_ms", milliseconds() - start}});
 }
 
-Json clear(const Json&) {
+Json clear(const Json& arguments) {
+  forget_head(arguments);
   bench() = {};
   return nullptr;
 }

@@ -267,7 +267,7 @@ Json begin_texels(const Json&) {
   // The header alone decides about this memory. Larger scenes are read as without early texels.
   constexpr std::uint64_t max_bytes = 512 << 20;
   early_texels() = {};
-  // The page ignores this error: "read" reports it again.
+  // The caller ignores errors: "read" reports them again.
   std::vector<TexelStrip> strips = texel_strips(buffer(), std::string());
   std::uint64_t bytes = 0;
   Json list = Json::array();
@@ -292,9 +292,8 @@ Json deflated_images(const Json& index) {
       pieces.push_back(range_json({std::uint64_t(piece.data() - buffer().data()), piece.size()}));
     return pieces;
   };
-  const std::size_t inflated = strip->low.row_bytes() * std::size_t(strip->low.height);
   return object({{"width", strip->low.width},
-                 {"inflated", inflated},
+                 {"inflated", strip->low.inflated_bytes()},
                  {"images", Json{pieces_of(strip->low), pieces_of(strip->high)}}});
 }
 

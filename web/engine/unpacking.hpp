@@ -1,5 +1,5 @@
-// Unpacks a scene in the page's instance: the head is in the buffer, the blobs are in Module.blobs,
-// or arrive before in blocks.
+// Unpacks a scene in the page's instance: its head comes first, then blocks of its stores if it is
+// large. The other blobs are in Module.blobs.
 #pragma once
 
 #include "runtime/prepared_scene.hpp"
@@ -10,8 +10,7 @@ namespace tureen::web {
 /// Takes the head of a scene from the buffer, for unpacked(). Forgets an earlier one.
 Json take_head(const Json& arguments);
 
-/// {"blob", "offset"}: uploads the bytes in the buffer to the store of this blob. The blocks of a
-/// blob arrive in order, and all of them, before those of another. Throws DeviceLimitError.
+/// {"blob", "offset"}: uploads the bytes in the buffer (ArrivingScene::upload).
 Json upload_block(const Json& arguments);
 
 /// Forgets the scene of the head, and frees its memory on the device.

@@ -1,7 +1,7 @@
 // A large scene, which the page uploads block by block while the loader still prepares it.
 
 import type { Engine } from './engine.js';
-import type { Block } from './loader_messages.js';
+import type { Block, Taken } from './loader_messages.js';
 
 export class ArrivingScene {
   private failure: unknown = null;
@@ -12,16 +12,19 @@ export class ArrivingScene {
     engine.call('take_head');
   }
 
-  /** Returns whether the block's memory is free. Errors are thrown by finish(). */
-  take(block: Block): boolean {
-    if (this.kept) this.kept.push(block);
-    else this.upload(block);
-    return !this.kept;
+  /** Returns what has happened to the block. Errors are thrown by finish(). */
+  take(block: Block): Taken {
+    if (this.kept) {
+      this.kept.push(block);
+      return 'kept';
+    }
+    this.upload(block);
+    return this.failure === null ? 'uploaded' : 'refused';
   }
 
   /** After all blocks; the device holds no other scene. Then the engine can show the scene. Throws ViewerError. */
   finish(): void {
-    for (const block of this.kept ?? []) this.upload(block);
+    for (let block; (block = this.kept?.shift());) this.upload(block);  // each is freed after its upload
     if (this.failure !== null) throw this.failure;
   }
 

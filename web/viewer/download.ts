@@ -6,7 +6,7 @@ import { ViewerError } from './types.js';
 const firstGuess = 1 << 20;
 
 export interface Arrival {
-  /** All bytes so far; a view that is valid until the next arrival. */
+  /** All bytes so far; a view that stays valid. Later bytes may be in another buffer. */
   readonly bytes: Uint8Array<ArrayBuffer>;
   /** Total number of bytes; null if unknown. */
   readonly total: number | null;

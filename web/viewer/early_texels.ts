@@ -56,7 +56,7 @@ export class EarlyTexels {
   /** Decodes the strips that are in `prefix`, and does not wait for them. */
   feed(prefix: Uint8Array<ArrayBuffer>): void {
     this.prefix = prefix;
-    this.work ??= this.decodeStrips().catch(() => { this.strips = []; }).finally(() => { this.work = null; });
+    this.work ??= this.decodeStrips().catch(() => this.giveUp()).finally(() => { this.work = null; });
   }
 
   /** Decodes all that is left. `bytes`: the whole file. `each`: called after each strip with the fraction done. */
@@ -68,6 +68,13 @@ export class EarlyTexels {
     this.feed(bytes);
     await this.work;
     this.second?.end();
+    this.prefix = new Uint8Array();
+  }
+
+  /** The reader decodes the strips that are left. */
+  private giveUp(): void {
+    this.strips = [];
+    this.started.length = 0;
   }
 
   private async decodeStrips(): Promise<void> {

@@ -2,18 +2,22 @@
 
 import type { Deflated, FromLoader, Inflated, ToLoader } from './loader_messages.js';
 
-/** Whether the browser can. */
+/** Whether the browser has a decompressor. */
 export const canInflate = () => typeof DecompressionStream !== 'undefined';
 
 /** Rejects if a stream is damaged or has another size. */
 export const inflate = (streams: readonly Deflated[]): Promise<Inflated> =>
   Promise.all(streams.map(inflateOne)).then((parts) => parts.flat());
 
+/** A browser inflates what is written at once, before its size is checked: at most 1032 times as much. */
+const writtenBytes = 1 << 16;
+
 async function inflateOne({ pieces, size }: Deflated): Promise<Inflated> {
   const { readable, writable } = new DecompressionStream('deflate');
   const writer = writable.getWriter();
   const written = (async () => {
-    for (const piece of pieces) await writer.write(piece);
+    for (const piece of pieces)
+      for (let at = 0; at < piece.length; at += writtenBytes) await writer.write(piece.subarray(at, at + writtenBytes));
     await writer.close();
   })();
   written.catch(() => {});  // read() rejects, too
@@ -35,7 +39,7 @@ const patienceMs = 10_000;
 
 /** A second worker of the same script. */
 export class SecondInflater {
-  private readonly worker = new Worker(self.location.href);
+  private readonly worker = new Worker(self.location.href, { name: 'inflater' });
   private readonly tasks: { resolve(inflated: Inflated): void; reject(why: unknown): void }[] = [];
   private works = false;
 

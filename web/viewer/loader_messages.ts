@@ -41,7 +41,10 @@ export interface PreparedScene {
   readonly planMs: number;
 }
 
-/** A part of a blob. The blocks of a blob arrive in order, and all before those of the next blob. */
+/** refused: the device's memory is too small for the scene. */
+export type Taken = 'uploaded' | 'kept' | 'refused';
+
+/** A part of a store's blob (web/engine/arriving_scene.hpp). */
 export interface Block {
   readonly blob: number;
   readonly offset: number;
@@ -73,8 +76,8 @@ export type ToLoader =
   | { readonly kind: 'lower'; readonly why: string }
   /** Prepare the next layer: the page holds no more than one at a time. */
   | { readonly kind: 'next' }
-  /** The page has taken a block. Its memory can have another one; empty if the page keeps it. */
-  | { readonly kind: 'taken'; readonly bytes: ArrayBuffer }
+  /** The page has taken a block. `bytes`: memory for another block; empty if the page keeps the block. */
+  | { readonly kind: 'taken'; readonly taken: Taken; readonly bytes: ArrayBuffer }
   /** The answer to an offer: the number of splats to read. */
   | { readonly kind: 'splats'; readonly number: number }
   | SortMessage

@@ -7,7 +7,7 @@ import { EarlyTexels } from './early_texels.js';
 import { Engine, type Parcel } from './engine.js';
 import { inflate } from './inflating.js';
 import type {
-  FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, ToLoader,
+  Deflated, FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, Taken, ToLoader,
 } from './loader_messages.js';
 import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
@@ -15,9 +15,9 @@ import { ViewerError, type LoadStage, type SplatOffer } from './types.js';
 
 /** Maximum size of a blob's part in the engine's memory. */
 const blockBytes = 1 << 20;
-/** Larger blobs are sent in blocks, which the page uploads meanwhile. */
-const largeBlob = 4 * blockBytes;
-/** Number of blocks on their way. */
+/** A scene with a store of this size is large: its stores are sent in blocks, which the page uploads meanwhile. */
+const largeStore = 4 * blockBytes;
+/** Maximum number of blocks on their way. */
 const maxBlocks = 4;
 /** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
 const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
@@ -52,6 +52,7 @@ class Loader {
   private nextLayer = 0;
   private readonly spares: ArrayBuffer[] = [];
   private onTheirWay = 0;  // blocks
+  private refused = false;  // a block of this scene
   private onTaken: () => void = () => {};
 
   private readonly from: 'files' | 'url';
@@ -177,7 +178,8 @@ class Loader {
   private async send(): Promise<void> {
     this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
     const { head, blobs } = this.prepare(await this.limits);
-    const isLarge = blobs.some(({ size, isStore }) => isStore && size >= largeBlob);
+    this.refused = false;
+    const isLarge = blobs.some(({ size, isStore }) => isStore && size >= largeStore);
     if (isLarge) post({ kind: 'head', head });
     const given: ArrayBuffer[] = [];
     for (const [index, blob] of blobs.entries()) {
@@ -221,7 +223,7 @@ class Loader {
 
   private async sendBlocks(blob: number, { size, grain }: BlobSize): Promise<void> {
     const step = blockSize(grain);
-    for (let offset = 0; offset < size; offset += step) {
+    for (let offset = 0; offset < size && !this.refused; offset += step) {
       const part = Math.min(step, size - offset), bytes = await this.spareBlock(part);
       new Uint8Array(bytes).set(this.block(blob, offset, part));
       post({ kind: 'block', block: { blob, offset, size: part, bytes } });
@@ -234,7 +236,7 @@ class Loader {
     return this.engine.buffer();
   }
 
-  /** Memory for a block, as soon as the page has taken the earlier ones. New memory takes longer than to fill it. */
+  /** Memory for a block, once the page has taken earlier ones: allocating a block takes longer than filling it. */
   private async spareBlock(size: number): Promise<ArrayBuffer> {
     while (this.onTheirWay === maxBlocks) await new Promise<void>((resolve) => { this.onTaken = resolve; });
     ++this.onTheirWay;
@@ -242,8 +244,9 @@ class Loader {
     return spare && spare.byteLength >= size ? spare : new ArrayBuffer(size);
   }
 
-  taken(bytes: ArrayBuffer): void {
+  blockTaken(taken: Taken, bytes: ArrayBuffer): void {
     --this.onTheirWay;
+    if (taken === 'refused') this.refused = true;
     this.spares.push(bytes);
     this.onTaken();
   }
@@ -290,6 +293,15 @@ async function sortSplats({ program, task, centers }: SortMessage): Promise<void
   post({ kind: 'sorted', number: task.number, order: engine.buffer().slice() });
 }
 
+let inflated: Promise<unknown> = Promise.resolve();
+
+/** Answers in the order of the messages. */
+async function inflateInOrder(streams: readonly Deflated[]): Promise<void> {
+  const mine = inflated.then(() => inflate(streams));
+  inflated = mine.catch(() => {});
+  post({ kind: 'inflated', inflated: await mine });
+}
+
 let loader: Loader | null = null;
 let giveProgram: (program: WebAssembly.Module) => void;
 const program = new Promise<WebAssembly.Module>((resolve) => { giveProgram = resolve; });
@@ -308,9 +320,9 @@ async function handle(message: ToLoader): Promise<void> {
     case 'splats': return choose(message.number);
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
-    case 'taken': return loader!.taken(message.bytes);
+    case 'taken': return loader!.blockTaken(message.taken, message.bytes);
     case 'sort': return sortSplats(message);
-    case 'inflate': return post({ kind: 'inflated', inflated: await inflate(message.streams) });
+    case 'inflate': return inflateInOrder(message.streams);
   }
 }
 

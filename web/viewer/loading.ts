@@ -2,7 +2,7 @@
 
 import { fileNameOf, urlOf } from './addresses.js';
 import type { Assets } from './assets.js';
-import type { Block, FromLoader, LoadRole, PreparedLayer, PreparedScene, SourceToLoad, ToLoader } from './loader_messages.js';
+import type { Block, FromLoader, LoadRole, PreparedLayer, PreparedScene, SourceToLoad, Taken, ToLoader } from './loader_messages.js';
 import { ViewerError, type LoadProgress, type SceneSource, type SplatOffer } from './types.js';
 
 interface CommonEvents {
@@ -15,8 +15,7 @@ export interface LoadingEvents extends CommonEvents {
   preview(scene: PreparedScene): void;
   /** Begins a large scene; its blocks follow. */
   head(head: ArrayBuffer): void;
-  /** Returns whether it is uploaded, so that its memory is free. */
-  block(block: Block): boolean;
+  block(block: Block): Taken;
   /** Uploads the scene to the device. Returns null, or the reason if the device's memory is too small; the
    *  scene then arrives again with a lower lattice level. */
   scene(scene: PreparedScene): string | null;
@@ -119,9 +118,9 @@ export class Loading {
         case 'preview': return (events as LoadingEvents).preview(message.scene);
         case 'head': return (events as LoadingEvents).head(message.head);
         case 'block': {
-          const { block } = message, isFree = (events as LoadingEvents).block(block);
-          const bytes = isFree ? block.bytes : new ArrayBuffer();
-          return this.worker!.postMessage({ kind: 'taken', bytes } satisfies ToLoader, [bytes]);
+          const { block } = message, taken = (events as LoadingEvents).block(block);
+          const bytes = taken === 'kept' ? new ArrayBuffer() : block.bytes;
+          return this.worker!.postMessage({ kind: 'taken', taken, bytes } satisfies ToLoader, [bytes]);
         }
         case 'offer': return void this.answer(message.offer);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));

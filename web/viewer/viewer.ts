@@ -348,9 +348,10 @@ class CanvasViewer implements Viewer {
   private showScene(scene: PreparedScene, source: SceneSource, first: SceneDescription): string | null {
     let facts;
     try {
-      if (this.arriving) this.engine.call('drop_scene');
-      this.arriving?.finish();
+      const { arriving } = this;
       this.arriving = null;
+      if (arriving) this.engine.call('drop_scene');
+      arriving?.finish();
       facts = this.unpack({ description: first, parcel: scene.parcel }, 'scene');
     } catch (error) {
       if (this.isGone) throw new ViewerError('The browser reset the graphics device: open the scene again.', 'device');
