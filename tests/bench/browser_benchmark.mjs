@@ -1,9 +1,10 @@
 // Frame times of bench.html in Chromium, compared with the baseline in the same page, on both rasterisers
 // that need no GPU; the memory of a scene; and the time until the first image.
 //
-//   node browser_benchmark.mjs OUT SCENE.. [--quick] [--openings]
+//   node browser_benchmark.mjs OUT SCENE.. [--quick] [--openings | --planning]
 //
-// --openings: only the time until the first image and until the whole scene.
+// --openings: only the time until the first image and until the whole scene. --planning: only the time of the plan, the
+// first one of an engine and a later one, and that of the program.
 // Writes OUT/SCENE-RASTERISER.json for `tureen report`, and everything else as lines of JSON on standard
 // output.
 
@@ -15,12 +16,13 @@ import { parseArgs } from 'node:util';
 import { serve } from '../../web/serve.mjs';
 import { built, launch, programs } from '../web/browser.mjs';
 
-const { positionals: [out, ...scenes], values: { quick, openings: onlyOpenings } } = parseArgs({
+const { positionals: [out, ...scenes], values: { quick, openings: onlyOpenings, planning: onlyPlanning } } = parseArgs({
   allowPositionals: true,
-  options: { quick: { type: 'boolean', default: false }, openings: { type: 'boolean', default: false } },
+  options: { quick: { type: 'boolean', default: false }, openings: { type: 'boolean', default: false },
+    planning: { type: 'boolean', default: false } },
 });
 if (!out || scenes.length === 0) {
-  console.error('use: browser_benchmark.mjs OUT SCENE.. [--quick] [--openings]');
+  console.error('use: browser_benchmark.mjs OUT SCENE.. [--quick] [--openings | --planning]');
   process.exit(2);
 }
 
@@ -101,6 +103,50 @@ async function openingTimes(browser, site, scene) {
   return { first: median(times.map(({ first }) => first)), whole: median(times.map(({ whole }) => whole)) };
 }
 
+/** Milliseconds of the plan: of a new engine in an idle page of a new browser, later, and natively. */
+async function planningTimes(site, path) {
+  const times = { first: [], later: [], native: [] };
+  for (let i = 0; i < openings; ++i) {
+    const browser = await launch('llvmpipe');
+    try {
+      const [first, ...others] = await inPage(browser, `${site}bench.html`, async (page, open) => {
+        await open();
+        return page.evaluate(async (name) => {
+          const { default: create } = await import('/tureen.js');
+          const program = await WebAssembly.compile(await (await fetch('/tureen.wasm')).arrayBuffer());
+          const engine = await create({
+            instantiateWasm: (imports, done) => {
+              WebAssembly.instantiate(program, imports).then((instance) => done(instance, program));
+              return {};
+            },
+          });
+          const call = (command, given) => {
+            const json = new TextEncoder().encode(JSON.stringify(given));
+            engine.HEAPU8.set(json, engine.ccall('tureen_arguments', 'number', ['number'], [json.length]));
+            return JSON.parse(engine.ccall('tureen_call', 'string', ['string'], [command])).result;
+          };
+          engine.FS.mkdir('/scene');
+          engine.FS.writeFile(`/scene/${name}`, new Uint8Array(await (await fetch(`/${name}`)).arrayBuffer()), { canOwn: true });
+          call('read', { folder: '/scene', paths: [name], memory: 2 ** 40 });
+          const limits = { max_texture_size: 8192, max_array_layers: 2048, clip_control: false, compute_shaders: false, software: true, blend: 'auto' };
+          return Array.from({ length: 5 }, () => {
+            const begin = performance.now();
+            call('prepare', { limits });
+            return performance.now() - begin;
+          });
+        }, basename(path));
+      });
+      times.first.push(first);
+      times.later.push(median(others));
+    } finally {
+      await browser.close();
+    }
+    const bench = execFileSync(join(programs, 'tureen'), ['bench', path, '--size', '64x64', '--json'], { stdio: ['ignore', 'pipe', 'ignore'] });
+    times.native.push(JSON.parse(bench).load.plan_ms);
+  }
+  return { first: median(times.first), later: median(times.later), native: median(times.native) };
+}
+
 /** Measures a scene on a rasteriser: writes its file for `tureen report`, and its row. */
 async function measureScene(browser, site, rasteriser, path) {
   const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
@@ -121,7 +167,9 @@ async function measureScene(browser, site, rasteriser, path) {
 mkdirSync(out, { recursive: true });
 const folder = siteWith(), server = await serve(folder);
 try {
-  for (const rasteriser of ['llvmpipe', 'swiftshader']) {
+  if (onlyPlanning)
+    for (const path of scenes) console.log(JSON.stringify({ scene: basename(path), plan_ms: await planningTimes(server.address, path) }));
+  for (const rasteriser of onlyPlanning ? [] : ['llvmpipe', 'swiftshader']) {
     const browser = await launch(rasteriser);
     try {
       for (const path of scenes) await measureScene(browser, server.address, rasteriser, path);
