@@ -7,18 +7,13 @@ import { EarlyTexels } from './early_texels.js';
 import { Engine, type Parcel } from './engine.js';
 import { inflate } from './inflating.js';
 import type {
-  Deflated, FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, Taken, ToLoader,
+  Deflated, FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, ToLoader,
 } from './loader_messages.js';
 import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
+import { Sending, type BlobSize, type Prepared } from './sending.js';
 import { ViewerError, type LoadStage, type SplatOffer } from './types.js';
 
-/** Maximum size of a blob's part in the engine's memory. */
-const blockBytes = 1 << 20;
-/** A scene with a store of this size is large: its stores are sent in blocks, which the page uploads meanwhile. */
-const largeStore = 4 * blockBytes;
-/** Maximum number of blocks on their way. */
-const maxBlocks = 4;
 /** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
 const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
@@ -27,17 +22,6 @@ const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
 /** Part of the time for reading that is spent on decoding texels early, if there are any. An estimate. */
 const decodingPart = 0.8;
 const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
-
-/** web/engine/loader.cpp */
-interface BlobSize {
-  readonly size: number;
-  readonly grain: number;
-  /** It goes to the device, and can be uploaded before the rest is there. */
-  readonly isStore: boolean;
-}
-
-/** A multiple of the grain. */
-const blockSize = (grain: number) => Math.max(Math.floor(blockBytes / grain), 1) * grain;
 
 class Loader {
   private description: SceneDescription | null = null;
@@ -50,10 +34,7 @@ class Loader {
   private told = { stage: '', permille: -1 };
   private forecasts: readonly number[] = [];  // of added layers
   private nextLayer = 0;
-  private readonly spares: ArrayBuffer[] = [];
-  private onTheirWay = 0;  // blocks
-  private refused = false;  // a block of this scene
-  private onTaken: () => void = () => {};
+  readonly sending = new Sending(() => this.engine, post);
 
   private readonly from: 'files' | 'url';
 
@@ -106,7 +87,7 @@ class Loader {
   async sendLayer(): Promise<void> {
     const index = this.nextLayer++, { forecasts } = this;
     this.engine.onProgress = (fraction) => this.tell('prepare', (index + fraction) / forecasts.length);
-    const parcel = this.packed(await this.limits, index);
+    const parcel = this.sending.parcel(this.prepare(await this.limits, index));
     this.tell('upload', index / forecasts.length);
     post({ kind: 'layer', layer: { description: this.description!, parcel, index, forecasts } });
   }
@@ -177,23 +158,13 @@ class Loader {
 
   private async send(): Promise<void> {
     this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
-    const { head, blobs } = this.prepare(await this.limits);
-    this.refused = false;
-    const isLarge = blobs.some(({ size, isStore }) => isStore && size >= largeStore);
-    if (isLarge) post({ kind: 'head', head });
-    const given: ArrayBuffer[] = [];
-    for (const [index, blob] of blobs.entries()) {
-      const inBlocks = isLarge && blob.isStore;
-      given.push(inBlocks ? new ArrayBuffer() : this.blob(index, blob));
-      if (inBlocks) await this.sendBlocks(index, blob);
-    }
-    const scene = this.prepared(this.description!, { head: isLarge ? new ArrayBuffer() : head, blobs: given });
+    const parcel = await this.sending.send(this.prepare(await this.limits));
     this.tell('upload', 0);
-    post({ kind: 'scene', scene });
+    post({ kind: 'scene', scene: this.prepared(this.description!, parcel) });
   }
 
   private async preparedPreview(description: SceneDescription): Promise<PreparedScene> {
-    return this.prepared(description, this.packed(await this.limits));
+    return this.prepared(description, this.sending.parcel(this.prepare(await this.limits)));
   }
 
   private prepared(description: SceneDescription, parcel: Parcel): PreparedScene {
@@ -202,53 +173,11 @@ class Loader {
   }
 
   /** Prepares the scene, or a layer. */
-  private prepare(limits: unknown, layer: number | null = null): { head: ArrayBuffer; blobs: readonly BlobSize[] } {
+  private prepare(limits: unknown, layer: number | null = null): Prepared {
     const level = this.level === null ? {} : { level: this.level }, only = layer === null ? {} : { layer };
     const begin = performance.now(), blobs = this.engine.call<BlobSize[]>('prepare', { limits, ...level, ...only });
     this.planMs = performance.now() - begin;
     return { head: this.engine.buffer().slice().buffer, blobs };
-  }
-
-  private packed(limits: unknown, layer: number | null = null): Parcel {
-    const { head, blobs } = this.prepare(limits, layer);
-    return { head, blobs: blobs.map((blob, index) => this.blob(index, blob)) };
-  }
-
-  private blob(index: number, { size, grain }: BlobSize): ArrayBuffer {
-    const bytes = new Uint8Array(size), step = blockSize(grain);
-    for (let offset = 0; offset < size; offset += step)
-      bytes.set(this.block(index, offset, Math.min(step, size - offset)), offset);
-    return bytes.buffer;
-  }
-
-  private async sendBlocks(blob: number, { size, grain }: BlobSize): Promise<void> {
-    const step = blockSize(grain);
-    for (let offset = 0; offset < size && !this.refused; offset += step) {
-      const part = Math.min(step, size - offset), bytes = await this.spareBlock(part);
-      new Uint8Array(bytes).set(this.block(blob, offset, part));
-      post({ kind: 'block', block: { blob, offset, size: part, bytes } });
-    }
-  }
-
-  /** A view of the engine's memory, which grows meanwhile; valid until the next command. */
-  private block(blob: number, offset: number, size: number): Uint8Array {
-    this.engine.call('read_block', { blob, offset, size });
-    return this.engine.buffer();
-  }
-
-  /** Memory for a block, once the page has taken earlier ones: allocating a block takes longer than filling it. */
-  private async spareBlock(size: number): Promise<ArrayBuffer> {
-    while (this.onTheirWay === maxBlocks) await new Promise<void>((resolve) => { this.onTaken = resolve; });
-    ++this.onTheirWay;
-    const spare = this.spares.pop();
-    return spare && spare.byteLength >= size ? spare : new ArrayBuffer(size);
-  }
-
-  blockTaken(taken: Taken, bytes: ArrayBuffer): void {
-    --this.onTheirWay;
-    if (taken === 'refused') this.refused = true;
-    this.spares.push(bytes);
-    this.onTaken();
   }
 
   /** Reports progress, but only after a change of 0.1 % or 100 kB. */
@@ -320,7 +249,7 @@ async function handle(message: ToLoader): Promise<void> {
     case 'splats': return choose(message.number);
     case 'lower': return loader!.lower(message.why);
     case 'next': return loader!.sendLayer();
-    case 'taken': return loader!.blockTaken(message.taken, message.bytes);
+    case 'taken': return loader!.sending.taken(message.taken, message.bytes);
     case 'sort': return sortSplats(message);
     case 'inflate': return inflateInOrder(message.streams);
   }
