@@ -260,6 +260,44 @@ for (const { what, maxBytes, level } of [
     }
   }));
 
+test('the context is lost during a preview: the scene before comes back with its view', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const { before, after, triangles } = await page.evaluate(async () => {
+    await viewer.load({ url: '/cloud.glb' });
+    viewer.setView({ eye: [3, 1, 1], target: [0, 0, 0], up: [0, 0, 1], fov: 0.7, roll: 0 });
+    viewer.background = [0.1, 0.2, 0.3];
+    const state = () => ({ view: viewer.getView(), background: viewer.background }), before = state();
+    const loss = viewer.canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+    const becomes = (wanted) => new Promise((resolve) => { viewer.on('context', (now) => { if (now === wanted) resolve(); }); });
+    const gone = becomes('lost'), back = becomes('restored');
+    const preview = new Promise((resolve) => { viewer.on('preview', resolve); });
+    viewer.load({ url: '/slow.ply' }).catch(() => {});
+    await preview;
+    loss.loseContext();
+    await gone;
+    await new Promise((resolve) => { setTimeout(resolve); });  // a context cannot be restored during its event
+    loss.restoreContext();
+    await back;
+    return { before, after: state(), triangles: viewer.scene.triangles };
+  });
+  assert.equal(triangles, 15_000);
+  assert.deepEqual(after.background, before.background);
+  for (const part of ['eye', 'target', 'up'])
+    for (const axis of [0, 1, 2])
+      assert.ok(Math.abs(after.view[part][axis] - before.view[part][axis]) < 1e-6, `${part}: ${after.view[part]}`);  // rounding
+}));
+
+test('the context is lost during the first preview: the page has no scene', () => visit('?scene=slow.glb', async (page) => {
+  await page.locator('body:not(.empty)').waitFor();
+  await page.evaluate(() => {
+    window.loss = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+    loss.loseContext();
+  });
+  await page.locator('#start').waitFor();
+  await page.evaluate(() => loss.restoreContext());
+  await page.locator('body.empty').waitFor({ state: 'attached' });
+}));
+
 test('the context is lost between the blocks of a large scene', () => visit('drawing.html', async (page) => {
   await drawingPage(page);
   await page.evaluate(watchBlocks);

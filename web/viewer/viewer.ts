@@ -146,8 +146,8 @@ class CanvasViewer implements Viewer {
     const signal = this.ending.signal;
     this.canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();  // otherwise the browser does not restore the context
+      this.dropPreview();  // its view and background are not the scene's, which restore() shows again
       this.lost = true;
-      this.previewed = false;
       this.loading?.cancel(new ViewerError(
         'The browser reset the graphics device while the scene was loading: open the scene again.', 'device'));
       this.emit('context', 'lost');
@@ -176,7 +176,7 @@ class CanvasViewer implements Viewer {
 
   /** Starts a new engine and loads the scene again: the old context and the old engine's memory are lost. */
   private async restore(): Promise<void> {
-    const view = this.shown ? this.getView() : null, shown = this.debugView_;
+    const view = this.shown ? this.getView() : null, { background, debugView_: shown } = this;
     const { first, parts, layers_: layers } = this;
     try {
       await (this.started = this.startEngine());
@@ -195,7 +195,10 @@ class CanvasViewer implements Viewer {
       }
       if (restored) {
         await this.arrange(layers);
-        if (view) this.setView(view);
+        if (view) {
+          this.setView(view);
+          this.background = background;
+        }
         if (shown.name !== 'color') await this.show(shown.name, shown.features);
       }
     } catch (error) {
