@@ -11,7 +11,7 @@ import { crc32 } from 'node:zlib';
 import { programs } from './browser.mjs';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { splatPly } from './splat_ply.mjs';
-import { sceneShown, stage } from './support.mjs';
+import { sceneShown, shortOfMemory, stage } from './support.mjs';
 
 const splats = 60_000, bytes = splatPly(splats);
 /** Forecast: four times the 56 bytes of each in memory, and 64 bytes of its projection. */
@@ -85,8 +85,8 @@ async function differenceFromNative() {
   const native = await pixels(await (await fetch('/native.png')).blob());
   return drawn.reduce((sum, value, at) => sum + Math.abs(value - native[at]), 0) / drawn.length;
 }
-/** Strips or blocks in a wrong order differ by tens of steps; the two programs by less than one. */
-const likeNative = (difference) => assert.ok(difference < 1, `${difference} steps of 255`);
+/** Both programs draw with llvmpipe: measured 0. Eight of 33 blocks in a wrong order give 0.9. */
+const likeNative = (difference) => assert.ok(difference < 0.01, `${difference} steps of 255`);
 
 /** For the worker: adds the number of messages to its own workers to its messages. */
 const countSent = `{
@@ -233,30 +233,19 @@ for (const { what, maxBytes, level } of [
 ])
   test(`without memory for the blocks of a large scene, ${what} is drawn`, () => visit('drawing.html', async (page) => {
     await drawingPage(page);
+    await page.evaluate(shortOfMemory, maxBytes);
     for (let time = 0; time < 2; ++time) {  // the second time while the scene is shown
-      const { triangles, notices } = await page.evaluate(async (most) => {
-        const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = (window.real ??= { texImage3D: gl.texImage3D, getError: gl.getError });
-        let missing = false;
-        gl.texImage3D = function (...given) {
-          const [, , , width, height, depth] = given;
-          if (4 * width * height * depth > most) missing = true;
-          else texImage3D.apply(this, given);
-        };
-        gl.getError = function () {
-          const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
-          missing = false;
-          return error;
-        };
+      const { triangles, notices } = await page.evaluate(async () => {
         const notices = [], end = viewer.on('notice', (sentence) => notices.push(sentence));
         const { triangles } = await viewer.load({ url: '/cloud.glb' });
         end();
         return { triangles, notices };
-      }, maxBytes);
+      });
       assert.equal(triangles, 15_000);
       assert.ok(notices.some((sentence) => sentence.includes(`level ${level}`)), `${notices}`);
-      // The texels are noise, whose means differ from it; a black image would differ by more.
       const difference = await page.evaluate(differenceFromNative);
-      assert.ok(difference > 0 && difference < 30, `${difference} steps of 255`);
+      // Measured 0.05 at level 4, 0.22 at level 3. A black image differs by 31.
+      assert.ok(difference > 0.01 && difference < 0.5, `${difference} steps of 255`);
     }
   }));
 

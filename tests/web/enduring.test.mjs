@@ -7,7 +7,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { readPng } from './png.mjs';
-import { distance, errorKind, errorShown, middle, noticeShown, often, pick, image, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
+import { distance, errorKind, errorShown, middle, noticeShown, often, pick, image, programs, sceneShown, scratch, shortOfMemory, source, stage, still, view, viewChanged } from './support.mjs';
 
 const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
 execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
@@ -83,22 +83,6 @@ test('fifty scenes one after the other leave nothing behind', () => visit('', as
   assert.ok(after.nodes - before.nodes < 100, `elements: ${before.nodes} and ${after.nodes}`);
   assert.equal(after.listeners, before.listeners, 'listeners');
 }));
-
-/** Simulates a device without memory for larger texel stores: runs in the page before its scripts. */
-function shortOfMemory(maxBytes) {
-  const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
-  let missing = false;
-  gl.texImage3D = function (...given) {
-    const [, , , width, height, depth] = given;
-    if (4 * width * height * depth > maxBytes) missing = true;
-    else texImage3D.apply(this, given);
-  };
-  gl.getError = function () {
-    const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
-    missing = false;
-    return error;
-  };
-}
 
 // With the example's 7000 faces, a store of 8-bit texels takes 1.26 MB at level 3, 0.43 MB at level 2 and 0.1
 // MB at level 0.

@@ -127,6 +127,22 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
   return { browser, server, visit };
 }
 
+/** Simulates a device without memory for larger texel stores: runs in the page. */
+export function shortOfMemory(maxBytes) {
+  const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
+  let missing = false;
+  gl.texImage3D = function (...given) {
+    const [, , , width, height, depth] = given;
+    if (4 * width * height * depth > maxBytes) missing = true;
+    else texImage3D.apply(this, given);
+  };
+  gl.getError = function () {
+    const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
+    missing = false;
+    return error;
+  };
+}
+
 // -- the visible page -------------------------------------------------------------------------------
 
 /** Waits until a complete scene is shown. Fails at once if the page shows an error. */
