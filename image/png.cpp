@@ -107,11 +107,8 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
       // stb does not return the size of a PNG beyond its limits, so it is read from the header.
-      const auto side = [&](std::size_t at) {
-        return std::uint32_t(data[at]) << 24 | data[at + 1] << 16 | data[at + 2] << 8 |
-               data[at + 3];
-      };
-      if (size >= 24 && std::memcmp(data, "\x89PNG", 4) == 0 &&
+      const auto side = [&](std::size_t at) { return png_number(bytes.subspan(at)); };
+      if (size >= 24 && is_png(bytes) &&
           (std::uint64_t(side(16)) * side(20) > max_image_pixels ||
            std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
         fail(beyond(side(16), side(20)));

@@ -38,11 +38,11 @@ TexelUpload::TexelUpload(const TexelLayout& layout, const TexelSource& source)
                            "% of the scene fits, or a lower lattice level");
   const std::uint64_t rows_per_layer = std::uint64_t(1) << layout.layer_bits;
   width_ = layout.row_texels();
-  rows_ = std::max<std::uint64_t>((count + width_ - 1) / width_, 1);
-  const std::uint64_t layers = (rows_ + rows_per_layer - 1) / rows_per_layer;
-  height_ = std::min(rows_, rows_per_layer);
+  const std::uint64_t rows = std::max<std::uint64_t>((count + width_ - 1) / width_, 1);
+  const std::uint64_t layers = (rows + rows_per_layer - 1) / rows_per_layer;
+  height_ = std::min(rows, rows_per_layer);
   // A store shorter than a row is as wide as its contents.
-  if (rows_ == 1) width_ = std::max<std::uint64_t>(count, 1);
+  if (rows == 1) width_ = std::max<std::uint64_t>(count, 1);
 
   store_.texture_ = gl::Texture::create();
   store_.device_bytes_ = row_bytes() * height_ * layers;
@@ -61,7 +61,8 @@ TexelUpload::TexelUpload(const TexelLayout& layout, const TexelSource& source)
 }
 
 void TexelUpload::put(std::uint64_t first, std::span<const std::byte> bytes) {
-  // Rows of several are multiples of 4 bytes, the initial alignment.
+  // The initial alignment of 4 bytes fits: where a store has several rows, each has at least 4
+  // texels, in a power of two.
   glBindTexture(GL_TEXTURE_2D_ARRAY, store_.texture());
   const auto upload = [&](std::uint64_t row, std::uint64_t rows, const std::byte* data) {
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, static_cast<GLint>(row % height_),

@@ -114,7 +114,7 @@ class TexelUpload {
   std::size_t row_bytes() const { return std::size_t(width_) * format_.bytes; }
 
   TexelFormat format_;
-  std::uint64_t width_ = 1, rows_ = 1, height_ = 1;  // height: of a layer
+  std::uint64_t width_ = 1, height_ = 1;  // of a layer, in texels
   TexelStore store_;
   std::vector<std::byte> last_row_;  // padded
 };

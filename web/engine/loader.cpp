@@ -224,7 +224,7 @@ Json prepare(const Json& arguments) {
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)
     blobs.push_back(object({{"size", blob_size(*loader().prepared, i)},
                             {"grain", blob_grain(*loader().prepared, i)},
-                            {"isStore", store_of(*loader().prepared, i).source != nullptr}}));
+                            {"is_store", store_of(*loader().prepared, i).source != nullptr}}));
   return blobs;
 }
 

@@ -16,7 +16,7 @@ export interface BlobSize {
   readonly size: number;
   readonly grain: number;
   /** It goes to the device, and can be uploaded before the rest is there. */
-  readonly isStore: boolean;
+  readonly is_store: boolean;
 }
 
 /** What the engine has prepared; the blobs are still in its memory. */
@@ -43,13 +43,13 @@ export class Sending {
 
   /** The same, but without what it has sent in blocks before, because the scene is large. */
   async send({ head, blobs }: Prepared): Promise<Parcel> {
-    if (!blobs.some(({ size, isStore }) => isStore && size >= largeStore)) return this.parcel({ head, blobs });
+    if (!blobs.some(({ size, is_store }) => is_store && size >= largeStore)) return this.parcel({ head, blobs });
     this.refused = false;
     this.post({ kind: 'head', head });
     const others: ArrayBuffer[] = [];
     for (const [index, blob] of blobs.entries()) {
-      others.push(blob.isStore ? new ArrayBuffer() : this.blob(index, blob));
-      if (blob.isStore) await this.sendBlocks(index, blob);
+      others.push(blob.is_store ? new ArrayBuffer() : this.blob(index, blob));
+      if (blob.is_store) await this.sendBlocks(index, blob);
     }
     return { head: new ArrayBuffer(), blobs: others };
   }
