@@ -1,0 +1,126 @@
+# Limits on size, each with its reason: what nobody checks grows back. Every build runs:
+#   cmake -DROOT=<repository> -DSTAMP=<file> -P cmake/limits.cmake
+# An entry is "KIND PATH LIMIT: reason". The first entry that matches a path counts. A limit that says
+# "today" is the size at the day of the entry, above the rule that follows it: lower it, never raise it.
+#   files  files directly in a folder     lines  lines of a page
+#   code   lines of a module's code that are neither blank nor only a comment; a change that adds more
+#          raises the limit in the same commit, and its message says what the lines are for
+#   bytes  what a browser must fetch before the first image, by brotli; web/build.mjs checks it
+cmake_minimum_required(VERSION 3.25)
+
+set(limits
+  "files base 43: today"
+  "files splatting 55: today"
+  "files trainer/splats 62: today"
+  "files viewer 49: today"
+  "files tests/cli 44: today"
+  "files tests/fuzz 43: today; one file per reader"
+  "files tests/golden 60: images, not sources"
+  "files tests/trainer 50: today"
+  "files .* 40: a reader sees a folder at one glance"
+
+  "lines README.md 140: today"
+  "lines README.md 120: a visitor decides within two screens"
+  "lines docs/benchmarks.md 480: today"
+  "lines docs/benchmarks.md 200: headline and one table per subject; git keeps the history"
+  "lines docs/format.md 323: today; a specification"
+  "lines docs/json.md 174: today"
+  "lines docs/numerics.md 184: today"
+  "lines docs/training.md 179: today"
+  "lines docs/viewer.md 176: today"
+  "lines docs/web.md 247: today"
+  "lines docs/.* 150: a page is read in ten minutes"
+
+  "code base 1850: fundamentals that no library has"
+  "code image 2050: images, metrics, video files"
+  "code scene 4300: the model and its edits"
+  "code camera 1500: navigation"
+  "code formats 12550: a reader per format, checked against hostile files"
+  "code oracle 1700: the reference stays readable"
+  "code splatting 3250: loops in vectors, per kernel"
+  "code shaders 1850: GLSL"
+  "code runtime 8450: plan, passes, debug views"
+  "code trainer 12800: three methods, CPU and CUDA"
+  "code jobs 5300: what measures and reports stays below a seventh of the product"
+  "code viewer 6750: the window"
+  "code web 9200: the page"
+  "code cli 6400: the command line computes nothing"
+  "code examples 1450: one scene and its dataset"
+
+  "bytes page 420000: 2 s over a connection of 1.7 Mbit/s")
+
+set(wrong "")
+
+# check(KIND PATH SIZE WHAT): adds to `wrong` if SIZE is above the limit.
+function(check kind path size what)
+  foreach(limit IN LISTS limits)
+    if(NOT limit MATCHES "^${kind} ([^ ]+) ([0-9]+): (.*)$")
+      continue()
+    endif()
+    set(pattern "${CMAKE_MATCH_1}")
+    set(most "${CMAKE_MATCH_2}")
+    set(reason "${CMAKE_MATCH_3}")
+    if(path MATCHES "^${pattern}$")
+      if(size GREATER most)
+        set(wrong "${wrong}\n  ${path} has ${size} ${what}; the limit is ${most} (${reason})" PARENT_SCOPE)
+      endif()
+      return()
+    endif()
+  endforeach()
+endfunction()
+
+# Folders with sources, without those that a build or npm makes.
+file(GLOB_RECURSE paths LIST_DIRECTORIES true RELATIVE "${ROOT}"
+  "${ROOT}/base/*" "${ROOT}/image/*" "${ROOT}/scene/*" "${ROOT}/camera/*" "${ROOT}/formats/*"
+  "${ROOT}/oracle/*" "${ROOT}/splatting/*" "${ROOT}/shaders/*" "${ROOT}/runtime/*" "${ROOT}/trainer/*"
+  "${ROOT}/jobs/*" "${ROOT}/viewer/*" "${ROOT}/cli/*" "${ROOT}/examples/*" "${ROOT}/cmake/*"
+  "${ROOT}/docs/*" "${ROOT}/tests/*" "${ROOT}/web/engine/*" "${ROOT}/web/viewer/*" "${ROOT}/web/page/*"
+  "${ROOT}/web/bench/*" "${ROOT}/web/report/*")
+set(folders "")
+foreach(path IN LISTS paths)
+  get_filename_component(folder "${path}" DIRECTORY)
+  list(APPEND folders "${folder}")
+  if(IS_DIRECTORY "${ROOT}/${path}" OR path MATCHES "^tests/" OR
+      NOT path MATCHES "\\.(cpp|hpp|cuh?|glsl|vert|frag|comp|ts|m?js|html|css)$")
+    continue()
+  endif()
+  # Lines without blank ones and comments. Brackets and semicolons would end elements of lists.
+  file(READ "${ROOT}/${path}" text)
+  string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" text "\n${text}")
+  string(REGEX REPLACE "\n[ \t\n]+" "\n" text "${text}")
+  string(STRIP "${text}" text)
+  string(REGEX MATCHALL "\n" ends "${text}")
+  list(LENGTH ends lines)
+  math(EXPR lines "${lines} + 1")
+  string(REGEX MATCH "^[^/]+" module "${path}")
+  if(NOT DEFINED code_${module})
+    set(code_${module} 0)
+  endif()
+  math(EXPR code_${module} "${code_${module}} + ${lines}")
+  list(APPEND modules ${module})
+endforeach()
+list(REMOVE_DUPLICATES modules)
+foreach(module IN LISTS modules)
+  check(code ${module} ${code_${module}} "lines of code")
+endforeach()
+
+list(REMOVE_DUPLICATES folders)
+foreach(folder IN LISTS folders)
+  file(GLOB entries LIST_DIRECTORIES false "${ROOT}/${folder}/*")
+  list(LENGTH entries files)
+  check(files ${folder} ${files} files)
+endforeach()
+
+file(GLOB_RECURSE pages RELATIVE "${ROOT}" "${ROOT}/README.md" "${ROOT}/docs/*.md")
+list(APPEND pages README.md)
+foreach(page IN LISTS pages)
+  file(READ "${ROOT}/${page}" text)
+  string(REGEX MATCHALL "\n" ends "${text}")
+  list(LENGTH ends lines)
+  check(lines ${page} ${lines} lines)
+endforeach()
+
+if(wrong)
+  message(FATAL_ERROR "Sizes above the limits in cmake/limits.cmake:${wrong}")
+endif()
+file(TOUCH "${STAMP}")
