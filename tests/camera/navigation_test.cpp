@@ -56,6 +56,15 @@ TEST(Navigation, TheFrontIsPlusZUnderYAndMinusYUnderZ) {
   EXPECT_LT(glm::length(direction_of({0, 0, 1}, {0, pi / 2}) - glm::dvec3(0, 0, 1)), 1e-12);
 }
 
+/// The first view of every program, as angles in degrees: the goldens of the window have it, too.
+TEST(Navigation, TheThreeQuarterViewIs35DegreesToTheRightAnd20Above) {
+  const Subject subject{{-1, -1, -1}, {1, 1, 1}, {0, 1, 0}};
+  const glm::dvec3 eye = frame(subject, three_quarter_view, Lens{}).eye();
+  EXPECT_NEAR(glm::degrees(std::atan2(eye.x, eye.z)), 35, 1e-9);
+  EXPECT_NEAR(glm::degrees(std::asin(eye.y / glm::length(eye))), 20, 1e-9);
+  EXPECT_NEAR(glm::degrees(orbit_elevation), 20, 1e-9);
+}
+
 TEST(Navigation, UpIsUpInTheFramedImage) {
   for (const glm::dvec3 up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)}) {
     const Subject subject{glm::dvec3(-1), glm::dvec3(1), up};

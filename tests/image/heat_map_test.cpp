@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
 
 namespace tureen {
@@ -18,6 +20,14 @@ TEST(HeatMap, GetsLighterWithTheDifference) {
     EXPECT_GE(lightness, last) << byte;
     last = lightness;
   }
+}
+
+/// The scale is logarithmic, from violet at one step to white at all 255.
+TEST(HeatMap, HasKnownColours) {
+  EXPECT_EQ(heat(0.49f / 255), glm::u8vec4(0, 0, 0, 255));
+  EXPECT_EQ(heat(1.0f / 255), glm::u8vec4(46, 13, 97, 255));
+  EXPECT_EQ(heat(std::pow(1.0f / 255, 0.5f)), glm::u8vec4(230, 71, 51, 255));
+  EXPECT_EQ(heat(std::pow(1.0f / 255, 0.25f)), glm::u8vec4(252, 184, 56, 255));
 }
 
 TEST(HeatMap, TheRampEndsWhereItSays) {

@@ -157,6 +157,8 @@ TEST(Flip, IsSymmetricBoundedAndZeroOnlyWithoutDifference) {
   ImageF a(37, 23), b(37, 23);
   for (ImageF* image : {&a, &b})
     for (glm::vec4& p : image->pixels) p = {uniform(random), uniform(random), uniform(random), 1};
+  EXPECT_EQ(flip(a, a).mean, 0);
+  EXPECT_EQ(flip(a, a).map, std::vector<float>(a.pixels.size(), 0.0f));
   const FlipResult forward = flip(a, b), backward = flip(b, a);
   EXPECT_DOUBLE_EQ(forward.mean, backward.mean);
   EXPECT_EQ(forward.map, backward.map);
