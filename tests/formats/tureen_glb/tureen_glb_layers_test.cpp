@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -178,41 +177,6 @@ TEST(TureenGlbLayers, HaveNoPreview) {
   const auto bytes = test::glb_bytes(three_layers(), "preview");
   EXPECT_EQ(tureen_glb_preview_size(bytes, "memory.glb").value().bytes, 0u);
   EXPECT_FALSE(read_tureen_glb_preview(bytes, "memory.glb"));
-}
-
-/// Collects every name in a "properties" of the schema.
-void schema_names(const nlohmann::json& schema, std::set<std::string>& names) {
-  if (const auto properties = schema.find("properties"); properties != schema.end())
-    for (const auto& [name, value] : properties->items()) names.insert(name);
-  for (const auto& part : schema)
-    if (part.is_structured()) schema_names(part, names);
-}
-
-void expect_in_schema(const nlohmann::json& written, const std::set<std::string>& names) {
-  for (const auto& [key, value] : written.items()) {
-    EXPECT_TRUE(written.is_array() || names.contains(key)) << key;
-    if (value.is_structured()) expect_in_schema(value, names);
-  }
-}
-
-TEST(TureenGlbLayers, HaveOnlyKeysOfTheSchema) {
-  std::ifstream file(TUREEN_SOURCE_DIR "/docs/TUREEN_triangle_soup.schema.json");
-  std::set<std::string> names;
-  schema_names(nlohmann::json::parse(file), names);
-  const auto kinds = test::every_glb_kind();
-  const auto json = test::glb_json(test::glb_bytes(test::layered_scene(kinds, 3, 2), "schema"));
-  expect_in_schema(json["extensions"][tureen_extension], names);
-  for (std::size_t i = 1; i < json["nodes"].size(); ++i)
-    expect_in_schema(json["nodes"][i]["extensions"][tureen_extension], names);
-  std::size_t points = 0;
-  for (const auto& mesh : json["meshes"]) {
-    const auto& primitive = mesh["primitives"][0];
-    if (primitive["mode"] != 0) continue;
-    ++points;
-    expect_in_schema(
-        primitive["extensions"]["KHR_gaussian_splatting"]["extensions"]["TUREEN_splats"], names);
-  }
-  EXPECT_EQ(points, 6u);
 }
 
 TEST(TureenGlbLayers, OfFalseFilesAreRefusedWithTheirPlace) {

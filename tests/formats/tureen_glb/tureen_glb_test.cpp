@@ -5,10 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <set>
 
 #include "base/memory_budget.hpp"
 #include "image/srgb.hpp"
@@ -16,6 +14,7 @@
 #include "scene/edit/mean_color.hpp"
 #include "scene/opaque_windows.hpp"
 #include "tests/formats/truncation.hpp"
+#include "tests/formats/tureen_glb/glb_schema.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"
 
@@ -248,31 +247,49 @@ TEST(TureenGlbQuality, ComesBack) {
   }
 }
 
-/// Collects every name in a "properties" of the schema.
-void collect_names(const nlohmann::json& schema, std::set<std::string>& names) {
-  if (const auto properties = schema.find("properties"); properties != schema.end())
-    for (const auto& [name, value] : properties->items()) names.insert(name);
-  for (const auto& part : schema)
-    if (part.is_structured()) collect_names(part, names);
-}
-
-void expect_names(const nlohmann::json& written, const std::set<std::string>& names) {
-  for (const auto& [key, value] : written.items()) {
-    EXPECT_TRUE(written.is_array() || names.contains(key)) << key;
-    if (value.is_structured()) expect_names(value, names);
-  }
-}
-
-TEST(TureenGlbQuality, TheSchemaNamesEveryKeyThatIsWritten) {
-  std::ifstream file(TUREEN_SOURCE_DIR "/docs/TUREEN_triangle_soup.schema.json");
-  std::set<std::string> names;
-  collect_names(nlohmann::json::parse(file), names);
+TEST(TureenGlbSchema, HoldsForEveryFile) {
+  test::SchemaPairs pairs;
+  const auto kinds = test::every_glb_kind();
+  for (const auto& kind : kinds)
+    test::add_extensions(pairs,
+                         test::glb_json(test::glb_bytes(test::random_scene(kind, 3, 2), "kind")));
+  test::add_extensions(pairs,
+                       test::glb_json(test::glb_bytes(test::layered_scene(kinds, 3, 2), "layers")));
   for (const Quality& quality : qualities) {
     Scene scene = scene_of_levels();
     scene.quality = quality;
-    expect_names(test::glb_json(test::glb_bytes(scene, "quality"))["extensions"][tureen_extension],
-                 names);
+    test::add_extensions(pairs, test::glb_json(test::glb_bytes(scene, "quality")));
   }
+  const auto count = [&](const std::string& definition) {
+    return std::count_if(pairs.begin(), pairs.end(),
+                         [&](const auto& pair) { return pair.first == definition; });
+  };
+  EXPECT_GE(count("layer"), std::ptrdiff_t(kinds.size()));
+  EXPECT_GE(count("splats"), 6);
+  const int invalid = test::invalid_values(pairs);
+  if (invalid == 77) GTEST_SKIP() << "python3-jsonschema is not installed";
+  EXPECT_EQ(invalid, 0);
+}
+
+/// The validator must find each kind of fault, or the test above proves nothing.
+TEST(TureenGlbSchema, IsBrokenByEachKindOfFault) {
+  const auto root =
+      test::glb_json(test::glb_bytes(scene_of_levels(), "fault"))["extensions"][tureen_extension];
+  test::SchemaPairs pairs;
+  for (const auto& [pointer, value] : std::vector<std::pair<std::string, nlohmann::json>>{
+           {"/unknown", 1},                  // a key that the schema lacks
+           {"/appearance/vertex_count", 1},  // a key in a wrong place
+           {"/version", "3"},                // a wrong type
+           {"/appearance/level", 8},         // out of range
+           {"/appearance/type", "lattice"}}) {
+    pairs.emplace_back("", root);
+    pairs.back().second[nlohmann::json::json_pointer(pointer)] = value;
+  }
+  pairs.emplace_back("", root);
+  pairs.back().second.erase("face_count");
+  const int invalid = test::invalid_values(pairs);
+  if (invalid == 77) GTEST_SKIP() << "python3-jsonschema is not installed";
+  EXPECT_EQ(invalid, int(pairs.size()));
 }
 
 TEST(TureenGlbQuality, AnUnknownSplatOrderIsAnError) {
