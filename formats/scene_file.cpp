@@ -11,6 +11,7 @@
 #include "formats/mesh/mobilenerf.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/stray_content.hpp"
+#include "formats/ply/ply_header.hpp"
 #include "formats/ply_file.hpp"
 #include "formats/splat/octagon_npz.hpp"
 #include "formats/splat/splat_records.hpp"
