@@ -1,5 +1,6 @@
 // Chromium without a GPU, and the paths of the build, for tests and benchmarks of the page.
 
+import { existsSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '../../web/node_modules/playwright-core/index.mjs';
@@ -19,7 +20,10 @@ const backends = {
   none: ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'],
 };
 
+/** Debian's browsers. The first has the same engine without a window, which halves the processor time of a visit. */
+const installed = ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'];
+
 /** CHROMIUM names another browser than Debian's. */
 export const launch = (backend, flags = []) => chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...quiet, ...backends[backend], ...flags],
+  executablePath: process.env.CHROMIUM ?? installed.find(existsSync) ?? installed.at(-1), args: [...quiet, ...backends[backend], ...flags],
 });
