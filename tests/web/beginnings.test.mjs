@@ -4,12 +4,13 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
 import { assertAlike } from './images.mjs';
 import { readPng } from './png.mjs';
-import { built, middle, pick, image, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
+import {
+  built, image, middle, pick, programs, sceneShown, scratch, source, stage, still, test, view, viewChanged,
+} from './support.mjs';
 
 const folder = scratch();
 const { visit } = await stage();

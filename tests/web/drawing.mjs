@@ -14,8 +14,12 @@ const emptyPage = `<!doctype html><html lang="en"><title>Drawing</title><link re
   window.viewer = viewer;
 </script>`;
 
+/** Files that pages load, by number. */
+const offered = [];
+
 /** Routes that stage() needs for `drawingPage`. */
 export const drawingRoutes = {
+  '/offered': (request, response) => response.writeHead(200).end(readFileSync(offered[Number(request.url.split('?')[1])])),
   '/drawing.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(emptyPage),
 };
 
@@ -26,10 +30,10 @@ export async function drawingPage(page) {
   return {
     /** Loads a file, or a folder with all its files. */
     async load(folder, names = readdirSync(folder)) {
-      const files = names.map((path) => ({ path, base64: readFileSync(join(folder, path)).toString('base64') }));
+      const files = names.map((path) => ({ path, url: `/offered?${offered.push(join(folder, path)) - 1}` }));
       await page.evaluate(async (given) => {
-        const bytes = async (base64) => (await fetch(`data:application/octet-stream;base64,${base64}`)).blob();
-        await viewer.load({ files: await Promise.all(given.map(async ({ path, base64 }) => ({ path, data: await bytes(base64) }))) });
+        const bytes = async (url) => (await fetch(url)).blob();
+        await viewer.load({ files: await Promise.all(given.map(async ({ path, url }) => ({ path, data: await bytes(url) }))) });
       }, files);
     },
     /** `from`: the number of a recorded camera, or a pose. `background`: by default the scene's. */

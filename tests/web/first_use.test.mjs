@@ -3,8 +3,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
-import { errorShown, pick, scratch, sceneShown, source, stage, still, view } from './support.mjs';
+import { errorShown, pick, sceneShown, scratch, source, stage, still, test, view } from './support.mjs';
 
 const { visit } = await stage();
 

@@ -5,8 +5,9 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
-import { distance, middle, patience, pick, image, programs, sceneShown, scratch, source, stage, still, view } from './support.mjs';
+import {
+  distance, image, middle, patience, pick, programs, sceneShown, scratch, source, stage, still, test, view,
+} from './support.mjs';
 
 const example = join(source, 'examples/soup.glb');
 const bytes = readFileSync(example);

@@ -57,7 +57,7 @@ export function readPng(bytes) {
 }
 
 /** The CRC of a chunk's type and data. Debian 12's node does not have zlib.crc32. */
-function crc32(bytes) {
+export function crc32(bytes) {
   let crc = ~0;
   for (const byte of bytes) {
     crc ^= byte;

@@ -2,11 +2,10 @@
 // have the same picture.
 
 import assert from 'node:assert/strict';
-import { test } from 'node:test';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { assertAlike } from './images.mjs';
 import { splatPly } from './splat_ply.mjs';
-import { stage } from './support.mjs';
+import { stage, test } from './support.mjs';
 
 const ply = (count) => {
   const scene = splatPly(count);

@@ -1,14 +1,16 @@
 // Shared by the browser tests: the site on its own server, a browser, and visits that fail if a page logs an
 // error or contacts another server.
 //
-//   const { visit, server } = await stage();         one browser per file; both end with its tests
+//   const { visit, server } = await stage();         a server per file; one browser per backend for all files
 //   test('..', () => visit('?scene=soup.glb', async (page) => { .. }));
+//
+// A file runs alone by `node --test FILE`, or with all others in one process by every.mjs.
 
 import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after } from 'node:test';
+import { after as afterAll, test as rootTest } from 'node:test';
 import { serve } from '../../web/serve.mjs';
 import { built, launch, programs, source } from './browser.mjs';
 
@@ -18,6 +20,75 @@ export const evidence = process.env.TUREEN_EVIDENCE ?? join(source, 'build/relea
 
 /** A slow browser, on two cores that also draw, needs time; a hanging test must end. */
 export const patience = 60_000;
+
+/** A visit that takes longer hangs: its browser is ended, and the next visit starts another one. */
+const limit = 10 * patience;
+
+// -- tests and files --------------------------------------------------------------------------------
+
+/** The file that every.mjs runs: node:test's context of the file, its tests and what follows them. Null for a
+ *  file that runs alone. */
+let running = null;
+
+/** node:test's test(), as a part of the file that runs. */
+export function test(...given) {
+  if (!running) return rootTest(...given);
+  const ended = running.context.test(...given);
+  running.tests.push(ended);
+  return ended;
+}
+
+/** A test that runs only with TUREEN_THOROUGH=1, as in `./dev test --all`: it repeats a check of the other tests
+ *  elsewhere, or at another size. */
+export const thorough = (name, body) =>
+  test(name, { skip: process.env.TUREEN_THOROUGH === '1' ? false : 'only in ./dev test --all' }, body);
+
+/** Parts of a test, [[name, body], ..], which `given` is passed to: each is reported as a test. For tests of one page, so
+ *  that it is opened once. */
+export async function each(context, parts, ...given) {
+  for (const [name, body] of parts) await context.test(name, (part) => body(...given, part));
+}
+
+/** Calls `body` after the file's tests. */
+function after(body) {
+  if (running) running.endings.push(body);
+  else afterAll(body);
+}
+
+/** Runs a file of tests within a test of node:test. `load` imports the file. */
+export async function runFile(context, load) {
+  const file = running = { context, tests: [], endings: [] };
+  try {
+    await load();
+  } finally {
+    await Promise.all(file.tests);
+    running = null;
+    for (const body of file.endings) await body();
+  }
+}
+
+// -- browsers ---------------------------------------------------------------------------------------
+
+/** Browsers, or their starts, by backend. */
+const browsers = new Map();
+
+/** Starts a browser, also instead of one that has ended. */
+async function browserOf(backend) {
+  const known = await browsers.get(backend)?.catch(() => null);
+  if (known?.isConnected()) return known;
+  const starting = launch(backend);
+  browsers.set(backend, starting);
+  return starting;
+}
+
+/** Ends all browsers. */
+export async function endBrowsers() {
+  const started = [...browsers.values()];
+  browsers.clear();
+  for (const browser of started) await (await browser.catch(() => null))?.close();
+}
+
+// -- visits -----------------------------------------------------------------------------------------
 
 /** Polling of pages: not by frames, because hidden pages have none. */
 export const often = { polling: 100 };
@@ -80,7 +151,7 @@ export function evidenceOf(name) {
  * `routes`: answers by path, as {'/slow.glb': (request, response) => ..}, instead of the site's files.
  * `folder`: served instead of the site.
  */
-export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(built, 'site'), flags = [] } = {}) {
+export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(built, 'site') } = {}) {
   const server = await serve(folder, {
     first(request, response) {
       const route = routes[new URL(request.url, 'http://site').pathname];
@@ -88,22 +159,22 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
       return route !== undefined;
     },
   });
-  const browser = await launch(backend, flags);
-  after(async () => {
-    await browser.close();
-    await server.close();
-  });
+  after(() => server.close());
+  if (!running) after(endBrowsers);
 
-  /**
-   * Opens an address in a new profile, passes the page to `body` and returns its result. Fails if the page logs an error
-   * that matches none of `expected`, throws, or contacts a server that is not in `friends`. `smooth`: the page smooths its
-   * image at rest, as it does by default.
-   */
-  async function visit(address, body, { expected = [], friends = [], smooth = false, ...context } = {}) {
-    const profile = await browser.newContext({ viewport: { width: 800, height: 500 }, ...context });
+  async function visitIn(browser, fail, address, body, { expected = [], friends = [], smooth = false, inWorkers = '', clock = false, ...context }) {
+    const reducedMotion = smooth ? 'no-preference' : 'reduce';
+    const profile = await browser.newContext({ viewport: { width: 800, height: 500 }, reducedMotion, ...context });
     profile.setDefaultTimeout(patience);
+    if (clock) await profile.clock.install();
     await profile.addInitScript(countFrames);
     if (!smooth) await profile.addInitScript(keepFrames);
+    if (inWorkers)
+      await profile.route('**/loader_worker.js', async (route) => {
+        const response = await route.fetch();
+        await route.fulfill({ response, body: inWorkers + await response.text() });
+      });
+    profile.on('page', (page) => page.on('crash', () => fail(new Error('the page crashed'))));
     const complaints = [], strangers = [];
     const own = (url) => [server.address, ...friends].some((origin) => url.startsWith(origin)) ||
       /^(blob|data|file|about):/.test(url);
@@ -121,10 +192,39 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
       assert.deepEqual(strangers, [], 'requests to other servers');
       return result;
     } finally {
-      await profile.close();
+      if (browser.isConnected()) await profile.close();
     }
   }
-  return { browser, server, visit };
+
+  /**
+   * Opens an address in a new profile, passes the page to `body` and returns its result. Fails if the page logs an error
+   * that matches none of `expected`, throws, or contacts a server that is not in `friends`. The page has less motion, since
+   * a view that changes gradually takes many frames; { reducedMotion: 'no-preference' } is the default of browsers.
+   * `smooth`: the page has motion, and smooths its image at rest, as it does by default. `inWorkers`: a script that loaders
+   * run first. `clock`: the page's timers follow page.clock. If the browser ends, or the page
+   * crashes or hangs, the next visit starts another browser.
+   */
+  async function visit(address, body, options = {}) {
+    const browser = await browserOf(backend);
+    let fail, failed = false;
+    const failing = new Promise((_, reject) => {
+      fail = (error) => {
+        failed = true;
+        reject(error);
+      };
+    });
+    const timer = setTimeout(() => fail(new Error(`the visit did not end within ${limit / 1000} seconds`)), limit);
+    try {
+      return await Promise.race([visitIn(browser, fail, address, body, options), failing]);
+    } catch (error) {
+      if (failed) await browser.close();  // the visit may still wait
+      else if (!browser.isConnected()) throw new Error('the browser ended during the visit', { cause: error });
+      throw error;
+    } finally {
+      clearTimeout(timer);
+    }
+  }
+  return { server, visit };
 }
 
 /** Simulates a device without memory for larger texel stores: runs in the page. */

@@ -3,8 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
-import { test } from 'node:test';
-import { source } from './browser.mjs';
+import { source, test } from './support.mjs';
 
 test('the page\'s TypeScript has no type errors', () => {
   const web = join(source, 'web');

@@ -3,10 +3,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { readPng } from './png.mjs';
-import { source, stage } from './support.mjs';
+import { source, stage, test } from './support.mjs';
 
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes) => (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes);
