@@ -6,29 +6,43 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { test } from 'node:test';
-import { crc32 } from 'node:zlib';
 import { programs } from './browser.mjs';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
+import { crc32 } from './png.mjs';
 import { splatPly } from './splat_ply.mjs';
-import { sceneShown, shortOfMemory, stage } from './support.mjs';
+import { sceneShown, shortOfMemory, stage, test, thorough } from './support.mjs';
 
 const splats = 60_000, bytes = splatPly(splats);
 /** Forecast: four times the 56 bytes of each in memory, and 64 bytes of its projection. */
 const bytesEach = 288;
 
-/** Sends a file in ten parts, each after `ms`. */
-const slowly = (file, ms) => (request, response) => {
-  response.writeHead(200, { 'content-length': file.length });
-  const part = Math.ceil(file.length / 10);
+/** Sends a file up to the first of `ends`, fractions of it. Each request of /more sends the next part of the last one,
+ *  and /more?all the rest. */
+const inParts = (file, ...ends) => (request, response) => {
+  const parts = [...ends, 1].map((end) => Math.round(end * file.length));
   let sent = 0;
-  const timer = setInterval(() => {
-    response.write(file.subarray(sent, sent += part));
-    if (sent < file.length) return;
-    clearInterval(timer);
-    response.end();
-  }, ms);
+  sendMore = () => {
+    if (parts.length === 0) return false;
+    const part = file.subarray(sent, sent = parts.shift());
+    if (parts.length > 0) response.write(part);
+    else response.end(part);
+    return true;
+  };
+  response.writeHead(200, { 'content-length': file.length });
+  sendMore();
 };
+let sendMore = () => false;
+
+/** A second passes in a loader with each part that arrives: previews of splats need time. */
+const secondPerPart = `{
+  let now = 0;
+  self.performance.now = () => now;
+  const post = self.postMessage;
+  self.postMessage = (message, ...more) => {
+    if (message.kind === 'progress') now += 1000;
+    return post.call(self, message, ...more);
+  };
+}`;
 
 /** 15,000 triangles, whose texels are in nine strips, and their native image. */
 function cloud() {
@@ -44,13 +58,21 @@ function cloud() {
 }
 const { scene, image } = cloud();
 
-const { visit } = await stage({ routes: {
+/** The ends of the parts before the last one, for files with texels. Texels are decoded whenever a part arrives. */
+const partly = [0.6, 0.7, 0.8, 0.85, 0.9];
+
+const { visit, server } = await stage({ routes: {
   ...drawingRoutes,
-  '/slow.ply': slowly(bytes, 400),  // more than the time before a preview
-  '/slow.glb': slowly(scene, 200),
+  // Previews have 16,384 splats or more, and then twice as many, but at most three quarters.
+  '/slow.ply': inParts(bytes, 0.35, 0.72),
+  '/slow.glb': inParts(scene, ...partly),
+  '/more': (request, response) => {
+    while (sendMore() && request.url.endsWith('?all'));
+    response.writeHead(204).end();
+  },
   '/cloud.glb': (request, response) => response.writeHead(200, { 'content-length': scene.length }).end(scene),
-  '/damaged.glb': slowly(damaged(scene, false), 50),
-  '/odd.glb': slowly(damaged(scene, true), 50),
+  '/damaged.glb': inParts(damaged(scene, false), ...partly),
+  '/odd.glb': inParts(damaged(scene, true), ...partly),
   '/native.png': (request, response) => response.end(image),
   '/many.ply': (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes),
 } });
@@ -61,6 +83,7 @@ test('more and more splats are shown while the file arrives', () => visit('drawi
     const previews = [];
     viewer.on('preview', ({ splats }) => {
       previews.push(splats);
+      void fetch('/more');
       if (previews.length === 1) viewer.setView({ eye: [0, 0, 5], target: [0, 0, 0], up: [0, 1, 0], fov: 1, roll: 0 });
     });
     const { splats } = await viewer.load({ url: '/slow.ply' });
@@ -70,7 +93,7 @@ test('more and more splats are shown while the file arrives', () => visit('drawi
   assert.ok(previews.length >= 2, `previews: ${previews}`);
   assert.ok(previews[0] >= 16_384 && previews.every((count, at) => at === 0 || count >= 2 * previews[at - 1]), `${previews}`);
   assert.deepEqual(eye, [0, 0, 5], 'the view that was chosen during the load');
-}));
+}, { inWorkers: secondPerPart }));
 
 /** The mean difference of the viewer's image from the native one, in steps of 255. On the page. */
 async function differenceFromNative() {
@@ -88,11 +111,24 @@ async function differenceFromNative() {
 /** Both programs draw with llvmpipe: measured 0. Eight of 33 blocks in a wrong order give 0.9. */
 const likeNative = (difference) => assert.ok(difference < 0.01, `${difference} steps of 255`);
 
-/** For the worker: adds the number of messages to its own workers to its messages. */
-const countSent = `{
+/** For the worker: adds the number of messages to its own workers to its messages. Asks for more of the file after each of
+ *  their answers, and for the rest after `enough` messages. `lacking`: runs first, and may call askForMore() too. */
+const countSent = (enough, lacking = '') => `
+self.askForMore = (all) => fetch('${server.address}more' + (all ? '?all' : ''));
+${lacking} {
   let sent = 0;
-  const send = self.Worker?.prototype.postMessage, post = self.postMessage;
-  if (send) self.Worker.prototype.postMessage = function (...given) { ++sent; return send.apply(this, given); };
+  const post = self.postMessage;
+  if (self.Worker)
+    self.Worker = class extends self.Worker {
+      constructor(...given) {
+        super(...given);
+        this.addEventListener('message', () => askForMore(sent >= ${enough}));
+      }
+      postMessage(...given) {
+        ++sent;
+        super.postMessage(...given);
+      }
+    };
   self.postMessage = (message, ...more) => post.call(self, { ...message, sent }, ...more);
 }`;
 
@@ -107,23 +143,21 @@ function damaged(file, mend) {
   return copy;
 }
 
-for (const { what, lacking, strips, atLeast, atMost } of [
-  // One message asks whether the second worker runs. Most strips arrive long before the end of the file.
+for (const { what, lacking, strips, atLeast, atMost, file = '/slow.glb' } of [
+  // One message asks whether the second worker runs. Most strips are decoded before the end of the file.
   { what: 'in two workers', lacking: '', strips: 9, atLeast: 5, atMost: 10 },
-  { what: 'in a browser without workers in workers', lacking: 'self.Worker = undefined;', strips: 9, atLeast: 0, atMost: 0 },
+  { what: 'in a browser without workers in workers', strips: 9, atLeast: 0, atMost: 0,
+    lacking: `self.Worker = undefined;
+      { let made = 0; const Real = self.DecompressionStream;
+        self.DecompressionStream = class extends Real { constructor(...given) { super(...given); if (++made === 5) askForMore(true); } }; }` },
   { what: 'with a second worker that fails', strips: 0, atLeast: 2, atMost: 4,
     lacking: "if (self.name === 'inflater') self.DecompressionStream = class { constructor() { throw new Error('broken'); } };" },
-  { what: 'in a browser without DecompressionStream', lacking: 'self.DecompressionStream = undefined;', strips: 0, atLeast: 0, atMost: 0 },
+  { what: 'in a browser without DecompressionStream', lacking: 'self.DecompressionStream = undefined;', strips: 0, atLeast: 0, atMost: 0,
+    file: '/cloud.glb' },
 ])
   test(`texels are decoded while the file arrives, ${what}`, () => visit('drawing.html', async (page) => {
-    await page.route('**/loader_worker.js', async (route) => {
-      const response = await route.fetch();
-      await route.fulfill({ response, body: lacking + countSent + await response.text() });
-    });
-    await drawingPage(page);  // without the route
-    await page.reload();
     await drawingPage(page);
-    const { triangles, decoded, sent } = await page.evaluate(async () => {
+    const { triangles, decoded, sent } = await page.evaluate(async (url) => {
       let decoded = null, sent = null;
       window.Worker = class extends window.Worker {
         constructor(...given) {
@@ -133,14 +167,14 @@ for (const { what, lacking, strips, atLeast, atMost } of [
           });
         }
       };
-      const { triangles } = await viewer.load({ url: '/slow.glb' });
+      const { triangles } = await viewer.load({ url });
       return { triangles, decoded, sent };
-    });
+    }, file);
     assert.equal(triangles, 15_000);
     assert.equal(decoded, strips);
     assert.ok(sent >= atLeast && sent <= atMost, `${sent} messages to the second worker`);
     likeNative(await page.evaluate(differenceFromNative));
-  }));
+  }, { inWorkers: countSent(atLeast, lacking) }));
 
 test('a damaged strip is an error, as without early texels; a wrong checksum of its texels is not', () =>
   visit('drawing.html', async (page) => {
@@ -157,7 +191,7 @@ test('a damaged strip is an error, as without early texels; a wrong checksum of 
     assert.equal(odd.result, 15_000);
     for (const fraction of [...broken.fractions, ...odd.fractions]) assert.ok(fraction >= 0 && fraction <= 1, `${fraction}`);
     likeNative(await page.evaluate(differenceFromNative));
-  }));
+  }, { inWorkers: countSent(5) }));
 
 /** Calls window.onBlock() for each block that arrives, before the viewer gets it; keeps the context's textures in
  *  window.textures, and counts window.uploads. On the page. */
@@ -226,12 +260,12 @@ test('a large scene replaces another one, and a load that ends between its block
     likeNative(await page.evaluate(differenceFromNative));
   }));
 
-for (const { what, maxBytes, level } of [
+for (const { what, maxBytes, level, when } of [
   // A store of 8-bit texels takes 34 MB at level 5, 9 MB at level 4, and 2.7 MB at level 3, which is sent as a whole.
-  { what: 'the next lower lattice level', maxBytes: 20e6, level: 4 },
-  { what: 'a level without blocks', maxBytes: 5e6, level: 3 },
+  { what: 'the next lower lattice level', maxBytes: 20e6, level: 4, when: test },
+  { what: 'a level without blocks', maxBytes: 5e6, level: 3, when: thorough },
 ])
-  test(`without memory for the blocks of a large scene, ${what} is drawn`, () => visit('drawing.html', async (page) => {
+  when(`without memory for the blocks of a large scene, ${what} is drawn`, () => visit('drawing.html', async (page) => {
     await drawingPage(page);
     await page.evaluate(shortOfMemory, maxBytes);
     for (let time = 0; time < 2; ++time) {  // the second time while the scene is shown
@@ -274,7 +308,7 @@ test('the context is lost during a preview: the scene before comes back with its
   for (const part of ['eye', 'target', 'up'])
     for (const axis of [0, 1, 2])
       assert.ok(Math.abs(after.view[part][axis] - before.view[part][axis]) < 1e-6, `${part}: ${after.view[part]}`);  // rounding
-}));
+}, { inWorkers: secondPerPart }));
 
 test('the context is lost during the first preview: the page has no scene', () => visit('?scene=slow.glb', async (page) => {
   await page.locator('body:not(.empty)').waitFor();
@@ -370,12 +404,15 @@ test('a load that ends takes its question back', () => visit('drawing.html', asy
 test('a field of view that was set during the load stays', () => visit('drawing.html', async (page) => {
   await drawingPage(page);
   const fov = await page.evaluate(async () => {
-    viewer.on('preview', () => { viewer.fov = 0.5; });
+    viewer.on('preview', () => {
+      viewer.fov = 0.5;
+      void fetch('/more');
+    });
     await viewer.load({ url: '/slow.ply' });
     return viewer.fov;
   });
   assert.ok(Math.abs(fov - 0.5) < 1e-6, `${fov}`);
-}));
+}, { inWorkers: secondPerPart }));
 
 /** The page on a phone with little memory, and its question. */
 const asked = async (page) => {
