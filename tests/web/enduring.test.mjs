@@ -2,15 +2,16 @@
 // hidden, windows change their size.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
 import { readPng } from './png.mjs';
-import { distance, errorKind, errorShown, middle, noticeShown, often, pick, image, programs, sceneShown, scratch, shortOfMemory, source, stage, still, view, viewChanged } from './support.mjs';
+import { goldenScenes } from './scenes.mjs';
+import {
+  distance, errorKind, errorShown, image, middle, noticeShown, often, pick, sceneShown, shortOfMemory, stage, still,
+  test, thorough, view, viewChanged,
+} from './support.mjs';
 
-const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
-execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
+const other = join(goldenScenes(), 'UvTexturesMlp.glb');
 const { visit, server } = await stage({
   routes: { '/UvTexturesMlp.glb': (request, response) => response.writeHead(200).end(readFileSync(other)) },
 });
@@ -54,7 +55,8 @@ async function measure(page, client) {
   return { heap: usedSize, nodes: metric('Nodes'), listeners: metric('JSEventListeners'), objects, wasm, workers: page.workers().length };
 }
 
-test('fifty scenes one after the other leave nothing behind', () => visit('', async (page, profile) => {
+/** `pairs`: of scenes, after three that fill all caches. */
+const comeAndGo = (pairs) => () => visit('', async (page, profile) => {
   await profile.addInitScript(keepCount);
   await page.reload();
   const client = await profile.newCDPSession(page);
@@ -72,8 +74,8 @@ test('fifty scenes one after the other leave nothing behind', () => visit('', as
     }
     return measure(page, client);
   };
-  const before = await both(3), after = await both(22);
-  console.log('after 6 scenes', before, 'after 50', after);
+  const before = await both(3), after = await both(pairs);
+  console.log('after 6 scenes', before, `after ${6 + 2 * pairs}`, after);
   assert.equal(after.wasm, before.wasm, 'bytes of WebAssembly');
   assert.equal(after.objects, before.objects, 'objects of WebGL');
   assert.equal(after.workers, 0, 'workers');
@@ -82,7 +84,9 @@ test('fifty scenes one after the other leave nothing behind', () => visit('', as
   assert.ok(after.heap - before.heap < 1_000_000, `JavaScript's heap: ${before.heap} and ${after.heap} bytes`);
   assert.ok(after.nodes - before.nodes < 100, `elements: ${before.nodes} and ${after.nodes}`);
   assert.equal(after.listeners, before.listeners, 'listeners');
-}));
+});
+test('fourteen scenes one after the other leave nothing behind', comeAndGo(4));
+thorough('nor do fifty', comeAndGo(22));
 
 // With the example's 7000 faces, a store of 8-bit texels takes 1.26 MB at level 3, 0.43 MB at level 2 and 0.1
 // MB at level 0.
@@ -199,7 +203,7 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is visibl
   await page.evaluate(() => hide(false));
   await still(page);
   assert.ok(!shown.equals(await image(page)), 'the other scene is drawn');
-}));
+}, { reducedMotion: 'no-preference' }));
 
 /** Waits until the canvas has as many pixels as the screen area that it covers. */
 async function assertSharp(page, ratio) {

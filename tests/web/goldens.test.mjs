@@ -5,53 +5,42 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { writeMobileNerf } from './mobilenerf_scene.mjs';
 import { assertAlike, assertSame } from './images.mjs';
 import { readPng, writePng } from './png.mjs';
-import { programs, scratch, source, stage } from './support.mjs';
+import { goldenScenes } from './scenes.mjs';
+import { each, programs, source, stage, test, thorough } from './support.mjs';
 
-const scenes = scratch();
-execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), scenes]);
+const scenes = goldenScenes();
 writeMobileNerf(join(scenes, 'mobilenerf'));
 
 const golden = (name) => readPng(readFileSync(join(source, 'tests/golden', `${name}.png`)));
 
 const llvmpipe = await stage({ routes: drawingRoutes });
 const swiftshader = await stage({ routes: drawingRoutes, backend: 'swiftshader' });
-const drawing = ({ visit }, body) => () => visit('drawing.html', async (page) => body(await drawingPage(page)));
+
+/** Draws all images of `tests`, [[name, body], ..], on one page. */
+const drawing = ({ visit }, tests) => (context) => visit('drawing.html', async (page) => each(context, tests, await drawingPage(page)));
 
 const appearances = ['FaceColors', 'VertexColors', 'FaceHarmonics', 'VertexHarmonics',
                      'Lattice', 'LatticeMlp', 'UvTextures', 'UvTexturesMlp'];
 
-for (const name of appearances) {
-  test(`${name} on llvmpipe`, drawing(llvmpipe, async ({ load, image }) => {
-    await load(scenes, [`${name}.glb`]);
-    assertSame(name, golden(name), await image({ from: 0, width: 320, height: 240 }));
-  }));
-}
+/** Compares the scene's image from a recorded camera with its golden. */
+const likeGolden = (compare, name, folder, file, from) => async ({ load, image }) => {
+  await load(folder, [file]);
+  compare(name, golden(name), await image({ from, width: 320, height: 240 }));
+};
+const same = (...given) => likeGolden(assertSame, ...given);
 
-test('the example on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
-  await load(join(source, 'examples'), ['soup.glb']);
-  assertSame('example', golden('example'), await image({ from: 40, width: 320, height: 240 }));
-}));
-
-test('several layers on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
-  await load(scenes, ['layers.glb']);
-  assertSame('layers', golden('layers'), await image({ from: 0, width: 320, height: 240 }));
-}));
-
-for (const [blend, name] of [['raster', 'splats'], ['tiles', 'splats_in_tiles']]) {
-  test(`splats by ${blend} on llvmpipe`, () => llvmpipe.visit(`drawing.html?blend=${blend}`, async (page) => {
-    const { load, image } = await drawingPage(page);
-    await load(scenes, ['splats.glb']);
-    assertSame(name, golden(name), await image({ from: 0, width: 320, height: 240 }));
-  }));
-}
+const onLlvmpipe = [
+  ...appearances.map((name) => [name, same(name, scenes, `${name}.glb`, 0)]),
+  ['the example', same('example', join(source, 'examples'), 'soup.glb', 40)],
+  ['several layers', same('layers', scenes, 'layers.glb', 0)],
+];
 
 // The bounds of Layers.AgreeWithTheOracle (tests/runtime/layers_test.cpp): rounding to 8 bits gives 58.9 dB.
-test('several layers agree with the oracle on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+onLlvmpipe.push(['several layers agree with the oracle', async ({ load, image }) => {
   await load(scenes, ['layers.glb']);
   const files = [];
   for (const level of [0, 1]) {
@@ -63,14 +52,14 @@ test('several layers agree with the oracle on llvmpipe', drawing(llvmpipe, async
   const { psnr_db, p999_abs, coverage_mismatch, compared } = JSON.parse(text);
   console.log(text.trim());
   assert.ok(psnr_db >= 57 && p999_abs <= 1 / 255 && coverage_mismatch < 1e-4 && compared >= 0.05, text);
-}));
+}]);
 
-test('every debug view on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+onLlvmpipe.push(['every debug view', async ({ load, image }) => {
   await load(scenes, ['debug_views.glb']);
   for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe', 'holes'])
     assertSame(`debug_view_${look}`, golden(`debug_view_${look}`),
                await image({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
-}));
+}]);
 
 // Exported folders contain no cameras; the program uses the same view.
 const radians = Math.PI / 180;
@@ -84,32 +73,33 @@ function drawnByProgram(scene) {
   return readPng(readFileSync(file));
 }
 
-for (const name of ['diffsoup', 'mobilenerf']) {
-  test(`a folder of ${name} on llvmpipe`, drawing(llvmpipe, async ({ load, image }) => {
+for (const name of ['diffsoup', 'mobilenerf'])
+  onLlvmpipe.push([`a folder of ${name}`, async ({ load, image }) => {
     const folder = join(scenes, name);
     await load(folder);
     assertSame(name, drawnByProgram(folder), await image({ from, width: 320, height: 240 }));
-  }));
-}
+  }]);
 
-test('a compressed file on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+onLlvmpipe.push(['a compressed file', async ({ load, image }) => {
   const compressed = join(scenes, 'compressed.glb');
-  execFileSync(join(programs, 'tureen'), ['convert', join(scenes, 'LatticeMlp.glb'), compressed, '--compress'], { stdio: 'ignore' });
+  // A large error, since a search for a small one takes longer.
+  execFileSync(join(programs, 'tureen'), ['convert', join(scenes, 'LatticeMlp.glb'), compressed, '--compress', '--max-error', '5'],
+               { stdio: 'ignore' });
   await load(scenes, ['compressed.glb']);
   assertSame('compressed', drawnByProgram(compressed), await image({ from, width: 320, height: 240 }));
-}));
+}]);
+
+test('on llvmpipe', drawing(llvmpipe, onLlvmpipe));
+
+for (const [blend, name] of [['raster', 'splats'], ['tiles', 'splats_in_tiles']])
+  test(`splats by ${blend} on llvmpipe`, () => llvmpipe.visit(`drawing.html?blend=${blend}`, async (page) =>
+    same(name, scenes, 'splats.glb', 0)(await drawingPage(page))));
 
 // SwiftShader rounds vertex positions and barycentrics differently, so pixels at edges may show the other side.
 // With triangles of a few pixels that is 32 to 42 dB. A wrong appearance, a mirrored axis or a shifted lattice
 // is below 25.
-for (const name of appearances) {
-  test(`${name} on SwiftShader`, drawing(swiftshader, async ({ load, image }) => {
-    await load(scenes, [`${name}.glb`]);
-    assertAlike(`${name}-swiftshader`, golden(name), await image({ from: 0, width: 320, height: 240 }), 30);
-  }));
-}
-
-test('the example on SwiftShader', drawing(swiftshader, async ({ load, image }) => {
-  await load(join(source, 'examples'), ['soup.glb']);
-  assertAlike('example-swiftshader', golden('example'), await image({ from: 40, width: 320, height: 240 }), 30);
-}));
+const alike = (name, ...given) =>
+  likeGolden((drawn, expected, actual) => assertAlike(`${drawn}-swiftshader`, expected, actual, 30), name, ...given);
+const example = ['the example', alike('example', join(source, 'examples'), 'soup.glb', 40)];
+test('on SwiftShader', drawing(swiftshader, [example]));
+thorough('each appearance on SwiftShader', drawing(swiftshader, appearances.map((name) => [name, alike(name, scenes, `${name}.glb`, 0)])));

@@ -3,9 +3,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
 import { readPng } from './png.mjs';
-import { errorKind, errors, errorShown, pick, image, sceneShown, source, stage } from './support.mjs';
+import {
+  each, errorKind, errors, errorShown, image, pick, sceneShown, source, stage, test, thorough,
+} from './support.mjs';
 
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes, type = 'model/gltf-binary') => (request, response) =>
@@ -49,17 +50,35 @@ const cases = [
   ['ftp://example.org/soup.glb', 'usage', ['ftp']],
 ];
 
-for (const [address, kind, values, complaint] of cases) {
-  test(`${address}, and then a good one`, () => visit(`?scene=${address}`, async (page) => {
-    const said = await errorShown(page);
-    assert.equal(await errorKind(page), kind);
-    for (const value of values) assert.ok(said.includes(value), `${value}: ${said}`);
-    assert.ok(await page.isVisible('#start'), 'another can be opened');
+/** Checks the error that is shown. */
+async function assertRefused(page, kind, values) {
+  const said = await errorShown(page);
+  assert.equal(await errorKind(page), kind);
+  for (const value of values) assert.ok(said.includes(value), `${value}: ${said}`);
+  assert.ok(await page.isVisible('#start'), 'another can be opened');
+}
+
+/** Those of a link in each run: one of each kind. */
+const linked = ['garbage.glb', 'breaks-off.glb', 'ftp://example.org/soup.glb'];
+
+for (const [address, kind, values, complaint] of cases)
+  (linked.includes(address) ? test : thorough)(`${address}, and then a good one`, () => visit(`?scene=${address}`, async (page) => {
+    await assertRefused(page, kind, values);
     await page.click('#gallery-list button');
     await sceneShown(page, 'soup');
     assert.deepEqual(await errors(page), [], 'the error is removed');
   }, { expected: complaint ? [complaint] : [] }));
-}
+
+test('one bad address after the other', (context) => visit('', async (page) => {
+  await page.locator('#gallery-list button').waitFor();
+  const others = cases.filter(([address]) => !linked.includes(address));
+  await each(context, others.map(([address, kind, values]) => [address, async () => {
+    await page.fill('#address', address);
+    await page.press('#address', 'Enter');
+    await page.locator('#errors .message', { hasText: address }).waitFor();
+    await assertRefused(page, kind, values);
+  }]));
+}, { expected: [/404/, /403/] }));
 
 test('a bad one leaves the scene that is shown', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');

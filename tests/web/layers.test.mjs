@@ -5,10 +5,12 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
 import { drawingRoutes } from './drawing.mjs';
 import { readPng } from './png.mjs';
-import { errorShown, image, middle, noticeShown, often, pick, programs, sceneShown, scratch, stage, still, view } from './support.mjs';
+import {
+  each, errorShown, image, middle, noticeShown, often, pick, programs, sceneShown, scratch, stage, still, test,
+  thorough, view,
+} from './support.mjs';
 
 /** A square in the plane z = 0 with its centre at the origin, of one colour. */
 const square = (side, color) => `ply
@@ -53,7 +55,7 @@ const embedder = `<!doctype html><html lang="en"><title>Embedder</title><link re
 const { visit, server } = await stage({
   routes: {
     ...drawingRoutes,
-    ...Object.fromEntries(['/red.ply', '/green.ply', '/blue.ply', '/several.glb'].map((path) =>
+    ...Object.fromEntries(['/red.ply', '/green.ply', '/blue.ply', '/several.glb', '/many.glb'].map((path) =>
       [path, (request, response) => plies[path](request, response)])),
     '/stalled.ply': () => {},  // no answer
     '/embedder.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(embedder),
@@ -62,14 +64,26 @@ const { visit, server } = await stage({
 
 // -- the package's interface ----------------------------------------------------------------------
 
-/** A page with a viewer that looks at the origin from the front. */
-const viewing = (body, options) => () => visit('drawing.html', async (page) => {
+/** Tests on one page with a viewer; each loads its own scene first. */
+const onOnePage = [];
+const part = (name, body) => onOnePage.push([name, body]);
+
+/** Opens a page with a viewer that looks at the origin from the front. */
+const viewing = (body, options) => (context) => visit('drawing.html', async (page) => {
   await page.waitForFunction(() => window.viewer);
   await page.evaluate(() => {
     window.front = () => viewer.setView({ eye: [0, 0, 5], target: [0, 0, 0], up: [0, 1, 0], fov: 0.7, roll: 0 });
+    window.loseContext = () => new Promise((resolve) => {
+      const loss = viewer.canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+      viewer.on('context', (what) => {
+        if (what === 'lost') setTimeout(() => loss.restoreContext());  // a context cannot be restored during its event
+        else resolve();
+      });
+      loss.loseContext();
+    });
     window.shown = () => viewer.layers.map(({ name, triangles, visible }) => ({ name, triangles, visible }));
   });
-  await body(page);
+  await body(page, context);
 }, options);
 
 /** The colour in the middle of the image. */
@@ -83,7 +97,7 @@ async function middleColor(page) {
   return [...pixels.subarray(4 * (16 * width + 16)).subarray(0, 3)];
 }
 
-test('layers are added, ordered, hidden, placed and removed', viewing(async (page) => {
+part('layers are added, ordered, hidden, placed and removed', async (page) => {
   await page.evaluate(() => viewer.load({ url: 'red.ply' }));
   assert.deepEqual(await middleColor(page), colors.red);
   const added = await page.evaluate(async () => (await viewer.addLayers({ url: 'green.ply' })).map(({ name }) => name));
@@ -105,9 +119,9 @@ test('layers are added, ordered, hidden, placed and removed', viewing(async (pag
   assert.deepEqual(await page.evaluate(() => shown().map(({ name }) => name)), ['red']);
   await page.evaluate(() => viewer.removeLayer(0));
   assert.equal(await page.evaluate(() => viewer.scene), null, 'without its only layer there is no scene');
-}));
+});
 
-test('names that collide get numbers; the facts are those of all layers', viewing(async (page) => {
+part('names that collide get numbers; the facts are those of all layers', async (page) => {
   const summary = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     await Promise.all([viewer.addLayers({ url: 'red.ply' }), viewer.addLayers({ url: 'red.ply' }), viewer.addLayers({ url: 'blue.ply' })]);
@@ -119,9 +133,9 @@ test('names that collide get numbers; the facts are those of all layers', viewin
   const { bytes, total } = await page.evaluate(() =>
     ({ bytes: viewer.layers.reduce((sum, { deviceBytes }) => sum + deviceBytes, 0), total: viewer.scene.deviceBytes }));
   assert.equal(bytes, total);
-}));
+});
 
-test('the view stays when layers are added; all visible ones are framed', viewing(async (page) => {
+part('the view stays when layers are added; all visible ones are framed', async (page) => {
   const { before, after, near, far } = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     front();
@@ -138,9 +152,9 @@ test('the view stays when layers are added; all visible ones are framed', viewin
   assert.deepEqual(after, before);
   assert.ok(Math.abs(far.target[0] - 10) < 1e-6, `the middle of both: ${far.target}`);
   assert.ok(Math.abs(near.target[0]) < 1e-6, `the middle of the visible one: ${near.target}`);
-}));
+});
 
-test('a transform and its parts', viewing(async (page) => {
+part('a transform and its parts', async (page) => {
   const worst = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     const set = (transform) => {
@@ -169,9 +183,9 @@ test('a transform and its parts', viewing(async (page) => {
         return `${error.kind}: ${error.message}`;
       }
     }, scale), /scale above 0/);
-}));
+});
 
-test('debug views with several layers, which keep their places', viewing(async (page) => {
+part('debug views with several layers, which keep their places', async (page) => {
   const names = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     await viewer.addLayers({ url: 'green.ply' });
@@ -190,9 +204,23 @@ test('debug views with several layers, which keep their places', viewing(async (
   assert.equal(await page.evaluate(() => viewer.debugView), 'triangle-id');
   await page.evaluate(() => viewer.show('color'));
   assert.deepEqual(await middleColor(page), colors.blue, 'only green, which is hidden, and blue are left');
+});
+
+test('the memory of the page\'s instance does not grow with a layer', viewing(async (page) => {
+  const bytes = await page.evaluate(async () => {
+    await viewer.load({ url: 'soup.glb' });
+    const bytes = [];
+    for (let layers = 2; layers <= 4; ++layers) {
+      await viewer.addLayers({ url: 'soup.glb' });
+      viewer.draw();
+      bytes.push(viewer.stats.wasmBytes);
+    }
+    return bytes;
+  });
+  assert.equal(bytes[2], bytes[0], `${bytes}`);
 }));
 
-test('the memory of the page\'s instance does not grow with the layers', viewing(async (page) => {
+thorough('nor with thirteen', viewing(async (page) => {
   const { one, many, bytes, ms } = await page.evaluate(async () => {
     await viewer.load({ url: 'soup.glb' });
     viewer.draw();
@@ -255,25 +283,40 @@ test('a layer that does not fit is named with its forecast, and the others stay'
   assert.ok(progress.length > 0 && progress[0] <= scene[0] && progress[0] > scene[0] / 2, `${progress[0]} of ${scene[0]} bytes`);
 }));
 
-test('more layers than the device can number are refused', viewing(async (page) => {
+/** The error of one layer more than the device can number, the number of layers, and the middle's colour. `fill` adds the
+ *  others; it runs in the page. */
+async function refusal(page, fill) {
+  await page.evaluate(fill);
   const { message, kind, count } = await page.evaluate(async () => {
-    const { maxLayers } = await import('/viewer.js');
-    const texts = await (await fetch('blue.ply')).blob();
-    const one = () => ({ files: [{ path: 'one.ply', data: texts }] });
-    await viewer.load(one());
-    const added = [];
-    for (let i = 1; i < maxLayers; ++i) added.push(viewer.addLayers(one()));
-    await Promise.all(added);
-    const refusal = await viewer.addLayers(one()).catch((error) => error);
+    const refusal = await viewer.addLayers({ url: 'blue.ply' }).catch((error) => error);
     return { message: refusal.message, kind: refusal.kind, count: viewer.layers.length };
   });
   assert.equal(count, 255);
   assert.equal(kind, 'usage');
   assert.match(message, /\b255\b/);
   assert.deepEqual(await middleColor(page), colors.blue);
+}
+
+const many = join(folder, 'many.glb');
+execFileSync(join(programs, 'tureen'), ['convert', ...Array(254).fill(join(folder, 'blue.ply')), '-o', many]);
+plies['/many.glb'] = (request, response) => response.writeHead(200).end(readFileSync(many));
+
+part('more layers than the device can number are refused', (page) => refusal(page, async () => {
+  await viewer.load({ url: 'many.glb' });
+  await viewer.addLayers({ url: 'blue.ply' });
 }));
 
-test('what is wrong is reported, and changes nothing', viewing(async (page) => {
+thorough('more layers than the device can number, each of a file, are refused', viewing((page) => refusal(page, async () => {
+  const { maxLayers } = await import('/viewer.js');
+  const texts = await (await fetch('blue.ply')).blob();
+  const one = () => ({ files: [{ path: 'one.ply', data: texts }] });
+  await viewer.load(one());
+  const added = [];
+  for (let i = 1; i < maxLayers; ++i) added.push(viewer.addLayers(one()));
+  await Promise.all(added);
+})));
+
+part('what is wrong is reported, and changes nothing', async (page) => {
   const wrong = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     const attempts = [
@@ -298,9 +341,9 @@ test('what is wrong is reported, and changes nothing', viewing(async (page) => {
   assert.deepEqual(wrong.kinds, Array(6).fill('usage'));
   assert.equal(wrong.layers, 1);
   assert.deepEqual(wrong.transform, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
-}));
+});
 
-test('a new scene cancels layers that are being added', viewing(async (page) => {
+part('a new scene cancels layers that are being added', async (page) => {
   const { kinds, names } = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     const added = [viewer.addLayers({ url: 'green.ply' }), viewer.addLayers({ url: 'green.ply' })];
@@ -311,9 +354,9 @@ test('a new scene cancels layers that are being added', viewing(async (page) => 
   });
   assert.deepEqual(kinds, ['cancelled', 'cancelled']);
   assert.deepEqual(names, ['blue']);
-}));
+});
 
-test('a debug view that is chosen while layers are added follows them', viewing(async (page) => {
+part('a debug view that is chosen while layers are added follows them', async (page) => {
   const names = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     const added = viewer.addLayers({ url: 'green.ply' });
@@ -325,9 +368,9 @@ test('a debug view that is chosen while layers are added follows them', viewing(
   });
   assert.deepEqual(names, ['red', 'green', 'blue']);
   assert.equal(await page.evaluate(() => viewer.debugView), 'depth');
-}));
+});
 
-test('a layer is removed while another is added', viewing(async (page) => {
+part('a layer is removed while another is added', async (page) => {
   const { added, names } = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     await viewer.addLayers({ url: 'green.ply' });
@@ -337,7 +380,7 @@ test('a layer is removed while another is added', viewing(async (page) => {
   });
   assert.deepEqual(added, ['blue']);
   assert.deepEqual(names, ['green', 'blue']);
-}));
+});
 
 test('the device is lost and comes back, with all layers', viewing(async (page) => {
   const before = await page.evaluate(async () => {
@@ -350,11 +393,7 @@ test('the device is lost and comes back, with all layers', viewing(async (page) 
     return JSON.stringify(viewer.layers);
   });
   await page.evaluate(async () => {
-    const back = new Promise((resolve) => viewer.on('context', (what) => { if (what === 'restored') resolve(); }));
-    const loss = viewer.canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
-    loss.loseContext();
-    setTimeout(() => loss.restoreContext(), 200);
-    await back;
+    await loseContext();
   });
   assert.equal(await page.evaluate(() => JSON.stringify(viewer.layers)), before);
   assert.deepEqual(await middleColor(page), colors.blue);
@@ -369,11 +408,7 @@ test('the device is lost, and a file is missing when it comes back', viewing(asy
     URL.revokeObjectURL(blob);
     window.noted = [];
     viewer.on('notice', (sentence) => noted.push(sentence));
-    const back = new Promise((resolve) => viewer.on('context', (what) => { if (what === 'restored') resolve(); }));
-    const loss = viewer.canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
-    loss.loseContext();
-    setTimeout(() => loss.restoreContext(), 200);
-    await back;
+    await loseContext();
   });
   assert.deepEqual(await page.evaluate(() => shown().map(({ name }) => name)), ['red', 'blue']);
   assert.equal(await page.evaluate(() => noted.length), 1);
@@ -385,7 +420,7 @@ execFileSync(join(programs, 'tureen'), ['convert', ...['red', 'green', 'blue'].m
                                         '-o', several]);
 plies['/several.glb'] = (request, response) => response.writeHead(200).end(readFileSync(several));
 
-test('a file of several layers, loaded and added', viewing(async (page) => {
+part('a file of several layers, loaded and added', async (page) => {
   const list = await page.evaluate(async () => {
     await viewer.load({ url: 'several.glb' });
     await viewer.addLayers({ url: 'several.glb' });
@@ -400,9 +435,9 @@ test('a file of several layers, loaded and added', viewing(async (page) => {
     await viewer.removeLayer(0);
   });
   assert.deepEqual(await middleColor(page), colors.blue);
-}));
+});
 
-test('layers of a file that was cancelled are removed', viewing(async (page) => {
+part('layers of a file that was cancelled are removed', async (page) => {
   const { kind, before, after } = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     const ending = new AbortController();
@@ -417,7 +452,7 @@ test('layers of a file that was cancelled are removed', viewing(async (page) => 
   assert.equal(kind, 'cancelled');
   assert.ok(before > 1);
   assert.deepEqual(after, ['red']);
-}));
+});
 
 test('of a file that does not fit, the layers that fit are drawn', () => visit('drawing.html', async (page, profile) => {
   await reloadedShort(page, profile);
@@ -436,6 +471,8 @@ test('of a file that does not fit, the layers that fit are drawn', () => visit('
   assert.deepEqual(names, ['red', 'blue']);
   assert.match(notices.join(), /“green”.*MB/);
 }));
+
+test('by the interface', viewing((page, context) => each(context, onOnePage, page)));
 
 // -- the page -------------------------------------------------------------------------------------
 

@@ -1,16 +1,35 @@
 // Navigation with a mouse, keys and fingers, checked by the camera in the page's address.
 
 import assert from 'node:assert/strict';
-import { test } from 'node:test';
-import { distance, length, middle, minus, often, image, sceneShown, stage, view, viewChanged } from './support.mjs';
+import {
+  distance, each, image, length, middle, minus, often, sceneShown, stage, test, view, viewChanged,
+} from './support.mjs';
 
 const { visit } = await stage();
 
-/** Visits the example at rest; `act` gets the page, the view and the canvas's middle. */
-const looking = (act, context) => () => visit('?scene=soup.glb', async (page) => {
+/** Tests on one page with the example, with a mouse and keys and with fingers. */
+const withMouse = [], withFingers = [];
+
+/** A test that gets the page, the first view at rest, and the canvas's middle. `glides`: views change gradually, as
+ *  they do by default, which takes many frames. */
+const looking = (act, { glides = false } = {}) => async (page) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.evaluate(() => {
+    document.querySelector('input[name=mode][value=orbit]').click();
+    document.getElementById('home').click();
+    document.activeElement.blur();
+  });
+  const first = await view(page);
+  if (glides) await page.emulateMedia({ reducedMotion: 'no-preference' });
+  await act(page, first, await middle(page));
+};
+const mouse = (name, act, options) => withMouse.push([name, looking(act, options)]);
+const fingers = (name, act, options) => withFingers.push([name, looking(act, options)]);
+
+const testAll = (name, tests, context) => test(name, (running) => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
-  await act(page, await view(page), await middle(page));
-}, context);
+  await each(running, tests, page);
+}, context));
 
 async function drag(page, { x, y }, dx, dy, options = {}) {
   await page.mouse.move(x, y);
@@ -34,12 +53,12 @@ function assertMovedAlong(before, after) {
   assert.ok(distance(before.target, after.target) > 0.02, 'they move');
 }
 
-test('a drag turns the scene', looking(async (page, before, at) => {
+mouse('a drag turns the scene', async (page, before, at) => {
   await drag(page, at, 80, 20);
   assertTurned(before, await viewChanged(page, before));
-}));
+}, { glides: true });
 
-test('right drag and Shift drag move the scene along', looking(async (page, before, at) => {
+mouse('right drag and Shift drag move the scene along', async (page, before, at) => {
   await drag(page, at, 60, 0, { button: 'right' });
   const moved = await viewChanged(page, before);
   assertMovedAlong(before, moved);
@@ -47,9 +66,9 @@ test('right drag and Shift drag move the scene along', looking(async (page, befo
   await drag(page, at, 0, 60);
   await page.keyboard.up('Shift');
   assertMovedAlong(moved, await viewChanged(page, moved));
-}));
+});
 
-test('the wheel goes nearer and farther, towards the pointer', looking(async (page, before, { x, y, box }) => {
+mouse('the wheel goes nearer and farther, towards the pointer', async (page, before, { x, y, box }) => {
   await page.mouse.move(x, y);
   await page.mouse.wheel(0, -300);
   const nearer = await viewChanged(page, before);
@@ -62,15 +81,15 @@ test('the wheel goes nearer and farther, towards the pointer', looking(async (pa
   await page.mouse.wheel(0, -300);
   const aside = await viewChanged(page, back);
   assert.ok(distance(aside.target, before.target) > 0.1, 'away from the middle the target moves');
-}));
+}, { glides: true });
 
-test('a double click brings a point to the centre', looking(async (page, before, { x, y }) => {
+mouse('a double click brings a point to the centre', async (page, before, { x, y }) => {
   await page.mouse.dblclick(x - 40, y + 10);
   const after = await viewChanged(page, before);
   assert.ok(distance(after.target, before.target) > 0.05, 'another target');
-}));
+});
 
-test('keys on the image', looking(async (page, before) => {
+mouse('keys on the image', async (page, before) => {
   await page.focus('#canvas');
   await page.keyboard.press('ArrowRight');
   const turned = await viewChanged(page, before);
@@ -83,9 +102,9 @@ test('keys on the image', looking(async (page, before) => {
   assert.ok(reach(nearer) < reach(moved), 'plus is nearer');
   await page.keyboard.press('-');
   assert.ok(reach(await viewChanged(page, nearer)) > reach(nearer), 'minus is farther');
-}));
+});
 
-test('keys that fly, for as long as they are held', looking(async (page, before) => {
+mouse('keys that fly, for as long as they are held', async (page, before) => {
   await page.focus('#canvas');
   await page.keyboard.down('w');
   const had = await page.evaluate(() => framesHad);
@@ -97,9 +116,9 @@ test('keys that fly, for as long as they are held', looking(async (page, before)
   assert.ok(along > 0.999, `straight ahead: ${along}`);
   assert.ok(await page.isChecked('input[name=mode][value=fly]'), 'the panel shows the mode');
   near((await view(page)).eye, after.eye, 'it stops afterwards');
-}));
+});
 
-test('digits, F, R and M', looking(async (page, before) => {
+mouse('digits, F, R and M', async (page, before) => {
   await page.keyboard.press('1');
   const front = await viewChanged(page, before);
   await page.keyboard.press('5');
@@ -112,17 +131,17 @@ test('digits, F, R and M', looking(async (page, before) => {
   assert.ok(await page.isChecked('input[name=mode][value=fly]'));
   await page.keyboard.press('f');
   assert.ok(await page.isChecked('input[name=mode][value=orbit]'), 'F shows all, in orbit mode');
-}));
+}, { glides: true });
 
-test('I turns the scene upside down, and back', looking(async (page, before) => {
+mouse('I turns the scene upside down, and back', async (page, before) => {
   await page.keyboard.press('i');
   const turned = await viewChanged(page, before);
   near(turned.up, before.up.map((value) => -value), 'the up axis');
   await page.keyboard.press('i');
   near((await viewChanged(page, turned)).up, before.up, 'the up axis again');
-}));
+});
 
-test('views, cameras and saved views of the panel', looking(async (page, before) => {
+mouse('views, cameras and saved views of the panel', async (page, before) => {
   await page.click('#camera-next');  // the first camera is the current view
   await page.click('#camera-next');
   const camera = await viewChanged(page, before);
@@ -136,9 +155,9 @@ test('views, cameras and saved views of the panel', looking(async (page, before)
   await sceneShown(page, 'soup');
   near((await view(page)).eye, camera.eye, 'a reload keeps the view');
   assert.deepEqual(await page.locator('#saved .go').allTextContents(), ['mine'], 'saved views are kept');
-}));
+});
 
-test('debug views, with legends', looking(async (page) => {
+mouse('debug views, with legends', async (page) => {
   const colors = await image(page);
   await page.keyboard.press('v');
   await page.waitForFunction(() => location.hash.includes('look='));
@@ -151,7 +170,9 @@ test('debug views, with legends', looking(async (page) => {
   await page.selectOption('#debug-view', 'color');
   await page.waitForFunction(() => !location.hash.includes('look='));
   assert.ok(colors.equals(await image(page)), 'the colours return');
-}));
+});
+
+testAll('with a mouse and keys', withMouse);
 
 // -- fingers ----------------------------------------------------------------------------------------
 
@@ -169,29 +190,31 @@ async function swipe(page, lines) {
   await client.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
 }
 
-test('one finger turns', looking(async (page, before, { x, y }) => {
+fingers('one finger turns', async (page, before, { x, y }) => {
   await swipe(page, [[{ x, y }, { x: x + 80, y }]]);
   assertTurned(before, await viewChanged(page, before));
-}, phone));
+});
 
-test('two fingers pinch, which doubles the scale', looking(async (page, before, { x, y }) => {
+fingers('two fingers pinch, which doubles the scale', async (page, before, { x, y }) => {
   await swipe(page, [[{ x: x - 40, y }, { x: x - 80, y }], [{ x: x + 40, y }, { x: x + 80, y }]]);
   const after = await viewChanged(page, before);
   assert.ok(Math.abs(reach(after) / reach(before) - 0.5) < 0.01, `half the distance: ${reach(after) / reach(before)}`);
   near(after.target, before.target, 'the middle stays');
-}, phone));
+});
 
-test('two fingers move the scene along', looking(async (page, before, { x, y }) => {
+fingers('two fingers move the scene along', async (page, before, { x, y }) => {
   await swipe(page, [[{ x: x - 40, y }, { x: x - 40, y: y + 60 }], [{ x: x + 40, y }, { x: x + 40, y: y + 60 }]]);
   const after = await viewChanged(page, before);
   // Touch events are sent for one finger after the other, so their distance varies on the way.
   assert.ok(Math.abs(reach(after) / reach(before) - 1) < 0.02, 'the distance stays');
   assert.ok(distance(before.target, after.target) > 0.1, 'the target moves');
-}, phone));
+});
 
-test('two taps bring a point to the centre', looking(async (page, before, { x, y }) => {
+fingers('two taps bring a point to the centre', async (page, before, { x, y }) => {
   await page.touchscreen.tap(x - 30, y);
   await page.touchscreen.tap(x - 30, y);
   const after = await viewChanged(page, before);
   assert.ok(distance(after.target, before.target) > 0.05, 'another target');
-}, phone));
+}, { glides: true });
+
+testAll('with fingers', withFingers, phone);

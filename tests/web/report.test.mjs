@@ -4,8 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test } from 'node:test';
-import { programs, scratch, source, stage } from './support.mjs';
+import { each, programs, scratch, source, stage, test } from './support.mjs';
 
 const folder = scratch();
 const { visit } = await stage({ folder });
@@ -43,12 +42,13 @@ function report(files) {
   return readFileSync(join(folder, 'page.html'), 'utf8');
 }
 
+const chart = /<script>\s*\/\*!\s*\* Chart\.js[^]*?<\/script>/;
+
 for (const [kind, { files, words, tables, plots, images = 0 }] of Object.entries(kinds))
-  for (const library of [true, false])
-    test(`${kind}, ${library ? 'with' : 'without'} plots`, async (context) => {
-      const html = report(files);
-      const chart = /<script>\s*\/\*!\s*\* Chart\.js[^]*?<\/script>/;
-      if (library && !chart.test(html)) return context.skip('chart.js is not installed');
+  test(kind, async (context) => {
+    const html = report(files);
+    const shows = (library) => async (part) => {
+      if (library && !chart.test(html)) return part.skip('chart.js is not installed');
       writeFileSync(join(folder, 'page.html'), library ? html : html.replace(chart, ''));
       await visit('page.html', async (page) => {
         const text = await page.locator('body').innerText();
@@ -60,4 +60,6 @@ for (const [kind, { files, words, tables, plots, images = 0 }] of Object.entries
         assert.equal(await page.locator('figure img').count(), images);
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false);
       }, { viewport: { width: 390, height: 800 }, expected: [/Failed to load resource/] }); // images of missing files
-    });
+    };
+    await each(context, [['with plots', shows(true)], ['without plots', shows(false)]]);
+  });
