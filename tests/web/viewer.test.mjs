@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { readPng } from './png.mjs';
-import { source, stage, test } from './support.mjs';
+import { each, source, stage, test } from './support.mjs';
 
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes) => (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes);
@@ -58,22 +58,26 @@ const tried = (page, body, given) => page.evaluate(async ([text, what]) => {
   }
 }, [body, given]);
 
-const onViewer = (body, options) => () => visit('drawing.html', async (page) => {
+const onViewer = (body, options) => (context) => visit('drawing.html', async (page) => {
   await drawingPage(page);
-  await body(page);
+  await body(page, context);
 }, options);
+
+/** Tests on one page with a viewer; each loads its own scene. */
+const onOnePage = [];
+const part = (name, body) => onOnePage.push([name, body]);
 
 const image = (page) => tried(page, `
   const bytes = new Uint8Array(await (await viewer.screenshot({ width: 64, height: 48 })).arrayBuffer());
   return btoa(String.fromCharCode(...bytes));`).then(({ result }) => readPng(Buffer.from(result, 'base64')));
 const colours = ({ pixels }) => new Set(new Uint32Array(pixels.buffer.slice(pixels.byteOffset, pixels.byteOffset + pixels.length))).size;
 
-test('a scene of a thousand cameras', onViewer(async (page) => {
+part('a scene of a thousand cameras', async (page) => {
   const { result } = await tried(page, `return (await viewer.load({ url: 'thousand.glb' })).cameras.length;`);
   assert.ok(result > 900, `${result} cameras`);
   assert.equal((await tried(page, `viewer.showCamera(${result - 1}); return (await viewer.load({ url: 'soup.glb' })).triangles;`)).result, 7000);
   assert.equal((await tried(page, `viewer.showCamera(5000);`)).kind, 'usage');
-}));
+});
 
 test('a first image goes with its load', onViewer(async (page) => {
   const begun = `const first = new Promise((resolve) => viewer.on('preview', resolve));
@@ -105,7 +109,7 @@ test('the background before a first image returns if loading fails', onViewer(as
   assert.deepEqual(result[1], [1, 0, 0]);
 }, { expected: [/404/] }));
 
-test('the first view of a scene without cameras has all of it in a canvas of any shape', onViewer(async (page) => {
+part('the first view of a scene without cameras has all of it in a canvas of any shape', async (page) => {
   const { result: [first, framed] } = await tried(page, `
     viewer.canvas.style.width = '40px';
     viewer.canvas.style.height = '160px';
@@ -113,23 +117,27 @@ test('the first view of a scene without cameras has all of it in a canvas of any
     await viewer.load({ url: 'far.off' });
     const first = viewer.getView();
     viewer.home();
-    return [first, viewer.getView()];`);
+    const framed = viewer.getView();
+    viewer.canvas.style.width = '64px';
+    viewer.canvas.style.height = '48px';
+    await still();
+    return [first, framed];`);
   for (const axis of [0, 1, 2]) assert.ok(Math.abs(first.eye[axis] - framed.eye[axis]) < 1e-6, `${first.eye} and ${framed.eye}`);
-}));
+});
 
-test('a load cancelled before it begins leaves no worker', onViewer(async (page) => {
+part('a load cancelled before it begins leaves no worker', async (page) => {
   const { kind } = await tried(page, `return viewer.load({ url: 'soup.glb' }, { signal: AbortSignal.abort() });`);
   assert.equal(kind, 'cancelled');
   for (let tries = 0; page.workers().length > 0 && tries < 50; ++tries) await page.waitForTimeout(100);
   assert.equal(page.workers().length, 0);
-}));
+});
 
-test('an address that cannot be decoded is used unchanged', onViewer(async (page) => {
+part('an address that cannot be decoded is used unchanged', async (page) => {
   assert.equal((await tried(page, `return (await viewer.load({ url: '50%.glb' })).triangles;`)).result, 7000);
   assert.equal((await tried(page, `return viewer.load({ url: 'http://[' });`)).kind, 'usage');
-}));
+});
 
-test('invalid values are rejected, and change nothing', onViewer(async (page) => {
+part('invalid values are rejected, and change nothing', async (page) => {
   await tried(page, `await viewer.load({ url: 'soup.glb' });`);
   for (const nonsense of ['viewer.resolution = { targetFps: -1 };', 'viewer.resolution = NaN;',
                           'await viewer.screenshot({ width: 0, height: 10 });', 'await viewer.screenshot({ width: 1e9, height: 1 });',
@@ -137,15 +145,15 @@ test('invalid values are rejected, and change nothing', onViewer(async (page) =>
                           `await viewer.show('everything');`])
     assert.equal((await tried(page, nonsense)).kind, 'usage', nonsense);
   assert.equal((await tried(page, 'viewer.draw(); return viewer.stats.scale;')).result, 1);
-}));
+});
 
-test('of two debug views the later one is shown', onViewer(async (page) => {
+part('of two debug views the later one is shown', async (page) => {
   await tried(page, `await viewer.load({ url: 'soup.glb' });`);
   const { result } = await tried(page, `await Promise.all([viewer.show('depth'), viewer.show('normals'), viewer.show('color')]); return viewer.debugView;`);
   assert.equal(result, 'color');
-}));
+});
 
-test('setting other properties does not move the view', onViewer(async (page) => {
+part('setting other properties does not move the view', async (page) => {
   const { result } = await tried(page, `
     await viewer.load({ url: 'soup.glb' });
     let views = 0;
@@ -158,7 +166,9 @@ test('setting other properties does not move the view', onViewer(async (page) =>
     await still();
     return [unmoved, views];`);
   assert.deepEqual(result, [0, 1]);
-}));
+});
+
+test('on one page', onViewer((page, context) => each(context, onOnePage, page)));
 
 test('an instance that does not start is reported', () => visit('models.json', async (page) => {
   await page.addInitScript(() => { WebAssembly.instantiate = () => Promise.reject(new RangeError('out of memory')); });
