@@ -13,6 +13,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace at_rest_test {
@@ -220,8 +221,9 @@ TEST_P(AtRest, NotWithAResolutionScaleOrPassesFromOutside) {
   EXPECT_FALSE(other.can_refine());
 }
 
-INSTANTIATE_TEST_SUITE_P(Context, AtRest, testing::ValuesIn(every_context),
-                         [](const auto& each) { return each.param.name; });
+// SplatsAtRest, below, accumulates in all contexts.
+INSTANTIATE_TEST_SUITE_P(Context, AtRest, in_osmesa(), context_name);
+INSTANTIATE_TEST_SUITE_P(Thorough, AtRest, in_the_others(), context_name);
 
 // -- splats ---------------------------------------------------------------------------------------
 
@@ -230,10 +232,17 @@ SplatKind kind_of(std::string_view name) {
                        [&](const SplatKind& kind) { return kind.name == name; });
 }
 
-class SplatsAtRest : public testing::TestWithParam<std::tuple<NamedContext, SplatBlending>> {
+struct NamedBlending {
+  const char* name;  // of a test parameter
+  SplatBlending blending;
+};
+constexpr NamedBlending blendings[] = {{"raster", SplatBlending::raster},
+                                       {"tiles", SplatBlending::tiles}};
+
+class SplatsAtRest : public testing::TestWithParam<InContext<NamedBlending>> {
  protected:
   gl::Context context = gl::Context::create(std::get<0>(GetParam()).request);
-  SplatBlending blending = std::get<1>(GetParam());
+  SplatBlending blending = std::get<1>(GetParam()).blending;
 };
 
 // Profiles without a low pass: alone, the image at rest smooths their edges.
@@ -265,15 +274,8 @@ TEST_P(SplatsAtRest, WithALowPassAreShownAsTheyAre) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Context, SplatsAtRest,
-                         testing::Combine(testing::ValuesIn(every_context),
-                                          testing::Values(SplatBlending::raster,
-                                                          SplatBlending::tiles)),
-                         [](const auto& each) {
-                           return std::string(std::get<0>(each.param).name) +
-                                  (std::get<1>(each.param) == SplatBlending::tiles ? "_tiles"
-                                                                                   : "_raster");
-                         });
+INSTANTIATE_TEST_SUITE_P(, SplatsAtRest, in_contexts(blendings), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, SplatsAtRest, in_other_contexts(blendings), name_in_context);
 
 // The reason of has_image_at_rest(). The true value of a pixel is the mean over its area of splats
 // without a low pass. Mip's low pass, made for one sample a pixel, comes nearer to it than the mean

@@ -13,6 +13,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace covered_faces_test {
@@ -152,17 +153,12 @@ TEST(CoveredFaces, AreAllThereIsWhereFloatsKnowTooLittle) {
   EXPECT_FALSE(covered.begin_frame(frame_of(camera), subpixel_bits));
 }
 
-struct ImageCase {
-  NamedContext context;
-  Kind kind;
-};
-
-class CoveredFacesImage : public testing::TestWithParam<ImageCase> {};
+class CoveredFacesImage : public testing::TestWithParam<InContext<Kind>> {};
 
 /// Views from outside, from inside, and from close by, where faces are large.
 TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
-  const auto& [context_request, kind] = GetParam();
-  const gl::Context context = gl::Context::create(context_request.request);
+  const auto& [named, kind] = GetParam();
+  const gl::Context context = gl::Context::create(named.request);
   ASSERT_TRUE(context.capabilities().software);
   const std::uint64_t seed = 7;
   Random random(seed);
@@ -232,19 +228,10 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
   }
 }
 
-std::vector<ImageCase> image_cases() {
-  std::vector<ImageCase> cases;
-  for (const NamedContext& context : every_context)
-    for (const Kind kind : {Kind::face_colors, Kind::vertex_colors, Kind::lattice_mlp})
-      cases.push_back({context, kind});
-  return cases;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, CoveredFacesImage, testing::ValuesIn(image_cases()),
-                         [](const auto& test) {
-                           return std::string(test.param.context.name) + "_" +
-                                  to_string(test.param.kind);
-                         });
+constexpr Kind image_kinds[] = {Kind::face_colors, Kind::vertex_colors, Kind::lattice_mlp};
+INSTANTIATE_TEST_SUITE_P(, CoveredFacesImage, in_contexts(image_kinds), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, CoveredFacesImage, in_other_contexts(image_kinds),
+                         name_in_context);
 
 }  // namespace covered_faces_test
 }  // namespace tureen::test

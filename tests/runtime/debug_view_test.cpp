@@ -20,8 +20,10 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/made_once.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace debug_view_test {
@@ -155,10 +157,12 @@ glm::dvec3 normal_of(const TriangleSoup& soup, std::uint32_t face, glm::dvec3 to
 
 struct Scenery {
   std::uint64_t seed;
+  Kind kind;
+  double size;
   TriangleSoup soup;
   Camera camera;
 
-  Scenery(std::uint64_t s, Kind kind, double size = 0.3) : seed(s) {
+  Scenery(std::uint64_t s, Kind k, double of_faces = 0.3) : seed(s), kind(k), size(of_faces) {
     soup = random_soup(s, {.kind = kind, .faces = 120, .size = size});
     Random random(s);
     camera = random_camera(random, width, height);
@@ -166,14 +170,16 @@ struct Scenery {
 };
 
 /// All hits of every pixel, nearest first, rasterised as in GL.
-std::vector<std::vector<Hit>> all_hits(const Scenery& scenery) {
-  std::vector<std::vector<Hit>> result(std::size_t(width) * height);
-  const oracle::Rays rays(scenery.soup, glm::dmat4(1.0), scenery.camera,
-                          {.coverage = oracle::Coverage::snapped});
-  rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
-    result[pixel_index(column, row)].assign(hits.begin(), hits.end());
+const std::vector<std::vector<Hit>>& all_hits(const Scenery& scenery) {
+  return made_once(std::tuple(scenery.seed, scenery.kind, scenery.size), [&] {
+    std::vector<std::vector<Hit>> result(std::size_t(width) * height);
+    const oracle::Rays rays(scenery.soup, glm::dmat4(1.0), scenery.camera,
+                            {.coverage = oracle::Coverage::snapped});
+    rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
+      result[pixel_index(column, row)].assign(hits.begin(), hits.end());
+    });
+    return result;
   });
-  return result;
 }
 
 using Expected = std::function<std::optional<glm::dvec3>(int column, int row, const Hit&)>;
@@ -185,7 +191,7 @@ void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_rendere
                   const Expected& expected, double steps, double max_off = 0.002) {
   const Image8 image = debug_renderer.renderer().read_color();
   const std::vector<std::uint32_t> faces = faces_of(debug_renderer.renderer());
-  const auto hits = all_hits(scenery);
+  const auto& hits = all_hits(scenery);
   std::size_t compared = 0, off = 0;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
@@ -208,9 +214,8 @@ void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_rendere
       << "seed " << scenery.seed << ", of " << compared;
 }
 
-class DebugViews : public testing::TestWithParam<NamedContext> {
- protected:
-  gl::Context context = gl::Context::create(GetParam().request);
+struct InOneContext {
+  gl::Context context;
 
   DebugViewRenderer debug_renderer(const Scenery& scenery, DebugView what,
                                    FeatureChoice choice = {}) const {
@@ -221,50 +226,63 @@ class DebugViews : public testing::TestWithParam<NamedContext> {
   }
 };
 
+class DebugViews : public testing::TestWithParam<NamedContext>, protected InOneContext {
+ protected:
+  DebugViews() : InOneContext{gl::Context::create(GetParam().request)} {}
+};
+
+class DebugViewsOfKind : public testing::TestWithParam<InContext<Kind>>, protected InOneContext {
+ protected:
+  DebugViewsOfKind() : InOneContext{gl::Context::create(std::get<0>(GetParam()).request)} {}
+
+  /// Each kind has a seed of its own.
+  Scenery scenery(std::uint64_t first_seed) const {
+    const Kind kind = std::get<1>(GetParam());
+    return {first_seed + std::uint64_t(kind), kind};
+  }
+};
+
 /// Half a step for rounding, and half a step for the 16 bits of barycentrics: 1/512 of a texel at
 /// level 7, where neighbours may differ by the full range.
 constexpr double rounding = 1.02;
 
-TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
-  std::uint64_t seed = 30;
-  for (const Kind kind : all_kinds) {
-    const Scenery scenery(++seed, kind);
-    Renderer renderer =
-        renderer_of(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
-    renderer.draw({scenery.camera});
-    const auto expected = faces_of(renderer);
-    for (const DebugViewName& name : debug_view_names()) {
-      const bool all_fragments = name.what == DebugView::alpha || name.what == DebugView::overdraw;
-      if (why_not(name.what, scenery.soup) || all_fragments) continue;
-      const DebugViewRenderer shown = debug_renderer(scenery, name.what, {0, 1});
-      EXPECT_EQ(faces_of(shown.renderer()), expected) << name.name << ", seed " << seed;
-      const Image8 image = shown.renderer().read_color();
-      std::size_t off = 0;
-      for (std::size_t i = 0; i < expected.size(); ++i)
-        off += (image.pixels[i].a == 255) != (expected[i] != no_face);
-      // Lines also outline what the alpha test discards, and holes are drawn where no face is.
-      const bool same =
-          off == 0 || name.what == DebugView::wireframe || name.what == DebugView::holes;
-      EXPECT_TRUE(same) << name.name << ", seed " << seed << ": " << off << " pixels";
-    }
+TEST_P(DebugViewsOfKind, ShowTheFacesOfTheOrdinaryFrame) {
+  const Scenery scenery = this->scenery(31);
+  Renderer renderer =
+      renderer_of(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
+  renderer.draw({scenery.camera});
+  const auto expected = faces_of(renderer);
+  for (const DebugViewName& name : debug_view_names()) {
+    const bool all_fragments = name.what == DebugView::alpha || name.what == DebugView::overdraw;
+    if (why_not(name.what, scenery.soup) || all_fragments) continue;
+    const DebugViewRenderer shown = debug_renderer(scenery, name.what, {0, 1});
+    EXPECT_EQ(faces_of(shown.renderer()), expected) << name.name << ", seed " << scenery.seed;
+    const Image8 image = shown.renderer().read_color();
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      off += (image.pixels[i].a == 255) != (expected[i] != no_face);
+    // Lines also outline what the alpha test discards, and holes are drawn where no face is.
+    const bool same =
+        off == 0 || name.what == DebugView::wireframe || name.what == DebugView::holes;
+    EXPECT_TRUE(same) << name.name << ", seed " << scenery.seed << ": " << off << " pixels";
   }
 }
 
-TEST_P(DebugViews, FinalColorsAreThoseOfTheRenderer) {
-  std::uint64_t seed = 60;
-  for (const Kind kind : all_kinds) {
-    const Scenery scenery(++seed, kind);
-    Renderer renderer = renderer_of(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
-    renderer.draw({scenery.camera});
-    const Image8 expected = renderer.read_color();
-    const Image8 shown = debug_renderer(scenery, DebugView::color).renderer().read_color();
-    // Specialisations may change a colour by half a step, which rounding can make a whole step.
-    for (std::size_t i = 0; i < shown.pixels.size(); ++i)
-      for (int c = 0; c < 4; ++c)
-        ASSERT_LE(std::abs(int(shown.pixels[i][c]) - int(expected.pixels[i][c])), 1)
-            << to_string(kind) << ", seed " << seed;
-  }
+TEST_P(DebugViewsOfKind, FinalColorsAreThoseOfTheRenderer) {
+  const Scenery scenery = this->scenery(61);
+  Renderer renderer = renderer_of(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
+  renderer.draw({scenery.camera});
+  const Image8 expected = renderer.read_color();
+  const Image8 shown = debug_renderer(scenery, DebugView::color).renderer().read_color();
+  // Specialisations may change a colour by half a step, which rounding can make a whole step.
+  for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+    for (int c = 0; c < 4; ++c)
+      ASSERT_LE(std::abs(int(shown.pixels[i][c]) - int(expected.pixels[i][c])), 1)
+          << "seed " << scenery.seed;
 }
+
+INSTANTIATE_TEST_SUITE_P(, DebugViewsOfKind, in_contexts(all_kinds), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, DebugViewsOfKind, in_other_contexts(all_kinds), name_in_context);
 
 TEST_P(DebugViews, DepthIsTheOraclesOnItsScale) {
   const Scenery scenery(3, Kind::face_colors);
@@ -334,7 +352,7 @@ TEST_P(DebugViews, AlphaShowsAlsoWhatIsCutOut) {
                           Kind::uv_textures, Kind::uv_textures_mlp}) {
     const Scenery scenery(++seed, kind);
     const DebugViewRenderer shown = debug_renderer(scenery, DebugView::alpha);
-    const auto hits = all_hits(scenery);
+    const auto& hits = all_hits(scenery);
     const auto faces = faces_of(shown.renderer());
     std::size_t others = 0, cut_out = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
@@ -386,7 +404,7 @@ TEST_P(DebugViews, OverdrawCountsEveryFragment) {
   const DebugViewRenderer shown = debug_renderer(scenery, DebugView::overdraw);
   const auto counts = shown.read_fragment_counts();
   const Image8 image = shown.renderer().read_color();
-  const auto hits = all_hits(scenery);
+  const auto& hits = all_hits(scenery);
   ASSERT_EQ(counts.size(), hits.size());
   std::size_t off = 0, most = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -490,8 +508,9 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
   EXPECT_LE(off, 5u) << "seed " << scenery.seed;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DebugViews, testing::ValuesIn(every_context),
-                         [](const auto& test) { return std::string(test.param.name); });
+// Golden.DebugViews draws each view in all contexts.
+INSTANTIATE_TEST_SUITE_P(All, DebugViews, in_osmesa(), context_name);
+INSTANTIATE_TEST_SUITE_P(Thorough, DebugViews, in_the_others(), context_name);
 
 // -- without a device ---------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@
 #include "tests/support/agreement.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen {
 namespace edits_agreement_test {
@@ -89,14 +90,12 @@ TEST_P(EditedSoup, TakesTheBytesThatTheForecastSays) {
   EXPECT_LE(renderer.device_bytes(), forecast.bytes + 6 * 4096 * 16);
 }
 
-INSTANTIATE_TEST_SUITE_P(Case, EditedSoup,
-                         ::testing::Combine(::testing::ValuesIn(cases), ::testing::Bool(),
-                                            ::testing::Bool()),
-                         [](const auto& i) {
-                           return std::string(std::get<0>(i.param).name) +
-                                  (std::get<1>(i.param) ? "Float" : "Byte") +
-                                  (std::get<2>(i.param) ? "Mlp" : "");
-                         });
+constexpr auto case_name = [](const auto& i) {
+  return std::string(std::get<0>(i.param).name) + (std::get<1>(i.param) ? "Float" : "Byte") +
+         (std::get<2>(i.param) ? "Mlp" : "");
+};
+INSTANTIATE_TEST_SUITE_P(Case, EditedSoup, test::with_flags(cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Thorough, EditedSoup, test::with_other_flags(cases), case_name);
 
 TEST(FewerFaces, AreDrawnAsTheOracleHasThem) {
   for (const test::Kind kind : test::all_kinds) {

@@ -12,7 +12,9 @@
 #include "tests/support/agreement.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
+#include "tests/support/made_once.hpp"
 #include "tests/support/random_soups.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen {
 namespace gl_oracle_test {
@@ -89,14 +91,17 @@ TEST_P(GlOracle, AgreesWithDegenerateFacesAndNeedles) {
   expect_every_plan_agrees(soup, camera_for(seed() + 2000));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Soup, GlOracle, testing::Combine(testing::ValuesIn(test::all_kinds), testing::Values(1, 2)),
-    [](const auto& i) {
-      return to_string(std::get<0>(i.param)) + "Seed" + std::to_string(std::get<1>(i.param));
-    });
-
-class GlOracleContext : public testing::TestWithParam<std::tuple<test::NamedContext, test::Kind>> {
+constexpr auto kind_and_seed = [](const auto& i) {
+  return to_string(std::get<0>(i.param)) + "Seed" + std::to_string(std::get<1>(i.param));
 };
+INSTANTIATE_TEST_SUITE_P(Soup, GlOracle,
+                         testing::Combine(testing::ValuesIn(test::all_kinds), testing::Values(1)),
+                         kind_and_seed);
+INSTANTIATE_TEST_SUITE_P(Thorough, GlOracle,
+                         testing::Combine(testing::ValuesIn(test::all_kinds), testing::Values(2)),
+                         kind_and_seed);
+
+class GlOracleContext : public testing::TestWithParam<test::InContext<test::Kind>> {};
 
 // Contexts differ in shader language, clip control and driver. One soup of each appearance is
 // enough.
@@ -105,16 +110,14 @@ TEST_P(GlOracleContext, Agrees) {
   gl::Context context = gl::Context::create(named.request);
   const TriangleSoup soup = test::random_soup(3, {.kind = kind, .degree = 2});
   const Camera camera = camera_for(3);
-  expect_agreement(snapped_oracle(soup, camera), test::draw(context, soup, glm::dvec3(0), camera),
-                   named.name);
+  const OracleImage& oracle = test::made_once(kind, [&] { return snapped_oracle(soup, camera); });
+  expect_agreement(oracle, test::draw(context, soup, glm::dvec3(0), camera), named.name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Soup, GlOracleContext,
-                         testing::Combine(testing::ValuesIn(test::every_context),
-                                          testing::ValuesIn(test::all_kinds)),
-                         [](const auto& i) {
-                           return to_string(std::get<1>(i.param)) + "_" + std::get<0>(i.param).name;
-                         });
+INSTANTIATE_TEST_SUITE_P(, GlOracleContext, test::in_contexts(test::all_kinds),
+                         test::name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, GlOracleContext, test::in_other_contexts(test::all_kinds),
+                         test::name_in_context);
 
 // -- parameters of single appearances -----------------------------------------------------------
 
@@ -130,14 +133,14 @@ TEST_P(GlOracleLattice, AgreesAtThisLevel) {
   expect_every_plan_agrees(soup, camera_for(seed));
 }
 
-INSTANTIATE_TEST_SUITE_P(Level, GlOracleLattice,
-                         testing::Combine(testing::Range(0, 8), testing::Bool(), testing::Bool()),
-                         [](const auto& i) {
-                           return std::to_string(std::get<0>(i.param)) +
-                                  (std::get<1>(i.param) ? "Float" : "Byte") +
-                                  (std::get<2>(i.param) ? "Mlp" : "") + "Seed" +
-                                  std::to_string(100 + std::get<0>(i.param));
-                         });
+constexpr int levels[] = {0, 1, 2, 3, 4, 5, 6, 7};
+constexpr auto level_and_flags = [](const auto& i) {
+  return std::to_string(std::get<0>(i.param)) + (std::get<1>(i.param) ? "Float" : "Byte") +
+         (std::get<2>(i.param) ? "Mlp" : "") + "Seed" + std::to_string(100 + std::get<0>(i.param));
+};
+INSTANTIATE_TEST_SUITE_P(Level, GlOracleLattice, test::with_flags(levels), level_and_flags);
+INSTANTIATE_TEST_SUITE_P(Thorough, GlOracleLattice, test::with_other_flags(levels),
+                         level_and_flags);
 
 class GlOracleHarmonics : public testing::TestWithParam<std::tuple<int, ViewConvention>> {};
 
@@ -150,16 +153,26 @@ TEST_P(GlOracleHarmonics, AgreeAtThisDegree) {
   }
 }
 
+constexpr auto degree_and_view = [](const auto& i) {
+  return std::to_string(std::get<0>(i.param)) +
+         (std::get<1>(i.param) == ViewConvention::eye_to_surface ? "EyeToSurface" : "SurfaceToEye");
+};
+using OfDegree = std::tuple<int, ViewConvention>;
+// Both conventions have odd bands, in which they differ.
 INSTANTIATE_TEST_SUITE_P(Degree, GlOracleHarmonics,
-                         testing::Combine(testing::Range(0, 5),
-                                          testing::Values(ViewConvention::eye_to_surface,
-                                                          ViewConvention::surface_to_eye)),
-                         [](const auto& i) {
-                           return std::to_string(std::get<0>(i.param)) +
-                                  (std::get<1>(i.param) == ViewConvention::eye_to_surface
-                                       ? "EyeToSurface"
-                                       : "SurfaceToEye");
-                         });
+                         testing::Values(OfDegree(0, ViewConvention::eye_to_surface),
+                                         OfDegree(1, ViewConvention::surface_to_eye),
+                                         OfDegree(2, ViewConvention::eye_to_surface),
+                                         OfDegree(3, ViewConvention::surface_to_eye),
+                                         OfDegree(4, ViewConvention::eye_to_surface)),
+                         degree_and_view);
+INSTANTIATE_TEST_SUITE_P(Thorough, GlOracleHarmonics,
+                         testing::Values(OfDegree(0, ViewConvention::surface_to_eye),
+                                         OfDegree(1, ViewConvention::eye_to_surface),
+                                         OfDegree(2, ViewConvention::surface_to_eye),
+                                         OfDegree(3, ViewConvention::eye_to_surface),
+                                         OfDegree(4, ViewConvention::surface_to_eye)),
+                         degree_and_view);
 
 // A float coordinate may fall into the next texel of noise, so a few pixels differ strongly.
 TEST(GlOracleSingle, NearestTexelsAgree) {

@@ -13,6 +13,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace image_tiles_test {
@@ -128,53 +129,55 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   }
 }
 
+class KindsInTiles : public testing::TestWithParam<InContext<Kind>> {};
+
 /// Two effects change pixels. A different rounding of window coordinates, or clipping at a tile's
 /// border, can snap a corner to the next 1/256 of a pixel and move an edge past a centre (any
 /// difference). Different rounding of barycentrics changes a colour by one step. Over all
 /// appearances, seeds 1 to 3, sides 37 to 128, and one or four samples per pixel, at most 17 of
 /// 85,581 pixels were off by more than a step, 187 by any amount, and 9 in coverage; the means were
 /// 6, 30 and 2. The bounds are twice the maxima.
-TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
-  const gl::Context context = gl::Context::create(GetParam().request);
-  for (const Kind kind : all_kinds)
-    for (const int supersampling : {1, 2}) {
-      constexpr std::uint64_t seed = 2;
-      const TriangleSoup soup =
-          random_soup(seed, {.kind = kind, .faces = 300, .size = 0.2, .degenerate = true});
-      RenderOptions options{.background = glm::vec4(0.0f)};
-      options.plan.quality.supersampling = supersampling;
-      Renderer renderer = renderer_of(context, soup, {}, options);
-      Random random(seed);
-      const Camera camera = random_camera(random, 333, 257);
-      renderer.draw({camera});
-      const Image8 whole = renderer.read_color();
-      ImageTiles tiles = tiles_of(renderer, context.capabilities());
-      tiles.side = 128;
-      const Image8 image = draw_in_tiles({camera}, tiles);
-      std::size_t off = 0, off_by_more = 0, coverage = 0, transparent = 0;
-      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const glm::ivec4 difference =
-            abs(glm::ivec4(image.pixels[i]) - glm::ivec4(whole.pixels[i]));
-        const int largest = std::max({difference.r, difference.g, difference.b, difference.a});
-        off += largest > 0;
-        off_by_more += largest > 1;
-        coverage += difference.a > 0;
-        transparent += image.pixels[i].a == 0;
-        const bool straight = image.pixels[i].a == 0 || image.pixels[i].a == 255;
-        ASSERT_TRUE(straight || supersampling > 1);
-      }
-      const std::string what = to_string(kind) + ", seed " + std::to_string(seed) + ", " +
-                               std::to_string(supersampling) + " samples per axis";
-      EXPECT_LE(off_by_more, 34u) << what;
-      EXPECT_LE(off, 374u) << what;
-      EXPECT_LE(coverage, 18u) << what;
-      EXPECT_GT(transparent, image.pixels.size() / 10) << what;
-      EXPECT_LT(transparent, image.pixels.size()) << what;
+TEST_P(KindsInTiles, LookAsTheyDoWhole) {
+  const auto& [named, kind] = GetParam();
+  const gl::Context context = gl::Context::create(named.request);
+  for (const int supersampling : {1, 2}) {
+    constexpr std::uint64_t seed = 2;
+    const TriangleSoup soup =
+        random_soup(seed, {.kind = kind, .faces = 300, .size = 0.2, .degenerate = true});
+    RenderOptions options{.background = glm::vec4(0.0f)};
+    options.plan.quality.supersampling = supersampling;
+    Renderer renderer = renderer_of(context, soup, {}, options);
+    Random random(seed);
+    const Camera camera = random_camera(random, 333, 257);
+    renderer.draw({camera});
+    const Image8 whole = renderer.read_color();
+    ImageTiles tiles = tiles_of(renderer, context.capabilities());
+    tiles.side = 128;
+    const Image8 image = draw_in_tiles({camera}, tiles);
+    std::size_t off = 0, off_by_more = 0, coverage = 0, transparent = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      const glm::ivec4 difference = abs(glm::ivec4(image.pixels[i]) - glm::ivec4(whole.pixels[i]));
+      const int largest = std::max({difference.r, difference.g, difference.b, difference.a});
+      off += largest > 0;
+      off_by_more += largest > 1;
+      coverage += difference.a > 0;
+      transparent += image.pixels[i].a == 0;
+      const bool straight = image.pixels[i].a == 0 || image.pixels[i].a == 255;
+      ASSERT_TRUE(straight || supersampling > 1);
     }
+    const std::string what = to_string(kind) + ", seed " + std::to_string(seed) + ", " +
+                             std::to_string(supersampling) + " samples per axis";
+    EXPECT_LE(off_by_more, 34u) << what;
+    EXPECT_LE(off, 374u) << what;
+    EXPECT_LE(coverage, 18u) << what;
+    EXPECT_GT(transparent, image.pixels.size() / 10) << what;
+    EXPECT_LT(transparent, image.pixels.size()) << what;
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DrawnInTiles, testing::ValuesIn(every_context),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, DrawnInTiles, testing::ValuesIn(every_context), context_name);
+INSTANTIATE_TEST_SUITE_P(, KindsInTiles, in_contexts(all_kinds), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, KindsInTiles, in_other_contexts(all_kinds), name_in_context);
 
 /// An image wider than any device can draw, compared with the oracle, which has no limit.
 TEST(ImageTiles, AnImageBeyondTheDeviceShowsWhatTheOracleSees) {

@@ -8,8 +8,10 @@
 #include "runtime/renderer.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/made_once.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen {
 namespace quality_agreement_test {
@@ -22,21 +24,19 @@ Camera camera_for(std::uint64_t seed, int width, int height) {
   return test::random_camera(random, width, height);
 }
 
-using KindOnContext = std::tuple<test::NamedContext, Kind>;
-std::string name_of(const testing::TestParamInfo<KindOnContext>& info) {
-  return to_string(std::get<1>(info.param)) + "_" + std::get<0>(info.param).name;
-}
+using KindInContext = test::InContext<Kind>;
 
 // -- without antialiasing ------------------------------------------------------------------------
 
-class ShadingSites : public testing::TestWithParam<KindOnContext> {};
+class ShadingSites : public testing::TestWithParam<KindInContext> {};
 
 TEST_P(ShadingSites, Agrees) {
   const auto& [named, kind] = GetParam();
   gl::Context context = gl::Context::create(named.request);
   const TriangleSoup soup = test::random_soup(5, {.kind = kind, .degree = 2});
   const Camera camera = camera_for(5, 160, 120);
-  const OracleImage oracle = test::snapped_oracle(soup, {}, camera);
+  const OracleImage& oracle =
+      test::made_once(kind, [&] { return test::snapped_oracle(soup, {}, camera); });
   const Drawn deferred = test::draw(context, soup, {}, camera, {.site = ShadingSite::deferred});
   test::expect_agreement(oracle, deferred, "deferred");
   Drawn forward = test::draw(context, soup, {}, camera, {.site = ShadingSite::forward});
@@ -45,14 +45,13 @@ TEST_P(ShadingSites, Agrees) {
   test::expect_agreement(oracle, forward, "forward");
 }
 
-INSTANTIATE_TEST_SUITE_P(Soup, ShadingSites,
-                         testing::Combine(testing::ValuesIn(test::every_context),
-                                          testing::ValuesIn(test::all_kinds)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(, ShadingSites, test::in_contexts(test::all_kinds), test::name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, ShadingSites, test::in_other_contexts(test::all_kinds),
+                         test::name_in_context);
 
 // -- with antialiasing ---------------------------------------------------------------------------
 
-class Supersampling : public testing::TestWithParam<KindOnContext> {};
+class Supersampling : public testing::TestWithParam<KindInContext> {};
 
 // GL's samples are the oracle's rays. Where both show the same faces for all samples of a pixel,
 // its colour is the same up to the rounding of samples and of their mean.
@@ -62,8 +61,10 @@ TEST_P(Supersampling, AgreesWithTheSupersampledOracle) {
   const TriangleSoup soup = test::random_soup(6, {.kind = kind, .level = 3, .degree = 1});
   for (const int n : {2, 3}) {
     const Camera camera = camera_for(6, 96, 72);
-    const OracleImage oracle = render_oracle(
-        soup, {}, {camera}, {.rays = {.coverage = oracle::Coverage::snapped}, .supersampling = n});
+    const OracleImage& oracle = test::made_once(std::pair(kind, n), [&] {
+      return render_oracle(soup, {}, {camera},
+                           {.rays = {.coverage = oracle::Coverage::snapped}, .supersampling = n});
+    });
     const Drawn drawn =
         test::draw(context, soup, {}, camera,
                    {.site = ShadingSite::deferred, .quality = {.supersampling = n}});
@@ -99,12 +100,12 @@ TEST_P(Supersampling, AgreesWithTheSupersampledOracle) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Soup, Supersampling,
-                         testing::Combine(testing::ValuesIn(test::every_context),
-                                          testing::ValuesIn(test::all_kinds)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(, Supersampling, test::in_contexts(test::all_kinds),
+                         test::name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, Supersampling, test::in_other_contexts(test::all_kinds),
+                         test::name_in_context);
 
-class ResolutionScale : public testing::TestWithParam<KindOnContext> {};
+class ResolutionScale : public testing::TestWithParam<KindInContext> {};
 
 // The samples of a coarser image are the oracle's rays, too: the camera scales exactly, even though
 // 331 x 247 at these scales is not a whole number of samples.
@@ -123,7 +124,9 @@ TEST_P(ResolutionScale, SamplesAreTheOracles) {
     const glm::ivec2 size = renderer.sample_size();
     EXPECT_EQ(size, glm::ivec2(std::lround(331 * scale), std::lround(247 * scale)));
     EXPECT_EQ(renderer.read_color().width, camera.width);
-    const OracleImage oracle = test::snapped_oracle(soup, {}, resampled(camera, size.x, size.y));
+    const OracleImage& oracle = test::made_once(std::pair(kind, scale), [&] {
+      return test::snapped_oracle(soup, {}, resampled(camera, size.x, size.y));
+    });
     const auto faces = faces_of(renderer);
     ASSERT_EQ(faces.size(), oracle.face.size());
     std::size_t other = 0;
@@ -134,10 +137,10 @@ TEST_P(ResolutionScale, SamplesAreTheOracles) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Soup, ResolutionScale,
-                         testing::Combine(testing::ValuesIn(test::every_context),
-                                          testing::ValuesIn(test::all_kinds)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(, ResolutionScale, test::in_contexts(test::all_kinds),
+                         test::name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, ResolutionScale, test::in_other_contexts(test::all_kinds),
+                         test::name_in_context);
 
 }  // namespace quality_agreement_test
 }  // namespace tureen

@@ -12,6 +12,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace resampling_test {
@@ -54,68 +55,65 @@ const Variant variants[] = {
     {.name = "baseline", .pipeline = PipelineKind::baseline},
 };
 
-class Resampling : public testing::TestWithParam<NamedContext> {
+class Resampling : public testing::TestWithParam<InContext<Variant>> {
  protected:
-  static RenderOptions options(const Variant& variant, float background_alpha) {
+  RenderOptions options(float background_alpha) const {
     RenderOptions result{.plan = variant.plan, .limits = {}};
     result.background = glm::vec4(0.9f, 0.2f, 0.5f, background_alpha);
     return result;
   }
-  Image8 draw(const gl::Context& context, const Camera& camera, const Variant& variant,
-              const RenderOptions& options) const {
+  Image8 draw(const Camera& camera, const RenderOptions& options) const {
     Renderer renderer = make_renderer(context, soup, {}, variant.pipeline, options);
     renderer.draw({camera});
     return renderer.read_color();
   }
+  const gl::Context context = gl::Context::create(std::get<0>(GetParam()).request);
+  const Variant variant = std::get<1>(GetParam());
   const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
 };
 
 // A supersampled image is the mean of an image n times as large.
 TEST_P(Resampling, SupersamplingIsTheMeanOfALargerImage) {
-  const gl::Context context = gl::Context::create(GetParam().request);
   const Camera camera = camera_of(61, 43);
-  for (const Variant& variant : variants)
-    for (const int n : {2, 3, 8}) {
-      SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(n));
-      RenderOptions all = options(variant, n == 3 ? 0.0f : 1.0f);
-      const Image8 large = draw(context, resampled(camera, 61 * n, 43 * n), variant, all);
-      all.plan.quality.supersampling = n;
-      expect_filtered(draw(context, camera, variant, all), [&](int x, int y) {
-        WeightedMean mean;
-        for (int i = 0; i < n * n; ++i)
-          mean.add(large.at(n * x + i % n, n * y + i / n), 1.0 / (n * n));
-        return mean.result();
-      });
-    }
+  for (const int n : {2, 3, 8}) {
+    SCOPED_TRACE(n);
+    RenderOptions all = options(n == 3 ? 0.0f : 1.0f);
+    const Image8 large = draw(resampled(camera, 61 * n, 43 * n), all);
+    all.plan.quality.supersampling = n;
+    expect_filtered(draw(camera, all), [&](int x, int y) {
+      WeightedMean mean;
+      for (int i = 0; i < n * n; ++i)
+        mean.add(large.at(n * x + i % n, n * y + i / n), 1.0 / (n * n));
+      return mean.result();
+    });
+  }
 }
 
 TEST_P(Resampling, ScaleInterpolatesASmallerImage) {
-  const gl::Context context = gl::Context::create(GetParam().request);
   const Camera camera = camera_of(61, 43);
-  for (const Variant& variant : variants)
-    for (const double scale : {0.25, 0.5, 0.9}) {
-      SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(scale));
-      RenderOptions all = options(variant, scale == 0.5 ? 0.0f : 1.0f);
-      const auto width = int(std::lround(61 * scale)), height = int(std::lround(43 * scale));
-      const Image8 small = draw(context, resampled(camera, width, height), variant, all);
-      all.plan.quality.resolution_scale = scale;
-      expect_filtered(draw(context, camera, variant, all), [&](int x, int y) {
-        const double u = std::clamp((x + 0.5) * width / 61.0 - 0.5, 0.0, width - 1.0);
-        const double v = std::clamp((y + 0.5) * height / 43.0 - 0.5, 0.0, height - 1.0);
-        const int left = int(u), top = int(v);
-        const int right = std::min(left + 1, width - 1), bottom = std::min(top + 1, height - 1);
-        WeightedMean mean;
-        mean.add(small.at(left, top), (1 - u + left) * (1 - v + top));
-        mean.add(small.at(right, top), (u - left) * (1 - v + top));
-        mean.add(small.at(left, bottom), (1 - u + left) * (v - top));
-        mean.add(small.at(right, bottom), (u - left) * (v - top));
-        return mean.result();
-      });
-    }
+  for (const double scale : {0.25, 0.5, 0.9}) {
+    SCOPED_TRACE(scale);
+    RenderOptions all = options(scale == 0.5 ? 0.0f : 1.0f);
+    const auto width = int(std::lround(61 * scale)), height = int(std::lround(43 * scale));
+    const Image8 small = draw(resampled(camera, width, height), all);
+    all.plan.quality.resolution_scale = scale;
+    expect_filtered(draw(camera, all), [&](int x, int y) {
+      const double u = std::clamp((x + 0.5) * width / 61.0 - 0.5, 0.0, width - 1.0);
+      const double v = std::clamp((y + 0.5) * height / 43.0 - 0.5, 0.0, height - 1.0);
+      const int left = int(u), top = int(v);
+      const int right = std::min(left + 1, width - 1), bottom = std::min(top + 1, height - 1);
+      WeightedMean mean;
+      mean.add(small.at(left, top), (1 - u + left) * (1 - v + top));
+      mean.add(small.at(right, top), (u - left) * (1 - v + top));
+      mean.add(small.at(left, bottom), (1 - u + left) * (v - top));
+      mean.add(small.at(right, bottom), (u - left) * (v - top));
+      return mean.result();
+    });
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Everywhere, Resampling, testing::ValuesIn(every_context),
-                         [](const auto& i) { return i.param.name; });
+INSTANTIATE_TEST_SUITE_P(, Resampling, in_contexts(variants), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, Resampling, in_other_contexts(variants), name_in_context);
 
 TEST(ResamplingLimits, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsDrawn) {
   const gl::Context context = gl::Context::create(osmesa);

@@ -6,6 +6,7 @@
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/renderer_of.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace shading_stage_test {
@@ -16,44 +17,58 @@ PlanPreferences deferred(ShadingStage stage) {
 
 // -- the images ---------------------------------------------------------------------------------
 
+constexpr NamedContext contexts[] = {
+    {"osmesa", osmesa},
+    {"egl_core", {.backend = gl::Backend::egl}},
+    {"egl_es31", {.backend = gl::Backend::egl, .api = gl::Api::es, .major = 3, .minor = 1}}};
+
+/// Every byte must match: both stages call the same function with the same numbers. A GPU's
+/// compiler might contract products and sums in only one of them; no GPU was tested.
+void expect_same(const gl::Context& context, const TriangleSoup& soup,
+                 std::span<const Camera> cameras, RenderOptions options, const std::string& what) {
+  options.plan.shading_stage = ShadingStage::fragment;
+  Renderer fragment = renderer_of(context, soup, {}, options);
+  options.plan.shading_stage = ShadingStage::compute;
+  Renderer compute = renderer_of(context, soup, {}, options);
+  for (const Camera& camera : cameras) {
+    fragment.draw({camera});
+    compute.draw({camera});
+    const Image8 expected = fragment.read_color(), actual = compute.read_color();
+    ASSERT_EQ(actual.pixels.size(), expected.pixels.size()) << what;
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < actual.pixels.size(); ++i)
+      different += actual.pixels[i] != expected.pixels[i];
+    EXPECT_EQ(different, 0u) << what << ", of " << camera.width << "x" << camera.height;
+  }
+}
+
+class ShadingStagesOfKind : public testing::TestWithParam<InContext<Kind>> {};
+
+TEST_P(ShadingStagesOfKind, ShowTheSameAtOddSizes) {
+  const auto& [named, kind] = GetParam();
+  const gl::Context context = gl::Context::create(named.request);
+  if (!context.capabilities().compute_shaders) GTEST_SKIP() << "no compute shaders";
+  const std::vector<Camera> cameras{camera_of(1, 1), camera_of(7, 5), camera_of(641, 359)};
+  for (const std::uint64_t seed : {31, 32})
+    expect_same(
+        context,
+        random_soup(seed,
+                    {.kind = kind, .faces = 80, .size = 0.3, .degenerate = true, .degree = 2}),
+        cameras, {.plan = deferred({})}, "seed " + std::to_string(seed));
+}
+
+INSTANTIATE_TEST_SUITE_P(, ShadingStagesOfKind, in_contexts(all_kinds, contexts), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, ShadingStagesOfKind, in_other_contexts(all_kinds, contexts),
+                         name_in_context);
+
 class ShadingStages : public testing::TestWithParam<NamedContext> {
  protected:
   void SetUp() override {
     if (!context_.capabilities().compute_shaders) GTEST_SKIP() << "no compute shaders";
   }
 
-  /// Every byte must match: both stages call the same function with the same numbers. A GPU's
-  /// compiler might contract products and sums in only one of them; no GPU was tested.
-  void expect_same(const TriangleSoup& soup, std::span<const Camera> cameras, RenderOptions options,
-                   const std::string& what) {
-    options.plan.shading_stage = ShadingStage::fragment;
-    Renderer fragment = renderer_of(context_, soup, {}, options);
-    options.plan.shading_stage = ShadingStage::compute;
-    Renderer compute = renderer_of(context_, soup, {}, options);
-    for (const Camera& camera : cameras) {
-      fragment.draw({camera});
-      compute.draw({camera});
-      const Image8 expected = fragment.read_color(), actual = compute.read_color();
-      ASSERT_EQ(actual.pixels.size(), expected.pixels.size()) << what;
-      std::size_t different = 0;
-      for (std::size_t i = 0; i < actual.pixels.size(); ++i)
-        different += actual.pixels[i] != expected.pixels[i];
-      EXPECT_EQ(different, 0u) << what << ", of " << camera.width << "x" << camera.height;
-    }
-  }
-
   gl::Context context_ = gl::Context::create(GetParam().request);
 };
-
-TEST_P(ShadingStages, ShowTheSameOfEveryAppearanceAtOddSizes) {
-  const std::vector<Camera> cameras{camera_of(1, 1), camera_of(7, 5), camera_of(641, 359)};
-  for (const Kind kind : all_kinds)
-    for (const std::uint64_t seed : {31, 32})
-      expect_same(
-          random_soup(seed,
-                      {.kind = kind, .faces = 80, .size = 0.3, .degenerate = true, .degree = 2}),
-          cameras, {.plan = deferred({})}, to_string(kind) + ", seed " + std::to_string(seed));
-}
 
 TEST_P(ShadingStages, ShowTheSameOverEveryBackground) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
@@ -65,18 +80,20 @@ TEST_P(ShadingStages, ShowTheSameOverEveryBackground) {
   generic.specialise = false;
   for (const glm::vec4& background : backgrounds)
     for (const PlanPreferences& plan : {deferred({}), shades_background, generic})
-      expect_same(soup, camera, {.plan = plan, .background = background},
+      expect_same(context_, soup, camera, {.plan = plan, .background = background},
                   "background of alpha " + std::to_string(background.a));
   const TriangleSoup nothing{.positions = {}, .triangles = {}, .appearance = FaceColors{}};
-  expect_same(nothing, camera, {.plan = deferred({}), .background = backgrounds[0]}, "no face");
+  expect_same(context_, nothing, camera, {.plan = deferred({}), .background = backgrounds[0]},
+              "no face");
 }
 
 TEST_P(ShadingStages, ShowTheSameWithEveryQuality) {
   const std::vector<Camera> camera{camera_of(61, 47)};
   for (const Quality& quality : {Quality{.supersampling = 3}, Quality{.resolution_scale = 0.5}})
-    expect_same(soup_of(Kind::lattice_mlp), camera, options_with(quality), describe(quality));
-  expect_same(soup_of(Kind::lattice_mlp), camera, {.plan = {.site = ShadingSite::forward}},
-              "forward");
+    expect_same(context_, soup_of(Kind::lattice_mlp), camera, options_with(quality),
+                describe(quality));
+  expect_same(context_, soup_of(Kind::lattice_mlp), camera,
+              {.plan = {.site = ShadingSite::forward}}, "forward");
 }
 
 TEST_P(ShadingStages, TakeTurnsWithoutATrace) {
@@ -94,12 +111,7 @@ TEST_P(ShadingStages, TakeTurnsWithoutATrace) {
     }
 }
 
-constexpr NamedContext contexts[] = {
-    {"osmesa", osmesa},
-    {"egl_core", {.backend = gl::Backend::egl}},
-    {"egl_es31", {.backend = gl::Backend::egl, .api = gl::Api::es, .major = 3, .minor = 1}}};
-INSTANTIATE_TEST_SUITE_P(Contexts, ShadingStages, testing::ValuesIn(contexts),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(Contexts, ShadingStages, testing::ValuesIn(contexts), context_name);
 
 // -- the plan -------------------------------------------------------------------------------------
 

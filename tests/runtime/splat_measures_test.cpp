@@ -17,8 +17,10 @@
 #include "scene/clip_range.hpp"
 #include "scene/middle_bounds.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/made_once.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace splat_measures_test {
@@ -182,9 +184,7 @@ glm::dvec3 face_normal(const Scene& scene, const OracleImage& image, std::size_t
 
 // -- comparisons --------------------------------------------------------------------------------
 
-using Case = std::tuple<NamedContext, SplatKind>;
-
-class MeasuredSplats : public testing::TestWithParam<Case> {
+class MeasuredSplats : public testing::TestWithParam<InContext<SplatKind>> {
  protected:
   gl::Context context = gl::Context::create(std::get<0>(GetParam()).request);
   SplatKind kind = std::get<1>(GetParam());
@@ -196,7 +196,8 @@ TEST_P(MeasuredSplats, ArePickedByTheirMedianDepth) {
   int compared = 0, off = 0, on_splats = 0;
   for (const double distance : {3.0, 0.5}) {
     const Camera camera = camera_of_ball(distance, 80, 60);
-    const OracleImage expected = oracle_image(scene, camera);
+    const OracleImage& expected = made_once(std::pair(std::string(kind.name), distance),
+                                            [&] { return oracle_image(scene, camera); });
     renderer.draw({camera});
     for (int row = 1; row < camera.height; row += 13)
       for (int column = 2; column < camera.width; column += 19) {
@@ -239,16 +240,26 @@ struct Shown {
 /// The expected value of a view, or nullopt where nothing is visible.
 using Value = std::function<std::optional<glm::dvec3>(const Measured&, std::size_t pixel)>;
 
-/// Measures a scene on a device, and compares with the expected values.
+/// The oracle's image of a scene, and what is expected at its pixels.
+struct Truth {
+  Truth(const Scene& scene, const Camera& camera) : image(oracle_image(scene, camera)) {
+    const Expected expected(scene, camera);
+    for (int row = 0; row < camera.height; ++row)
+      for (int column = 0; column < camera.width; ++column)
+        pixels.push_back(expected.at(column, row, image.depth[pixels.size()]));
+  }
+  OracleImage image;
+  std::vector<Measured> pixels;
+};
+
+/// Measures a scene on a device, and compares with the expected values. No other scene may have its
+/// name.
 class Comparison {
  public:
-  Comparison(const gl::Context& context, const Scene& scene)
-      : scene_(scene), image_(oracle_image(scene, camera_)), shown_(context, scene) {
-    const Expected expected(scene, camera_);
-    for (int row = 0; row < camera_.height; ++row)
-      for (int column = 0; column < camera_.width; ++column)
-        pixels_.push_back(expected.at(column, row, image_.depth[pixels_.size()]));
-  }
+  Comparison(const gl::Context& context, const Scene& scene, const std::string& name)
+      : scene_(scene),
+        truth_(made_once(name, [&] { return Truth(scene, camera_); })),
+        shown_(context, scene) {}
 
   bool solid(std::size_t i) const { return image_.face[i] != no_face; }
   bool there(const Measured& m, std::size_t i) const { return m.count > 0 || solid(i); }
@@ -295,9 +306,10 @@ class Comparison {
  private:
   const Scene& scene_;
   Camera camera_ = camera_of_ball(2.5, 64, 48);
-  OracleImage image_;
+  const Truth& truth_;
+  const OracleImage& image_ = truth_.image;
+  const std::vector<Measured>& pixels_ = truth_.pixels;
   Shown shown_;
-  std::vector<Measured> pixels_;
 };
 
 std::optional<glm::dvec3> when(bool there, double value) {
@@ -309,7 +321,7 @@ std::optional<glm::dvec3> when(bool there, double value) {
 // except where a splat's alpha is min_alpha but for rounding.
 TEST_P(MeasuredSplats, HaveTheExpectedValuesAmongSoups) {
   const Scene scene = mixed_scene(kind, 600);
-  Comparison compared(context, scene);
+  Comparison compared(context, scene, std::string("among soups, ") + kind.name);
   const OracleImage& image = compared.image();
   compared.expect(DebugView::depth, 1e-4, [&](const Measured& m, std::size_t i) {
     const double through = compared.through(m, i);
@@ -331,7 +343,7 @@ TEST_P(MeasuredSplats, HaveTheExpectedValuesAmongSoups) {
 
 TEST_P(MeasuredSplats, HaveTheExpectedValuesAlone) {
   const Scene scene = scene_of(random_splats(kind, 1500, 0.15, 2));
-  Comparison compared(context, scene);
+  Comparison compared(context, scene, std::string("alone, ") + kind.name);
   compared.expect(DebugView::alpha, 1e-4, [&](const Measured& m, std::size_t i) {
     EXPECT_NEAR(m.alpha, compared.image().splat_alpha[i], 1e-12);
     return when(m.count > 0, m.alpha);
@@ -354,13 +366,8 @@ TEST_P(MeasuredSplats, HaveTheExpectedValuesAlone) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(, MeasuredSplats,
-                         testing::Combine(testing::ValuesIn(every_context),
-                                          testing::ValuesIn(splat_kinds)),
-                         [](const auto& each) {
-                           return std::string(std::get<0>(each.param).name) + "_" +
-                                  std::get<1>(each.param).name;
-                         });
+INSTANTIATE_TEST_SUITE_P(, MeasuredSplats, in_contexts(splat_kinds), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, MeasuredSplats, in_other_contexts(splat_kinds), name_in_context);
 
 // -- colours ------------------------------------------------------------------------------------
 

@@ -10,8 +10,10 @@
 #include "oracle/oracle.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
+#include "tests/support/made_once.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
+#include "tests/support/samples.hpp"
 
 namespace tureen::test {
 namespace splat_orders_test {
@@ -38,7 +40,7 @@ double psnr_of(const Image8& drawn, const OracleImage& expected) {
   return -10 * std::log10(sum / (3 * double(drawn.pixels.size())));
 }
 
-class SplatOrders : public testing::TestWithParam<std::tuple<NamedContext, SplatKind>> {
+class SplatOrders : public testing::TestWithParam<InContext<SplatKind>> {
  protected:
   gl::Context context = gl::Context::create(std::get<0>(GetParam()).request);
   SplatKind kind = std::get<1>(GetParam());
@@ -56,7 +58,8 @@ TEST_P(SplatOrders, ExactAgreesWithTheOracle) {
   const Camera camera = camera_of_ball(2.5, 120, 90);
   OracleOptions options{.splat_order = oracle::SplatOrder::exact};
   options.rays.coverage = oracle::Coverage::snapped;
-  const OracleImage expected = render_oracle(scene, {camera}, options);
+  const OracleImage& expected =
+      made_once(std::string(kind.name), [&] { return render_oracle(scene, {camera}, options); });
   const auto psnr = [&](Order order) {
     Renderer renderer = renderer_of(context, scene, order);
     renderer.draw({camera});
@@ -74,7 +77,8 @@ TEST_P(SplatOrders, StochasticHasTheMeanOfTheCentresOrder) {
   const Camera camera = camera_of_ball(2.5, 48, 36);
   OracleOptions options{.splat_stop = false};
   options.rays.coverage = oracle::Coverage::snapped;
-  const OracleImage expected = render_oracle(scene, {camera}, options);
+  const OracleImage& expected =
+      made_once(std::string(kind.name), [&] { return render_oracle(scene, {camera}, options); });
   Renderer renderer = renderer_of(context, scene, Order::stochastic);
   constexpr int frames = 64;
   const std::size_t pixels = expected.face.size();
@@ -119,7 +123,8 @@ TEST_P(SplatOrders, StochasticHasTheMeanOfTheCentresOrder) {
 TEST_P(SplatOrders, SupersampledAgreeWithTheOracle) {
   const Scene scene = scene_of(random_splats(kind, 2000, 0.05, 2));
   const Camera camera = camera_of_ball(3, 60, 45);
-  const OracleImage expected = render_oracle(scene, {camera}, {.supersampling = 4});
+  const OracleImage& expected = made_once(
+      std::string(kind.name), [&] { return render_oracle(scene, {camera}, {.supersampling = 4}); });
   for (const SplatBlending blending : {SplatBlending::raster, SplatBlending::tiles}) {
     Renderer renderer = renderer_of(context, scene, Order::centre, blending, 4);
     renderer.draw({camera});
@@ -151,13 +156,8 @@ TEST_P(SplatOrders, OfAddedLayersIsThatOfTheScene) {
   EXPECT_EQ(drawn(renderer).pixels, before.pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(, SplatOrders,
-                         testing::Combine(testing::ValuesIn(every_context),
-                                          testing::ValuesIn(splat_kinds)),
-                         [](const auto& each) {
-                           return std::string(std::get<0>(each.param).name) + "_" +
-                                  std::get<1>(each.param).name;
-                         });
+INSTANTIATE_TEST_SUITE_P(, SplatOrders, in_contexts(splat_kinds), name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, SplatOrders, in_other_contexts(splat_kinds), name_in_context);
 
 TEST(SplatOrder, NeedsABlendingThatHasIt) {
   const gl::Context context = gl::Context::create({});
