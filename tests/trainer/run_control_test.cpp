@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <string>
-#include <thread>
 
 #include "base/error.hpp"
 #include "base/output.hpp"
@@ -15,6 +15,7 @@ namespace run_control_test {
 
 namespace fs = std::filesystem;
 
+/// The real clock is tested by a paused run of the program (train_program_test.cpp).
 class Control : public testing::Test {
  protected:
   Control()
@@ -26,12 +27,19 @@ class Control : public testing::Test {
   }
   ~Control() override { fs::remove_all(folder); }
 
+  /// A clock that only the test and a waiting run advance.
+  RunClock clock() {
+    return {.now = [this] { return time; },
+            .sleep = [this](std::chrono::milliseconds sleep) { time += sleep; }};
+  }
   /// The command after the pause between readings.
-  static RunCommand next(RunControl& control) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(120));
+  RunCommand next(RunControl& control) {
+    time += pause;
     return control.command();
   }
 
+  static constexpr std::chrono::milliseconds pause{100};
+  std::chrono::steady_clock::time_point time{};
   fs::path folder, file = folder / "a.b.control";
 };
 
@@ -42,7 +50,7 @@ TEST_F(Control, PassesCommandsWhileTheRunIsInProgress) {
   EXPECT_THROW(send_command(file, RunCommand::pause), UsageError);
   EXPECT_FALSE(fs::exists(file));
   {
-    RunControl control(file);
+    RunControl control(file, clock());
     for (const RunCommand command : {RunCommand::run, RunCommand::pause, RunCommand::finish}) {
       send_command(file, command);
       EXPECT_EQ(read_command(file), command);
@@ -53,19 +61,17 @@ TEST_F(Control, PassesCommandsWhileTheRunIsInProgress) {
 }
 
 TEST_F(Control, ReadsTheFileAtMostTenTimesASecond) {
-  RunControl control(file);
-  const auto begin = std::chrono::steady_clock::now();
+  RunControl control(file, clock());
   EXPECT_EQ(control.command(), RunCommand::run);
   send_command(file, RunCommand::finish);
-  const RunCommand soon = control.command();
-  if (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(90)) {
-    EXPECT_EQ(soon, RunCommand::run);
-  }
-  EXPECT_EQ(next(control), RunCommand::finish);
+  time += pause - std::chrono::milliseconds(1);
+  EXPECT_EQ(control.command(), RunCommand::run);
+  time += std::chrono::milliseconds(1);
+  EXPECT_EQ(control.command(), RunCommand::finish);
 }
 
 TEST_F(Control, OtherContentsChangeNothing) {
-  RunControl control(file);
+  RunControl control(file, clock());
   send_command(file, RunCommand::finish);
   ASSERT_EQ(next(control), RunCommand::finish);
   for (const char* text :
@@ -93,7 +99,7 @@ TEST_F(Control, TakesOverOnlyControlFiles) {
 }
 
 TEST_F(Control, WaitsWhilePaused) {
-  RunControl control(file);
+  RunControl control(file, clock());
   int waited = 0;
   EXPECT_EQ(control.wait_while_paused([&] { ++waited; }), 0);
   EXPECT_EQ(waited, 0);
@@ -102,8 +108,8 @@ TEST_F(Control, WaitsWhilePaused) {
   const double seconds = control.wait_while_paused([&] {
     if (++waited == 3) send_command(file, RunCommand::finish);
   });
-  EXPECT_GE(waited, 3);
-  EXPECT_GE(seconds, 0.25);  // three pauses of 0.1 s, without the first reading
+  EXPECT_EQ(waited, 3);
+  EXPECT_DOUBLE_EQ(seconds, 0.3);  // three pauses
   EXPECT_EQ(control.command(), RunCommand::finish);
   send_command(file, RunCommand::pause);
   ASSERT_EQ(next(control), RunCommand::pause);

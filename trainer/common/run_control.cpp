@@ -3,7 +3,6 @@
 #include <array>
 #include <span>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "base/error.hpp"
@@ -16,7 +15,6 @@ namespace tureen::trainer {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds reading_pause(100);
 
@@ -50,7 +48,8 @@ void send_command(const fs::path& file, RunCommand command) {
   write_command(file, command);
 }
 
-RunControl::RunControl(fs::path file) : file_(std::move(file)) {
+RunControl::RunControl(fs::path file, RunClock clock)
+    : file_(std::move(file)), clock_(std::move(clock)) {
   std::error_code ignored;
   if (fs::is_regular_file(file_, ignored) && !read_command(file_))
     throw UsageError(file_.string() + " exists and is not a control file of a training run",
@@ -64,7 +63,7 @@ RunControl::~RunControl() {
 }
 
 RunCommand RunControl::command() {
-  const auto now = Clock::now();
+  const auto now = clock_.now();
   if (now < next_) return last_;
   next_ = now + reading_pause;
   last_ = read_command(file_).value_or(is_missing(file_) ? RunCommand::run : last_);
@@ -72,13 +71,13 @@ RunCommand RunControl::command() {
 }
 
 double RunControl::wait_while_paused(const std::function<void()>& waiting) {
-  const auto begin = Clock::now();
+  const auto begin = clock_.now();
   if (command() != RunCommand::pause) return 0;
   while (command() == RunCommand::pause) {
     waiting();
-    std::this_thread::sleep_for(reading_pause);
+    clock_.sleep(reading_pause);
   }
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+  return std::chrono::duration<double>(clock_.now() - begin).count();
 }
 
 }  // namespace tureen::trainer

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <thread>
 
 namespace tureen::trainer {
 
@@ -24,12 +25,20 @@ std::optional<RunCommand> read_command(const std::filesystem::path& file);
 /// Throws UsageError without a run in progress, and OutputError if the file cannot be written.
 void send_command(const std::filesystem::path& file, RunCommand command);
 
+/// The time of a run; tests replace both functions.
+struct RunClock {
+  std::function<std::chrono::steady_clock::time_point()> now = &std::chrono::steady_clock::now;
+  std::function<void(std::chrono::milliseconds)> sleep = [](std::chrono::milliseconds time) {
+    std::this_thread::sleep_for(time);
+  };
+};
+
 /// The run's side.
 class RunControl {
  public:
   /// Creates `file`, or takes over the one of a killed run. Throws UsageError if another kind of
   /// file is there, and OutputError if the file cannot be written.
-  explicit RunControl(std::filesystem::path file);
+  explicit RunControl(std::filesystem::path file, RunClock clock = {});
   RunControl(const RunControl&) = delete;
   RunControl& operator=(const RunControl&) = delete;
   /// Removes the file.
@@ -45,6 +54,7 @@ class RunControl {
 
  private:
   std::filesystem::path file_;
+  RunClock clock_;
   RunCommand last_ = RunCommand::run;
   std::chrono::steady_clock::time_point next_ = {};
 };
