@@ -55,18 +55,23 @@ Survival survive_truncation(std::span<const std::byte> bytes, Read&& read) {
   return survival;
 }
 
+/// How a byte is damaged: in every way of survive_damage(), or in one of them, by its position.
+enum class Damage { every, one };
+
 /// Reads `bytes` with each byte damaged in turn: each single bit flipped, all bits flipped, 0,
 /// 0x7f.
 template <class Read>
-Survival survive_damage(std::span<const std::byte> bytes, Read&& read) {
+Survival survive_damage(std::span<const std::byte> bytes, Read&& read,
+                        Damage damage = Damage::every) {
   Survival survival;
   std::vector<std::byte> damaged(bytes.begin(), bytes.end());
   for (std::size_t i = 0; i < damaged.size(); ++i) {
     const auto original = std::to_integer<unsigned>(damaged[i]);
     std::array<unsigned, 11> values{original ^ 0xffu, 0u, 0x7fu};
     for (unsigned bit = 0; bit < 8; ++bit) values[3 + bit] = original ^ (1u << bit);
-    for (const unsigned value : values) {
-      if (value == original) continue;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const unsigned value = values[k];
+      if (value == original || (damage == Damage::one && k != i % values.size())) continue;
       damaged[i] = static_cast<std::byte>(value);
       expect_survival(damaged, read,
                       "byte " + std::to_string(i) + " set to " + std::to_string(value), survival);

@@ -453,6 +453,31 @@ void add_benchmarks(Collection& all) {
   all.add("web_bench", "web_bench.json", std::move(bytes));
 }
 
+std::vector<Fixture> made_fixtures() {
+  Collection all;
+  add_glb(all);
+  all.add("gltf", "foreign.gltf", foreign_gltf());
+  add_text_meshes(all);
+  add_splats(all);
+  add_torch(all);
+  add_cameras(all);
+  add_images(all);
+  add_benchmarks(all);
+  const FolderFiles diffsoup = diffsoup_files(), mobilenerf = mobilenerf_files();
+  for (std::size_t i = 0; i < diffsoup.size(); ++i)
+    all.add("diffsoup", diffsoup[i].first, with_first_byte(i, diffsoup[i].second));
+  for (std::size_t i = 0; i < mobilenerf.size(); ++i)
+    all.add("mobilenerf", mobilenerf[i].first, with_first_byte(i, mobilenerf[i].second));
+  all.add("session", "events.json", session_text);
+  all.add("settings", "viewer.json", settings_text);
+  all.add("training_config", "config.json", training_config_text);
+  all.add("training_log", "run.jsonl", training_log_text);
+  const Scratch scratch("training");
+  all.add("training_checkpoint", "run.checkpoint", training_checkpoint_bytes(scratch));
+  all.add("training_checkpoint", "gaussians.checkpoint", gaussian_checkpoint_bytes(scratch));
+  return std::move(all.list);
+}
+
 }  // namespace
 
 std::vector<std::byte> PngFixture::bytes() const {
@@ -485,29 +510,9 @@ std::vector<std::byte> PngFixture::bytes() const {
   return content(result);
 }
 
-std::vector<Fixture> fixtures() {
-  Collection all;
-  add_glb(all);
-  all.add("gltf", "foreign.gltf", foreign_gltf());
-  add_text_meshes(all);
-  add_splats(all);
-  add_torch(all);
-  add_cameras(all);
-  add_images(all);
-  add_benchmarks(all);
-  const FolderFiles diffsoup = diffsoup_files(), mobilenerf = mobilenerf_files();
-  for (std::size_t i = 0; i < diffsoup.size(); ++i)
-    all.add("diffsoup", diffsoup[i].first, with_first_byte(i, diffsoup[i].second));
-  for (std::size_t i = 0; i < mobilenerf.size(); ++i)
-    all.add("mobilenerf", mobilenerf[i].first, with_first_byte(i, mobilenerf[i].second));
-  all.add("session", "events.json", session_text);
-  all.add("settings", "viewer.json", settings_text);
-  all.add("training_config", "config.json", training_config_text);
-  all.add("training_log", "run.jsonl", training_log_text);
-  const Scratch scratch("training");
-  all.add("training_checkpoint", "run.checkpoint", training_checkpoint_bytes(scratch));
-  all.add("training_checkpoint", "gaussians.checkpoint", gaussian_checkpoint_bytes(scratch));
-  return std::move(all.list);
+const std::vector<Fixture>& fixtures() {
+  static const std::vector<Fixture> made = made_fixtures();
+  return made;
 }
 
 }  // namespace tureen::fuzz

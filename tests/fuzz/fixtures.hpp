@@ -15,8 +15,9 @@ struct Fixture {
   std::vector<std::byte> bytes;
 };
 
-/// Small inputs, so that tests can try every length. Each is readable without an error.
-std::vector<Fixture> fixtures();
+/// Small inputs, so that tests can try every length. Each is readable without an error. They are
+/// made once, by the first call.
+const std::vector<Fixture>& fixtures();
 
 /// A PNG of 8 or 16 bits with this header. `rows` is deflated unchanged, at any size.
 struct PngFixture {

@@ -79,7 +79,7 @@ TEST(GlbPreviewOfSplats, HasTheColorsOfDegreeZero) {
   }
 }
 
-TEST(GlbPreviewOfSplats, SurvivesDamage) {
+void expect_survival_of_splats(test::Damage damage) {
   for (const test::GlbKind& kind : test::splat_glb_kinds()) {
     const std::vector<std::byte> bytes = test::glb_bytes(test::random_scene(kind, 4, 1), kind.name);
     const std::size_t size = std::size_t(size_of(bytes).value());
@@ -90,9 +90,14 @@ TEST(GlbPreviewOfSplats, SurvivesDamage) {
         EXPECT_FALSE(defect(std::get<Splats>(only_layer(*preview).primitives)));
       }
     };
-    EXPECT_GT(test::survive_damage(Bytes(bytes).first(size), read).refused, 0u) << kind.name;
+    EXPECT_GT(test::survive_damage(Bytes(bytes).first(size), read, damage).refused, 0u)
+        << kind.name;
   }
 }
+
+TEST(GlbPreviewOfSplats, SurvivesDamage) { expect_survival_of_splats(test::Damage::one); }
+
+TEST(ThoroughGlbPreviewOfSplats, SurvivesDamage) { expect_survival_of_splats(test::Damage::every); }
 
 class GlbPreview : public ::testing::TestWithParam<test::GlbKind> {};
 
@@ -169,11 +174,11 @@ TEST_P(GlbPreviewMesh, AsksForMoreAtEveryLengthThatIsTooShort) {
   }
 }
 
-TEST_P(GlbPreviewMesh, SurvivesDamage) {
+void expect_survival(const test::GlbKind& kind, test::Damage damage) {
   RandomScene random(4);
   Scene scene = scene_of(TriangleSoup{});
-  GetParam().fill(random, scene, 1);
-  const std::vector<std::byte> bytes = test::glb_bytes(scene, GetParam().name);
+  kind.fill(random, scene, 1);
+  const std::vector<std::byte> bytes = test::glb_bytes(scene, kind.name);
   const std::size_t size = std::size_t(size_of(bytes).value());
   std::size_t shown = 0;
   const auto read = [&](Bytes damaged) {
@@ -182,10 +187,21 @@ TEST_P(GlbPreviewMesh, SurvivesDamage) {
     ++shown;
     EXPECT_FALSE(defect(only_soup(*preview)));
   };
-  const test::Survival survival = test::survive_damage(Bytes(bytes).first(size), read);
-  EXPECT_GT(survival.refused, size);
+  const test::Survival survival = test::survive_damage(Bytes(bytes).first(size), read, damage);
+  EXPECT_GT((damage == test::Damage::one ? 11 : 1) * survival.refused, size);
   EXPECT_GT(shown, 0u);
 }
+
+TEST_P(GlbPreviewMesh, SurvivesDamage) { expect_survival(GetParam(), test::Damage::one); }
+
+class GlbPreviewDamage : public ::testing::TestWithParam<test::GlbKind> {};
+
+TEST_P(GlbPreviewDamage, OfEveryKindIsSurvived) {
+  expect_survival(GetParam(), test::Damage::every);
+}
+
+INSTANTIATE_TEST_SUITE_P(Thorough, GlbPreviewDamage, ::testing::ValuesIn(mesh_kinds()),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Kind, GlbPreviewMesh, ::testing::ValuesIn(mesh_kinds()),
                          [](const auto& test) { return std::string(test.param.name); });
