@@ -274,21 +274,37 @@ TEST(SmokeTraining, HasTheSameGaussiansWithAnyNumberOfThreads) {
   EXPECT_EQ(a.opacity, b.opacity);
 }
 
+/// Ten epochs and two resamplings.
+Config brief_config() {
+  Config config = smoke_config();
+  config.steps = 60;
+  config.resample_every = 25;
+  return config;
+}
+
+/// The end of that run on two threads.
+const TrainingState& after_brief_run() {
+  static const TrainingState state = [] {
+    const Config config = brief_config();
+    TrainingRun run(config, 2, first_state(config));
+    run.train_until(config.steps);
+    return run.trainer.state();
+  }();
+  return state;
+}
+
 TEST(SmokeTraining, HasTheSameBytesWithAnyNumberOfThreads) {
-  const Config config = smoke_config();
-  TrainingRun one(config, 1, first_state(config)), two(config, 2, first_state(config));
-  one.train_until(steps);
-  two.train_until(steps);
-  EXPECT_EQ(file_of(one.trainer.state()), file_of(two.trainer.state()));
+  const Config config = brief_config();
+  TrainingRun one(config, 1, first_state(config));
+  one.train_until(config.steps);
+  EXPECT_EQ(file_of(one.trainer.state()), file_of(after_brief_run()));
 }
 
 TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
-  const Config config = smoke_config();
-  TrainingRun whole(config, 2, first_state(config));
-  whole.train_until(steps);
+  const Config config = brief_config();
   const fs::path path = temporary(".checkpoint");
   // Stops between two resamplings, and between two epochs.
-  constexpr int stop = steps / 2 - 17;
+  constexpr int stop = 33;
   {
     TrainingRun first(config, 2, first_state(config));
     first.train_until(stop);
@@ -302,8 +318,8 @@ TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
   ASSERT_FALSE(difference(config, checkpoint.config)) << *difference(config, checkpoint.config);
   EXPECT_EQ(checkpoint.state.step, stop);
   TrainingRun second(config, 1, checkpoint.state);
-  second.train_until(steps);
-  const TrainingState a = whole.trainer.state(), b = second.trainer.state();
+  second.train_until(config.steps);
+  const TrainingState &a = after_brief_run(), b = second.trainer.state();
   EXPECT_EQ(a.model.positions, b.model.positions);
   EXPECT_EQ(a.model.logits, b.model.logits);
   EXPECT_EQ(a.moments.second, b.moments.second);
