@@ -3,9 +3,13 @@
 // all sessions share one fixture, with its scenes, its X server and its folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +17,7 @@
 #include <glm/matrix.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -871,8 +876,72 @@ TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
 constexpr glm::dvec2 train_button{157, 142}, stop_and_quit_button{147, 235},
     words_of_dialog{360, 172};
 
+/// While it exists, programs that a window has started become children of this process when the
+/// window ends.
+class LeftPrograms {
+ public:
+  LeftPrograms() : others_(children()) { EXPECT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0); }
+  LeftPrograms(const LeftPrograms&) = delete;
+  LeftPrograms& operator=(const LeftPrograms&) = delete;
+  ~LeftPrograms() {
+    for (const pid_t left : all()) {
+      ::kill(left, SIGKILL);
+      ::waitpid(left, nullptr, 0);
+    }
+    ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+  }
+
+  /// Those that run, and those that have ended.
+  std::vector<pid_t> all() const {
+    std::vector<pid_t> result;
+    std::ranges::set_difference(children(), others_, std::back_inserter(result));
+    return result;
+  }
+  /// Waits for their ends, at most two minutes. Returns whether all have ended.
+  bool end() const {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    for (const pid_t left : all())
+      while (::waitpid(left, nullptr, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > until) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    return true;
+  }
+
+ private:
+  /// Sorted.
+  static std::vector<pid_t> children() {
+    std::vector<pid_t> result;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      std::string line;
+      std::getline(std::ifstream(entry.path() / "stat"), line);
+      // The name of the program may contain spaces: the parent is the second word after it.
+      const std::size_t name_end = line.rfind(") ");
+      if (name_end == std::string::npos) continue;
+      std::istringstream words(line.substr(name_end + 2));
+      std::string state;
+      pid_t parent = 0;
+      if (words >> state >> parent && parent == ::getpid())
+        result.push_back(std::stoi(entry.path().filename().string()));
+    }
+    std::ranges::sort(result);
+    return result;
+  }
+
+  std::vector<pid_t> others_;
+};
+
+TEST(LeftProgram, IsFound) {
+  const LeftPrograms left;
+  EXPECT_TRUE(left.all().empty());
+  const ChildResult shell = Child({"-c", "sleep 600 &"}, testing::TempDir(), "/bin/sh").wait();
+  EXPECT_EQ(shell.exit_code, 0);
+  EXPECT_EQ(left.all().size(), 1u);
+}
+
 TEST_F(Window, ATrainingStartsOnlyAfterAQuestion) {
   write_photographs();
+  const LeftPrograms left;
   Person person;
   person.drop("photographs").wait().look("photographs").click(train_button).look("asked");
   // Outside of its field, its keys are no shortcuts; Escape closes the dialog alone.
@@ -881,20 +950,20 @@ TEST_F(Window, ATrainingStartsOnlyAfterAQuestion) {
   EXPECT_EQ(replay(person, {}).exit_code, 0);
   expect_equal(image("behind"), image("words"));
   EXPECT_NE(image("asked").pixels, image("photographs").pixels);
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_TRUE(left.all().empty()) << "a training was started";
   EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));
 }
 
 TEST_F(Window, ClosedDuringItsTrainingAsksWhetherToStopIt) {
   write_photographs();
+  const LeftPrograms left;
   Person person;
   person.drop("photographs").wait().click(train_button).wait().press(Key::enter).wait();
   person.press_with_control(Key::q).look("asked").click(stop_and_quit_button);
   EXPECT_EQ(replay(person.hold(Key::super, 5).look("closed"), {}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "pictures" / "asked.png"));
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "closed.png"));
-  // A training that goes on has its lock by then, and takes minutes.
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_TRUE(left.end()) << "the training goes on";
   EXPECT_FALSE(fs::exists(folder_ / "photographs.lock"));
   EXPECT_FALSE(fs::exists(folder_ / "photographs.glb"));
 }
