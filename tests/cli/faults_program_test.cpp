@@ -61,6 +61,10 @@ class Faults : public test::Program {
     fs::remove_all(folder / to);
     fs::copy(folder / from, folder / to, fs::copy_options::recursive);
   }
+
+  /// Ends conversions over an old file at moments from their start to beyond their end; for each
+  /// signal and output, `timed` moments at any time, and those of two events.
+  void expect_survival(int timed);
 };
 
 TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
@@ -207,8 +211,7 @@ TEST_F(Faults, AFolderThatIsReplacedIsThereAtEveryMoment) {
       << "the new one appears, then the old one disappears and is emptied";
 }
 
-/// Ends conversions over an old file at moments from their start to beyond their end.
-TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
+void Faults::expect_survival(int timed) {
   constexpr unsigned seed = 7;
   SCOPED_TRACE("seed " + std::to_string(seed));
   write_hills("old.off", 40, 0);
@@ -232,7 +235,7 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
     const auto before = contents("a/" + output), after = contents("b/" + output);
     ASSERT_NE(before, after);
     for (const int signal : {SIGKILL, SIGINT}) {
-      std::vector<Moment> moments = test::moments_of(whole, 14, random);
+      std::vector<Moment> moments = test::moments_of(whole, timed, random);
       // While the new file is written, and between the replacement of the old one and the end.
       moments.push_back({.until = Moment::Until::written, .path = output});
       moments.push_back({.until = Moment::Until::replaced, .path = output});
@@ -285,6 +288,12 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
     }
   }
 }
+
+TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) { expect_survival(4); }
+
+/// More moments.
+using ThoroughFaults = Faults;
+TEST_F(ThoroughFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) { expect_survival(14); }
 
 }  // namespace faults_program_test
 }  // namespace tureen

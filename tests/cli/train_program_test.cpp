@@ -1,11 +1,12 @@
 // Program tests of `tureen train`, on photographs of a coloured ball, 32 pixels a side.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <thread>
+#include <cstdlib>
 
 #include "formats/scene_file.hpp"
 #include "image/video_file.hpp"
@@ -28,7 +29,8 @@ using testing::StartsWith;
 TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   make_dataset();
   const ChildResult result =
-      train("ball.glb", {"--json", "--preview-every", "20", "--export-diffsoup", "export"});
+      train("ball.glb", {"--json", "--preview-every", "20", "--export-diffsoup", "export"}, "40",
+            First::as_given);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   std::vector<std::string> expected{"ball.glb",
                                     "ball.jsonl",
@@ -103,36 +105,28 @@ TEST_F(Train, MeasuresItsOwnDrawingWhereTheDeviceCannotDrawTheTestViews) {
 
 TEST_F(Train, EqualSeedsGiveEqualSoupsOnAnyNumberOfThreads) {
   make_dataset();
-  ASSERT_EQ(train("a.glb").exit_code, 0);
+  ASSERT_EQ(train("a.glb", {}, "12", First::as_given).exit_code, 0);
   fs::create_directories(folder / "b");
   // The file contains its name, so both folders use the same one.
   ASSERT_EQ(train("b/a.glb", {"--threads", "1"}).exit_code, 2);  // --threads is given twice
-  std::vector<std::string> one = arguments("b/a.glb");
+  std::vector<std::string> one = arguments("b/a.glb", {}, "12", First::as_given);
   *std::find(one.begin(), one.end(), "2") = "1";
   ASSERT_EQ(run(one).exit_code, 0);
   EXPECT_EQ(bytes("a.glb"), bytes("b/a.glb"));
-  ASSERT_EQ(train("b/a.glb", {"--seed", "1"}).exit_code, 0);
+  ASSERT_EQ(train("b/a.glb", {"--seed", "1"}, "12", First::as_given).exit_code, 0);
   EXPECT_NE(bytes("a.glb"), bytes("b/a.glb"));
 }
 
 TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   make_dataset();
-  fs::create_directories(folder / "whole");
-  const std::string steps = "3000";
-  ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
-  {
-    test::Child child(arguments("ball.glb", {}, steps), folder);
-    // The first record shows that the training has started.
-    ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
-    child.signal(SIGINT);
-    const ChildResult result = child.wait();
-    ASSERT_EQ(result.exit_code, 5) << result.err;
-    EXPECT_THAT(result.err, Names("ball.checkpoint", "--resume"));
-  }
-  EXPECT_THAT(files(),
-              ElementsAre("ball.checkpoint", "ball.jsonl", "whole/ball.glb", "whole/ball.jsonl"));
+  const auto [cut, count] =
+      interrupted(300, [](const std::string& number) { return arguments("ball.glb", {}, number); });
+  ASSERT_EQ(cut.exit_code, 5) << cut.err;
+  EXPECT_THAT(cut.err, Names("ball.checkpoint", "--resume"));
+  EXPECT_THAT(files(), ElementsAre("ball.checkpoint", "ball.jsonl"));
 
   // The program does not silently restart, or continue with other constants or photographs.
+  const std::string steps = std::to_string(count);
   const auto refused = [&](const std::vector<std::string>& more, const auto&... values) {
     const ChildResult result = train("ball.glb", more, steps);
     EXPECT_EQ(result.exit_code, 2);
@@ -141,14 +135,17 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   refused({}, "ball.checkpoint");
   refused({"--resume", "--seed", "3"}, "seed", 3, 0);
   refused({"--resume", "--scale", "0.5"}, "r_0.png", 16, 32);
-  EXPECT_THAT(train("ball.glb", {"--resume"}, "3001").err, Names("steps", 3001, 3000));
+  EXPECT_THAT(train("ball.glb", {"--resume"}, std::to_string(count + 1)).err,
+              Names("steps", count + 1, count));
 
   // Without options, the constants are those of the checkpoint.
   const ChildResult result =
       run({"train", "ball", "-o", "ball.glb", "--resume", "--device", "cpu"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   EXPECT_FALSE(exists("ball.checkpoint"));
+  fs::create_directories(folder / "whole");
+  ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
+  EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   // There is one log, and each step is in it once.
   const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
@@ -157,36 +154,68 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
 /// Writes a command for the run.
 void tell(const fs::path& control, std::string_view word) { write_file(control, word); }
 
+/// How often programs have read a file since the construction.
+class Readings {
+ public:
+  explicit Readings(const fs::path& file)
+      : name_(file.filename().string()), events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+    // Of the folder: each command is a new file.
+    EXPECT_GE(::inotify_add_watch(events_, file.parent_path().c_str(), IN_CLOSE_NOWRITE), 0);
+  }
+  Readings(const Readings&) = delete;
+  Readings& operator=(const Readings&) = delete;
+  ~Readings() { ::close(events_); }
+
+  int count() {
+    alignas(inotify_event) char bytes[4096];
+    for (ssize_t size; (size = ::read(events_, bytes, sizeof bytes)) > 0;)
+      for (ssize_t at = 0; at < size;) {
+        const auto* event = reinterpret_cast<const inotify_event*>(bytes + at);
+        at += ssize_t(sizeof(inotify_event) + event->len);
+        count_ += event->len > 0 && event->name == name_;
+      }
+    return count_;
+  }
+
+ private:
+  std::string name_;
+  int events_, count_ = 0;
+};
+
 TEST_F(Train, AWatchedAndPausedRunMakesTheSameSoup) {
   ::unsetenv("DISPLAY");  // the window cannot open; the training goes on
   make_dataset();
-  fs::create_directories(folder / "whole");
-  const std::string steps = "2000";
-  ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
+  const std::string steps = "1500";  // far more than the run takes until it reads the command
   test::Child child(arguments("ball.glb", {"--watch"}, steps), folder);
-  ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
+  ASSERT_TRUE(child.wait_until([&] { return has_begun(); }));
+  child.stop();
   EXPECT_TRUE(exists("ball.watch.glb"));
   tell(folder / "ball.control", "pause\n");
-  // The run reads it within 0.1 s, and a step takes a few milliseconds.
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  Readings readings(folder / "ball.control");
+  child.signal(SIGCONT);
+  // The first reading may have begun before the command. After the second one, the run ends its
+  // step and may write a record; at the third one, it is paused.
+  ASSERT_TRUE(child.wait_until([&] { return readings.count() >= 3; }));
   const std::string log = bytes("ball.jsonl");
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  // A run that is not paused writes about ten records meanwhile.
+  ASSERT_TRUE(child.wait_until([&] { return readings.count() >= 8; }));
   EXPECT_EQ(bytes("ball.jsonl"), log);
   EXPECT_TRUE(child.running());
   tell(folder / "ball.control", "run\n");
   const ChildResult result = child.wait();
   ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.watch.glb"));
+  fs::create_directories(folder / "whole");
+  ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
   EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   EXPECT_EQ(bytes("ball.watch.glb"), bytes("ball.glb"));  // the finished scene at last
-  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.watch.glb", "whole/ball.glb",
-                                   "whole/ball.jsonl"));
 }
 
 TEST_F(Train, StopsAndKeepsWhatIsTrained) {
   make_dataset();
   test::Child child(arguments("ball.glb", {"--json", "--preview-every", "90000"}, "100000"),
                     folder);
-  ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
+  ASSERT_TRUE(child.wait_until([&] { return has_begun(); }));
   tell(folder / "ball.control", "finish\n");
   const ChildResult result = child.wait();
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -324,34 +353,38 @@ TEST_F(Train, ExitCodesSayWhoIsToBlame) {
     EXPECT_THAT(result.err, Names(values...));
     EXPECT_THAT(result.out, IsEmpty());
   };
+  const auto given = [](const std::string& output, const std::vector<std::string>& more,
+                        const std::string& steps = "40") {
+    return arguments(output, more, steps, First::as_given);
+  };
   expect({"train"}, 2, "DATASET");
   expect({"train", "ball"}, 2, "-o", "OUT.glb");
   expect({"train", "ball", "-o", "ball.ply"}, 2, "ball.ply", ".glb");
-  expect(arguments("b.glb", {"--preset", "scenery"}), 2, "scenery", "scene");
-  expect(arguments("b.glb", {"--level", "9"}), 2, "max_level", 9);
-  expect(arguments("b.glb", {"--batch", "0"}), 2, "batch", 0);
-  expect(arguments("b.glb", {"--init", "points"}), 3);
-  expect(arguments("b.glb", {"--batch", "5000"}), 2, "batch", 5000, 1024);
-  expect(arguments("b.glb", {}, "99999999999"), 2, "steps", "99999999999", 10000000);
-  expect(arguments("b.glb", {"--init", "none.off"}), 3, "none.off");
-  expect(arguments("b.glb", {"--init", "pionts"}), 3, "pionts", "points");
-  expect(arguments("b.glb", {"--config", "none.json"}), 3, "none.json");
+  expect(given("b.glb", {"--preset", "scenery"}), 2, "scenery", "scene");
+  expect(given("b.glb", {"--level", "9"}), 2, "max_level", 9);
+  expect(given("b.glb", {"--batch", "0"}), 2, "batch", 0);
+  expect(given("b.glb", {"--init", "points"}), 3);
+  expect(given("b.glb", {"--batch", "5000"}), 2, "batch", 5000, 1024);
+  expect(given("b.glb", {}, "99999999999"), 2, "steps", "99999999999", 10000000);
+  expect(given("b.glb", {"--init", "none.off"}), 3, "none.off");
+  expect(given("b.glb", {"--init", "pionts"}), 3, "pionts", "points");
+  expect(given("b.glb", {"--config", "none.json"}), 3, "none.json");
   write("bad.json", R"({"stepz": 3, "sed": 1})");
-  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "bad.json", "stepz", "steps");
-  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "sed", "seed");
+  expect(given("b.glb", {"--config", "bad.json"}), 3, "bad.json", "stepz", "steps");
+  expect(given("b.glb", {"--config", "bad.json"}), 3, "sed", "seed");
   write("mesh.json", R"({"initialisation": "mesh"})");
-  expect(arguments("b.glb", {"--config", "mesh.json"}), 2, "--init", "FILE");
+  expect(given("b.glb", {"--config", "mesh.json"}), 2, "--init", "FILE");
   write("scene.json", R"({"preset": "scene"})");
-  expect(arguments("b.glb", {"--config", "scene.json", "--preset", "object"}), 2, "--preset",
+  expect(given("b.glb", {"--config", "scene.json", "--preset", "object"}), 2, "--preset",
          "scene.json");
-  expect(arguments("b.glb", {"--resume"}), 3, "b.checkpoint");
-  expect(arguments("b.glb", {"--scale", "0.2"}), 3, "6 x 6", 11);
+  expect(given("b.glb", {"--resume"}), 3, "b.checkpoint");
+  expect(given("b.glb", {"--scale", "0.2"}), 3, "6 x 6", 11);
   expect(arguments("none/b.glb"), 5, "none/b.glb");
-  expect(arguments("b.glb", {"--export-diffsoup", "ball"}), 2, "ball");
-  expect(arguments("b.glb", {"--export-diffsoup", "b.glb/"}), 2, "b.glb");
-  expect(arguments("b.glb", {"--log", "b.lock"}), 2, "b.lock");
-  expect(arguments("b.glb", {"--seed", "-1"}), 2, "--seed", -1);
-  expect(arguments("b.glb", {"--seed", "99999999999999999999"}), 2, "--seed");
+  expect(given("b.glb", {"--export-diffsoup", "ball"}), 2, "ball");
+  expect(given("b.glb", {"--export-diffsoup", "b.glb/"}), 2, "b.glb");
+  expect(given("b.glb", {"--log", "b.lock"}), 2, "b.lock");
+  expect(given("b.glb", {"--seed", "-1"}), 2, "--seed", -1);
+  expect(given("b.glb", {"--seed", "99999999999999999999"}), 2, "--seed");
   fs::remove(folder / "ball/train/r_3.png");
   expect(arguments("b.glb"), 3, "r_3.png");
   expect({"train", "bal", "-o", "b.glb"}, 3, "bal", "ball");
@@ -417,7 +450,8 @@ TEST_F(Train, SaysThatNoImageShowsATriangle) {
   write("far.off", "OFF\n3 1 0\n1000 1000 1000\n1001 1000 1000\n1000 1001 1000\n3 0 1 2\n");
   const auto visible = [&](std::vector<std::string> more) {
     more.push_back("--json");
-    return nlohmann::json::parse(train("ball.glb", more, "2").out)["visible_at_start"];
+    const ChildResult result = train("ball.glb", more, "2", First::as_given);
+    return nlohmann::json::parse(result.out)["visible_at_start"];
   };
   EXPECT_EQ(visible({"--init", "far.off"}), false);
   EXPECT_EQ(visible({}), true);
@@ -427,7 +461,7 @@ TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {
   make_dataset();
   ASSERT_EQ(train("ball.glb", {}, "2").exit_code, 0);
   const std::string before = bytes("ball.glb");
-  const ChildResult refused = train("ball.glb", {"--init", "ball.glb"});
+  const ChildResult refused = train("ball.glb", {"--init", "ball.glb"}, "40", First::as_given);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, Names("-o", "ball.glb", "--init"));
   EXPECT_EQ(bytes("ball.glb"), before);
