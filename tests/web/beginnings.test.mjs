@@ -5,7 +5,6 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { brotliCompressSync } from 'node:zlib';
 import { assertAlike } from './images.mjs';
 import { readPng } from './png.mjs';
 import {
@@ -90,13 +89,6 @@ test('a template without a scene opens files', () => visit(pathToFileURL(join(bu
   await pick(page, join(source, 'examples/soup.glb'));
   await sceneShown(page, 'soup');
 }));
-
-test('what a browser fetches before the first scene is below 400 KB', () => {
-  const size = ['page.js', 'loader_worker.js', 'tureen.js', 'tureen.wasm', 'index.html', 'style.css']
-    .reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(built, 'site', name))).length, 0);
-  console.log(`engine, scripts and page by brotli: ${size} bytes`);
-  assert.ok(size < 400_000, `${size} bytes`);
-});
 
 // No time is asserted: other tests and builds share the processor. docs/benchmarks.md has times on an idle one.
 test('the first image of the example', () => visit('?scene=soup.glb', async (page) => {

@@ -20,10 +20,11 @@ const backends = {
   none: ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'],
 };
 
-/** Debian's browsers. The first has the same engine without a window, which halves the processor time of a visit. */
-const installed = ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'];
+/** Debian's browsers, and another by CHROMIUM. The shell has the same engine without a window, which halves the
+ *  processor time of a visit: for tests. Benchmarks and images of the docs have the browser that people use. */
+const shell = '/usr/bin/chromium-headless-shell', whole = '/usr/bin/chromium';
+const found = (first, second) => process.env.CHROMIUM ?? (existsSync(first) ? first : second);
 
-/** CHROMIUM names another browser than Debian's. */
-export const launch = (backend, flags = []) => chromium.launch({
-  executablePath: process.env.CHROMIUM ?? installed.find(existsSync) ?? installed.at(-1), args: [...quiet, ...backends[backend], ...flags],
-});
+export const launch = (backend, flags = [], executablePath = found(whole, shell)) =>
+  chromium.launch({ executablePath, args: [...quiet, ...backends[backend], ...flags] });
+export const launchForTests = (backend) => launch(backend, [], found(shell, whole));

@@ -12,7 +12,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after as afterAll, test as rootTest } from 'node:test';
 import { serve } from '../../web/serve.mjs';
-import { built, launch, programs, source } from './browser.mjs';
+import { built, launchForTests, programs, source } from './browser.mjs';
 
 export { built, programs, source };
 /** The folder for images of failing tests. */
@@ -76,7 +76,7 @@ const browsers = new Map();
 async function browserOf(backend) {
   const known = await browsers.get(backend)?.catch(() => null);
   if (known?.isConnected()) return known;
-  const starting = launch(backend);
+  const starting = launchForTests(backend);
   browsers.set(backend, starting);
   return starting;
 }
