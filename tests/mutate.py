@@ -88,7 +88,7 @@ def ninja(*arguments):
 class Module:
     """What builds and tests a module: commands of the build, and the time of its unchanged tests."""
 
-    def __init__(self, name, compile_commands):
+    def __init__(self, name, compile_commands, tests):
         self.name = name
         self.compile = compile_commands
         # The shell's command has several parts: of a library the archiver's, of a program the linker's.
@@ -102,16 +102,16 @@ class Module:
         self.seconds = {}
         for program in self.links:
             begin = time.monotonic()
-            if not passes(BUILD / 'bin' / program, 600, BUILD):
+            if not passes(BUILD / 'bin' / program, 600, BUILD, tests):
                 sys.exit(f'{program} fails without a change')
             self.seconds[program] = time.monotonic() - begin
         self.order = sorted(self.links, key=self.seconds.get)
 
 
-def passes(program, seconds, folder):
-    """Whether all tests of `./dev test` pass within the time."""
+def passes(program, seconds, folder, tests='-Thorough*'):
+    """Whether the tests, by default those of `./dev test`, pass within the time."""
     child = subprocess.Popen(
-        [str(program), '--gtest_brief=1', '--gtest_fail_fast', '--gtest_filter=-Thorough*'], cwd=BUILD,
+        [str(program), '--gtest_brief=1', '--gtest_fail_fast', f'--gtest_filter={tests}'], cwd=BUILD,
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
         env={**os.environ, 'TMPDIR': str(folder), 'TEST_TMPDIR': str(folder)},
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)))
@@ -127,7 +127,7 @@ def passes(program, seconds, folder):
         child.wait()
 
 
-def judge(module, mutant, folder):
+def judge(module, mutant, folder, tests):
     """Compiles, links and tests a mutant; returns `uncompiled`, `survived`, or the program that failed."""
     shutil.rmtree(folder, ignore_errors=True)
     path = Path(mutant['file'])
@@ -158,7 +158,7 @@ def judge(module, mutant, folder):
             return 'uncompiled'
         temporary = folder / 'tmp'
         temporary.mkdir(exist_ok=True)
-        if not passes(binary, 20 + 5 * module.seconds[program], temporary):
+        if not passes(binary, 20 + 5 * module.seconds[program], temporary, tests):
             return program
         binary.unlink()
     return 'survived'
@@ -198,6 +198,8 @@ def main():
     parser.add_argument('--count', type=int, default=300, metavar='N', help='mutants that compile (default: 300)')
     parser.add_argument('--seed', type=int, default=1, help='of the draw (default: 1)')
     parser.add_argument('--again', metavar='JSON', help='test the mutants of an earlier result instead')
+    parser.add_argument('--survivors', action='store_true', help='with --again: only those that survived')
+    parser.add_argument('--all', action='store_true', help='run the thorough tests, too')
     parser.add_argument('--json', metavar='FILE', default='build/mutants.json', help='the result (default: %(default)s)')
     options = parser.parse_args()
     modules = options.modules or MODULES
@@ -209,7 +211,8 @@ def main():
     build(modules)
     compile_commands = {e['file']: e for e in json.loads((BUILD / 'compile_commands.json').read_text())}
     if options.again:
-        rerun = [m for m in again(options.again) if m['module'] in modules]
+        rerun = [m for m in again(options.again) if m['module'] in modules and
+                 (m['was'] == 'survived' or not options.survivors)]
         plan = [(m, len(chosen), chosen) for m in modules if (chosen := [r for r in rerun if r['module'] == m])]
     else:
         plan = list(drawn(modules, options.count, options.seed))
@@ -220,13 +223,13 @@ def main():
     results, begin = [], time.monotonic()
     total = sum(share for _, share, _ in plan)
     for name, share, candidates in plan:
-        module = Module(name, compile_commands)
+        module = Module(name, compile_commands, '*' if options.all else '-Thorough*')
         candidates = [c for c in candidates if str(Path(c['file']).absolute()) in compile_commands]
 
         def tried(mutant, module=module):
             folder = folders.get()
             try:
-                return {**mutant, 'result': judge(module, mutant, folder)}
+                return {**mutant, 'result': judge(module, mutant, folder, '*' if options.all else '-Thorough*')}
             finally:
                 folders.put(folder)
 

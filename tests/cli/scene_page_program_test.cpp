@@ -69,6 +69,8 @@ class ScenePage : public test::Program {
   }
 };
 
+class ThoroughScenePage : public ScenePage {};
+
 constexpr const char* part_name = "&lt;a&gt; &amp; &quot;b&quot;";
 
 TEST_F(ScenePage, HoldsAFileOfOursAsItIs) {
@@ -98,7 +100,7 @@ TEST_F(ScenePage, HoldsOtherScenesAsTheGlbThatConvertMakes) {
   EXPECT_FALSE(text_of("turned.glb") == text_of("scene.glb"));
 }
 
-TEST_F(ScenePage, MayBeCompressed) {
+TEST_F(ThoroughScenePage, MayBeCompressed) {
   write_part();
   const std::vector<std::string> compressed{"--slim", "--max-error", "0.3"};
   const auto convert = [&](const std::string& in, const std::string& out, bool with_compressed) {

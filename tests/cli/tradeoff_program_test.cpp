@@ -56,6 +56,8 @@ class Tradeoff : public test::ProgramWithPhotographs {
   }
 };
 
+class ThoroughTradeoff : public Tradeoff {};
+
 TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   write_soup();
   const std::string stored = text_of("soup.glb");
@@ -145,7 +147,7 @@ TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
   EXPECT_GT(coarse, 0);
 }
 
-TEST_F(Tradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
+TEST_F(ThoroughTradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
   write_soup();
   const ChildResult result =
       run({"tradeoff", "soup.glb", "--full", "--size", "32x24", "--cameras", "hemisphere:1",

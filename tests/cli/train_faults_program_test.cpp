@@ -96,6 +96,21 @@ class TrainFaults : public test::Train {
         << "each step once";
   }
 
+  /// Ends a run once its first checkpoint is complete, and resumes it to its end.
+  void expect_to_resume(int signal) {
+    put_old();
+    const test::Lookout lookout({.until = test::Moment::Until::replaced, .path = "ball.checkpoint"},
+                                folder);
+    test::Child child(arguments("ball.glb", often, steps), folder);
+    EXPECT_TRUE(lookout.wait_for(child));
+    test::end_by(signal, child);
+    child.wait();
+    test::remove_temporaries(folder);
+    fs::remove(folder / "ball.lock");
+    EXPECT_TRUE(exists("ball.checkpoint"));
+    expect_to_end_as_if_left_alone();
+  }
+
   /// Ends training runs at moments from their start to beyond their end, also while they resume;
   /// for each signal, `timed` moments at any time, and those of the events. After up to three
   /// interruptions in a row, the run may finish.
@@ -188,6 +203,7 @@ void TrainFaults::expect_survival(int timed) {
       in_a_row = 0;
     }
     expect_to_end_as_if_left_alone();
+    expect_to_resume(signal);
 
     const int sent = int(moments.size());
     all += sent;

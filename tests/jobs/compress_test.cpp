@@ -211,7 +211,7 @@ TEST(Compress, TrainingCamerasJoinTheRecordedOnes) {
   EXPECT_EQ(with.unseen, without.unseen - 1);
 }
 
-TEST(Compress, TrainingCamerasThatSeeNothingOrTooFewDoNot) {
+TEST(ThoroughCompress, TrainingCamerasThatSeeNothingOrTooFewDoNotJoin) {
   const Scene all = part_of_the_example(300);
   const Scene scene = with_cameras(all, {all.cameras[0]});
   CompressRequest request{.max_loss_db = 0.1, .photographs = own_photographs(all, 8)};
@@ -235,7 +235,7 @@ TEST(Compress, PhotographsOfAnotherSceneAreRefused) {
 }
 
 // A camera that sees nothing of the scene must not make its loss 0.
-TEST(Compress, OneCameraDoesNotSpeakForAll) {
+TEST(ThoroughCompress, OneCameraDoesNotSpeakForAll) {
   Scene scene = part_of_the_example(100, 1);
   scene.cameras[0] = look_at({0, 0, 50}, {0, 0, 100}, {0, 1, 0}, 0.7, 64, 48);
   const CompressResult result = compress(scene, {.max_loss_db = 0.1});

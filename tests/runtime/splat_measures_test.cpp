@@ -190,7 +190,9 @@ class MeasuredSplats : public testing::TestWithParam<InContext<SplatKind>> {
   SplatKind kind = std::get<1>(GetParam());
 };
 
-TEST_P(MeasuredSplats, ArePickedByTheirMedianDepth) {
+class PickedSplats : public MeasuredSplats {};
+
+TEST_P(PickedSplats, HaveTheirMedianDepth) {
   const Scene scene = mixed_scene(kind);
   Renderer renderer(context, prepare_scene(scene, device_limits(context.capabilities())));
   int compared = 0, off = 0, on_splats = 0;
@@ -367,6 +369,13 @@ TEST_P(MeasuredSplats, HaveTheExpectedValuesAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, MeasuredSplats, in_contexts(splat_kinds), name_in_context);
+// The views of MeasuredSplats show the same depths in the other contexts.
+INSTANTIATE_TEST_SUITE_P(, PickedSplats,
+                         testing::Combine(in_osmesa(), testing::ValuesIn(splat_kinds)),
+                         name_in_context);
+INSTANTIATE_TEST_SUITE_P(Thorough, PickedSplats,
+                         testing::Combine(in_the_others(), testing::ValuesIn(splat_kinds)),
+                         name_in_context);
 INSTANTIATE_TEST_SUITE_P(Thorough, MeasuredSplats, in_other_contexts(splat_kinds), name_in_context);
 
 // -- colours ------------------------------------------------------------------------------------

@@ -188,7 +188,7 @@ TEST(SmokeTraining, LearnsTheStillLife) {
   EXPECT_LE(found.specks, 1.7e-2);
 }
 
-TEST(SmokeTraining, ABackingLayerLeavesNoHoles) {
+TEST(ThoroughSmokeTraining, ABackingLayerLeavesNoHoles) {
   Config config = preset(Preset::scene);
   config.steps = steps;
   config.triangles = config.initial_triangles = 2000;  // the fewest with a backing layer, of 20

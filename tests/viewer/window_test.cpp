@@ -180,6 +180,9 @@ class Window : public testing::Test {
   bool smooth_at_rest_ = false;
 };
 
+/// These repeat what others test: for `./dev test --all`.
+class ThoroughWindow : public Window {};
+
 void expect_equal(const Image8& a, const Image8& b) {
   ASSERT_EQ(a.width, b.width);
   ASSERT_EQ(a.height, b.height);
@@ -305,7 +308,7 @@ constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{
     photographs_header{560, 248}, image_size{590, 322}, size_of_4k{540, 427},
     image_folder{590, 356}, page_button{445, 446};
 
-TEST_F(Window, SavesImagesLargerThanItself) {
+TEST_F(ThoroughWindow, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
                                         .wait()
                                         .press(Key::right_bracket)
@@ -373,7 +376,7 @@ TEST_F(Window, ReportsWhyAPageWasNotWritten) {
   EXPECT_FALSE(fs::exists(folder_ / "pictures" / "soup-1.html"));
 }
 
-TEST_F(Window, SavesNoPageOfChangedLayers) {
+TEST_F(ThoroughWindow, SavesNoPageOfChangedLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
   std::ofstream(folder_ / "template.html")
       << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
@@ -419,7 +422,7 @@ TEST_F(Window, ShowsDebugViews) {
   expect_golden(image("depth"), "window_depth");
 }
 
-TEST_F(Window, BackFromADebugViewTheColoursAreCurrent) {
+TEST_F(ThoroughWindow, BackFromADebugViewTheColoursAreCurrent) {
   const auto drag = [](Person& person) -> Person& {
     return person.drag(Button::left, {150, 200}, {230, 180}).wait();
   };
@@ -491,7 +494,7 @@ TEST_F(Window, ComparesWithThePhotographs) {
   expect_golden(image("difference"), "window_difference");
 }
 
-TEST_F(Window, ReportsThatNoPhotographHasTheView) {
+TEST_F(ThoroughWindow, ReportsThatNoPhotographHasTheView) {
   write_photographs();
   Person person;
   person.wait().without_notes().look("off").press(Key::c).look("split");
@@ -499,7 +502,7 @@ TEST_F(Window, ReportsThatNoPhotographHasTheView) {
   EXPECT_NE(image("split").pixels, image("off").pixels);
 }
 
-TEST_F(Window, TheTextsOfThePanelPhotographsFit) {
+TEST_F(ThoroughWindow, TheTextsOfThePanelPhotographsFit) {
   write_photographs();
   Person person({720, 640});
   person.wait().click(view_header).click(scene_header).click(photographs_header);
@@ -690,7 +693,7 @@ TEST_F(Window, ALayerThatArrivesDuringADragStays) {
   EXPECT_GT(count(image("added"), blue), 1000);
 }
 
-TEST_F(Window, EveryFileOfALayerIsWatched) {
+TEST_F(ThoroughWindow, EveryFileOfALayerIsWatched) {
   write_square(folder_ / "floor.off", "255 0 0");
   write_square(folder_ / "next.off", "0 0 255");
   Person person;
@@ -724,6 +727,8 @@ class WindowAtRest : public Window {
   }
 };
 
+class ThoroughWindowAtRest : public WindowAtRest {};
+
 /// docs/viewer.md gives this for the image at rest.
 constexpr double min_psnr = 60;
 
@@ -741,7 +746,7 @@ TEST_F(WindowAtRest, ShowsAndSavesTheImageOfSupersampling) {
   EXPECT_LT(psnr(rendered({"--camera", "soup.glb:1", "--size", "640x400"}), second), 45);
 }
 
-TEST_F(WindowAtRest, SavesImagesOfAnyKind) {
+TEST_F(ThoroughWindowAtRest, SavesImagesOfAnyKind) {
   write_square(folder_ / "floor.off", "255 0 0");
   Person person({320, 200});
   person.wait().press(Key::h).press(Key::right_bracket).drop("floor.off").wait().without_notes();
@@ -764,7 +769,7 @@ TEST_F(WindowAtRest, Ends) {
   EXPECT_LE(drawn(rests), drawn_at_rest - 64);
 }
 
-TEST_F(WindowAtRest, WaitsUntilAnimationAndMotionEnd) {
+TEST_F(ThoroughWindowAtRest, WaitsUntilAnimationAndMotionEnd) {
   Person person({320, 200});
   person.wait().press(Key::h).press(Key::digit_7).wait().press(Key::k);
   person.press(Key::digit_4).wait().press(Key::k);
@@ -825,7 +830,7 @@ TEST_F(Window, FollowsATraining) {
 }
 
 /// `--method triangles --opaque` begins with splats, and ends with a soup.
-TEST_F(Window, FollowsATrainingWhoseSplatsBecomeASoup) {
+TEST_F(ThoroughWindow, FollowsATrainingWhoseSplatsBecomeASoup) {
   write_run(folder_, trainer::PrimitiveKind::splats);
   const float one = 1.7725f;              // a harmonic of degree 0 for a channel of 1
   const std::size_t count_of_splats = 3;  // one would let 1 % of the background through
@@ -855,7 +860,7 @@ TEST_F(Window, FollowsATrainingWhoseSplatsBecomeASoup) {
   EXPECT_GT(count(image("soup"), blue), 1000);
 }
 
-TEST_F(Window, FollowsATrainingWithoutALogOrARun) {
+TEST_F(ThoroughWindow, FollowsATrainingWithoutALogOrARun) {
   const Person person =
       Person({720, 640}).wait().click(pause_without_log).click(pause_button).look("training");
   const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};

@@ -143,19 +143,19 @@ function damaged(file, mend) {
   return copy;
 }
 
-for (const { what, lacking, strips, atLeast, atMost, file = '/slow.glb' } of [
+for (const { what, lacking, strips, atLeast, atMost, file = '/slow.glb', when = test } of [
   // One message asks whether the second worker runs. Most strips are decoded before the end of the file.
   { what: 'in two workers', lacking: '', strips: 9, atLeast: 5, atMost: 10 },
-  { what: 'in a browser without workers in workers', strips: 9, atLeast: 0, atMost: 0,
+  { what: 'in a browser without workers in workers', strips: 9, atLeast: 0, atMost: 0, when: thorough,
     lacking: `self.Worker = undefined;
       { let made = 0; const Real = self.DecompressionStream;
         self.DecompressionStream = class extends Real { constructor(...given) { super(...given); if (++made === 5) askForMore(true); } }; }` },
-  { what: 'with a second worker that fails', strips: 0, atLeast: 2, atMost: 4,
+  { what: 'with a second worker that fails', strips: 0, atLeast: 2, atMost: 4, when: thorough,
     lacking: "if (self.name === 'inflater') self.DecompressionStream = class { constructor() { throw new Error('broken'); } };" },
   { what: 'in a browser without DecompressionStream', lacking: 'self.DecompressionStream = undefined;', strips: 0, atLeast: 0, atMost: 0,
     file: '/cloud.glb' },
 ])
-  test(`texels are decoded while the file arrives, ${what}`, () => visit('drawing.html', async (page) => {
+  when(`texels are decoded while the file arrives, ${what}`, () => visit('drawing.html', async (page) => {
     await drawingPage(page);
     const { triangles, decoded, sent } = await page.evaluate(async (url) => {
       let decoded = null, sent = null;
@@ -366,7 +366,7 @@ const loaded = (page, choice) => page.evaluate(async ([memory, wanted]) => {
   }
 }, [20_000 * bytesEach, choice]);
 
-test('the caller chooses: the largest splats that fit, or all', () => visit('drawing.html', async (page) => {
+thorough('the caller chooses: the largest splats that fit, or all', () => visit('drawing.html', async (page) => {
   await drawingPage(page);
   const automatic = await loaded(page, null);
   assert.equal(automatic.splats, 20_000);

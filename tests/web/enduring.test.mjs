@@ -85,7 +85,7 @@ const comeAndGo = (pairs) => () => visit('', async (page, profile) => {
   assert.ok(after.nodes - before.nodes < 100, `elements: ${before.nodes} and ${after.nodes}`);
   assert.equal(after.listeners, before.listeners, 'listeners');
 });
-test('fourteen scenes one after the other leave nothing behind', comeAndGo(4));
+thorough('fourteen scenes one after the other leave nothing behind', comeAndGo(4));
 thorough('nor do fifty', comeAndGo(22));
 
 // With the example's 7000 faces, a store of 8-bit texels takes 1.26 MB at level 3, 0.43 MB at level 2 and 0.1

@@ -52,7 +52,7 @@ const tests = [
     assert.deepEqual(hashes(await measured(page)), hashes(result));
   }],
 ];
-test('a link that measures twice', (context) => visit(both, async (page) => each(context, tests, page, await measured(page))));
+thorough('a link that measures twice', (context) => visit(both, async (page) => each(context, tests, page, await measured(page))));
 
 const onGrid = (copies) => () => visit(`bench.html?scenes=soup.glb&grid=1&copies=${copies}&${small}`, async (page) => {
   const { scenes } = await measured(page);
