@@ -36,6 +36,27 @@ TEST(TextScanner, ReadsLineByLine) {
   EXPECT_FALSE(scanner.next_content());
 }
 
+TEST(TextScanner, EndsALineWithACommentThatEndsTheText) {
+  const std::string text = "a # b";
+  Input input = input_of(text);
+  TextScanner scanner(input, {.comment = '#'});
+  EXPECT_EQ(scanner.read_word("a word"), "a");
+  EXPECT_TRUE(scanner.at_line_end());
+  EXPECT_FALSE(scanner.next_line());
+}
+
+TEST(TextScanner, RefusesWordsThatAreTooLong) {
+  const std::string longest(TextScanner::max_word, 'w');
+  const std::string line = longest + "\n";
+  Input input = input_of(line);
+  EXPECT_EQ(TextScanner(input).read_word("a word"), longest);
+  const std::string text = "\n" + longest + "w";
+  Input longer = input_of(text);
+  TextScanner scanner(longer);
+  EXPECT_TRUE(scanner.next_line());
+  EXPECT_TRUE(error_of([&] { scanner.read_word("a word"); }));
+}
+
 TEST(TextScanner, CountsEveryKindOfLineBreak) {
   const std::string text = "a\nb\rc\r\nd\n\re";
   Input input = input_of(text);
