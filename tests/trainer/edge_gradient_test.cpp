@@ -176,8 +176,8 @@ const Corners tilted = {glm::dvec3(-1.1, -0.9, -2.0), glm::dvec3(1.2, -0.6, -2.6
                         glm::dvec3(0.1, 1.0, -1.8)};
 
 // A pair of neighbours that spans a corner of the triangle sees one edge instead of two: some
-// tenths of a pixel of edges of about 80. The mean over 300 grids has an error of at most 2.7e-4 of
-// the derivative, over these tests, all motions and 8 seeds of the grids. The bound is 3.7 times
+// tenths of a pixel of edges of about 80. The mean over 75 grids has an error of at most 2.3e-4 of
+// the derivative, over these tests, all motions and 8 starts of the grids. The bound is 4.3 times
 // that.
 constexpr int phases = 75;
 constexpr double max_error = 1e-3;
@@ -245,7 +245,7 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
       return covered(after, {a - by_x * after[0].x - by_y * after[0].y - background, by_x, by_y});
     });
     // Edges and texture partly cancel, so the scale is the largest possible derivative. The
-    // measured error is at most 7.7e-5 of it, over 8 seeds of the grids. The bound is 6 times that.
+    // measured error is at most 7.3e-5 of it, over 8 starts of the grids. The bound is 7 times that.
     double scale = 0;
     for (std::size_t k = 0; k < 3; ++k)
       scale += glm::length(gradient[0][k]) * glm::length(velocity[k]);
@@ -316,7 +316,7 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
   test::Faces faces(floats({crossing.a, crossing.b}));
   constexpr double color_a = 0.9, color_b = 0.25;
   const auto gradient = gathered(
-      faces, [](std::uint32_t face, glm::dvec2) { return face == 0 ? color_a : color_b; }, phases,
+      faces, [](std::uint32_t face, glm::dvec2) { return face == 0 ? color_a : color_b; }, 4 * phases,
       5);
   // The image's border shifts with the pixel grid and is not a moving edge. The area is that for
   // the image's middle position.
@@ -343,8 +343,8 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
         derivative(crossing.b, by_b, [&](const Corners& moved) { return loss(crossing.a, moved); });
     // For motions with little effect, the scale is that of the motion along the depth. The line
     // crosses 160 pixels, and the last pixel on each side has no neighbour: 0.6 % in addition to
-    // the sampling error. Measured together: at most 0.48 %, at 45 degrees, over 8 seeds of the
-    // grids. The bound is three times that.
+    // the sampling error. Measured together: at most 0.71 %, at 45 degrees, over 8 starts of the
+    // grids. The bound is twice that.
     const double scale =
         std::abs(derivative(crossing.a, motions()[2].velocity(crossing.a),
                             [&](const Corners& moved) { return loss(moved, crossing.b); }));
