@@ -1,5 +1,5 @@
-# Writes a file for ctest with an entry per test suite of a GoogleTest program. A suite, rather than a
-# test, is a process: its tests share fixtures, and 3,400 starts of programs are saved. Suites whose
+# Writes a file for ctest with an entry PROGRAM.SUITE per test suite of a GoogleTest program. Each suite is
+# one process: its tests share fixtures, which saves 3,400 program starts. Suites whose
 # full names begin with "Thorough" get the label "thorough": only `./dev test --all` runs them.
 #
 #   cmake -DPROGRAM=.. -DMODULE=.. -DTIMEOUT=seconds -DMANY_SHADERS=.. -DTIMES=folder -DOUT=x.cmake
@@ -29,12 +29,12 @@ foreach(line IN LISTS lines)
   endif()
   string(REPLACE "/" "." file "${suite}")
   string(APPEND entries
-    "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=] --gtest_brief=1"
+    "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=] --gtest_brief=1"
     " [=[--gtest_output=json:${TIMES}/${program}/${file}.json]=])\n"
-    "set_tests_properties([=[${suite}]=] PROPERTIES TIMEOUT ${TIMEOUT} LABELS [=[${labels}]=])\n")
+    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES TIMEOUT ${TIMEOUT} LABELS [=[${labels}]=])\n")
   if(MANY_SHADERS)
     string(APPEND entries "if(NOT DEFINED ENV{TUREEN_THOROUGH})\n"
-      "  set_tests_properties([=[${suite}]=] PROPERTIES ENVIRONMENT GALLIVM_PERF=nopt)\nendif()\n")
+      "  set_tests_properties([=[${program}.${suite}]=] PROPERTIES ENVIRONMENT GALLIVM_PERF=nopt)\nendif()\n")
   endif()
 endforeach()
 file(WRITE "${OUT}" "${entries}")

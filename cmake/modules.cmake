@@ -4,8 +4,7 @@ file(GLOB_RECURSE checked_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
   base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp splatting/*.?pp
   runtime/*.?pp trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp web/engine/*.?pp)
 file(GLOB_RECURSE measured_by_limits CONFIGURE_DEPENDS LIST_DIRECTORIES false
-  README.md docs/*.md cli/*.?pp examples/*.?pp shaders/*.* tests/*.?pp web/viewer/* web/page/* web/bench/*
-  web/report/*)
+  README.md docs/* cli/* examples/* shaders/* cmake/* tests/* web/viewer/* web/page/* web/bench/* web/report/*)
 foreach(check arrows limits)
   set(stamp "${PROJECT_BINARY_DIR}/${check}.stamp")
   add_custom_command(

@@ -34,9 +34,12 @@ function(tureen_test name)
   target_compile_options(${name} PRIVATE ${tureen_test_options})
 
   set(suites "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
+  set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS
+    "${PROJECT_SOURCE_DIR}/cmake/discover_suites.cmake")
   add_custom_command(TARGET ${name} POST_BUILD BYPRODUCTS "${suites}"
     COMMAND "${CMAKE_COMMAND}" "-DPROGRAM=$<TARGET_FILE:${name}>" "-DMODULE=${module}"
-      "-DTIMEOUT=${tureen_suite_timeout}" "-DMANY_SHADERS=${ARG_MANY_SHADERS}" "-DTIMES=${PROJECT_BINARY_DIR}/test_times" "-DOUT=${suites}"
+      "-DTIMEOUT=${tureen_suite_timeout}" "-DMANY_SHADERS=${ARG_MANY_SHADERS}"
+      "-DTIMES=${PROJECT_BINARY_DIR}/test_times" "-DOUT=${suites}"
       -P "${PROJECT_SOURCE_DIR}/cmake/discover_suites.cmake"
     VERBATIM)
   # ctest reads this file; before the first build of the program there are no suites.

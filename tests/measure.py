@@ -382,7 +382,7 @@ PARTS = ['training', 'viewers', 'frames', 'splats', 'dense', 'gpu', 'specialisat
 
 # Removed parts and options of `./dev bench`, and their replacements.
 RETIRED = {
-    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test -R AgreesWithTheOracle',
+    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test runtime -R oracle',
     'train-fox': 'the part training', 'train-bottle': 'the part training', 'train-lego': 'the part training',
     'train-example': 'the part training', 'ablations': 'tureen train --config FILE',
     '--ficus': '--data FOLDER', '--fox': '--scene FILE', '--photographs': '--data FOLDER', '--lego': '--data FOLDER',

@@ -91,7 +91,7 @@ class Module:
     def __init__(self, name, compile_commands, tests):
         self.name = name
         self.compile = compile_commands
-        # The shell's command has several parts: of a library the archiver's, of a program the linker's.
+        # Commands have several parts: the archiver's makes a library, the linker's a program.
         self.library = f'{name}/libtureen_{name}.a'
         archive = ninja('commands', '-s', self.library)
         self.objects = re.search(r' qc \S+ (.*?) &&', archive)[1].split()
@@ -194,15 +194,20 @@ def again(path):
 
 def main():
     parser = argparse.ArgumentParser(prog='./dev mutate', description=__doc__)
-    parser.add_argument('modules', nargs='*', metavar='MODULE', help=f'of {", ".join(MODULES)} (default: all)')
+    parser.add_argument('modules', nargs='*', metavar='MODULE', help=f'{", ".join(MODULES)} (default: all)')
     parser.add_argument('--count', type=int, default=300, metavar='N', help='mutants that compile (default: 300)')
-    parser.add_argument('--seed', type=int, default=1, help='of the draw (default: 1)')
+    parser.add_argument('--seed', type=int, default=1, help='of the random choice (default: 1)')
     parser.add_argument('--again', metavar='JSON', help='test the mutants of an earlier result instead')
     parser.add_argument('--survivors', action='store_true', help='with --again: only those that survived')
     parser.add_argument('--all', action='store_true', help='run the thorough tests, too')
-    parser.add_argument('--json', metavar='FILE', default='build/mutants.json', help='the result (default: %(default)s)')
+    parser.add_argument('--json', metavar='FILE', help='the result (default: build/mutants.json, with --again build/mutants-again.json)')
     options = parser.parse_args()
     modules = options.modules or MODULES
+    options.json = options.json or f'build/mutants{"-again" if options.again else ""}.json'
+    if options.survivors and not options.again:
+        parser.error('--survivors needs --again')
+    if options.again and Path(options.again).resolve() == Path(options.json).resolve():
+        parser.error('--json is the file of --again')
     for module in modules:
         if module not in MODULES:
             parser.error(f"there is no module '{module}' to change; modules: {', '.join(MODULES)}")
@@ -235,10 +240,12 @@ def main():
 
         done = []
         with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-            # As many as are still missing are tried at once, so that the same ones count in every run.
+            # Each batch has the number that is still missing, so every run counts the same mutants.
             while candidates and len(done) < share:
                 batch, candidates = candidates[:share - len(done)], candidates[share - len(done):]
                 for result in pool.map(tried, batch):
+                    if result['result'] == 'uncompiled' and options.again:
+                        print(f'{result["file"]}:{result["line"]}: no longer compiles', flush=True)
                     if result['result'] != 'uncompiled':
                         done.append(result)
                         n = len(results) + len(done)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Prints where the last `./dev test` spent its time, as Markdown: seconds of build steps, of test programs,
-and of the slowest tests. Two steps or programs run at once, so wall time is about half of a sum.
+"""Prints times of `./dev test` as Markdown: seconds of the last run of each build step, and of the last tests,
+by program and the slowest ones. Two steps or programs run at once, so wall time is about half of a sum.
 
     tests/times.py [BUILD_FOLDER]      build/release by default
 """
@@ -16,13 +16,13 @@ SLOWEST = 100
 
 
 def build_steps(log):
-    """Seconds by step from a log of ninja: the last run of each output."""
+    """Seconds by step from a log of ninja, which has a line per output: the last run of each command."""
     runs = {}
     for line in log.read_text().splitlines()[1:]:
-        start, end, _, output, _ = line.split('\t')
-        runs[output] = (int(end) - int(start)) / 1000
+        start, end, _, output, command = line.split('\t')
+        runs[command] = (output, (int(end) - int(start)) / 1000)
     steps = defaultdict(float)
-    for output, seconds in runs.items():
+    for output, seconds in runs.values():
         folder = re.match(r'((?:tests/)?[^/]+)/(?:.*/)?CMakeFiles/', output)
         steps[folder[1] if folder else 'links and checks'] += seconds
     return steps
@@ -32,7 +32,6 @@ def test_runs():
     """Yields program, entry of ctest and its seconds."""
     text = (BUILD / 'Testing/Temporary/LastTest.log').read_text(errors='replace')
     for entry in re.split(r'^-{58}$\n(?=\d+/\d+ Test)', text, flags=re.M):
-
         command = re.search(r'^Command: "([^"]+)"', entry, re.M)
         seconds = re.search(r'^Test time = +([\d.]+) sec', entry, re.M)
         if not (command and seconds):

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "base/json/json_view.hpp"
 #include "tests/support/errors.hpp"

@@ -1,76 +1,95 @@
+// Amounts of memory as text, and the count of a read operation.
 #include "base/memory_budget.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace memory_budget_test {
 
-TEST(MemorySize, IsParsedInEveryUnit) {
-  const std::uint64_t k = 1024;
+using test::Names;
+
+TEST(MemorySize, IsReadAsPeopleWriteIt) {
   EXPECT_EQ(parse_memory_size("1"), 1u);
-  EXPECT_EQ(parse_memory_size("17 bytes"), 17u);
-  EXPECT_EQ(parse_memory_size("3k"), 3 * k);
-  EXPECT_EQ(parse_memory_size("512MiB"), 512 * k * k);
-  EXPECT_EQ(parse_memory_size("1.5g"), 3 * k * k * k / 2);
-  EXPECT_EQ(parse_memory_size("4  GB"), 4 * k * k * k);
-  EXPECT_EQ(parse_memory_size("2TiB"), 2 * k * k * k * k);
+  EXPECT_EQ(parse_memory_size("4294967297"), 4294967297u);
+  for (const char* text : {"4GB", "4 GB", "4g", "4GiB", "4096MB", "4194304kB", "4294967296 bytes"})
+    EXPECT_EQ(parse_memory_size(text), std::uint64_t(1) << 32) << text;
+  EXPECT_EQ(parse_memory_size("1.5kB"), 1536u);
+  EXPECT_EQ(parse_memory_size("2TB"), std::uint64_t(2) << 40);
+  EXPECT_EQ(parse_memory_size("512MiB"), std::uint64_t(512) << 20);
   EXPECT_EQ(parse_memory_size("16777217"), 16777217u);  // more digits than a float has
   EXPECT_EQ(parse_memory_size("4611686018427387904"), std::uint64_t(1) << 62);
-}
-
-TEST(MemorySize, IsRefusedOtherwise) {
-  for (const char* text : {"", "0", "0.5", "-1", "big", "5 parsecs", "1e30", "nan", "8GiBs",
-                           "4611686018427390000", "4194305 TiB"})
+  for (const char* text : {"", "GB", "-1GB", "0", "0.5", "nan", "inf GB", "4 G B", "4XB", "4GBs",
+                           "9999999TB", "1e30", "4611686018427390000", "4194305 TiB"})
     EXPECT_THROW(parse_memory_size(text), UsageError) << text;
 }
 
-TEST(MemorySize, HasFourDigitsAsText) {
+TEST(MemorySize, IsSaidAsItIsRead) {
+  EXPECT_EQ(memory_size_text(0), "0 bytes");
   EXPECT_EQ(memory_size_text(1), "1 byte");
   EXPECT_EQ(memory_size_text(1023), "1,023 bytes");
-  EXPECT_EQ(memory_size_text(1024), "1 KiB");
-  EXPECT_EQ(memory_size_text(1536 * 1024), "1.5 MiB");
+  EXPECT_EQ(memory_size_text(1536), "1.5 KiB");
   EXPECT_EQ(memory_size_text(default_max_memory), "4 GiB");
-  EXPECT_EQ(memory_size_text(std::uint64_t(5) << 50), "5120 TiB");
+  EXPECT_EQ(memory_size_text(std::uint64_t(3) << 40), "3 TiB");
 }
 
-TEST(MemoryBudget, CountsWhatIsTakenAndGivenBack) {
-  MemoryBudget budget(100);
-  MemoryBudget copy = budget;  // shares the count
-  EXPECT_TRUE(budget.take(10, 8));
-  EXPECT_FALSE(copy.take(3, 7));
-  EXPECT_EQ(copy.taken(), 80u);
-  EXPECT_TRUE(copy.take(4, 5));
+TEST(MemoryBudget, CountsOverAllOfItsCopiesAndNeverOverflows) {
+  MemoryBudget budget(100), copy = budget;
+  EXPECT_TRUE(budget.take(10, 4));
+  EXPECT_TRUE(copy.take(15, 4));
   EXPECT_EQ(budget.left(), 0u);
-  EXPECT_FALSE(budget.take(UINT64_MAX, 16));
-  budget.give_back(60);
-  EXPECT_EQ(copy.taken(), 40u);
+  EXPECT_FALSE(budget.take(1));
+  EXPECT_EQ(copy.taken(), 100u);
+  copy.give_back(60);
+  EXPECT_EQ(budget.left(), 60u);
+  // In 64 bits, these products and sums overflow to 0 or to small values.
+  for (const auto& [elements, each] :
+       {std::pair(std::uint64_t(1) << 62, std::size_t(4)),
+        std::pair(~std::uint64_t(0), std::size_t(1)), std::pair(std::uint64_t(2), ~std::size_t(0))})
+    EXPECT_FALSE(budget.take(elements, each));
+  EXPECT_TRUE(budget.take(0, 8));
+  EXPECT_EQ(budget.taken(), 40u);
+  EXPECT_THAT(budget.refusal("it"), Names("it", 100));
+}
+
+TEST(MemoryBudget, GivesBackWhatOnlyPassed) {
+  MemoryBudget budget(100);
+  ASSERT_TRUE(budget.take(10));
   {
     PassingMemory passing(budget);
-    EXPECT_TRUE(budget.take(50));
+    ASSERT_TRUE(budget.take(50));
     passing.keep(20);
   }
-  EXPECT_EQ(budget.taken(), 60u);
+  EXPECT_EQ(budget.taken(), 30u);
+  { const PassingMemory nothing(budget); }
+  EXPECT_EQ(budget.taken(), 30u);
 }
 
-TEST(MemoryBudget, RoomIsDoubledWhereItAllows) {
+TEST(MemoryBudget, CountsVectorsWhileTheyGrow) {
   MemoryBudget budget(1000);
-  std::vector<std::uint32_t> values(50);
-  ASSERT_TRUE(budget.take(50, 4));
-  ASSERT_TRUE(make_room(values, 1, budget));
-  EXPECT_EQ(values.capacity(), 100u);
-  EXPECT_EQ(budget.taken(), 400u);
-  values.resize(100);
-  // 200 would take 800 of the 600 bytes that are left, 110 takes 440.
+  std::vector<std::uint32_t> values;
   ASSERT_TRUE(make_room(values, 10, budget));
-  EXPECT_EQ(values.capacity(), 110u);
-  values.resize(110);
-  EXPECT_FALSE(make_room(values, 50, budget));
-  EXPECT_EQ(budget.taken(), 440u);
+  EXPECT_EQ(values.capacity(), 10u);
+  EXPECT_EQ(budget.taken(), 40u);
+  values.resize(10);
+  ASSERT_TRUE(make_room(values, 1, budget));
+  EXPECT_EQ(values.capacity(), 20u);
+  EXPECT_EQ(budget.taken(), 80u);
+  // 920 bytes more than 80 would fit, but the old elements need their 80 bytes until they are
+  // moved.
+  EXPECT_FALSE(make_room(values, 230, budget));
+  EXPECT_EQ(values.capacity(), 20u);
+  EXPECT_EQ(budget.taken(), 80u);
+  EXPECT_TRUE(make_room(values, 220, budget));
+  EXPECT_EQ(budget.taken(), 920u);
+  EXPECT_FALSE(make_room(values, ~std::uint64_t(0), budget));
 }
 
 }  // namespace memory_budget_test

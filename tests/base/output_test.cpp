@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -61,7 +62,8 @@ TEST_F(OutputFile, LeavesNothingWithoutACommit) {
 
 TEST_F(OutputFile, KeepsThePermissionsOfTheFileThatItReplaces) {
   write_file(file, "old");
-  const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
+  // No umask gives a new file the right to execute.
+  const fs::perms own = fs::perms::owner_all | fs::perms::group_exec;
   fs::permissions(file, own);
   write_file(file, "new");
   EXPECT_EQ(content(), "new");

@@ -75,6 +75,7 @@ TEST(CameraPaths, WithoutAKeyframeBeginAndEndAtZero) {
   const CameraPath path;
   EXPECT_TRUE(path.empty());
   EXPECT_EQ(path.begin(), 0);
+  EXPECT_EQ(path.duration(), 0);
 }
 
 }  // namespace view_state_test

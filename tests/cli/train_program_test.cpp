@@ -159,7 +159,7 @@ class Readings {
  public:
   explicit Readings(const fs::path& file)
       : name_(file.filename().string()), events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
-    // Of the folder: each command is a new file.
+    // Watches the folder, because each command is a new file.
     EXPECT_GE(::inotify_add_watch(events_, file.parent_path().c_str(), IN_CLOSE_NOWRITE), 0);
   }
   Readings(const Readings&) = delete;

@@ -29,7 +29,9 @@ TEST(ContactSheet, HasRowsOfThumbnailsWithMargins) {
     EXPECT_EQ(sheet.at(left + 20, top).a, 0) << i;
     EXPECT_EQ(sheet.at(left, top + 15).a, 0) << i;
   }
-  EXPECT_EQ(contact_sheet({}, 20).width, contact_sheet({}, 20).height);
+  // A cell of one pixel without an image.
+  EXPECT_EQ(contact_sheet({}, 20).width, 1 + 2 * margin);
+  EXPECT_EQ(contact_sheet({}, 20).height, 1 + 2 * margin);
 }
 
 }  // namespace contact_sheet_test

@@ -22,12 +22,13 @@ TEST(HeatMap, GetsLighterWithTheDifference) {
   }
 }
 
-/// The scale is logarithmic, from violet at one step to white at all 255.
+/// The scale is logarithmic: violet at one step, white at 255 steps.
 TEST(HeatMap, HasKnownColours) {
   EXPECT_EQ(heat(0.49f / 255), glm::u8vec4(0, 0, 0, 255));
   EXPECT_EQ(heat(1.0f / 255), glm::u8vec4(46, 13, 97, 255));
   EXPECT_EQ(heat(std::pow(1.0f / 255, 0.5f)), glm::u8vec4(230, 71, 51, 255));
   EXPECT_EQ(heat(std::pow(1.0f / 255, 0.25f)), glm::u8vec4(252, 184, 56, 255));
+  EXPECT_EQ(heat(1), glm::u8vec4(255));
 }
 
 TEST(HeatMap, TheRampEndsWhereItSays) {

@@ -47,7 +47,7 @@ TEST(Composite, IsOverTheBackground) {
   }
 }
 
-/// Exact bytes, without a rounding.
+/// Exact bytes, without a tolerance.
 TEST(Composite, HasKnownValues) {
   const std::vector<float> rgba = {0.25f, 0, 0, 0.5f, 0, 0, 0, 0, 1, 1, 1, 1};
   std::vector<std::uint32_t> colors(3);

@@ -245,7 +245,8 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
       return covered(after, {a - by_x * after[0].x - by_y * after[0].y - background, by_x, by_y});
     });
     // Edges and texture partly cancel, so the scale is the largest possible derivative. The
-    // measured error is at most 7.3e-5 of it, over 8 starts of the grids. The bound is 7 times that.
+    // measured error is at most 7.3e-5 of it, over 8 starts of the grids. The bound is 7 times
+    // that.
     double scale = 0;
     for (std::size_t k = 0; k < 3; ++k)
       scale += glm::length(gradient[0][k]) * glm::length(velocity[k]);
@@ -316,8 +317,8 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
   test::Faces faces(floats({crossing.a, crossing.b}));
   constexpr double color_a = 0.9, color_b = 0.25;
   const auto gradient = gathered(
-      faces, [](std::uint32_t face, glm::dvec2) { return face == 0 ? color_a : color_b; }, 4 * phases,
-      5);
+      faces, [](std::uint32_t face, glm::dvec2) { return face == 0 ? color_a : color_b; },
+      4 * phases, 5);
   // The image's border shifts with the pixel grid and is not a moving edge. The area is that for
   // the image's middle position.
   const Polygon window{

@@ -180,7 +180,7 @@ class Window : public testing::Test {
   bool smooth_at_rest_ = false;
 };
 
-/// These repeat what others test: for `./dev test --all`.
+/// Slow tests of features that change rarely: only in `./dev test --all`.
 class ThoroughWindow : public Window {};
 
 void expect_equal(const Image8& a, const Image8& b) {

@@ -38,8 +38,8 @@ export function test(...given) {
   return ended;
 }
 
-/** A test that runs only with TUREEN_THOROUGH=1, as in `./dev test --all`: it repeats a check of the other tests
- *  elsewhere, or at another size. */
+/** A test that runs only with TUREEN_THOROUGH=1, as in `./dev test --all`: it repeats a check elsewhere or at
+ *  another size, or is slow. */
 export const thorough = (name, body) =>
   test(name, { skip: process.env.TUREEN_THOROUGH === '1' ? false : 'only in ./dev test --all' }, body);
 

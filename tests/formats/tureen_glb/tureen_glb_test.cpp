@@ -78,8 +78,7 @@ void expect_survival(const test::GlbKind& kind, test::Damage damage) {
   EXPECT_GT(ways * survival.refused, reach);
 }
 
-/// The names of members repeat in the kinds of file, at other positions: together they have most
-/// damages of each.
+/// Most ways of damaging a name occur in some kind of file, since names repeat at other positions.
 TEST_P(TureenGlb, SurvivesTruncationAndDamage) { expect_survival(GetParam(), test::Damage::one); }
 
 class TureenGlbDamage : public ::testing::TestWithParam<test::GlbKind> {};
