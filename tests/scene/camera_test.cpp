@@ -30,6 +30,23 @@ TEST(Camera, ProjectsByThePinholeEquationWithAnOffCentrePrincipalPoint) {
   EXPECT_NEAR(pixel.y, 200 - 450 * 0.25, 1e-9);
 }
 
+/// By height, with the principal point as far from the middle as before; or by both sides.
+TEST(Camera, ResizedAndResampledKeepTheirOffsets) {
+  Camera camera = look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 100, 50);
+  camera.cx = 60;
+  camera.cy = 20;
+  const Camera wide = resized(camera, 300, 100);
+  EXPECT_DOUBLE_EQ(wide.fx, 2 * camera.fx);
+  EXPECT_DOUBLE_EQ(wide.fy, 2 * camera.fy);
+  EXPECT_DOUBLE_EQ(wide.cx, 150 + 20);
+  EXPECT_DOUBLE_EQ(wide.cy, 40);
+  const Camera stretched = resampled(camera, 300, 100);
+  EXPECT_DOUBLE_EQ(stretched.fx, 3 * camera.fx);
+  EXPECT_DOUBLE_EQ(stretched.fy, 2 * camera.fy);
+  EXPECT_DOUBLE_EQ(stretched.cx, 180);
+  EXPECT_DOUBLE_EQ(stretched.cy, 40);
+}
+
 TEST(Camera, LookAtPutsTheTargetAtTheCentre) {
   const Camera camera = look_at({3, -2, 1}, {0.5, 0.25, 0}, {0, 0, 1}, 0.7, 800, 600);
   const glm::dvec2 pixel = pixel_of(camera, {0.5, 0.25, 0});

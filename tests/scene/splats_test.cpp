@@ -152,6 +152,9 @@ TEST(Splats, AValueOutsideItsRangeIsADefect) {
                                               [&](NeuralDensities& k) { k.semi_axes[0].z = bad; }),
                 HasSubstr("semi-axis"));
   }
+  EXPECT_THAT(defect_after<TriangleWindows>(splats_of(windows(), "triangle-splatting"),
+                                            [](TriangleWindows& k) { k.sigma[0] = 0; }),
+              HasSubstr("splat 0 has a sigma"));
   EXPECT_THAT(defect_after<Gaussians>(splats_of(gaussians(), "3dgs"),
                                       [](Gaussians& k) { k.rotations[0] *= 1.1f; }),
               HasSubstr("unit length"));
