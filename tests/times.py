@@ -31,13 +31,11 @@ def build_steps(log):
 def test_runs():
     """Yields program, entry of ctest and its seconds."""
     text = (BUILD / 'Testing/Temporary/LastTest.log').read_text(errors='replace')
-    for entry in re.split(r'^-{58}$\n(?=\d+/\d+ Test)', text, flags=re.M):
+    for entry in re.split(r'^\d+/\d+ Testing: ', text, flags=re.M)[1:]:
         command = re.search(r'^Command: "([^"]+)"', entry, re.M)
         seconds = re.search(r'^Test time = +([\d.]+) sec', entry, re.M)
-        if not (command and seconds):
-            continue
-        name = re.search(r'^\d+/\d+ Test: (\S+)', entry, re.M)
-        yield Path(command[1]).name, name[1] if name else '', float(seconds[1])
+        if command and seconds:
+            yield Path(command[1]).name, entry.split('\n', 1)[0], float(seconds[1])
 
 
 def single_tests():
@@ -63,8 +61,9 @@ table('build step', steps)
 
 programs, tests = defaultdict(float), dict(single_tests())
 for program, name, seconds in test_runs():
-    programs[program] += seconds
-    if not tests or program.endswith('.sh'):
+    is_script = program.endswith('.sh')
+    programs[name if is_script else program] += seconds
+    if not tests or is_script:
         tests[name] = seconds
 table('test program', programs)
 
