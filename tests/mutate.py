@@ -74,7 +74,7 @@ def run(command, **how):
 
 def build(modules):
     programs = [program for module in modules for program in test_programs(module)]
-    for command in (['cmake', '--preset', 'mutants'],
+    for command in (['cmake', '--preset', 'mutants', f'-DTUREEN_MUTANTS={";".join(MODULES)}'],
                     ['cmake', '--build', '--preset', 'mutants', '--target', *programs]):
         made = run(command)
         if made.returncode:
