@@ -41,7 +41,7 @@ set(limits
   "code shaders 1850: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 12800: three methods, CPU and CUDA"
-  "code jobs 5300: what measures and reports stays below a seventh of the product"
+  "code jobs 5300: work that the programs share, what measures and reports grows no further"
   "code viewer 6750: the window"
   "code web 9200: the page"
   "code cli 6400: the command line computes nothing"
