@@ -10,8 +10,6 @@ cmake_minimum_required(VERSION 3.25)
 
 set(limits
   "files base 43: today"
-  "files splatting 55: today"
-  "files trainer/splats 62: today"
   "files viewer 49: today"
   "files tests/cli 44: today"
   "files tests/fuzz 43: today, one file per reader"

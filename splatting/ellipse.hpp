@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "splatting/tile_lists.hpp"
+#include "splatting/tiles/tile_lists.hpp"
 
 namespace tureen::splatting {
 

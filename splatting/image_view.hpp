@@ -19,7 +19,8 @@ struct ImageView {
   bool keep_integral;      // opacity compensates the dilation (Mip-Splatting)
   float screen_variance;   // of the low pass of 2DGS, in px^2; 0: none
   float min_alpha, max_alpha, stop_transmittance;
-  float solidity;  // of triangle windows, 0..1 (SolidRamp in splatting/window_plane-inl.hpp)
+  float
+      solidity;  // of triangle windows, 0..1 (SolidRamp in splatting/windows/window_plane-inl.hpp)
   int width, height;
 };
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "splatting/disc_layer.hpp"
-#include "splatting/gaussian_layer.hpp"
-#include "splatting/gaussian_rows.hpp"
-#include "splatting/neural_layer.hpp"
-#include "splatting/window_layer.hpp"
+#include "splatting/discs/disc_layer.hpp"
+#include "splatting/gaussians/gaussian_layer.hpp"
+#include "splatting/gaussians/gaussian_rows.hpp"
+#include "splatting/neural/neural_layer.hpp"
+#include "splatting/windows/window_layer.hpp"
 
 namespace tureen::splatting {
 

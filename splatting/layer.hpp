@@ -11,7 +11,7 @@
 #include "scene/splats.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
-#include "splatting/tile_lists.hpp"
+#include "splatting/tiles/tile_lists.hpp"
 
 namespace tureen::splatting {
 

@@ -5,7 +5,7 @@
 
 #include "runtime/passes/pass.hpp"
 #include "scene/clip_range.hpp"
-#include "splatting/tile_renderer.hpp"
+#include "splatting/tiles/tile_renderer.hpp"
 
 namespace tureen::tradeoff {
 

@@ -9,8 +9,8 @@
 
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/device.hpp"
-#include "trainer/splats/gaussian_config.hpp"
-#include "trainer/splats/window_config.hpp"
+#include "trainer/splats/gaussians/gaussian_config.hpp"
+#include "trainer/splats/windows/window_config.hpp"
 
 namespace tureen {
 

@@ -9,9 +9,9 @@
 
 #include "base/error.hpp"
 #include "scene/spherical_harmonics.hpp"
-#include "splatting/gaussian_kernels.hpp"
-#include "splatting/neural_kernels.hpp"
-#include "splatting/window_kernels.hpp"
+#include "splatting/gaussians/gaussian_kernels.hpp"
+#include "splatting/neural/neural_kernels.hpp"
+#include "splatting/windows/window_kernels.hpp"
 
 namespace tureen {
 

@@ -7,7 +7,7 @@
 
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/shader_source.hpp"
-#include "splatting/composite.hpp"
+#include "splatting/tiles/composite.hpp"
 
 namespace tureen {
 

@@ -13,7 +13,7 @@
 #include "runtime/passes/pass.hpp"
 #include "runtime/splats/splat_target.hpp"
 #include "scene/quality.hpp"
-#include "splatting/tile_renderer.hpp"
+#include "splatting/tiles/tile_renderer.hpp"
 
 namespace tureen {
 

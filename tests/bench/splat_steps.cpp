@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "formats/dataset/dataset.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/splat_config.hpp"
-#include "trainer/splats/window_method.hpp"
+#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::test {
 namespace {

@@ -1,5 +1,5 @@
 // Premultiplied splats over a background, against the equation of `over` in double precision.
-#include "splatting/composite.hpp"
+#include "splatting/tiles/composite.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 
 #include "oracle/oracle.hpp"
 #include "scene/edit/splat_edits.hpp"
-#include "splatting/tile_renderer.hpp"
+#include "splatting/tiles/tile_renderer.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
 

@@ -1,5 +1,5 @@
 // Which tiles get a splat, and in which order, as known values.
-#include "splatting/tile_lists.hpp"
+#include "splatting/tiles/tile_lists.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The tile renderer against the oracle.
-#include "splatting/tile_renderer.hpp"
+#include "splatting/tiles/tile_renderer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The tiles of triangles against the pixel centres inside of them.
-#include "splatting/window_entries.hpp"
+#include "splatting/windows/window_entries.hpp"
 
 #include <gtest/gtest.h>
 

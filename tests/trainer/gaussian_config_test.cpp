@@ -1,5 +1,5 @@
 // The table of constants of Gaussians, compared with the struct, and their files.
-#include "trainer/splats/gaussian_config.hpp"
+#include "trainer/splats/gaussians/gaussian_config.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 #include "scene/camera.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "scene/splats.hpp"
-#include "splatting/gaussian_kernels.hpp"
+#include "splatting/gaussians/gaussian_kernels.hpp"
 
 namespace tureen::trainer::test {
 

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_initialise.hpp"
 #include "trainer/splats/splat_training.hpp"

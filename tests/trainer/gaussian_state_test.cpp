@@ -10,7 +10,7 @@
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/trainer/disc_views.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {

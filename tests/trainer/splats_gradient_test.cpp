@@ -13,8 +13,8 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/gaussian_reference.hpp"
 #include "tests/trainer/gradient_views.hpp"
-#include "trainer/splats/disc_raster.hpp"
-#include "trainer/splats/gaussian_raster.hpp"
+#include "trainer/splats/discs/disc_raster.hpp"
+#include "trainer/splats/gaussians/gaussian_raster.hpp"
 
 namespace tureen::trainer {
 namespace splats_gradient_test {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "image/metrics.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 
 namespace tureen::trainer {
 namespace splats_robust_test {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "tests/trainer/disc_views.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 
 namespace tureen::trainer {
 namespace splats_training_test {

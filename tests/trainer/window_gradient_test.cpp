@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/gradient_views.hpp"
 #include "tests/trainer/window_reference.hpp"
-#include "trainer/splats/window_raster.hpp"
+#include "trainer/splats/windows/window_raster.hpp"
 
 namespace tureen::trainer {
 namespace window_gradient_test {

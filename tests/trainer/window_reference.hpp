@@ -14,7 +14,7 @@
 #include "scene/camera.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "scene/splats.hpp"
-#include "splatting/window_kernels.hpp"
+#include "splatting/windows/window_kernels.hpp"
 #include "tests/trainer/gaussian_reference.hpp"
 
 namespace tureen::trainer::test {

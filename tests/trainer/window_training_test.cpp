@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "oracle/oracle.hpp"
-#include "trainer/splats/window_method.hpp"
+#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
 namespace window_training_test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trainer/common/training_views.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 
 namespace tureen::trainer {
 

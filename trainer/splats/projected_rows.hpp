@@ -9,7 +9,7 @@
 #include "base/thread_pool.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
-#include "splatting/tile_lists.hpp"
+#include "splatting/tiles/tile_lists.hpp"
 #include "trainer/splats/tasks.hpp"
 
 namespace tureen::trainer {

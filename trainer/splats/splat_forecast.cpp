@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "trainer/common/stopwatch.hpp"
-#include "trainer/splats/gaussian_method.hpp"
-#include "trainer/splats/window_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
 

@@ -8,9 +8,9 @@
 #include "scene/edit/mean_color.hpp"
 #include "scene/edit/moved_splats.hpp"
 #include "trainer/common/neighbours.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/splat_start.hpp"
-#include "trainer/splats/window_method.hpp"
+#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
 

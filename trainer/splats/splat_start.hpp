@@ -2,8 +2,8 @@
 #pragma once
 
 #include "scene/splats.hpp"
-#include "trainer/splats/gaussian_config.hpp"
-#include "trainer/splats/window_config.hpp"
+#include "trainer/splats/gaussians/gaussian_config.hpp"
+#include "trainer/splats/windows/window_config.hpp"
 
 namespace tureen::trainer {
 

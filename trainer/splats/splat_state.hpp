@@ -10,11 +10,11 @@
 #include "trainer/common/checkpoint_file.hpp"
 #include "trainer/common/random.hpp"
 #include "trainer/common/view_fingerprint.hpp"
-#include "trainer/splats/gaussian_config.hpp"
-#include "trainer/splats/gaussian_parameters.hpp"
+#include "trainer/splats/gaussians/gaussian_config.hpp"
+#include "trainer/splats/gaussians/gaussian_parameters.hpp"
 #include "trainer/splats/splat_memory.hpp"
-#include "trainer/splats/window_config.hpp"
-#include "trainer/splats/window_parameters.hpp"
+#include "trainer/splats/windows/window_config.hpp"
+#include "trainer/splats/windows/window_parameters.hpp"
 
 namespace tureen::trainer {
 

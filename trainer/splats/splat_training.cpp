@@ -8,9 +8,9 @@
 
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
-#include "trainer/splats/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/splat_forecast.hpp"
-#include "trainer/splats/window_method.hpp"
+#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
 

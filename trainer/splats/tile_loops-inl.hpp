@@ -24,7 +24,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "splatting/blending-inl.hpp"
+#include "splatting/tiles/blending-inl.hpp"
 #include "trainer/splats/tile_passes.hpp"
 
 HWY_BEFORE_NAMESPACE();

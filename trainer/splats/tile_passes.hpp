@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "splatting/tile_lists.hpp"
+#include "splatting/tiles/tile_lists.hpp"
 
 namespace tureen::trainer {
 

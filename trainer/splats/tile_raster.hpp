@@ -19,7 +19,7 @@
 #include "scene/camera.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
-#include "splatting/tile_lists.hpp"
+#include "splatting/tiles/tile_lists.hpp"
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/splats/splat_memory.hpp"
 #include "trainer/splats/tasks.hpp"

@@ -1,0 +1,82 @@
+// The hot loops of neural densities (Splat the Net, arXiv 2510.08491), for the vectors of the
+// processor, chosen at run time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "scene/splats.hpp"
+#include "splatting/image_view.hpp"
+#include "splatting/layer.hpp"
+#include "splatting/parameter_rows.hpp"
+#include "splatting/tiles/tile_lists.hpp"
+
+namespace tureen::splatting {
+
+inline constexpr std::size_t neurons = NeuralDensities::width;
+
+/// Rows of neural densities. Harmonics follow: red, green and blue of each coefficient.
+namespace neural_row {
+enum : std::size_t {
+  center,                              // x, y, z, in layer coordinates
+  semi_axes = center + 3,              // > 0
+  rotation = semi_axes + 3,            // x, y, z, w, of unit length
+  frequencies = rotation + 4,          // x, y, z of each neuron, times omega
+  phases = frequencies + 3 * neurons,  // times omega
+  amplitudes = phases + neurons,
+  offset = amplitudes + neurons,  // b2
+  harmonics
+};
+}
+
+/// Rows of projected neural densities: first the members of NeuralEntry, in their order.
+namespace projected_neural_row {
+enum : std::size_t {
+  center,
+  sphere_from_view = center + 3,
+  by_unit = sphere_from_view + 9,
+  near,
+  twice_by_largest,
+  frequencies,
+  phases = frequencies + 3 * neurons,
+  amplitudes = phases + neurons,
+  offset = amplitudes + neurons,
+  red,
+  green,
+  blue,
+  depth,    // of the centre, in layer units; NaN: not drawn
+  outline,  // x, y, p, q, r, half_width and half_height of an Ellipse with the limit 1 around the
+            // image; x is NaN if it may cover any pixel
+  count = outline + 7
+};
+}
+
+/// A projected neural density, as the compositing loop reads it. Lengths are in the splat's own
+/// unit, the power of 2 at or below the largest semi-axis; vectors are in view coordinates.
+struct alignas(64) NeuralEntry {
+  float center[3];
+  float sphere_from_view[9];       // row by row; the ellipsoid becomes the unit sphere
+  float by_unit;                   // one over the unit, in layer units
+  float near;                      // the depth of the near plane
+  float twice_by_largest;          // 2 over the largest semi-axis
+  float frequencies[3 * neurons];  // x, y, z of each neuron, over the largest semi-axis
+  float phases[neurons], amplitudes[neurons], offset;
+  float red, green, blue;  // >= 0
+};
+
+/// Projects the densities [begin, end), with `begin` a multiple of row_alignment. `projected` has
+/// projected_neural_row::count rows of as many splats.
+void project_densities(const ImageView& view, const ParameterRows& densities, int harmonics_degree,
+                       std::size_t begin, std::size_t end, ParameterRows& projected);
+
+/// Blends the entries front to back into the pixels of a tile.
+void blend_densities(const ImageView& view, std::span<const NeuralEntry> entries,
+                     std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// Adds the entries to the hits of a tile (Layer::collect).
+void collect_densities(const ImageView& view, std::span<const NeuralEntry> entries,
+                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
+                       TileHits& hits);
+
+}  // namespace tureen::splatting

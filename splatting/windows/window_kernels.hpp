@@ -1,0 +1,73 @@
+// The hot loops of triangle windows (Triangle Splatting, arXiv 2505.19175), for the vectors of the
+// processor, chosen at run time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "splatting/image_view.hpp"
+#include "splatting/layer.hpp"
+#include "splatting/parameter_rows.hpp"
+#include "splatting/tiles/tile_lists.hpp"
+
+namespace tureen::splatting {
+
+/// Rows of windows. Harmonics follow: red, green and blue of each coefficient; with colours of
+/// corners, those of the first corner, the second and the third.
+namespace window_row {
+enum : std::size_t {
+  corners,  // x, y, z of each of the three, in layer coordinates
+  sigma = corners + 9,
+  opacity,
+  harmonics
+};
+}
+
+/// Rows of projected windows. At an offset (dx, dy) from (x, y), in pixels, the distance from edge
+/// k over the inradius is edges[3 k] dx + edges[3 k + 1] dy + edges[3 k + 2], and one over the
+/// depth likewise. With ImageView::solidity, the edges are those of rho_s instead.
+namespace projected_window_row {
+enum : std::size_t {
+  x,
+  y,
+  edges,
+  inverse_depth = edges + 9,
+  sigma = inverse_depth + 3,
+  log_opacity,
+  min_rho,  // where alpha is the smallest
+  red,
+  green,
+  blue,   // >= 0
+  depth,  // of the centre; NaN: not drawn
+  // Corners of the triangle where rho is min_rho: x and y. NaN: it reaches the near plane.
+  outline,
+  count = outline + 6
+};
+}
+
+/// What the alpha of a projected window depends on, as projected_window_row.
+struct WindowShape {
+  float x, y, edges[9], inverse_depth[3], sigma, log_opacity, min_rho;
+};
+
+/// A projected window, as the compositing loop reads it.
+struct alignas(16) WindowEntry : WindowShape {
+  float red, green, blue;
+  bool reaches_near;  // some part may be nearer than the near plane
+};
+
+/// Projects the windows [begin, end), with `begin` a multiple of row_alignment. `projected` has
+/// projected_window_row::count rows of as many splats.
+void project_windows(const ImageView& view, const ParameterRows& windows, int harmonics_degree,
+                     std::size_t begin, std::size_t end, ParameterRows& projected);
+
+/// Blends the entries front to back into the pixels of a tile.
+void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,
+                   std::span<const std::uint32_t> tile, TilePixels& pixels);
+
+/// Adds the entries to the hits of a tile (Layer::collect).
+void collect_windows(const ImageView& view, std::span<const WindowEntry> entries,
+                     std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits);
+
+}  // namespace tureen::splatting

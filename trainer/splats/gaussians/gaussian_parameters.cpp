@@ -1,0 +1,77 @@
+#include "trainer/splats/gaussians/gaussian_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "splatting/gaussians/gaussian_rows.hpp"
+#include "splatting/harmonics_rows.hpp"
+
+namespace tureen::trainer {
+
+namespace row = splatting::gaussian_row;
+
+const std::array<ParameterKind, 6> gaussian_parameter_kinds = {{
+    {"centre", row::x, 3, Activation::identity, 3e-3f, 3e-5f, Inheritance::moved_apart},
+    {"log scale", row::scale_x, 3, Activation::exponential, 4e-2f, 8e-3f, Inheritance::shortened},
+    {"rotation", row::rotation_x, 4, Activation::unit_length, 1e-2f, 2e-3f, Inheritance::copied},
+    {"opacity logit", row::opacity, 1, Activation::sigmoid, 1e-1f, 2e-2f, Inheritance::copied},
+    {"harmonics of degree 0", row::harmonics, 3, Activation::identity, 2e-2f, 4e-3f,
+     Inheritance::copied},
+    {"other harmonics", row::harmonics + 3, 45, Activation::identity, 4e-3f, 8e-4f,
+     Inheritance::copied},
+}};
+
+GaussianParameters::GaussianParameters(const Gaussians& gaussians, const SplatColor& color,
+                                       int degree_of_harmonics)
+    : SplatParameters(gaussians.centers.size(), degree_of_harmonics) {
+  std::vector<std::uint32_t> all(count());
+  std::iota(all.begin(), all.end(), 0u);
+  const splatting::ParameterRows values =
+      splatting::rows_of(gaussians, color, all, std::min(degree, color.degree));
+  const std::size_t stored = row::harmonics + splatting::harmonics_rows(color.degree);
+  for (std::size_t i = 0; i < count(); ++i) {
+    for (std::size_t r = 0; r < std::min(rows(), stored); ++r) drawn.row(r)[i] = values.row(r)[i];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      trained(row::scale_x + axis)[i] =
+          std::log(std::max(values.row(row::scale_x + axis)[i], 1e-30f));
+    for (std::size_t k = 0; k < 4; ++k)
+      trained(row::rotation_x + k)[i] = values.row(row::rotation_x + k)[i];
+    const float opacity = std::clamp(values.row(row::opacity)[i], 0.001f, 0.999f);
+    trained(row::opacity)[i] = std::log(opacity / (1 - opacity));
+    activate(i);
+  }
+}
+
+void GaussianParameters::activate(std::size_t i) {
+  float squared = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const float value = trained(row::rotation_x + k)[i];
+    squared += value * value;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    drawn.row(row::scale_x + axis)[i] = std::exp(trained(row::scale_x + axis)[i]);
+  for (std::size_t k = 0; k < 4; ++k)
+    drawn.row(row::rotation_x + k)[i] = trained(row::rotation_x + k)[i] / std::sqrt(squared);
+  drawn.row(row::opacity)[i] = 1 / (1 + std::exp(-trained(row::opacity)[i]));
+}
+
+Splats GaussianParameters::splats(bool flat) const {
+  Gaussians gaussians;
+  gaussians.flat = flat;
+  for (std::size_t i = 0; i < count(); ++i) {
+    const auto value = [&](std::size_t r) { return drawn.row(r)[i]; };
+    gaussians.centers.push_back(center(i));
+    const glm::vec3 scales = triple(row::scale_x, i);
+    gaussians.scales.emplace_back(scales.x, scales.y, flat ? 0 : scales.z);
+    gaussians.rotations.emplace_back(value(row::rotation_w), value(row::rotation_x),
+                                     value(row::rotation_y), value(row::rotation_z));
+    gaussians.opacity.push_back(opacity(i));
+  }
+  return {.kernel = std::move(gaussians),
+          .color = color(),
+          .profile = *profile_named(flat ? "2dgs" : "3dgs")};
+}
+
+}  // namespace tureen::trainer
