@@ -2,7 +2,7 @@
 # one process: its tests share fixtures, which saves 3,400 program starts. Suites whose
 # full names begin with "Thorough" get the label "thorough": only `./dev test --all` runs them.
 #
-#   cmake -DPROGRAM=.. -DMODULE=.. -DTIMEOUT=seconds -DMANY_SHADERS=.. -DTIMES=folder -DOUT=x.cmake
+#   cmake -DPROGRAM=.. -DMODULE=.. -DTIMEOUT=seconds -DTIMES=folder -DOUT=x.cmake
 #         -P discover_suites.cmake
 #
 # Each entry writes the times of its tests to TIMES/SUITE.json.
@@ -32,9 +32,5 @@ foreach(line IN LISTS lines)
     "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=] --gtest_brief=1"
     " [=[--gtest_output=json:${TIMES}/${program}/${file}.json]=])\n"
     "set_tests_properties([=[${program}.${suite}]=] PROPERTIES TIMEOUT ${TIMEOUT} LABELS [=[${labels}]=])\n")
-  if(MANY_SHADERS)
-    string(APPEND entries "if(NOT DEFINED ENV{TUREEN_THOROUGH})\n"
-      "  set_tests_properties([=[${program}.${suite}]=] PROPERTIES ENVIRONMENT GALLIVM_PERF=nopt)\nendif()\n")
-  endif()
 endforeach()
 file(WRITE "${OUT}" "${entries}")

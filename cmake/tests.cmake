@@ -18,12 +18,10 @@ function(tureen_tested_module out)
   endif()
 endfunction()
 
-# tureen_test(NAME [MANY_SHADERS] SOURCES .. LINK ..): a GoogleTest program with one ctest entry per test
-# suite (cmake/discover_suites.cmake), labelled with its module. MANY_SHADERS: it draws small images with
-# many shaders. llvmpipe then compiles for longer than it draws, so except in `./dev test --all` it
-# compiles without optimisation.
+# tureen_test(NAME SOURCES .. LINK ..): a GoogleTest program with one ctest entry per test suite
+# (cmake/discover_suites.cmake), labelled with its module.
 function(tureen_test name)
-  cmake_parse_arguments(ARG "MANY_SHADERS" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   tureen_tested_module(module)
   add_executable(${name} ${ARG_SOURCES})
   add_dependencies(tests_${module} ${name})
@@ -38,8 +36,7 @@ function(tureen_test name)
     "${PROJECT_SOURCE_DIR}/cmake/discover_suites.cmake")
   add_custom_command(TARGET ${name} POST_BUILD BYPRODUCTS "${suites}"
     COMMAND "${CMAKE_COMMAND}" "-DPROGRAM=$<TARGET_FILE:${name}>" "-DMODULE=${module}"
-      "-DTIMEOUT=${tureen_suite_timeout}" "-DMANY_SHADERS=${ARG_MANY_SHADERS}"
-      "-DTIMES=${PROJECT_BINARY_DIR}/test_times" "-DOUT=${suites}"
+      "-DTIMEOUT=${tureen_suite_timeout}" "-DTIMES=${PROJECT_BINARY_DIR}/test_times" "-DOUT=${suites}"
       -P "${PROJECT_SOURCE_DIR}/cmake/discover_suites.cmake"
     VERBATIM)
   # ctest reads this file; before the first build of the program there are no suites.
