@@ -10,7 +10,7 @@
 
 namespace tureen {
 
-/// Prepares soups with all their faces and all their stored values. Of the specialisations, only
+/// Prepares soups with all their faces and all their stored values. Of their specialisations, only
 /// weight_uniforms and dead_neurons are applied; they are exact. The Renderer also draws ordinary
 /// frames. Of the options' preferences, only reversed_depth has an effect. Otherwise as
 /// prepare_scene.
