@@ -50,12 +50,6 @@ PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const Dev
   return prepared;
 }
 
-PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
-                                  const DeviceLimits& device, const RenderOptions& options) {
-  const PlacedLayer layer = placed_layer(soup, origin);
-  return prepare_debug_views(std::span(&layer, 1), device, options);
-}
-
 struct DebugViews::State {
   std::vector<DebugViewSubject> subjects;  // for each layer
   ShownDebugView shown = {};
@@ -73,9 +67,6 @@ DebugViews::DebugViews(std::span<const PlacedLayer> layers) : state_(new State) 
       state_->subjects.emplace_back(*layer.soup);
     else
       state_->subjects.emplace_back(*layer.splats);
-}
-DebugViews::DebugViews(const TriangleSoup& soup) : state_(new State) {
-  state_->subjects.emplace_back(soup);
 }
 DebugViews::~DebugViews() = default;
 DebugViews::DebugViews(DebugViews&&) noexcept = default;
