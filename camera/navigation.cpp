@@ -41,15 +41,15 @@ struct Box {
   glm::dvec3 low, high;
 };
 
-Box in_world(const PlacedBounds& placed) {
-  const auto& [box, world_from_layer] = placed;
+Box in_world(const LayerPlace& placed) {
+  const Bounds& box = placed.bounds;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box result{glm::dvec3(infinity), glm::dvec3(-infinity)};
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec4 position(corner & 1 ? box.high.x : box.low.x,
                               corner & 2 ? box.high.y : box.low.y,
                               corner & 4 ? box.high.z : box.low.z, 1.0);
-    const glm::dvec3 world(world_from_layer * position);
+    const glm::dvec3 world(placed.world_from_layer * position);
     result.low = glm::min(result.low, world);
     result.high = glm::max(result.high, world);
   }
@@ -74,8 +74,8 @@ Box without_surroundings(const Box& box, std::span<const Camera> cameras) {
 
 }  // namespace
 
-std::vector<PlacedBounds> boxes_of(const Scene& scene) {
-  std::vector<PlacedBounds> boxes;
+std::vector<LayerPlace> boxes_of(const Scene& scene) {
+  std::vector<LayerPlace> boxes;
   for (const Layer& layer : scene.layers)
     boxes.push_back({framed_bounds(layer), layer.world_from_layer});
   return boxes;
@@ -85,11 +85,11 @@ Subject subject_of(const Scene& scene) {
   return subject_of(boxes_of(scene), glm::dvec3(scene.info.up), scene.cameras);
 }
 
-Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up,
+Subject subject_of(std::span<const LayerPlace> boxes, const glm::dvec3& up,
                    std::span<const Camera> cameras) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   glm::dvec3 low(infinity), high(-infinity);
-  for (const PlacedBounds& each : boxes) {
+  for (const LayerPlace& each : boxes) {
     const Box box = without_surroundings(in_world(each), cameras);
     low = glm::min(low, box.low);
     high = glm::max(high, box.high);

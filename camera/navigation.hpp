@@ -23,7 +23,7 @@ struct Subject {
 };
 
 /// The framed_bounds() of all layers, also of invisible ones.
-std::vector<PlacedBounds> boxes_of(const Scene& scene);
+std::vector<LayerPlace> boxes_of(const Scene& scene);
 
 /// The box in world coordinates around boxes_of() the scene, and its up axis. A layer without
 /// triangles counts as its origin. O(data).
@@ -32,7 +32,7 @@ std::vector<PlacedBounds> boxes_of(const Scene& scene);
 /// region (region_of_cameras): what surrounds the cameras would hide it from an eye outside.
 Subject subject_of(const Scene& scene);
 /// The same for boxes that are known. O(boxes).
-Subject subject_of(std::span<const PlacedBounds> boxes, const glm::dvec3& up,
+Subject subject_of(std::span<const LayerPlace> boxes, const glm::dvec3& up,
                    std::span<const Camera> cameras = {});
 
 /// The optics of a view.

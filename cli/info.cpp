@@ -190,7 +190,7 @@ LayerFacts facts_of(const Scene& scene, std::size_t index) {
     SplatPlan plan = make_splat_plan(*facts.splats);
     facts.forecast = device_forecast(*facts.splats, plan);
     facts.lint = lint(*facts.splats);
-    facts.plan.layers.emplace_back(std::move(plan));
+    facts.plan.add(std::move(plan));
     return facts;
   }
   const TriangleSoup& soup = *facts.soup;

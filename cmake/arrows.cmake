@@ -14,7 +14,7 @@ set(arrows
   "splatting: base image scene"
   "shaders:"
   "runtime/gl: base"
-  "runtime/plan: base image scene"
+  "runtime/plan: base image scene splatting"
   "runtime/passes: base image scene shaders runtime/gl runtime/plan"
   "runtime/splats: base image scene splatting shaders runtime/gl runtime/plan runtime/passes"
   "runtime: base image scene splatting runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views"

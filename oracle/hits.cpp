@@ -106,7 +106,7 @@ Rays::Rays(const TriangleSoup& soup, const glm::dmat4& world_from_layer, const C
   if (range) {
     range_ = *range;
   } else {
-    const PlacedBounds placed{bounds(soup), world_from_layer};
+    const LayerPlace placed{bounds(soup), world_from_layer};
     range_ = clip_range({&placed, 1}, camera, DepthStorage::reversed_float);
   }
   rows_.resize(soup.triangles.size());

@@ -6,7 +6,6 @@
 #include <glm/vec4.hpp>
 #include <limits>
 #include <span>
-#include <variant>
 
 #include "oracle/shade.hpp"
 
@@ -19,26 +18,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rays in one band: their hits are kept until the band is shaded (about 32 MiB).
 constexpr int rays_in_a_band = 1 << 20;
 
-struct PlacedSoup {
-  const TriangleSoup* soup;
-  glm::dmat4 world_from_layer;
-  std::uint32_t layer;  // its index in the scene
-};
-
 struct NearestHit {
   std::uint32_t face = OracleImage::no_face;
-  std::uint32_t soup = 0;  // index in the list of placed soups
+  std::uint32_t soup = 0;  // index in the list of visible soups
   double b0 = 0, b1 = 0;
   double depth = infinity;
 
   oracle::SurfacePoint point() const { return {face, b0, b1}; }
-};
-
-/// The visible layers of a scene.
-struct PlacedLayers {
-  std::vector<PlacedSoup> soups;
-  std::vector<oracle::PlacedSplats> splats;
-  std::vector<PlacedBounds> bounds;  // of all
 };
 
 /// The colours of rays [first, first + colors.size()), 0 without a face.
@@ -72,21 +58,36 @@ glm::dvec4 pixel_of(const OracleImage& image, const RayColors& opaque,
   return glm::clamp(pixel, 0.0, 1.0);
 }
 
-OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
+OracleImage render_layers(std::span<const PlacedLayer> layers, const FrameInput& input,
                           const OracleOptions& options) {
+  struct VisibleSoup {
+    const TriangleSoup& soup;
+    std::uint32_t layer;
+  };
+  std::vector<VisibleSoup> soups;
+  std::vector<PlacedLayer> splats;
+  std::vector<LayerPlace> places;  // of all visible layers
+  for (std::uint32_t i = 0; i < layers.size(); ++i) {
+    const PlacedLayer& layer = layers[i];
+    if (!layer.place.visible) continue;
+    if (layer.soup)
+      soups.push_back({*layer.soup, i});
+    else
+      splats.push_back(layer);
+    places.push_back({bounds(layer), layer.place.world_from_layer});
+  }
   const Camera& camera = input.camera;
   const int n = options.supersampling;
   assert(n >= 1);
   const Camera fine = n == 1 ? camera : resized(camera, camera.width * n, camera.height * n);
   const std::size_t stride = fine.width;
   const std::size_t all_rays = stride * fine.height;
-  const bool has_splats = !layers.splats.empty();
-  const std::vector<PlacedSoup>& soups = layers.soups;
+  const bool has_splats = !splats.empty();
 
-  const ClipRange range = clip_range(layers.bounds, fine, DepthStorage::reversed_float);
+  const ClipRange range = clip_range(places, fine, DepthStorage::reversed_float);
   std::vector<oracle::Rays> rays;
-  for (const PlacedSoup& each : soups)
-    rays.emplace_back(*each.soup, each.world_from_layer, fine, options.rays, range);
+  for (const auto& [soup, layer] : soups)
+    rays.emplace_back(soup, layers[layer].place.world_from_layer, fine, options.rays, range);
 
   OracleImage result;
   result.color = ImageF(camera.width, camera.height);
@@ -115,8 +116,7 @@ OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
     for (std::uint32_t i = 0; i < soups.size(); ++i)
       rays[i].visit_faces(first, end, [&](int column, int row, const oracle::Hit& hit) {
         NearestHit& best = nearest[(row - first) * stride + column];
-        if (hit.depth < best.depth &&
-            oracle::is_visible(*soups[i].soup, {hit.face, hit.b0, hit.b1}))
+        if (hit.depth < best.depth && oracle::is_visible(soups[i].soup, {hit.face, hit.b0, hit.b1}))
           best = {hit.face, i, hit.b0, hit.b1, hit.depth};
       });
 
@@ -126,13 +126,13 @@ OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
         const NearestHit& hit = nearest[(y - first) * stride + x];
         if (hit.face == OracleImage::no_face) continue;
         const std::size_t ray = y * stride + x;
-        const PlacedSoup& shown = soups[hit.soup];
+        const VisibleSoup& shown = soups[hit.soup];
         const oracle::Rays& its_rays = rays[hit.soup];
         result.face[ray] = hit.face;
         result.layer[ray] = shown.layer;
         result.depth[ray] = hit.depth;
         opaque.colors[ray - opaque.first] =
-            oracle::color(*shown.soup, hit.point(), its_rays.to_eye(x, y), its_rays.eye());
+            oracle::color(shown.soup, hit.point(), its_rays.to_eye(x, y), its_rays.eye());
       }
     if (!has_splats) resolve(first / n, end / n, opaque, {});
     // With splats, opaque surfaces count as half of the work.
@@ -149,7 +149,7 @@ OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
   if (options.progress)
     blending.progress = [&](double fraction) { options.progress(0.5 + 0.5 * fraction); };
   const std::vector<oracle::BlendedSample> blended =
-      oracle::blend(layers.splats, camera, result.depth, blending);
+      oracle::blend(splats, camera, result.depth, blending);
   for (const oracle::BlendedSample& each : blended) {
     result.splat_alpha.push_back(1 - each.transmittance);
     result.splat_depth.push_back(each.median_depth);
@@ -163,25 +163,13 @@ OracleImage render_layers(const PlacedLayers& layers, const FrameInput& input,
 
 OracleImage render_oracle(const Scene& scene, const FrameInput& input,
                           const OracleOptions& options) {
-  PlacedLayers layers;
-  for (std::uint32_t i = 0; i < scene.layers.size(); ++i) {
-    const Layer& layer = scene.layers[i];
-    if (!layer.visible) continue;
-    if (const auto* soup = std::get_if<TriangleSoup>(&layer.primitives))
-      layers.soups.push_back({soup, layer.world_from_layer, i});
-    else
-      layers.splats.push_back({&std::get<Splats>(layer.primitives), layer.world_from_layer});
-    layers.bounds.push_back({bounds(layer), layer.world_from_layer});
-  }
-  return render_layers(layers, input, options);
+  return render_layers(placed_layers(scene), input, options);
 }
 
 OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const FrameInput& input,
                           const OracleOptions& options) {
-  PlacedLayers layers;
-  layers.soups.push_back({&soup, at_origin(origin), 0});
-  layers.bounds.push_back({bounds(soup), at_origin(origin)});
-  return render_layers(layers, input, options);
+  const PlacedLayer layer = placed_layer(soup, origin);
+  return render_layers(std::span(&layer, 1), input, options);
 }
 
 }  // namespace tureen

@@ -37,7 +37,7 @@ int clamped_to(double value, int low, int high) {
 
 class Blender {
  public:
-  Blender(std::span<const PlacedSplats> layers, const Camera& camera,
+  Blender(std::span<const PlacedLayer> layers, const Camera& camera,
           std::span<const double> opaque_depth, const SplatBlending& options)
       : layers_(layers),
         opaque_depth_(opaque_depth),
@@ -46,8 +46,8 @@ class Blender {
         rows_(camera.height * options.supersampling),
         samples_(std::size_t(columns_) * rows_) {
     assert(opaque_depth.size() == samples_.size());
-    for (const PlacedSplats& layer : layers)
-      views_.emplace_back(layer.world_from_layer, camera, options.near, options.culls,
+    for (const PlacedLayer& layer : layers)
+      views_.emplace_back(layer.place.world_from_layer, camera, options.near, options.culls,
                           options.whole);
     sort_centres();
   }
@@ -186,7 +186,7 @@ class Blender {
     if (options_.progress && done % (all / 256 + 1) == 0) options_.progress(double(done) / all);
   }
 
-  std::span<const PlacedSplats> layers_;
+  std::span<const PlacedLayer> layers_;
   std::span<const double> opaque_depth_;
   const SplatBlending& options_;
   int columns_, rows_;
@@ -197,7 +197,7 @@ class Blender {
 
 }  // namespace
 
-std::vector<BlendedSample> blend(std::span<const PlacedSplats> layers, const Camera& camera,
+std::vector<BlendedSample> blend(std::span<const PlacedLayer> layers, const Camera& camera,
                                  std::span<const double> opaque_depth,
                                  const SplatBlending& options) {
   return Blender(layers, camera, opaque_depth, options).blended();

@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
@@ -18,7 +17,7 @@
 
 #include "oracle/splat_view.hpp"
 #include "scene/camera.hpp"
-#include "scene/splats.hpp"
+#include "scene/placed_layer.hpp"
 
 namespace tureen::oracle {
 
@@ -31,13 +30,6 @@ enum class SplatOrder {
   /// Gaussian by EWA, the depth of its largest density; of a neural density, the middle of its
   /// chord.
   exact,
-};
-
-/// A layer of splats at its place in the world. The splats must outlive this object and have no
-/// defect().
-struct PlacedSplats {
-  const Splats* splats;
-  glm::dmat4 world_from_layer;
 };
 
 struct SplatBlending {
@@ -62,11 +54,12 @@ struct BlendedSample {
   bool ended = false;  // no further splat is blended
 };
 
-/// All samples, row by row from the top; a row has width * supersampling samples. Only splats in
-/// front of the opaque surface count: `opaque_depth` has its depth for each sample, infinity
-/// without one. Memory is that of the result and a few numbers a splat; for SplatOrder::exact also
-/// the splats at the samples of a band of rows.
-std::vector<BlendedSample> blend(std::span<const PlacedSplats> layers, const Camera& camera,
+/// Of layers of splats without a defect(), hidden ones too. All samples, row by row from the top; a
+/// row has width * supersampling samples. Only splats in front of the opaque surface count:
+/// `opaque_depth` has its depth for each sample, infinity without one. Memory is that of the result
+/// and a few numbers a splat; for SplatOrder::exact also the splats at the samples of a band of
+/// rows.
+std::vector<BlendedSample> blend(std::span<const PlacedLayer> layers, const Camera& camera,
                                  std::span<const double> opaque_depth,
                                  const SplatBlending& options);
 

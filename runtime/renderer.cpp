@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <string>
 
 #include "base/error.hpp"
@@ -18,101 +19,85 @@
 
 namespace tureen {
 
-/// Appends the layers' places and soups.
-void Renderer::State::upload(std::vector<PreparedLayer>& layers, std::span<const LayerPlan> plans) {
-  assert(layers.size() == plans.size());
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    PreparedLayer& layer = layers[i];
-    std::unique_ptr<DeviceSoup> soup;
-    std::unique_ptr<DeviceSplats> of_splats;
-    std::unique_ptr<TiledSplats> tiled;
-    with_layer_in_errors(places.size() + layers.size() - i > 1 ? layer.name : "", [&] {
-      if (layer.soup)
-        soup = std::make_unique<DeviceSoup>(device, std::move(layer.soup->appearance),
-                                            layer.soup->geometry, std::get<SoupPlan>(plans[i]));
-      if (layer.splats)
-        of_splats = std::make_unique<DeviceSplats>(device, std::move(*layer.splats),
-                                                   std::get<SplatPlan>(plans[i]));
-      if (layer.tiled_splats)
-        tiled = std::make_unique<TiledSplats>(
-            TiledSplats{splatting::make_layer(std::move(*layer.tiled_splats)),
-                        std::get<SplatPlan>(plans[i]).profile});
+DeviceLayers Renderer::State::upload(PreparedScene& prepared) const {
+  gl::use_plain_pixel_transfer();
+  const bool several = layers.size() + prepared.layers.size() > 1;
+  DeviceLayers result;
+  for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
+    const std::string name = several ? prepared.layers[i].place.name : "";
+    with_layer_in_errors(name, [&] {
+      result.push_back(std::make_unique<DeviceLayer>(device, std::move(prepared.layers[i]),
+                                                     prepared.plan.layers[i]));
     });
-    soups.push_back(std::move(soup));
-    splats.push_back(std::move(of_splats));
-    tiled_splats.push_back(std::move(tiled));
-    places.push_back({{layer.bounds, layer.world_from_layer}, layer.visible});
   }
+  return result;
 }
 
 bool Renderer::State::has_splats() const {
-  const auto exists = [](const auto& each) { return each != nullptr; };
-  return std::any_of(splats.begin(), splats.end(), exists) ||
-         std::any_of(tiled_splats.begin(), tiled_splats.end(), exists);
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const auto& layer) { return layer->has_splats(); });
 }
 
-/// Uploads the splats that only tiles have needed so far.
+std::vector<DeviceSplats*> Renderer::State::splats() const {
+  std::vector<DeviceSplats*> result;
+  for (const std::unique_ptr<DeviceLayer>& layer : layers)
+    if (layer->splats) result.push_back(&*layer->splats);
+  return result;
+}
+
 void Renderer::State::upload_tiled_splats() {
-  const TexelLayout layout = TexelLayout::of(device_limits(device));
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    if (splats[i] || !tiled_splats[i]) continue;
-    const SplatPlan& layer_plan = std::get<SplatPlan>(plan.layers[i]);
-    SplatSource source = prepare_splats(tiled_splats[i]->splats->data(), layout);
-    splats[i] = std::make_unique<DeviceSplats>(device, std::move(source), layer_plan);
-    splats[i]->set_layer(i);
-  }
+  for (const std::unique_ptr<DeviceLayer>& layer : layers) layer->upload_tiled_splats(device);
 }
 
-/// Calls add(), which appends layers, and arranges them. If that throws, the layers are as before.
-template <class Add>
-void Renderer::State::add_or_undo(const Add& add) {
-  const std::size_t before = soups.size();
+/// Appends the layers and arranges all. If that throws, the layers are as before.
+void Renderer::State::add(DeviceLayers added) {
+  const std::size_t before = layers.size();
+  std::move(added.begin(), added.end(), std::back_inserter(layers));
   try {
-    add();
     arrange();
   } catch (...) {
-    if (soup_passes.size() > before) soup_passes.resize(before);  // they refer to the soups
-    drop_splat_pass();
-    soups.resize(before);
-    splats.resize(before);
-    tiled_splats.resize(before);
-    places.resize(before);
-    plan.layers.resize(before);
+    drop_splat_pass();  // it refers to the layers
+    layers.resize(before);
     arrange();
     throw;
   }
 }
 
-/// Numbers the soups and makes the passes that are missing, after a change of the layers.
+/// Numbers the layers and makes the passes that are missing, after a change of the layers.
 void Renderer::State::arrange() {
   shown.reset();
-  const auto is_soup = [](const auto& each) { return each != nullptr; };
-  const bool now_layered = std::count_if(soups.begin(), soups.end(), is_soup) > 1;
+  const auto soups = std::count_if(layers.begin(), layers.end(),
+                                   [](const auto& layer) { return layer->soup.has_value(); });
   // A change of the kind of plan needs other programs. One soup that remains of several keeps its
   // plan and programs, which draw it correctly.
-  if (now_layered && !layered) soup_passes.clear();
-  layered |= now_layered;
-  if (layered)
-    for (LayerPlan& each : plan.layers)
-      if (auto* soup = std::get_if<SoupPlan>(&each)) make_layered(*soup);
+  if (soups > 1 && !layered) {
+    layered = true;
+    for (const std::unique_ptr<DeviceLayer>& layer : layers) layer->passes = {};
+  }
+  plan.layers.clear();
   std::uint32_t first_slot = 0;
-  for (std::size_t i = 0; i < soups.size(); ++i) {
-    if (splats[i]) splats[i]->set_layer(i);
-    if (tiled_splats[i]) tiled_splats[i]->layer = i;
-    if (!soups[i]) continue;
-    soups[i]->set_place(plan.soup(i), {i, first_slot, layered});
-    first_slot += static_cast<std::uint32_t>(plan.soup(i).faces.size());
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    DeviceLayer& layer = *layers[i];
+    plan.layers.push_back(layer.plan);
+    if (layer.splats) layer.splats->set_layer(i);
+    if (layer.tiled_splats) layer.tiled_splats->layer = i;
+    if (!layer.soup) continue;
+    if (layered) make_layered(std::get<SoupPlan>(*layer.plan));
+    layer.soup->set_place({i, first_slot, layered});
+    first_slot += static_cast<std::uint32_t>(layer.soup->plan().faces.size());
   }
   drop_splat_pass();
   if (draws_layers && has_splats()) {
     make_splat_pass();
     size = glm::ivec2(0);  // the next frame calls its resize()
   }
-  const bool all_made = !draws_layers || soup_passes.size() == soups.size();
-  if (!all_made)
-    for (std::size_t i = soup_passes.size(); i < soups.size(); ++i)
-      soup_passes.push_back(soups[i] ? make_soup_passes(*soups[i]) : SoupPasses{});
-  if (all_made && target.format() == format()) {
+  bool made = false;
+  for (const std::unique_ptr<DeviceLayer>& layer : layers) {
+    if (!draws_layers || !layer->soup || layer->passes.faces) continue;
+    layer->passes = make_soup_passes(*layer->soup);
+    made = true;
+  }
+  if (!made && target.format() == format()) {
     target.begin(background);  // the last frame no longer belongs to the layers
     return;
   }
@@ -125,51 +110,37 @@ void Renderer::State::drop_splat_pass() {
   ordered_splats = nullptr;
 }
 
-/// Tiles blend if they can blend all layers, otherwise the device does, or samples alpha.
 void Renderer::State::make_splat_pass() {
-  if (plan.quality.splat_order == Quality::SplatOrder::stochastic) {
-    upload_tiled_splats();  // of added layers that were prepared for another order
-    splat_pass = std::make_unique<StochasticSplatPass>(device, splats, splat_format);
-    return;
-  }
+  const Quality::SplatOrder order = plan.quality.splat_order;
   std::vector<const TiledSplats*> tiled;
-  bool all = true;
-  for (std::size_t i = 0; i < splats.size(); ++i) {
-    if (tiled_splats[i]) tiled.push_back(tiled_splats[i].get());
-    all &= tiled_splats[i] || !splats[i];
+  std::size_t count = 0;
+  for (const std::unique_ptr<DeviceLayer>& layer : layers) {
+    if (layer->has_splats()) ++count;
+    if (layer->tiled_splats) tiled.push_back(&*layer->tiled_splats);
   }
-  if (all && tiled.size() <= TilePass::max_layers) {
-    splat_pass = std::make_unique<TilePass>(device, std::move(tiled), plan.quality.splat_order);
+  plan.splats_in_tiles = blends_in_tiles(order, count, tiled.size());
+  if (plan.splats_in_tiles) {
+    splat_pass = std::make_unique<TilePass>(device, std::move(tiled), order);
     return;
   }
-  if (plan.quality.splat_order == Quality::SplatOrder::exact)
-    throw UsageError("the exact order of splats needs tiles for all layers, and at most " +
-                         std::to_string(TilePass::max_layers) + " layers of splats",
-                     "prepare added layers with the same quality");
-  upload_tiled_splats();
-  auto raster = std::make_unique<SplatPass>(device, splats, splat_format);
+  upload_tiled_splats();  // of layers that were prepared otherwise
+  if (order == Quality::SplatOrder::stochastic) {
+    splat_pass = std::make_unique<StochasticSplatPass>(device, splats(), splat_format);
+    return;
+  }
+  auto raster = std::make_unique<SplatPass>(device, splats(), splat_format);
   ordered_splats = &raster->splats();
   ordered_splats->sort_with(splat_sorter.get());
   splat_pass = std::move(raster);
 }
 
-void Renderer::State::remove(std::size_t layer) {
-  const auto at = static_cast<std::ptrdiff_t>(layer);
-  if (draws_layers) soup_passes.erase(soup_passes.begin() + at);
-  drop_splat_pass();
-  soups.erase(soups.begin() + at);
-  splats.erase(splats.begin() + at);
-  tiled_splats.erase(tiled_splats.begin() + at);
-  places.erase(places.begin() + at);
-  plan.layers.erase(plan.layers.begin() + at);
-}
-
 FrameFormat Renderer::State::format() const {
   FrameFormat result{.reversed_depth = plan.reversed_depth, .layered = layered};
-  for (const std::unique_ptr<DeviceSoup>& soup : soups) {
-    if (!soup) continue;
-    result.visibility |= soup->plan().site == ShadingSite::deferred;
-    result.image_store |= soup->plan().shading_stage == ShadingStage::compute;
+  for (const std::unique_ptr<DeviceLayer>& layer : layers) {
+    if (!layer->soup) continue;
+    const SoupPlan& soup = layer->soup->plan();
+    result.visibility |= soup.site == ShadingSite::deferred;
+    result.image_store |= soup.shading_stage == ShadingStage::compute;
   }
   return result;
 }
@@ -204,13 +175,15 @@ void Renderer::State::set_frame(const FrameInput& input) {
   frame.samples_per_pixel = plan.quality.supersampling;
   frame.background = background;
   visible_boxes.clear();
-  for (const Place& place : places)
-    if (place.visible) visible_boxes.push_back(place.box);
+  for (const std::unique_ptr<DeviceLayer>& layer : layers)
+    if (layer->place.visible)
+      visible_boxes.push_back({layer->place.bounds, layer->place.world_from_layer});
   frame.range = clip_range(visible_boxes, camera, depth_storage());
   frame.layers.clear();
-  for (const Place& place : places) {
+  for (const std::unique_ptr<DeviceLayer>& layer : layers) {
+    const LayerPlace& place = layer->place;
     frame.layers.push_back(
-        camera_in_layer(frame.input.camera, place.box.world_from_layer, frame.range));
+        camera_in_layer(frame.input.camera, place.world_from_layer, frame.range));
     frame.layers.back().visible = place.visible;
   }
 }
@@ -237,65 +210,49 @@ void Renderer::set_background(glm::vec4 background) {
   state_->background = background;
 }
 
-std::size_t Renderer::layer_count() const { return state_->places.size(); }
+std::size_t Renderer::layer_count() const { return state_->layers.size(); }
 
 void Renderer::place_layer(std::size_t layer, const glm::dmat4& world_from_layer) {
   assert(layer < layer_count());
   state_->shown.reset();
-  state_->places[layer].box.world_from_layer = world_from_layer;
+  state_->layers[layer]->place.world_from_layer = world_from_layer;
 }
 
 void Renderer::show_layer(std::size_t layer, bool visible) {
   assert(layer < layer_count());
   state_->shown.reset();
-  state_->places[layer].visible = visible;
+  state_->layers[layer]->place.visible = visible;
 }
 
 void Renderer::add_layers(PreparedScene prepared) {
   State& state = *state_;
   assert(state.draws_layers && !prepared.make_passes);
   assert(prepared.plan.reversed_depth == state.plan.reversed_depth);
-  assert(state.places.size() + prepared.layers.size() <= max_layers);
-  gl::use_plain_pixel_transfer();
-  state.add_or_undo([&] {
-    state.upload(prepared.layers, prepared.plan.layers);
-    for (LayerPlan& each : prepared.plan.layers) state.plan.layers.push_back(std::move(each));
-  });
+  assert(layer_count() + prepared.layers.size() <= max_layers);
+  state.add(state.upload(prepared));
 }
 
 void Renderer::add_layers(Renderer other) {
   State &state = *state_, &from = *other.state_;
   assert(state.draws_layers && from.draws_layers);
   assert(from.plan.reversed_depth == state.plan.reversed_depth);
-  assert(state.places.size() + from.places.size() <= max_layers);
-  from.soup_passes.clear();  // they refer to the soups
-  from.drop_splat_pass();
-  state.add_or_undo([&] {
-    for (std::size_t i = 0; i < from.soups.size(); ++i) {
-      state.soups.push_back(std::move(from.soups[i]));
-      state.splats.push_back(std::move(from.splats[i]));
-      state.tiled_splats.push_back(std::move(from.tiled_splats[i]));
-      state.places.push_back(from.places[i]);
-      state.plan.layers.push_back(std::move(from.plan.layers[i]));
-    }
-  });
+  assert(layer_count() + from.layers.size() <= max_layers);
+  from.drop_splat_pass();  // it refers to the layers
+  for (const std::unique_ptr<DeviceLayer>& layer : from.layers) layer->passes = {};
+  state.add(std::move(from.layers));
 }
 
 void Renderer::remove_layer(std::size_t layer) {
   assert((state_->draws_layers || state_->passes.empty()) && layer < layer_count());
-  state_->remove(layer);
+  state_->drop_splat_pass();  // it refers to the layer
+  state_->layers.erase(state_->layers.begin() + static_cast<std::ptrdiff_t>(layer));
   state_->arrange();
 }
 
 void Renderer::swap_layers(std::size_t a, std::size_t b) {
   State& state = *state_;
   assert((state.draws_layers || state.passes.empty()) && a < layer_count() && b < layer_count());
-  std::swap(state.soups[a], state.soups[b]);
-  std::swap(state.splats[a], state.splats[b]);
-  std::swap(state.tiled_splats[a], state.tiled_splats[b]);
-  std::swap(state.places[a], state.places[b]);
-  std::swap(state.plan.layers[a], state.plan.layers[b]);
-  if (state.draws_layers) std::swap(state.soup_passes[a], state.soup_passes[b]);
+  std::swap(state.layers[a], state.layers[b]);
   state.arrange();
 }
 
@@ -309,14 +266,19 @@ void Renderer::set_passes(Passes passes) {
   state_->shown.reset();
   state_->passes = std::move(passes);
   state_->draws_layers = false;
-  state_->soup_passes.clear();
+  for (const std::unique_ptr<DeviceLayer>& layer : state_->layers) layer->passes = {};
   state_->drop_splat_pass();
   state_->size = glm::ivec2(0);
 }
 
-std::span<const std::unique_ptr<DeviceSoup>> Renderer::soups() const { return state_->soups; }
+std::vector<DeviceSoup*> Renderer::soups() const {
+  std::vector<DeviceSoup*> result;
+  for (const std::unique_ptr<DeviceLayer>& layer : state_->layers)
+    if (layer->soup) result.push_back(&*layer->soup);
+  return result;
+}
 
-std::span<const std::unique_ptr<DeviceSplats>> Renderer::splats() const { return state_->splats; }
+std::vector<DeviceSplats*> Renderer::splats() const { return state_->splats(); }
 
 void Renderer::State::draw(const FrameInput& input) {
   set_frame(input);
@@ -376,14 +338,14 @@ std::vector<VisibleFace> Renderer::read_faces() const {
   if (state.size.x == 0 || !state.target.has_visibility()) return {};
   const std::vector<std::uint32_t> slots =
       read_visible_slots(state.target.visibility_framebuffer(), sample_size());
+  const std::vector<DeviceSoup*> soups = this->soups();
   std::vector<VisibleFace> result(slots.size());
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (slots[i] == no_face) continue;
-    std::size_t layer = state.soups.size() - 1;
-    while (!state.soups[layer] || slots[i] < state.soups[layer]->place().first_slot) --layer;
-    const DeviceSoup& soup = *state.soups[layer];
-    result[i] = {static_cast<std::uint32_t>(layer),
-                 soup.plan().faces[slots[i] - soup.place().first_slot]};
+    auto soup = soups.rbegin();
+    while (slots[i] < (*soup)->place().first_slot) ++soup;
+    const auto& [layer, first_slot, layered] = (*soup)->place();
+    result[i] = {static_cast<std::uint32_t>(layer), (*soup)->plan().faces[slots[i] - first_slot]};
   }
   return result;
 }
@@ -406,7 +368,7 @@ double Renderer::State::splat_depth_at(glm::ivec2 sample, float stored) {
   FrameTarget pixel({.reversed_depth = plan.reversed_depth});
   pixel.resize({1, 1});
   upload_tiled_splats();
-  SplatMeasures measures(device, splats, SplatMeasure::median_depth);
+  SplatMeasures measures(device, splats(), SplatMeasure::median_depth);
   measures.resize(pixel);
   if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, true);
   gl::use_plain_rasterisation(1, 1);
@@ -447,10 +409,7 @@ void Renderer::blit_to(unsigned framebuffer, glm::ivec2 corner) const {
 }
 
 void Renderer::leave_context() {
-  for (const std::unique_ptr<DeviceSoup>& soup : state_->soups)
-    if (soup) soup->leave_context();
-  for (const std::unique_ptr<DeviceSplats>& splats : state_->splats)
-    if (splats) splats->leave_context();
+  for (const std::unique_ptr<DeviceLayer>& layer : state_->layers) layer->leave_context();
   state_->for_each_pass_and_filter([](Pass& pass) { pass.leave_context(); });
   state_->target.leave_context();
   state_->probe.reset();
@@ -462,9 +421,7 @@ void Renderer::leave_context() {
 
 std::size_t Renderer::layer_bytes(std::size_t layer) const {
   assert(layer < layer_count());
-  if (const auto& soup = state_->soups[layer]) return soup->device_bytes();
-  const auto& splats = state_->splats[layer];
-  return splats ? splats->device_bytes() : 0;
+  return state_->layers[layer]->device_bytes();
 }
 
 std::size_t Renderer::device_bytes() const {

@@ -31,7 +31,7 @@ namespace gl {
 class PassTimer;
 }
 class SplatSorter;
-
+class DeviceSoup;
 class DeviceSplats;
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
@@ -91,11 +91,10 @@ class Renderer {
   /// Replaces all passes of later frames, also those of the layers. Passes that draw soups must not
   /// outlive them.
   void set_passes(Passes passes);
-  /// The soups on the device, for passes that draw them; they live as long as their layer. Null for
-  /// layers of splats.
-  std::span<const std::unique_ptr<DeviceSoup>> soups() const;
-  /// The same for the splats; null for layers of soups.
-  std::span<const std::unique_ptr<DeviceSplats>> splats() const;
+  /// The soups on the device, for passes that draw them; they live as long as their layer.
+  std::vector<DeviceSoup*> soups() const;
+  /// The same for the splats.
+  std::vector<DeviceSplats*> splats() const;
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
   /// has finished. Asserts a positive size. Throws DeviceLimitError if the size, in pixels or in

@@ -24,9 +24,9 @@ bool Renderer::has_image_at_rest() const {
   if (quality.resolution_scale < 1 || !state.draws_layers || !state.passes.empty() ||
       !state.device.float_targets || frames_at_rest(quality.supersampling) == 0)
     return false;
-  for (std::size_t i = 0; i < state.places.size(); ++i) {
-    if (!state.places[i].visible) continue;
-    const auto* splats = std::get_if<SplatPlan>(&state.plan.layers[i]);
+  for (const std::unique_ptr<DeviceLayer>& layer : state.layers) {
+    if (!layer->place.visible) continue;
+    const auto* splats = std::get_if<SplatPlan>(layer->plan.get());
     if (!splats || splats->profile.low_pass == SplatProfile::LowPass::none ||
         quality.splat_order == Quality::SplatOrder::stochastic)
       return true;

@@ -25,7 +25,7 @@ ClipRange range_of_sphere(double depth, double radius, DepthStorage storage) {
   return {near, std::max(1.05 * (depth + radius), 2 * near)};
 }
 
-bool has_extent(const PlacedBounds& layer) { return layer.bounds.low != layer.bounds.high; }
+bool has_extent(const LayerPlace& layer) { return layer.bounds.low != layer.bounds.high; }
 
 struct Sphere {
   double depth;  // of the centre, along the viewing axis
@@ -35,7 +35,7 @@ struct Sphere {
 /// The sphere around a layer. Its centre is computed relative to the eye: far from the world's
 /// origin, the translation minus the eye has digits that a world position lacks. For a layer that
 /// is only translated, the products with 1 and 0 are exact.
-Sphere sphere_of(const PlacedBounds& layer, const Camera& camera) {
+Sphere sphere_of(const LayerPlace& layer, const Camera& camera) {
   const glm::dmat4& place = layer.world_from_layer;
   const glm::dvec3 centre =
       glm::dmat3(place) * layer.bounds.centre() + (glm::dvec3(place[3]) - camera.eye());
@@ -50,10 +50,10 @@ ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
   return range_of_sphere(glm::dot(bounds.centre() - eye, forward), bounds.radius(), storage);
 }
 
-ClipRange clip_range(std::span<const PlacedBounds> layers, const Camera& camera,
+ClipRange clip_range(std::span<const LayerPlace> layers, const Camera& camera,
                      DepthStorage storage) {
   ClipRange all{std::numeric_limits<double>::infinity(), 0};
-  for (const PlacedBounds& layer : layers) {
+  for (const LayerPlace& layer : layers) {
     const Sphere sphere = sphere_of(layer, camera);
     const ClipRange one = range_of_sphere(sphere.depth, sphere.radius, storage);
     if (layers.size() == 1) return one;

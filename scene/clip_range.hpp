@@ -2,13 +2,12 @@
 // precision on empty space. The oracle uses the range for reversed depth.
 #pragma once
 
-#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 
 #include "scene/camera.hpp"
-#include "scene/triangle_soup.hpp"
+#include "scene/layer_place.hpp"
 
 namespace tureen {
 
@@ -34,20 +33,15 @@ enum class DepthStorage {
 ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
                      DepthStorage storage);
 
-/// The box around a layer, in layer coordinates, and the layer's place: a similarity.
-struct PlacedBounds {
-  Bounds bounds;
-  glm::dmat4 world_from_layer{1.0};
-};
-
-/// The range of a frame that draws all these layers with one depth buffer, in world units: from the
-/// smallest `near` of a layer to the largest `far`. A distant or enormous layer thus does not clip
-/// the others; with DepthStorage::fixed_24, a small layer near the eye makes the depth of the
-/// others coarser. Beside others, layers behind the eye are ignored, and layers without extent:
-/// they contain nothing visible, and the box of an empty layer lies at an arbitrary place. Without
-/// layers, the range has no meaning, but is valid. For one layer that is only translated, the
-/// result equals clip_range(bounds, eye - translation, forward, storage) bit for bit.
-ClipRange clip_range(std::span<const PlacedBounds> layers, const Camera& camera,
+/// The range of a frame that draws all these layers, hidden ones too, with one depth buffer, in
+/// world units: from the smallest `near` of a layer to the largest `far`. A distant or enormous
+/// layer thus does not clip the others; with DepthStorage::fixed_24, a small layer near the eye
+/// makes the depth of the others coarser. Beside others, layers behind the eye are ignored, and
+/// layers without extent: they contain nothing visible, and the box of an empty layer lies at an
+/// arbitrary place. Without layers, the range has no meaning, but is valid. For one layer that is
+/// only translated, the result equals clip_range(bounds, eye - translation, forward, storage) bit
+/// for bit.
+ClipRange clip_range(std::span<const LayerPlace> layers, const Camera& camera,
                      DepthStorage storage);
 
 /// The viewing axis in world coordinates.

@@ -54,14 +54,14 @@ void append_scene(StageSource& source, const fs::path& path, const FileWatch& wa
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
   for (std::size_t i = 0; i < scene->layers.size(); ++i) {
     Layer& layer = scene->layers[i];
-    const Bounds box = framed_bounds(layer);
-    source.layers.push_back({.primitives = std::make_shared<const Primitives>(
-                                 std::exchange(layer.primitives, TriangleSoup{})),
-                             .box = box,
-                             .world_from_layer = layer.world_from_layer,
-                             .visible = layer.visible,
-                             .file = source.files.size(),
-                             .index = i});
+    StageLayer& added = source.layers.emplace_back();
+    added.bounds = framed_bounds(layer);
+    added.world_from_layer = layer.world_from_layer;
+    added.visible = layer.visible;
+    added.primitives =
+        std::make_shared<const Primitives>(std::exchange(layer.primitives, TriangleSoup{}));
+    added.file = source.files.size();
+    added.index = i;
   }
   source.files.push_back({path, watch, std::move(scene)});
 }
@@ -87,10 +87,8 @@ void append_files(StageSource& source, const ReadRequest& request) {
 }
 
 void update_subject(StageSource& source) {
-  std::vector<PlacedBounds> boxes;
-  for (const StageLayer& layer : source.layers)
-    boxes.push_back({layer.box, layer.world_from_layer});
-  source.subject = subject_of(boxes, source.up.axis, source.files.front().header->cameras);
+  const std::vector<LayerPlace> places(source.layers.begin(), source.layers.end());
+  source.subject = subject_of(places, source.up.axis, source.files.front().header->cameras);
 }
 
 bool has_layer(const StageSource& source, std::size_t file, std::size_t index) {
@@ -163,7 +161,7 @@ bool was_known(const StageLayer& layer, const StageSource& source, const StageSo
 /// A renderer of one layer by the choice.
 Renderer prepare_layer(const StageLayer& layer, const Scene& scene, const StageRequest& request) {
   const RenderOptions options = render_options(request.choice, scene);
-  const PlacedLayer placed{*layer.primitives, layer.world_from_layer, layer.name, layer.visible};
+  const PlacedLayer placed = placed_layer(*layer.primitives, layer);
   const DeviceLimits limits = device_limits(request.context.capabilities());
   return Renderer(request.context, prepare_scene(std::span(&placed, 1), limits, options), options);
 }
@@ -261,16 +259,7 @@ std::size_t StageLayer::primitive_count() const {
 std::vector<PlacedLayer> placed_layers(const StageSource& source) {
   std::vector<PlacedLayer> result;
   for (const StageLayer& layer : source.layers)
-    result.push_back({*layer.primitives, layer.world_from_layer, layer.name, layer.visible});
-  return result;
-}
-
-std::vector<PlacedSoup> placed_soups(const StageSource& source) {
-  std::vector<PlacedSoup> result;
-  for (const StageLayer& layer : source.layers) {
-    if (!layer.soup()) throw UsageError("layer " + layer.name + " holds splats, not triangles");
-    result.push_back({*layer.soup(), layer.world_from_layer, layer.name, layer.visible});
-  }
+    result.push_back(placed_layer(*layer.primitives, layer));
   return result;
 }
 
@@ -417,12 +406,11 @@ Renderer prepare_renderer(const StageSource& source, const StageRequest& request
   if (layers.size() > 1)
     throw UsageError("the baseline draws scenes of one layer; this scene has " +
                      std::to_string(layers.size()));
-  const PlacedLayer& layer = layers.front();
-  RenderPlan plan = make_baseline_plan(layer.primitives, options.plan);
-  return Renderer(
-      request.context,
-      prepare_baseline(layer, device_limits(request.context.capabilities()), std::move(plan)),
-      options);
+  RenderPlan plan = make_baseline_plan(*source.layers.front().primitives, options.plan);
+  return Renderer(request.context,
+                  prepare_baseline(layers.front(), device_limits(request.context.capabilities()),
+                                   std::move(plan)),
+                  options);
 }
 
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {

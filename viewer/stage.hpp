@@ -42,12 +42,9 @@ struct SceneFile {
 
 /// A layer of the scene. The user changes its place; its primitives never change, and jobs in the
 /// background share them.
-struct StageLayer {
-  std::string name = {};  // that of the file for a single layer without a name
+/// A single layer without a name has that of its file. The bounds are framed_bounds().
+struct StageLayer : LayerPlace {
   std::shared_ptr<const Primitives> primitives = {};
-  Bounds box = {};  // in layer coordinates
-  glm::dmat4 world_from_layer{1.0};
-  bool visible = true;
   std::size_t file = 0, index = 0;  // the file, and the layer in it
 
   /// Null for splats.
@@ -87,8 +84,6 @@ std::vector<std::string> named_notes(const StageSource& source);
 
 /// The layers for the runtime. They refer to the source's primitives.
 std::vector<PlacedLayer> placed_layers(const StageSource& source);
-/// The same for the baseline. Throws UsageError for splats.
-std::vector<PlacedSoup> placed_soups(const StageSource& source);
 
 /// The reason why this debug view is not available, from the first layer that lacks it.
 std::optional<std::string> why_not(DebugView what, const StageSource& source);

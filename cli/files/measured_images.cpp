@@ -78,7 +78,7 @@ void write_png(const Values& values, const Camera& camera, const MeasuredImage& 
 }
 
 ClipRange range_of(const Scene& scene, const Camera& camera) {
-  std::vector<PlacedBounds> boxes;
+  std::vector<LayerPlace> boxes;
   for (const Layer& layer : scene.layers)
     if (layer.visible) boxes.push_back({bounds(layer), layer.world_from_layer});
   return clip_range(boxes, camera, DepthStorage::reversed_float);

@@ -44,22 +44,9 @@ RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& prefe
 RenderPlan make_baseline_plan(const Primitives& primitives,
                               const PlanPreferences& preferences = {});
 
-/// The soup with the baseline's passes. The plan is from make_baseline_plan for this soup, which
-/// must not move until a Renderer was made. The Renderer throws DeviceLimitError if the lookup
-/// textures exceed `limits`.
-PreparedScene prepare_baseline(const PlacedSoup& layer, const DeviceLimits& limits,
-                               RenderPlan plan);
-
-/// Splats with their place.
-struct PlacedSplats {
-  const Splats& splats;
-  glm::dmat4 world_from_layer{1.0};
-  std::string name = {};
-  bool visible = true;
-};
-/// The same for splats, and for either.
-PreparedScene prepare_baseline(const PlacedSplats& layer, const DeviceLimits& limits,
-                               RenderPlan plan);
+/// The layer with the baseline's passes. The plan is from make_baseline_plan for its primitives,
+/// which must not move until a Renderer was made. The Renderer throws DeviceLimitError if the
+/// lookup textures of a soup exceed `limits`.
 PreparedScene prepare_baseline(const PlacedLayer& layer, const DeviceLimits& limits,
                                RenderPlan plan);
 

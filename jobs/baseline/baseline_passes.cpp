@@ -3,12 +3,13 @@
 // test, faces in file order, then the network on every pixel of the window with its weights in mat4
 // uniforms. It has the viewer's shortcomings too: features quantised twice, one lattice level,
 // lookup textures that must fit the device's largest 2D texture.
+#include "jobs/baseline/baseline_passes.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <glm/matrix.hpp>
 
 #include "base/error.hpp"
-#include "jobs/baseline/baseline.hpp"
 #include "runtime/passes/full_screen.hpp"
 #include "runtime/passes/geometry.hpp"
 #include "runtime/passes/pass.hpp"
@@ -178,25 +179,16 @@ class NetworkPass final : public Pass {
 
 }  // namespace
 
-PreparedScene prepare_baseline(const PlacedSoup& layer, const DeviceLimits& limits,
-                               RenderPlan plan) {
-  PreparedScene prepared;
-  prepared.plan = std::move(plan);
-  prepared.layers.push_back({.name = layer.name,
-                             .bounds = bounds(layer.soup),
-                             .world_from_layer = layer.world_from_layer,
-                             .visible = layer.visible});
-  prepared.make_passes = [&soup = layer.soup, limits](const PassInputs& inputs) {
-    auto features =
-        std::make_unique<FeaturesPass>(inputs.device, limits, soup, inputs.plan.soup(0));
+MakePasses baseline_passes(const TriangleSoup& soup, const DeviceLimits& limits) {
+  return [&soup, limits](const gl::Capabilities& device, const RenderPlan& plan) {
+    auto features = std::make_unique<FeaturesPass>(device, limits, soup, plan.soup(0));
     const ColorMlp& mlp = *std::get<LatticeTexture>(soup.appearance).mlp;
-    auto network = std::make_unique<NetworkPass>(inputs.device, mlp, *features);
+    auto network = std::make_unique<NetworkPass>(device, mlp, *features);
     Passes passes;
     passes.push_back(std::move(features));
     passes.push_back(std::move(network));
     return passes;
   };
-  return prepared;
 }
 
 }  // namespace tureen

@@ -43,7 +43,7 @@ RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& p
   layer.appearance = appearance_name(soup.appearance);
   layer.soup_faces = soup.triangles.size();
   RenderPlan plan;
-  plan.layers.push_back(std::move(layer));
+  plan.add(std::move(layer));
   plan.quality = preferences.quality;
   plan.specialise = preferences.specialise;
   plan.description = description_of(preferences);
@@ -73,7 +73,7 @@ RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& prefe
     plan.description.push_back(std::move(sentence));
   if (preferences.splat_blending != SplatBlending::automatic)
     plan.description.emplace_back("--blend has no effect: the baseline blends in its own way");
-  plan.layers.emplace_back(std::move(layer));
+  plan.add(std::move(layer));
   return plan;
 }
 

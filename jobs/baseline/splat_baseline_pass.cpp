@@ -3,12 +3,11 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
-#include "jobs/baseline/baseline.hpp"
+#include "jobs/baseline/baseline_passes.hpp"
 #include "runtime/passes/geometry.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/targets.hpp"
 #include "runtime/splats/device_splats.hpp"
-#include "scene/middle_bounds.hpp"
 
 namespace tureen {
 
@@ -135,26 +134,16 @@ void SplatBaselinePass::leave_context() {
   transparent_framebuffer_ = {};
 }
 
-PreparedScene prepare_baseline(const PlacedSplats& layer, const DeviceLimits& limits,
-                               RenderPlan plan) {
-  const auto& splat_plan = std::get<SplatPlan>(plan.layers.front());
-  SplatSource source = prepare_splats(layer.splats, splat_plan, TexelLayout::of(limits));
-  if (const auto* gaussians = std::get_if<Gaussians>(&layer.splats.kernel))
+MakePasses baseline_passes(const Splats& splats, const SplatPlan& plan,
+                           const DeviceLimits& limits) {
+  SplatSource source = prepare_splats(splats, plan, TexelLayout::of(limits));
+  if (const auto* gaussians = std::get_if<Gaussians>(&splats.kernel))
     source = with_covariances(std::move(source), *gaussians);
-  PreparedScene prepared;
-  prepared.plan = std::move(plan);
-  prepared.layers.push_back({.name = layer.name,
-                             .bounds = bounds(layer.splats),
-                             .framed = framed_bounds(layer.splats),
-                             .world_from_layer = layer.world_from_layer,
-                             .visible = layer.visible});
-  prepared.make_passes = [source = std::move(source)](const PassInputs& inputs) {
+  return [source = std::move(source)](const gl::Capabilities& device, const RenderPlan& of_scene) {
     Passes passes;
-    passes.push_back(std::make_unique<SplatBaselinePass>(
-        inputs.device, source, std::get<SplatPlan>(inputs.plan.layers.front())));
+    passes.push_back(std::make_unique<SplatBaselinePass>(device, source, of_scene.splats(0)));
     return passes;
   };
-  return prepared;
 }
 
 }  // namespace tureen

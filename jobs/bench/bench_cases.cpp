@@ -41,24 +41,14 @@ class RendererCase final : public BenchCase {
     configuration.name = name;
     const DeviceLimits limits = device_limits(context.capabilities());
     auto start = std::chrono::steady_clock::now();
-    const auto planned = [&] {
-      configuration.plan_ms = milliseconds_since(start);
-      start = std::chrono::steady_clock::now();
-    };
-    PreparedScene prepared;
-    if (pipeline == PipelineKind::baseline) {
-      RenderPlan plan = make_baseline_plan(only_layer(scene).primitives, preferences);
-      planned();
-      prepared = prepare_baseline(placed_layers(scene).front(), limits, std::move(plan));
-    } else if (splat_count(scene) > 0) {
-      prepared = prepare_scene(scene, limits, {.plan = preferences});
-      planned();
-      tiles_ = prepared.layers.front().tiled_splats.has_value();
-    } else {
-      RenderPlan plan = make_plan(only_soup(scene), limits, preferences);
-      planned();
-      prepared = prepare_scene(placed_soups(scene), limits, std::move(plan));
-    }
+    const std::vector<PlacedLayer> layers = placed_layers(scene);
+    const bool is_baseline = pipeline == PipelineKind::baseline;
+    RenderPlan plan = is_baseline ? make_baseline_plan(only_layer(scene).primitives, preferences)
+                                  : make_plan(layers, limits, preferences);
+    configuration.plan_ms = milliseconds_since(start);
+    start = std::chrono::steady_clock::now();
+    PreparedScene prepared = is_baseline ? prepare_baseline(layers.front(), limits, std::move(plan))
+                                         : prepare_scene(layers, limits, std::move(plan));
     const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     renderer_ = std::make_unique<Renderer>(context, std::move(prepared), options);
     renderer_->finish();
@@ -81,13 +71,12 @@ class RendererCase final : public BenchCase {
     if (!sorts) return std::nullopt;
     return tureen::order_ms(scene_, pipeline_, cameras, clock);
   }
-  bool blends_in_tiles() const override { return tiles_; }
+  bool blends_in_tiles() const override { return renderer_->plan().splats_in_tiles; }
 
  private:
   const gl::Context& context_;
   const Scene& scene_;
   PipelineKind pipeline_;
-  bool tiles_ = false;
   std::unique_ptr<Renderer> renderer_;
 };
 

@@ -51,7 +51,7 @@ inline constexpr double bytes_per_mib = 1 << 20;
 /// Work before the first frame of the first configuration; never part of a frame's time.
 struct BenchLoad {
   double read_ms = 0;    // the file, until the soup is in memory
-  double plan_ms = 0;    // make_plan
+  double plan_ms = 0;    // make_plan or make_baseline_plan, without copies of the data
   double upload_ms = 0;  // buffers, textures and shaders, until the device has finished
   double peak_mib = 0;   // largest resident set of the process, without targets; 0: unknown
   double device_mib = 0;

@@ -19,7 +19,7 @@ std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4&
       splatting::layer_data(splats, splats.profile, drawn, splats.color.degree));
   splatting::TileRenderer renderer({});
   std::vector<double> weights(drawn.size());
-  const PlacedBounds placed{bounds(splats), world_from_layer};
+  const LayerPlace placed{bounds(splats), world_from_layer};
   for (std::size_t i = 0; i < views.size(); ++i) {
     const ClipRange range = clip_range({&placed, 1}, views[i], DepthStorage::reversed_float);
     const FrameCamera camera = camera_in_layer(views[i], world_from_layer, range);

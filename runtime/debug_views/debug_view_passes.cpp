@@ -182,28 +182,17 @@ const char* shader_of(const TriangleSoup& soup) {
                                                                  : "debug_view_plain.glsl";
 }
 
-/// The present ones.
-template <class T>
-std::vector<T*> present(std::span<const std::unique_ptr<T>> layers) {
-  std::vector<T*> result;
-  for (const std::unique_ptr<T>& layer : layers)
-    if (layer) result.push_back(layer.get());
-  return result;
-}
-
 /// The final colours of the splats, or of some of them.
-std::unique_ptr<Pass> splat_color_pass(std::span<const std::unique_ptr<DeviceSplats>> splats,
-                                       float fraction) {
-  return std::make_unique<SplatPass>(present(splats).front()->device(), splats,
-                                     SplatFormat::automatic, fraction);
+std::unique_ptr<Pass> splat_color_pass(std::span<DeviceSplats* const> splats, float fraction) {
+  return std::make_unique<SplatPass>(splats.front()->device(), splats, SplatFormat::automatic,
+                                     fraction);
 }
 
 /// Measures the splats, if there are any, and the soups. `counts` as MeasurePass::Inputs.
-std::unique_ptr<MeasurePass> measure_pass(const std::vector<DeviceSoup*>& soups,
-                                          std::span<const std::unique_ptr<DeviceSplats>> splats,
+std::unique_ptr<MeasurePass> measure_pass(std::span<DeviceSoup* const> soups,
+                                          std::span<DeviceSplats* const> splats,
                                           std::span<const DebugViewSubject> subjects,
                                           ShownDebugView& shown, const FragmentCountPass* counts) {
-  const std::vector<DeviceSplats*> present_splats = present(splats);
   const auto make_surfaces = [&](const gl::Framebuffer& surface) {
     Passes passes;
     for (DeviceSoup* soup : soups)
@@ -211,7 +200,7 @@ std::unique_ptr<MeasurePass> measure_pass(const std::vector<DeviceSoup*>& soups,
     return passes;
   };
   return std::make_unique<MeasurePass>(MeasurePass::Inputs{
-      .device = present_splats.empty() ? soups.front()->device() : present_splats.front()->device(),
+      .device = splats.empty() ? soups.front()->device() : splats.front()->device(),
       .splats = splats,
       .subjects = subjects,
       .shown = shown,
@@ -258,8 +247,8 @@ std::map<std::string, std::string> debug_view_constants(DebugView what) {
   return constants;
 }
 
-FragmentCountPass::FragmentCountPass(std::span<const std::unique_ptr<DeviceSoup>> soups) {
-  for (DeviceSoup* soup : present(soups))
+FragmentCountPass::FragmentCountPass(std::span<DeviceSoup* const> soups) {
+  for (DeviceSoup* soup : soups)
     drawings_.push_back({*soup, face_program(*soup, "fragment_count.frag")});
 }
 
@@ -283,18 +272,17 @@ void FragmentCountPass::draw(const Frame& frame, FrameTarget& target) {
   }
 }
 
-DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> all_soups,
-                                  std::span<const std::unique_ptr<DeviceSplats>> splats,
+DebugViewPasses debug_view_passes(std::span<DeviceSoup* const> soups,
+                                  std::span<DeviceSplats* const> splats,
                                   std::span<const DebugViewSubject> subjects,
                                   ShownDebugView& shown) {
-  const std::vector<DeviceSoup*> soups = present(all_soups);
-  const bool has_splats = !present(splats).empty();
+  const bool has_splats = !splats.empty();
   const bool shows_colors = shown.what == DebugView::color || shown.what == DebugView::quarter;
   const bool measures = shown.as_values || (has_splats && !shows_colors);
   DebugViewPasses result;
   const auto add = [&](std::unique_ptr<Pass> pass) { result.passes.push_back(std::move(pass)); };
   if (shown.what == DebugView::overdraw && !soups.empty()) {
-    auto counts = std::make_unique<FragmentCountPass>(all_soups);
+    auto counts = std::make_unique<FragmentCountPass>(soups);
     result.counts = counts.get();
     add(std::move(counts));
     if (!measures) {

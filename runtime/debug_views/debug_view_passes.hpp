@@ -46,8 +46,7 @@ struct ShownDebugView {
 /// Counts the fragments of each sample, in a texture of its own.
 class FragmentCountPass final : public Pass {
  public:
-  /// `soups`: null for layers without a soup.
-  explicit FragmentCountPass(std::span<const std::unique_ptr<DeviceSoup>> soups);
+  explicit FragmentCountPass(std::span<DeviceSoup* const> soups);
 
   const char* name() const override { return "fragment count"; }
   void resize(const FrameTarget& target) override;
@@ -80,10 +79,10 @@ struct DebugViewPasses {
   const MeasurePass* measures = nullptr;      // for splats, and for values
 };
 
-/// The passes that show `shown.what`. The arguments must outlive them; there is a subject for each
-/// layer, and at least one layer. `soups` and `splats` have null for layers of the other kind.
-DebugViewPasses debug_view_passes(std::span<const std::unique_ptr<DeviceSoup>> soups,
-                                  std::span<const std::unique_ptr<DeviceSplats>> splats,
+/// The passes that show `shown.what`. What the arguments refer to must outlive them; there is a
+/// subject for each layer, and at least one layer.
+DebugViewPasses debug_view_passes(std::span<DeviceSoup* const> soups,
+                                  std::span<DeviceSplats* const> splats,
                                   std::span<const DebugViewSubject> subjects,
                                   ShownDebugView& shown);
 

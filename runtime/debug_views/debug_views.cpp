@@ -26,44 +26,28 @@ void add_debug_stores(const TriangleSoup& soup, const std::vector<std::uint32_t>
   appearance.fit_layout(TexelLayout::of(limits));
 }
 
-PreparedScene prepare_debug_soups(std::span<const PlacedSoup> layers, const DeviceLimits& limits,
-                                  const RenderOptions& options) {
-  std::vector<const TriangleSoup*> soups;
-  for (const PlacedSoup& layer : layers) soups.push_back(&layer.soup);
-  SpecialisationSet exact;
-  exact.add(Specialisation::weight_uniforms);
-  exact.add(Specialisation::dead_neurons);
-  RenderPlan plan = make_plan(soups, limits,
-                              {.specialisations = exact,
-                               .reversed_depth = options.plan.reversed_depth,
-                               .site = ShadingSite::deferred});
-  for (std::size_t i = 0; i < soups.size(); ++i)
-    plan.soup(i).latent_features = feature_count(*soups[i]) > 4;
-  PreparedScene prepared = prepare_scene(layers, limits, std::move(plan));
-  for (std::size_t i = 0; i < soups.size(); ++i)
-    add_debug_stores(*soups[i], prepared.plan.soup(i).faces, limits,
-                     prepared.layers[i].soup->appearance);
-  return prepared;
-}
-
 }  // namespace
 
 PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const DeviceLimits& device,
                                   const RenderOptions& options) {
   const DeviceLimits limits = options.limits.value_or(device);
-  PreparedScene prepared = prepare_debug_soups(placed_soups(layers), limits, options);
-  PlanPreferences preferences = options.plan;
-  // Debug views measure splats on the device, where only raster in this order can draw them.
-  preferences.splat_blending = SplatBlending::raster;
-  preferences.quality.splat_order = prepared.plan.quality.splat_order = Quality::SplatOrder::centre;
-  add_splats(prepared, layers, limits, preferences);
+  SpecialisationSet exact;
+  exact.add(Specialisation::weight_uniforms);
+  exact.add(Specialisation::dead_neurons);
+  // Splats are measured on the device, where only raster in the default order can draw them.
+  RenderPlan plan = make_plan(layers, limits,
+                              {.of_soups = exact,
+                               .reversed_depth = options.plan.reversed_depth,
+                               .site = ShadingSite::deferred,
+                               .splat_blending = SplatBlending::raster});
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    if (layers[i].soup) plan.soup(i).latent_features = feature_count(*layers[i].soup) > 4;
+  PreparedScene prepared = prepare_scene(layers, limits, std::move(plan));
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    if (layers[i].soup)
+      add_debug_stores(*layers[i].soup, prepared.plan.soup(i).faces, limits,
+                       prepared.layers[i].soup->appearance);
   return prepared;
-}
-
-PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
-                                  const DeviceLimits& device, const RenderOptions& options) {
-  const PlacedSoup layer{soup, at_origin(origin)};
-  return prepare_debug_soups(std::span(&layer, 1), options.limits.value_or(device), options);
 }
 
 struct DebugViews::State {
@@ -79,10 +63,10 @@ struct DebugViews::State {
 
 DebugViews::DebugViews(std::span<const PlacedLayer> layers) : state_(new State) {
   for (const PlacedLayer& layer : layers)
-    std::visit([&](const auto& each) { state_->subjects.emplace_back(each); }, layer.primitives);
-}
-DebugViews::DebugViews(const TriangleSoup& soup) : state_(new State) {
-  state_->subjects.emplace_back(soup);
+    if (layer.soup)
+      state_->subjects.emplace_back(*layer.soup);
+    else
+      state_->subjects.emplace_back(*layer.splats);
 }
 DebugViews::~DebugViews() = default;
 DebugViews::DebugViews(DebugViews&&) noexcept = default;

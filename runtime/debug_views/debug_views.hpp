@@ -10,14 +10,12 @@
 
 namespace tureen {
 
-/// Prepares soups with all their faces and all their stored values. Of the specialisations, only
+/// Prepares soups with all their faces and all their stored values. Of their specialisations, only
 /// weight_uniforms and dead_neurons are applied; they are exact. The Renderer also draws ordinary
 /// frames. Of the options' preferences, only reversed_depth has an effect. Otherwise as
 /// prepare_scene.
 PreparedScene prepare_debug_views(std::span<const PlacedLayer> layers, const DeviceLimits& device,
                                   const RenderOptions& options = {});
-PreparedScene prepare_debug_views(const TriangleSoup& soup, glm::dvec3 origin,
-                                  const DeviceLimits& device, const RenderOptions& options = {});
 
 /// The debug views of a scene. After show(), the renderer's passes refer to this object, also for
 /// DebugView::color. It must live until the renderer is destroyed or gets other passes.
@@ -25,7 +23,6 @@ class DebugViews {
  public:
   /// The layers are not needed afterwards.
   explicit DebugViews(std::span<const PlacedLayer> layers);
-  explicit DebugViews(const TriangleSoup& soup);
   ~DebugViews();
   DebugViews(DebugViews&&) noexcept;
   DebugViews& operator=(DebugViews&&) noexcept;

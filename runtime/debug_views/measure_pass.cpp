@@ -28,8 +28,7 @@ SplatMeasure measure_of(DebugView what) {
 
 MeasurePass::MeasurePass(const Inputs& inputs)
     : subjects_(inputs.subjects), shown_(inputs.shown), counts_(inputs.counts) {
-  if (std::any_of(inputs.splats.begin(), inputs.splats.end(),
-                  [](const std::unique_ptr<DeviceSplats>& layer) { return layer != nullptr; }))
+  if (!inputs.splats.empty())
     measures_.emplace(inputs.device, inputs.splats, measure_of(shown_.what));
   if (inputs.make_surfaces) surfaces_ = inputs.make_surfaces(surface_framebuffer_);
   auto constants = debug_view_constants(shown_.what);

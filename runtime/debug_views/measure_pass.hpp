@@ -19,8 +19,8 @@ class MeasurePass final : public Pass {
  public:
   struct Inputs {
     const gl::Capabilities& device;
-    std::span<const std::unique_ptr<DeviceSplats>> splats;  // null for soups
-    std::span<const DebugViewSubject> subjects;             // for each layer
+    std::span<DeviceSplats* const> splats;
+    std::span<const DebugViewSubject> subjects;  // for each layer
     ShownDebugView& shown;
     /// Of the soups; null without soups. Only DebugView::overdraw reads it.
     const FragmentCountPass* counts = nullptr;

@@ -9,7 +9,7 @@ namespace tureen {
 
 DeviceSoup::DeviceSoup(const gl::Capabilities& device, AppearanceSource appearance,
                        const GeometrySource& geometry, const SoupPlan& plan)
-    : plan_(&plan), device_(device), appearance_(std::move(appearance)), geometry_(geometry) {
+    : plan_(plan), device_(device), appearance_(std::move(appearance)), geometry_(geometry) {
   if (plan.drops_small_triangles) {
     covered_.emplace(geometry);
     covered_vertices_ = gl::Buffer::create();
@@ -40,10 +40,10 @@ void DeviceSoup::set_first_slot(const gl::Program& program) const {
 void DeviceSoup::draw_faces(const gl::Program& opaque, const gl::Program& cut_out,
                             const FrameCamera& camera, const FrameTarget& target) {
   if (search_rests_ > 0) --search_rests_;
-  const auto& clusters = plan_->clusters;
+  const auto& clusters = plan_.clusters;
   std::size_t opaque_clusters = 0;
   while (opaque_clusters < clusters.size() &&
-         clusters[opaque_clusters].first_slot < plan_->opaque_count)
+         clusters[opaque_clusters].first_slot < plan_.opaque_count)
     ++opaque_clusters;
   const std::span all(clusters);
   if (opaque_clusters > 0) draw_clusters(opaque, all.first(opaque_clusters), camera, target);

@@ -21,7 +21,8 @@ class DeviceSoup {
  public:
   using Constants = std::map<std::string, std::string>;
 
-  /// Uploads; the sources are not needed afterwards. Throws DeviceLimitError.
+  /// Uploads; the sources are not needed afterwards. `plan` outlives this object. Throws
+  /// DeviceLimitError.
   DeviceSoup(const gl::Capabilities& device, AppearanceSource appearance,
              const GeometrySource& geometry, const SoupPlan& plan);
 
@@ -33,17 +34,13 @@ class DeviceSoup {
     std::uint32_t first_slot = 0;
     bool layered = false;  // the frame has several layers
   };
-  /// Call this once after the plan or the place has changed, before the next use. `plan` must live
-  /// as long as this object uses it. Programs made for another value of `layered` are invalid.
-  void set_place(const SoupPlan& plan, const Place& place) {
-    plan_ = &plan;
-    place_ = place;
-  }
+  /// Programs made for another value of `layered` are invalid afterwards.
+  void set_place(const Place& place) { place_ = place; }
   const Place& place() const { return place_; }
   /// Sets the first slot of `program`, which is in use and was made by this object.
   void set_first_slot(const gl::Program& program) const;
 
-  const SoupPlan& plan() const { return *plan_; }
+  const SoupPlan& plan() const { return plan_; }
   const gl::Capabilities& device() const { return device_; }
   const DeviceAppearance& appearance() const { return appearance_; }
 
@@ -68,7 +65,7 @@ class DeviceSoup {
                      const FrameCamera& camera, const FrameTarget& target);
   void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count);
 
-  const SoupPlan* plan_;
+  const SoupPlan& plan_;
   Place place_;
   gl::Capabilities device_;
   DeviceAppearance appearance_;

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/plan/plan_draft.hpp"
+#include "splatting/layer.hpp"
 
 namespace tureen {
 
@@ -46,10 +47,10 @@ bool RenderPlan::applies(Specialisation what) const {
 
 std::vector<AppliedSpecialisation> RenderPlan::applied() const {
   std::vector<AppliedSpecialisation> all;
-  for (const LayerPlan& layer : layers)
+  for (const std::shared_ptr<LayerPlan>& layer : layers)
     std::visit(
         [&](const auto& plan) { all.insert(all.end(), plan.applied.begin(), plan.applied.end()); },
-        layer);
+        *layer);
   return all;
 }
 
@@ -85,6 +86,41 @@ SoupPlan make_soup_plan(const TriangleSoup& soup, const DeviceLimits& limits,
   return std::move(draft.plan);
 }
 
+/// Whether tiles can, and by the preferences may, blend the splats. Throws UsageError as make_plan.
+bool is_for_tiles(const Splats& splats, const DeviceLimits& limits,
+                  const PlanPreferences& preferences) {
+  const SplatBlending blending = preferences.splat_blending;
+  const Quality::SplatOrder order = preferences.quality.splat_order;
+  if (order == Quality::SplatOrder::stochastic) {
+    if (blending == SplatBlending::tiles)
+      throw UsageError("tiles do not draw stochastic splats",
+                       "use --blend raster or auto, or another splat order");
+    return false;
+  }
+  const bool exact = order == Quality::SplatOrder::exact;
+  if (exact && blending == SplatBlending::raster)
+    throw UsageError("raster does not blend splats in exact order",
+                     "use --blend tiles or auto, or another splat order");
+  if (!exact && (blending == SplatBlending::raster ||
+                 (blending == SplatBlending::automatic && !limits.software)))
+    return false;
+  if (!preferences.as_published && splatting::has_layer_for(splats)) return true;
+  if (blending == SplatBlending::tiles || exact)
+    throw UsageError(
+        preferences.as_published
+            ? "tiles do not have the culls of published rasterisers"
+            : "tiles blend at most " + std::to_string(splatting::place_mask) + " splats",
+        exact ? "use another splat order: the exact one needs tiles"
+              : "--blend raster can, and auto chooses it");
+  return false;
+}
+
+/// Whether raster skips splats behind closed pixels. On hardware, the gain is not measured.
+bool skips_hidden_splats(const DeviceLimits& limits, const PlanPreferences& preferences) {
+  return limits.software && preferences.quality.splat_order != Quality::SplatOrder::stochastic &&
+         preferences.specialise && preferences.specialisations.has(Specialisation::hidden_splats);
+}
+
 }  // namespace
 
 void make_layered(SoupPlan& plan) {
@@ -99,14 +135,14 @@ void make_layered(SoupPlan& plan) {
 
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
-  const TriangleSoup* const one = &soup;
+  const PlacedLayer one{.soup = &soup};
   return make_plan(std::span(&one, 1), limits, preferences);
 }
 
-RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLimits& limits,
+RenderPlan make_plan(std::span<const PlacedLayer> layers, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
-  if (soups.size() > max_layers)
-    throw UsageError("the scene has " + std::to_string(soups.size()) + " layers; at most " +
+  if (layers.size() > max_layers)
+    throw UsageError("the scene has " + std::to_string(layers.size()) + " layers; at most " +
                      std::to_string(max_layers) + " can be drawn together");
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   RenderPlan plan;
@@ -114,10 +150,27 @@ RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLim
   plan.quality = preferences.quality;
   plan.specialise = preferences.specialise;
   plan.requested_stage = preferences.shading_stage;
-  for (const TriangleSoup* soup : soups)
-    plan.layers.push_back(make_soup_plan(*soup, limits, preferences));
-  if (soups.size() > 1)
-    for (LayerPlan& layer : plan.layers) make_layered(std::get<SoupPlan>(layer));
+  std::size_t soups = 0, for_tiles = 0;
+  for (const PlacedLayer& layer : layers) {
+    if (layer.soup) {
+      ++soups;
+      plan.add(make_soup_plan(*layer.soup, limits, preferences));
+      continue;
+    }
+    plan.add(make_splat_plan(*layer.splats, {.specialise = preferences.specialise,
+                                             .specialisations = preferences.specialisations,
+                                             .profile = preferences.splat_profile,
+                                             .as_published = preferences.as_published}));
+    if (is_for_tiles(*layer.splats, limits, preferences)) ++for_tiles;
+  }
+  plan.splats_in_tiles =
+      blends_in_tiles(plan.quality.splat_order, layers.size() - soups, for_tiles);
+  for (const std::shared_ptr<LayerPlan>& layer : plan.layers) {
+    auto* const soup = std::get_if<SoupPlan>(layer.get());
+    if (soup && soups > 1) make_layered(*soup);
+    if (!soup && !plan.splats_in_tiles && skips_hidden_splats(limits, preferences))
+      std::get<SplatPlan>(*layer).applied.push_back({Specialisation::hidden_splats, 0, 0, 0.5});
+  }
   return plan;
 }
 

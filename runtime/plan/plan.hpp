@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,7 +16,7 @@
 #include "runtime/plan/draw_order.hpp"
 #include "runtime/plan/specialisation.hpp"
 #include "runtime/plan/splat_plan.hpp"
-#include "scene/scene.hpp"
+#include "scene/placed_layer.hpp"
 
 namespace tureen {
 
@@ -46,8 +48,9 @@ struct PlanPreferences {
   bool specialise = true;
   /// Allowed specialisations, if `specialise` is true.
   SpecialisationSet specialisations = SpecialisationSet::all();
-  bool reversed_depth = true;            // if the device supports it
-  std::optional<ShadingSite> site = {};  // default: chosen by the plan
+  SpecialisationSet of_soups = SpecialisationSet::all();  // those of them that soups may have
+  bool reversed_depth = true;                             // if the device supports it
+  std::optional<ShadingSite> site = {};                   // default: chosen by the plan
   /// Measured only on software OpenGL (docs/benchmarks.md, "Shading stage"): compute is as
   /// fast if faces cover the whole image, and slower otherwise.
   ShadingStage shading_stage = ShadingStage::fragment;
@@ -123,14 +126,19 @@ struct RenderPlan {
   bool specialise = true;  // PlanPreferences::specialise
   /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
   ShadingStage requested_stage = ShadingStage::fragment;
-  std::vector<LayerPlan> layers;
+  /// Shared with the layers on the device, which follow it; not null.
+  std::vector<std::shared_ptr<LayerPlan>> layers;
+  /// Whether tiles (splatting/) blend the splats, so the device does not hold them.
+  bool splats_in_tiles = false;
   /// If not empty, describe() returns these sentences. Set by plans whose passes come from outside
   /// runtime/.
   std::vector<std::string> description;
 
-  /// The plan of a layer that is a soup.
-  SoupPlan& soup(std::size_t layer) { return std::get<SoupPlan>(layers[layer]); }
-  const SoupPlan& soup(std::size_t layer) const { return std::get<SoupPlan>(layers[layer]); }
+  /// The plan of a layer that is a soup, and of a layer of splats.
+  SoupPlan& soup(std::size_t layer) { return std::get<SoupPlan>(*layers[layer]); }
+  const SoupPlan& soup(std::size_t layer) const { return std::get<SoupPlan>(*layers[layer]); }
+  const SplatPlan& splats(std::size_t layer) const { return std::get<SplatPlan>(*layers[layer]); }
+  void add(LayerPlan layer) { layers.push_back(std::make_shared<LayerPlan>(std::move(layer))); }
 
   /// Whether a layer applies it.
   bool applies(Specialisation what) const;
@@ -138,11 +146,13 @@ struct RenderPlan {
   std::vector<AppliedSpecialisation> applied() const;
 };
 
-/// The plan of a scene of soups, which must have no defect(). Several soups are all deferred, with
-/// shading in fragment shaders. Throws UsageError for a quality with a defect() and for more than
-/// max_layers soups. Throws DeviceLimitError if the compute stage is requested without
-/// compute shaders.
-RenderPlan make_plan(std::span<const TriangleSoup* const> soups, const DeviceLimits& limits,
+/// The plan of layers whose primitives have no defect(). Several soups are all deferred, with
+/// shading in fragment shaders. Throws UsageError for
+/// - a quality with a defect(), more than max_layers layers, and as make_splat_plan()
+/// - SplatBlending::tiles or the exact order, if tiles cannot blend the splats
+/// - SplatBlending::raster with the exact order, and tiles with stochastic splats
+/// Throws DeviceLimitError if the compute stage is requested without compute shaders.
+RenderPlan make_plan(std::span<const PlacedLayer> layers, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 /// The same for one soup.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,

@@ -112,13 +112,13 @@ std::vector<std::string> describe(const RenderPlan& common) {
   const auto add = [&](const std::string& sentence) {
     sentences.push_back(several ? "layer " + std::to_string(layer) + ": " + sentence : sentence);
   };
-  for (const LayerPlan& of_layer : common.layers) {
+  for (const std::shared_ptr<LayerPlan>& of_layer : common.layers) {
     ++layer;
-    if (const auto* splats = std::get_if<SplatPlan>(&of_layer)) {
+    if (const auto* splats = std::get_if<SplatPlan>(of_layer.get())) {
       add_splats(*splats, common.quality.splat_order, add);
       continue;
     }
-    const auto& plan = std::get<SoupPlan>(of_layer);
+    const auto& plan = std::get<SoupPlan>(*of_layer);
     add(describe_frame(plan, common));
     if (layer == 1)
       for (std::string& sentence : describe_sampling(common.quality))

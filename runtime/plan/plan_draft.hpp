@@ -19,7 +19,8 @@ struct PlanDraft {
 
   /// Whether the caller allows this specialisation.
   bool may(Specialisation what) const {
-    return preferences.specialise && preferences.specialisations.has(what);
+    return preferences.specialise && preferences.specialisations.has(what) &&
+           preferences.of_soups.has(what);
   }
   void apply(const AppliedSpecialisation& specialisation) {
     plan.applied.push_back(specialisation);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "scene/scene.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -48,6 +49,16 @@ float largest_color(const SplatColor& color, std::span<const std::uint32_t> draw
 bool SplatPlan::applies(Specialisation what) const {
   return std::any_of(applied.begin(), applied.end(),
                      [&](const AppliedSpecialisation& each) { return each.what == what; });
+}
+
+bool blends_in_tiles(Quality::SplatOrder order, std::size_t layers, std::size_t for_tiles) {
+  if (order == Quality::SplatOrder::stochastic || layers == 0) return false;
+  if (for_tiles == layers) return true;
+  if (order == Quality::SplatOrder::exact)
+    throw UsageError("the exact order of splats needs tiles for all layers, and at most " +
+                         std::to_string(max_layers) + " layers of splats",
+                     "prepare added layers with the same quality");
+  return false;
 }
 
 SplatPlan make_splat_plan(const Splats& splats, const SplatPreferences& preferences) {

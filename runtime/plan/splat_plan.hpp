@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/plan/specialisation.hpp"
+#include "scene/quality.hpp"
 #include "scene/splats.hpp"
 
 namespace tureen {
@@ -77,6 +78,11 @@ struct SplatPreferences {
   std::optional<SplatProfile> profile = {};  // default: the splats' own
   bool as_published = false;                 // SplatPlan::as_published
 };
+
+/// Whether tiles blend the splats of a frame. They have one order, so one way blends all layers.
+/// `layers` is the number of layers of splats, `for_tiles` of those that tiles can blend. Throws
+/// UsageError for SplatOrder::exact, unless tiles can blend all.
+bool blends_in_tiles(Quality::SplatOrder order, std::size_t layers, std::size_t for_tiles);
 
 /// O(data). The splats have no defect(). Throws UsageError for a profile that the kernel does not
 /// support.

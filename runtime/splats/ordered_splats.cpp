@@ -66,11 +66,8 @@ SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
   return {make_framebuffer(colors, target.depth_attachment()), make_framebuffer(colors)};
 }
 
-OrderedSplats::OrderedSplats(std::span<const std::unique_ptr<DeviceSplats>> layers, float fraction)
-    : fraction_(fraction) {
-  for (const std::unique_ptr<DeviceSplats>& layer : layers)
-    if (layer) layers_.push_back(layer.get());
-}
+OrderedSplats::OrderedSplats(std::span<DeviceSplats* const> layers, float fraction)
+    : layers_(layers.begin(), layers.end()), fraction_(fraction) {}
 
 OrderedSplats::~OrderedSplats() { stop_sorting(); }
 

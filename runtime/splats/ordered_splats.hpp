@@ -28,9 +28,9 @@ SplatFramebuffers make_splat_framebuffers(std::initializer_list<GLuint> colors,
 
 class OrderedSplats {
  public:
-  /// `layers` outlive this object; null for layers without splats. `fraction`: of the splats that
-  /// are drawn (SplatsInView::fraction).
-  explicit OrderedSplats(std::span<const std::unique_ptr<DeviceSplats>> layers, float fraction = 1);
+  /// `layers` outlive this object. `fraction`: of the splats that are drawn
+  /// (SplatsInView::fraction).
+  explicit OrderedSplats(std::span<DeviceSplats* const> layers, float fraction = 1);
   OrderedSplats(const OrderedSplats&) = delete;
   OrderedSplats& operator=(const OrderedSplats&) = delete;
   ~OrderedSplats();

@@ -14,8 +14,7 @@ constexpr std::uint32_t parts = 5;
 
 }  // namespace
 
-SplatMeasures::SplatMeasures(const gl::Capabilities& device,
-                             std::span<const std::unique_ptr<DeviceSplats>> layers,
+SplatMeasures::SplatMeasures(const gl::Capabilities& device, std::span<DeviceSplats* const> layers,
                              SplatMeasure what)
     : what_(what),
       blended_format_(device.float_blending ? target_formats::rgba32f : target_formats::rgba16f),

@@ -37,9 +37,9 @@ inline constexpr float closed_transmittance = 1e-4f;
 /// end at 2048, and places are rounded above 2048 and infinite above 65,504.
 class SplatMeasures {
  public:
-  /// `layers` outlive this object; null for layers without splats.
-  SplatMeasures(const gl::Capabilities& device,
-                std::span<const std::unique_ptr<DeviceSplats>> layers, SplatMeasure what);
+  /// `layers` outlive this object.
+  SplatMeasures(const gl::Capabilities& device, std::span<DeviceSplats* const> layers,
+                SplatMeasure what);
 
   /// Creates textures of the target's size. Throws DeviceLimitError.
   void resize(const FrameTarget& target);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "runtime/plan/splat_plan.hpp"
 
@@ -61,39 +62,16 @@ bool lags_little(std::span<const SplatsInView> sorted, std::span<const SplatsInV
                     });
 }
 
-void SplatOrder::make_runs(std::span<const SplatsInView> layers) {
-  std::vector<std::uint32_t> ends;  // of the layers' places
-  std::uint32_t end = 0;
-  for (const SplatsInView& layer : layers)
-    ends.push_back(end += static_cast<std::uint32_t>(layer.centers.size()));
-  splats_.resize(entries_.size());
-  runs_.clear();
-  for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-    const std::uint32_t place = entries_[i].index;
-    std::uint32_t layer = runs_.empty() ? 0 : runs_.back().layer;
-    while (place >= ends[layer]) ++layer;
-    while (layer > 0 && place < ends[layer - 1]) --layer;
-    splats_[i] = place - (layer > 0 ? ends[layer - 1] : 0);
-    if (runs_.empty() || runs_.back().layer != layer) runs_.push_back({layer, i, 0});
-    ++runs_.back().count;
-  }
-}
-
 void SplatOrder::sort(std::span<const SplatsInView> layers) {
-  entries_.clear();
-  std::uint32_t place = 0;
-  for (const SplatsInView& layer : layers) {
-    for (std::size_t i = 0; i < layer.centers.size(); ++i) {
-      if (layer.skips(i / splats_per_chunk)) continue;
-      if (layer.fraction < 1 && !is_kept(i, layer.fraction)) continue;
-      const auto depth =
-          static_cast<float>(glm::dot(layer.axis, glm::dvec3(layer.centers[i])) - layer.offset);
-      if (std::isfinite(depth)) entries_.push_back({sort_key(depth), place + std::uint32_t(i)});
-    }
-    place += static_cast<std::uint32_t>(layer.centers.size());
-  }
-  radix_sort(entries_, scratch_);
-  make_runs(layers);
+  begin();
+  for (const SplatsInView& layer : layers)
+    add_layer(layer.centers.size(), [&](std::uint32_t i) {
+      if (layer.skips(i / splats_per_chunk) || (layer.fraction < 1 && !is_kept(i, layer.fraction)))
+        return std::numeric_limits<float>::quiet_NaN();
+      return static_cast<float>(glm::dot(layer.axis, glm::dvec3(layer.centers[i])) - layer.offset);
+    });
+  DepthOrder::sort();
+  make_runs();
 }
 
 }  // namespace tureen

@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "base/radix_sort.hpp"
+#include "splatting/depth_order.hpp"
 
 namespace tureen {
 
@@ -38,37 +37,14 @@ inline constexpr double max_order_lag = 0.0349;
 /// Whether the viewing axes differ by at most max_order_lag.
 bool lags_little(std::span<const SplatsInView> sorted, std::span<const SplatsInView> views);
 
-/// Consecutive splats of one layer in an order.
-struct SplatRun {
-  std::uint32_t layer = 0;  // index into the sorted layers
-  std::uint32_t first = 0;  // in the order
-  std::uint32_t count = 0;
-};
+using splatting::SplatRun;
 
-class SplatOrder {
+class SplatOrder : public splatting::DepthOrder {
  public:
-  SplatOrder() = default;
-  /// An order that another SplatOrder made.
-  SplatOrder(std::vector<std::uint32_t> splats, std::vector<SplatRun> runs)
-      : splats_(std::move(splats)), runs_(std::move(runs)) {}
-
+  using DepthOrder::DepthOrder;
   /// Sorts the splats of all layers together. The depth is computed in double precision and rounded
-  /// to a float. At equal depth the earlier layer comes first, then the lower index. Splats without
-  /// a finite depth are dropped.
+  /// to a float.
   void sort(std::span<const SplatsInView> layers);
-
-  /// Indices in their layers, near ones first.
-  std::span<const std::uint32_t> splats() const { return splats_; }
-  /// The order in runs, from near to far.
-  std::span<const SplatRun> runs() const { return runs_; }
-
- private:
-  void make_runs(std::span<const SplatsInView> layers);
-
-  /// The index is that of the splat if the layers are numbered consecutively.
-  std::vector<KeyedIndex> entries_, scratch_;
-  std::vector<std::uint32_t> splats_;
-  std::vector<SplatRun> runs_;
 };
 
 }  // namespace tureen

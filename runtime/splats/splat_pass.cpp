@@ -16,9 +16,8 @@ constexpr std::uint32_t splats_a_chunk = 16'384;
 
 }  // namespace
 
-SplatPass::SplatPass(const gl::Capabilities& device,
-                     std::span<const std::unique_ptr<DeviceSplats>> layers, SplatFormat format,
-                     float fraction)
+SplatPass::SplatPass(const gl::Capabilities& device, std::span<DeviceSplats* const> layers,
+                     SplatFormat format, float fraction)
     : splats_(layers, fraction),
       format_(blend_format(format, device, splats_.min_alpha(), splats_.largest_color())),
       blended_(device.api, format_) {

@@ -18,9 +18,8 @@ namespace tureen {
 
 class SplatPass final : public SplatBlendingPass {
  public:
-  /// `layers` outlive the pass; null for layers without splats, but not for all. `fraction`: of the
-  /// splats that are drawn.
-  SplatPass(const gl::Capabilities& device, std::span<const std::unique_ptr<DeviceSplats>> layers,
+  /// `layers` outlive the pass; at least one. `fraction`: of the splats that are drawn.
+  SplatPass(const gl::Capabilities& device, std::span<DeviceSplats* const> layers,
             SplatFormat format, float fraction = 1);
 
   /// For sort_with() and in_order().

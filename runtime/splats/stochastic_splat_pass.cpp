@@ -11,13 +11,6 @@ namespace {
 
 constexpr TargetFormat depth_format = target_formats::depth32f;
 
-std::vector<DeviceSplats*> present(std::span<const std::unique_ptr<DeviceSplats>> layers) {
-  std::vector<DeviceSplats*> result;
-  for (const std::unique_ptr<DeviceSplats>& layer : layers)
-    if (layer) result.push_back(layer.get());
-  return result;
-}
-
 /// Nothing is blended, so fractions of 16 bits lose no faint splat: alpha is 0 or 1.
 BlendFormat format_for(SplatFormat requested, const gl::Capabilities& device,
                        std::span<DeviceSplats* const> layers) {
@@ -30,9 +23,8 @@ BlendFormat format_for(SplatFormat requested, const gl::Capabilities& device,
 }  // namespace
 
 StochasticSplatPass::StochasticSplatPass(const gl::Capabilities& device,
-                                         std::span<const std::unique_ptr<DeviceSplats>> layers,
-                                         SplatFormat format)
-    : layers_(present(layers)),
+                                         std::span<DeviceSplats* const> layers, SplatFormat format)
+    : layers_(layers.begin(), layers.end()),
       format_(format_for(format, device, layers_)),
       sampled_(device.api, format_) {}
 

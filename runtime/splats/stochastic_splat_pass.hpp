@@ -17,9 +17,9 @@ namespace tureen {
 
 class StochasticSplatPass final : public SplatBlendingPass {
  public:
-  /// `layers` outlive the pass; null for layers without splats, but not for all.
-  StochasticSplatPass(const gl::Capabilities& device,
-                      std::span<const std::unique_ptr<DeviceSplats>> layers, SplatFormat format);
+  /// `layers` outlive the pass; at least one.
+  StochasticSplatPass(const gl::Capabilities& device, std::span<DeviceSplats* const> layers,
+                      SplatFormat format);
 
   void resize(const FrameTarget& target) override;
   void draw(const Frame& frame, FrameTarget& target) override;

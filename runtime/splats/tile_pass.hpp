@@ -26,10 +26,7 @@ struct TiledSplats {
 
 class TilePass final : public SplatBlendingPass {
  public:
-  /// Of splatting::TileRenderer.
-  static constexpr std::size_t max_layers = 255;
-
-  /// `layers` outlive the pass; at most max_layers. `order` is centre or exact.
+  /// `layers` outlive the pass. `order` is centre or exact.
   TilePass(const gl::Capabilities& device, std::vector<const TiledSplats*> layers,
            Quality::SplatOrder order);
 

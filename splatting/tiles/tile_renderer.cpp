@@ -41,30 +41,25 @@ void blend_in_order(std::vector<SplatHit>& hits, int i, TilePixels& pixels) {
 }  // namespace
 
 void TileRenderer::sort(std::span<const LayerInView> layers) {
-  keys_.clear();
-  std::vector<std::uint32_t> ends;  // of the layers, whose splats are numbered consecutively
-  std::uint32_t first = 0;
+  order_.begin();
   for (const LayerInView& each : layers) {
     const std::span<const float> depths = each.layer->project(each.view);
-    for (std::uint32_t i = 0; i < depths.size(); ++i)
-      if (std::isfinite(depths[i]))
-        keys_.push_back({sort_key(static_cast<float>(each.scale * double(depths[i]))), first + i});
-    ends.push_back(first += static_cast<std::uint32_t>(depths.size()));
+    order_.add_layer(depths.size(), [&](std::uint32_t i) {
+      return static_cast<float>(each.scale * double(depths[i]));
+    });
   }
-  radix_sort(keys_, scratch_);
+  order_.sort();
+  order_.make_runs();
 
   orders_.resize(layers.size());
   for (std::vector<std::uint32_t>& order : orders_) order.clear();
   runs_.clear();
-  for (const auto& [key, number] : keys_) {
-    std::uint32_t layer = runs_.empty() ? 0 : runs_.back().layer;
-    while (number >= ends[layer]) ++layer;
-    while (layer > 0 && number < ends[layer - 1]) --layer;
-    std::vector<std::uint32_t>& order = orders_[layer];
+  for (const SplatRun& run : order_.runs()) {
+    const auto splats = order_.splats().subspan(run.first, run.count);
+    std::vector<std::uint32_t>& order = orders_[run.layer];
     const auto place = static_cast<std::uint32_t>(order.size());
-    order.push_back(number - (layer > 0 ? ends[layer - 1] : 0));
-    if (runs_.empty() || runs_.back().layer != layer) runs_.push_back({layer, place, place});
-    ++runs_.back().end;
+    order.insert(order.end(), splats.begin(), splats.end());
+    runs_.push_back({run.layer, place, place + run.count});
   }
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].layer->set_order(orders_[i]);
 }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/radix_sort.hpp"
+#include "splatting/depth_order.hpp"
 #include "splatting/layer.hpp"
 
 namespace tureen::splatting {
@@ -53,7 +53,7 @@ class TileRenderer {
   void add_weights(const LayerInView& layer, std::span<double> weights);
 
  private:
-  /// Consecutive splats of one layer in the order.
+  /// Consecutive splats of one layer in the order, by their places in orders_[layer].
   struct Run {
     std::uint32_t layer, begin, end;
   };
@@ -63,7 +63,7 @@ class TileRenderer {
                  int row, TileHits* hits, std::span<float> rgba) const;
 
   Parallel parallel_;
-  std::vector<KeyedIndex> keys_, scratch_;
+  DepthOrder order_;
   std::vector<std::vector<std::uint32_t>> orders_;  // of the layers
   std::vector<Run> runs_;
   TileLists lists_;

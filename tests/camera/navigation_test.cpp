@@ -132,8 +132,8 @@ TEST(Navigation, TheSubjectOmitsStraySplats) {
 }
 
 TEST(Navigation, TheSubjectEndsAroundWhatTheCamerasInsideLookAt) {
-  const PlacedBounds around{{{-20, -20, -20}, {20, 20, 0.5}}, glm::dmat4(1.0)};
-  const PlacedBounds beside{{{30, 30, 0}, {31, 31, 0.2}}, glm::dmat4(1.0)};
+  const LayerPlace around{{{-20, -20, -20}, {20, 20, 0.5}}, glm::dmat4(1.0)};
+  const LayerPlace beside{{{30, 30, 0}, {31, 31, 0.2}}, glm::dmat4(1.0)};
   const auto ring = [](double distance) {
     std::vector<Camera> cameras;
     for (int i = 0; i < 12; ++i)
@@ -141,7 +141,7 @@ TEST(Navigation, TheSubjectEndsAroundWhatTheCamerasInsideLookAt) {
                                 {1, 2, 0}, {0, 0, 1}, 0.8, 80, 60));
     return cameras;
   };
-  const auto subject = [](std::vector<PlacedBounds> boxes, const std::vector<Camera>& cameras) {
+  const auto subject = [](std::vector<LayerPlace> boxes, const std::vector<Camera>& cameras) {
     return subject_of(boxes, {0, 0, 1}, cameras);
   };
   const Subject near = subject({around}, ring(8));

@@ -44,8 +44,8 @@ TEST(SplatBaselinePlan, DrawsEverySplatWithAllBands) {
   std::get<Gaussians>(splats.kernel).opacity[7] = 0;
   std::fill(splats.color.coefficients.begin(), splats.color.coefficients.end(), glm::vec3(0));
   const RenderPlan plan = make_baseline_plan(splats);
-  EXPECT_EQ(std::get<SplatPlan>(plan.layers[0]).drawn.size(), count(splats));
-  EXPECT_EQ(std::get<SplatPlan>(plan.layers[0]).harmonics_degree, 2);
+  EXPECT_EQ(plan.splats(0).drawn.size(), count(splats));
+  EXPECT_EQ(plan.splats(0).harmonics_degree, 2);
   EXPECT_THAT(describe(plan), ElementsAre(StartsWith("baseline: ")));
   EXPECT_THAT(
       describe(make_baseline_plan(

@@ -103,7 +103,7 @@ TEST_P(Layers, MayBeAddedRemovedAndSwapped) {
     return std::pair(renderer.read_color().pixels, renderer.read_faces());
   };
   const auto prepared = [&](std::size_t layer) {
-    const std::vector<PlacedSoup> all = placed_soups(scene);
+    const std::vector<PlacedLayer> all = placed_layers(scene);
     return prepare_scene(std::span(&all[layer], 1), limits);
   };
   Renderer renderer(context, prepared(0));
@@ -274,7 +274,7 @@ TEST(LayersGolden, OneTurnedMirroredAndSmaller) {
 
 TEST(LayerCount, HasALimit) {
   const TriangleSoup soup = wall(glm::vec4(1));
-  const std::vector<const TriangleSoup*> most(max_layers, &soup), more(256, &soup);
+  const std::vector<PlacedLayer> most(max_layers, {.soup = &soup}), more(256, {.soup = &soup});
   EXPECT_EQ(make_plan(most, {}).layers.size(), 255u);
   EXPECT_THROW(make_plan(more, {}), UsageError);
 }

@@ -12,7 +12,7 @@ using testing::ElementsAre;
 TEST(PlanDescription, HasASentenceForEachFact) {
   RenderPlan plan;
   plan.reversed_depth = true;
-  plan.layers.emplace_back();
+  plan.add(SoupPlan{});
   plan.soup(0).faces = {4, 2, 0};
   plan.soup(0).clusters.resize(1);
   plan.soup(0).color_mlp = true;

@@ -110,7 +110,7 @@ struct Measured {
 class Expected {
  public:
   Expected(const Scene& scene, const Camera& camera) : scene_(scene), camera_(camera) {
-    std::vector<PlacedBounds> boxes;
+    std::vector<LayerPlace> boxes;
     for (const Layer& layer : scene.layers)
       boxes.push_back({bounds(layer), layer.world_from_layer});
     const double near = clip_range(boxes, camera, DepthStorage::reversed_float).near;

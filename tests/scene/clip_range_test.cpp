@@ -31,7 +31,7 @@ TEST(ClipRange, OfOneTranslatedLayerEqualsThatOfItsBox) {
   for (const DepthStorage storage : both_storages)
     for (const glm::dvec3& place :
          {glm::dvec3(0), glm::dvec3(0.1, -2.7, 0.3), glm::dvec3(412345.67, -5123456.7, 98.7)}) {
-      const std::array layers{PlacedBounds{box, glm::translate(glm::dmat4(1), place)}};
+      const std::array layers{LayerPlace{box, glm::translate(glm::dmat4(1), place)}};
       // In front of the box, inside it, and behind it.
       for (const double distance : {7.3, 0.1, -7.3}) {
         const Camera camera = camera_at(place + glm::dvec3(0.2, 0.4, distance),
@@ -63,15 +63,15 @@ TEST(ClipRange, OfOneLayerScalesWithTheLayer) {
           scale * glm::dvec3(camera.view_from_world[3]) - glm::dmat3(moved.view_from_world) * place,
           1);
 
-      const ClipRange here = clip_range(std::array{PlacedBounds{box}}, camera, storage);
-      const ClipRange there = clip_range(std::array{PlacedBounds{box, similarity}}, moved, storage);
+      const ClipRange here = clip_range(std::array{LayerPlace{box}}, camera, storage);
+      const ClipRange there = clip_range(std::array{LayerPlace{box, similarity}}, moved, storage);
       EXPECT_NEAR(there.near, scale * here.near, 1e-12 * there.near);
       EXPECT_NEAR(there.far, scale * here.far, 1e-12 * there.far);
     }
 }
 
 TEST(ClipRange, OfSeveralLayersContainsEveryCorner) {
-  std::vector<PlacedBounds> layers;
+  std::vector<LayerPlace> layers;
   for (int i = 0; i < 4; ++i) {
     glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(3.0 * i, -2.0 * i, 0.5 * i));
     place = glm::rotate(place, 0.9 * i, glm::dvec3(0, 0.6, 0.8));
@@ -80,7 +80,7 @@ TEST(ClipRange, OfSeveralLayersContainsEveryCorner) {
   const Camera camera = camera_at({-20, 40, 60}, {4, -3, 1});
   for (const DepthStorage storage : both_storages) {
     const ClipRange range = clip_range(layers, camera, storage);
-    for (const PlacedBounds& layer : layers)
+    for (const LayerPlace& layer : layers)
       for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 point(corner & 1 ? box.high.x : box.low.x,
                                corner & 2 ? box.high.y : box.low.y,
@@ -97,12 +97,12 @@ TEST(ClipRange, OfALayerThatIsFarAwayOrEnormousClipsNoOther) {
   const Camera camera = camera_at({4, 3, 9}, {0, 0.5, 1});
   const Bounds enormous{glm::vec3(-1), glm::vec3(1e38f)};
   for (const DepthStorage storage : both_storages) {
-    const ClipRange alone = clip_range(std::array{PlacedBounds{box}}, camera, storage);
-    for (const PlacedBounds& other :
-         {PlacedBounds{box, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1e12))},
-          PlacedBounds{box, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 1e300))},
-          PlacedBounds{enormous}}) {
-      const ClipRange range = clip_range(std::array{PlacedBounds{box}, other}, camera, storage);
+    const ClipRange alone = clip_range(std::array{LayerPlace{box}}, camera, storage);
+    for (const LayerPlace& other :
+         {LayerPlace{box, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1e12))},
+          LayerPlace{box, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 1e300))},
+          LayerPlace{enormous}}) {
+      const ClipRange range = clip_range(std::array{LayerPlace{box}, other}, camera, storage);
       expect_valid(range);
       EXPECT_LE(range.near, alone.near);
       EXPECT_GE(range.far, alone.far);
@@ -113,12 +113,11 @@ TEST(ClipRange, OfALayerThatIsFarAwayOrEnormousClipsNoOther) {
 // The layer lies 5e6 from the world's origin, where an empty layer's box is.
 TEST(ClipRange, DoesNotChangeWithAnEmptyLayer) {
   const glm::dvec3 place(412345.67, -5123456.7, 98.7);
-  const PlacedBounds layer{box, glm::translate(glm::dmat4(1), place)};
+  const LayerPlace layer{box, glm::translate(glm::dmat4(1), place)};
   const Camera camera = camera_at(place + glm::dvec3(4, 3, 9), place);
   for (const DepthStorage storage : both_storages) {
     const ClipRange expected = clip_range(std::array{layer}, camera, storage);
-    for (const auto& layers :
-         {std::array{layer, PlacedBounds{}}, std::array{PlacedBounds{}, layer}}) {
+    for (const auto& layers : {std::array{layer, LayerPlace{}}, std::array{LayerPlace{}, layer}}) {
       const ClipRange range = clip_range(layers, camera, storage);
       EXPECT_EQ(range.near, expected.near);
       EXPECT_EQ(range.far, expected.far);
@@ -130,7 +129,7 @@ TEST(ClipRange, IsValidWithoutAnythingToSee) {
   const Camera camera = camera_at({4, 3, 9}, {0, 0.5, 1});
   for (const DepthStorage storage : both_storages)
     for (std::size_t count = 0; count < 3; ++count)
-      expect_valid(clip_range(std::vector<PlacedBounds>(count), camera, storage));
+      expect_valid(clip_range(std::vector<LayerPlace>(count), camera, storage));
 }
 
 }  // namespace clip_range_test

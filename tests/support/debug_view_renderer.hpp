@@ -9,10 +9,7 @@ class DebugViewRenderer {
  public:
   DebugViewRenderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                     const RenderOptions& options = {})
-      : views_(soup),
-        renderer_(context,
-                  prepare_debug_views(soup, origin, device_limits(context.capabilities()), options),
-                  options) {}
+      : DebugViewRenderer(context, placed_layer(soup, origin), options) {}
 
   void show(DebugView what, const FeatureChoice& features = {}) {
     views_.show(renderer_, what, features);
@@ -23,6 +20,14 @@ class DebugViewRenderer {
   Legend legend() const { return views_.legend(); }
 
  private:
+  DebugViewRenderer(const gl::Context& context, const PlacedLayer& layer,
+                    const RenderOptions& options)
+      : views_(std::span(&layer, 1)),
+        renderer_(context,
+                  prepare_debug_views(std::span(&layer, 1), device_limits(context.capabilities()),
+                                      options),
+                  options) {}
+
   DebugViews views_;
   Renderer renderer_;
 };

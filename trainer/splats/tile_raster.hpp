@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/radix_sort.hpp"
 #include "base/thread_pool.hpp"
 #include "scene/camera.hpp"
+#include "splatting/depth_order.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tiles/tile_lists.hpp"
@@ -132,18 +132,17 @@ class TileRaster {
 
   void make_lists(std::size_t count) {
     const Stopwatch watch(times_.lists);
-    keys_.clear();
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (const float depth = projected_.depth(i); std::isfinite(depth))
-        keys_.push_back({sort_key(depth), i});
-    radix_sort(keys_, key_scratch_);
+    order_.begin();
+    order_.add_layer(count, [&](std::uint32_t i) { return projected_.depth(i); });
+    order_.sort();
+    const std::span<const KeyedIndex> order = order_.entries();
     lists_.begin(view_.width, view_.height);
     pairs_.assign(count, {0, 0});
-    for (std::size_t place = 0; place < keys_.size(); ++place) {
+    for (std::size_t place = 0; place < order.size(); ++place) {
       // Neighbours in the order are far apart in memory.
-      if (place + 8 < keys_.size())
-        hwy::Prefetch(static_cast<const char*>(projected_.listed(keys_[place + 8].index)));
-      const std::uint32_t splat = keys_[place].index;
+      if (place + 8 < order.size())
+        hwy::Prefetch(static_cast<const char*>(projected_.listed(order[place + 8].index)));
+      const std::uint32_t splat = order[place].index;
       const std::uint32_t begin = lists_.pairs();
       projected_.list(view_, splat, lists_);
       pairs_[splat] = {begin, lists_.pairs()};
@@ -259,7 +258,7 @@ class TileRaster {
   splatting::ImageView view_{};
   int degree_ = 0;
   Projected projected_;
-  std::vector<KeyedIndex> keys_, key_scratch_;
+  splatting::DepthOrder order_;
   std::vector<PairSpan> pairs_;        // of each splat
   std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs
   splatting::TileLists lists_;

@@ -105,7 +105,7 @@ Json add_published(const Json& arguments) {
   const double planned = milliseconds();
   const DeviceLimits limits = device_limits(page_view().capabilities());
   to.published.emplace(page_view().context(),
-                       prepare_baseline(placed_soups(scene).front(), limits, std::move(plan)),
+                       prepare_baseline(placed_layers(scene).front(), limits, std::move(plan)),
                        options);
   Json result = facts(*to.published, planned);
   result["plan_ms"] = planned - start;

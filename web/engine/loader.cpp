@@ -25,7 +25,7 @@ namespace {
 
 struct Loader {
   std::optional<Scene> scene;
-  std::deque<Primitives> reduced;         // lower lattice levels, to save memory; stays in place
+  std::deque<TriangleSoup> reduced;       // lower lattice levels, to save memory; stays in place
   std::vector<PlacedLayer> placed;        // the scene's layers, or their reductions
   std::optional<PreparedScene> prepared;  // reads the placed layers
 };
@@ -40,23 +40,19 @@ EarlyTexels& early_texels() {
   return one;
 }
 
-const TriangleSoup* soup_of(const PlacedLayer& layer) {
-  return std::get_if<TriangleSoup>(&layer.primitives);
-}
-
 /// The reason of the first layer without this debug view, or nullopt.
-std::optional<std::string> why_not_all(DebugView what, std::span<const PlacedLayer> layers) {
+std::optional<std::string> why_not_all(DebugView what, const Scene& scene) {
   if (what == DebugView::color) return {};
-  for (const PlacedLayer& layer : layers) {
+  for (const Layer& layer : scene.layers) {
     if (auto reason = why_not(what, layer.primitives)) return reason;
   }
   return {};
 }
 
-Json debug_views_of(std::span<const PlacedLayer> layers) {
+Json debug_views_of(const Scene& scene) {
   Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
-    const auto reason = why_not_all(name.what, layers);
+    const auto reason = why_not_all(name.what, scene);
     list.push_back(object({{"name", name.name},
                            {"title", name.title},
                            {"meaning", name.meaning},
@@ -82,9 +78,8 @@ std::string appearances_of(std::span<const PlacedLayer> layers) {
   std::vector<std::string> known;
   std::string names;
   for (const PlacedLayer& layer : layers) {
-    const TriangleSoup* soup = soup_of(layer);
-    const std::string name = soup ? appearance_name(soup->appearance)
-                                  : described_kernel(std::get<Splats>(layer.primitives));
+    const std::string name =
+        layer.soup ? appearance_name(layer.soup->appearance) : described_kernel(*layer.splats);
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     known.push_back(name);
     names += (names.empty() ? "" : ", ") + name;
@@ -97,18 +92,17 @@ Json describe(const Scene& scene) {
   std::size_t triangles = 0, splats = 0;
   int features = layers.empty() ? 0 : std::numeric_limits<int>::max();
   for (const PlacedLayer& layer : layers) {
-    const TriangleSoup* soup = soup_of(layer);
-    if (soup)
-      triangles += soup->triangles.size();
+    if (layer.soup)
+      triangles += layer.soup->triangles.size();
     else
-      splats += count(std::get<Splats>(layer.primitives));
-    features = std::min(features, soup ? feature_count(*soup) : 0);
+      splats += count(*layer.splats);
+    features = std::min(features, layer.soup ? feature_count(*layer.soup) : 0);
   }
   Subject subject = tureen::subject_of(scene);
   const UpGuess up = guess_up(evidence_of(scene, subject));
   subject.up = up.axis;
   Json names = Json::array();
-  for (const PlacedLayer& layer : layers) names.push_back(layer.name);
+  for (const PlacedLayer& layer : layers) names.push_back(layer.place.name);
   Json cameras = Json::array();
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
   return object({{"name", scene.info.name},
@@ -122,7 +116,7 @@ Json describe(const Scene& scene) {
                  {"background", to_json(glm::dvec3(scene.info.background))},
                  {"subject", to_json(subject)},
                  {"up_reason", describe(up)},
-                 {"debug_views", debug_views_of(layers)},
+                 {"debug_views", debug_views_of(scene)},
                  {"feature_count", features}});
 }
 
@@ -196,16 +190,12 @@ Json preview(const Json& arguments) {
 /// The scene's layers, with lattices of at most this level.
 void place_layers(std::optional<int> level) {
   const Scene& scene = loader().scene.value();
-  loader().placed.clear();
   loader().reduced.clear();
-  for (const PlacedLayer& layer : placed_layers(scene)) {
-    const Primitives* primitives = &layer.primitives;
-    const TriangleSoup* soup = soup_of(layer);
-    if (level && soup && std::holds_alternative<LatticeTexture>(soup->appearance))
-      primitives =
-          &loader().reduced.emplace_back(edited(*soup, {.lattice_level = *level}, report_progress));
-    loader().placed.push_back({*primitives, layer.world_from_layer, layer.name, layer.visible});
-  }
+  loader().placed = placed_layers(scene);
+  for (PlacedLayer& layer : loader().placed)
+    if (level && layer.soup && std::holds_alternative<LatticeTexture>(layer.soup->appearance))
+      layer.soup = &loader().reduced.emplace_back(
+          edited(*layer.soup, {.lattice_level = *level}, report_progress));
 }
 
 /// {"limits": result of "start", "level"?: maximum lattice level, "layer"?: only this layer}.
@@ -237,15 +227,10 @@ Json forecast(const Json& arguments) {
       page_options(scene, blending_of(arguments.at("limits").at("blend"))).plan;
   Json layers = Json::array();
   for (const PlacedLayer& layer : placed_layers(scene)) {
-    if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
-      const SplatPlan plan = make_splat_plan(*splats);
-      const bool on_device = !uses_tiles(*splats, plan, limits, preferences);
-      layers.push_back(on_device ? device_forecast(*splats, plan).bytes : 0);
-      continue;
-    }
-    const TriangleSoup& soup = *soup_of(layer);
-    const RenderPlan plan = make_plan(soup, limits, preferences);
-    layers.push_back(device_forecast(soup, plan.soup(0)).bytes);
+    const RenderPlan plan = make_plan(std::span(&layer, 1), limits, preferences);
+    layers.push_back(layer.soup             ? device_forecast(*layer.soup, plan.soup(0)).bytes
+                     : plan.splats_in_tiles ? 0
+                                            : device_forecast(*layer.splats, plan.splats(0)).bytes);
   }
   return layers;
 }
@@ -308,8 +293,9 @@ Json add_texels(const Json& arguments) {
 /// The highest level of the scene's lattices, or null.
 Json lattice_level(const Json&) {
   Json highest;
-  for (const PlacedSoup& layer : placed_soups(loader().scene.value())) {
-    const auto* texture = std::get_if<LatticeTexture>(&layer.soup.appearance);
+  for (const PlacedLayer& layer : placed_layers(loader().scene.value())) {
+    const auto* texture =
+        layer.soup ? std::get_if<LatticeTexture>(&layer.soup->appearance) : nullptr;
     if (!texture) continue;
     std::uint32_t level = highest.is_null() ? 0 : highest.get<std::uint32_t>();
     for (const LatticePatch& patch : texture->patches) level = std::max(level, patch.level);

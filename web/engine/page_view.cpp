@@ -23,10 +23,9 @@ std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
   std::vector<ShownLayer> layers;
   for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
     const PreparedLayer& layer = prepared.layers[i];
-    const LayerPlan& plan = prepared.plan.layers[i];
+    const LayerPlan& plan = *prepared.plan.layers[i];
     const auto* splats = std::get_if<SplatPlan>(&plan);
-    layers.push_back({.box = {layer.framed, layer.world_from_layer},
-                      .visible = layer.visible,
+    layers.push_back({.place = {layer.framed, layer.place.world_from_layer, layer.place.visible},
                       .triangles = splats ? 0 : std::get<SoupPlan>(plan).soup_faces,
                       .splats = splats ? splats->splats : 0});
   }
@@ -111,10 +110,10 @@ PageView::Stage& PageView::colors_with(std::size_t layer) {
 /// Gives the controls the box around the visible layers; around all if none is visible.
 void PageView::follow_layers(Stage& stage) {
   const bool any = std::any_of(stage.layers.begin(), stage.layers.end(),
-                               [](const ShownLayer& layer) { return layer.visible; });
-  std::vector<PlacedBounds> boxes;
+                               [](const ShownLayer& layer) { return layer.place.visible; });
+  std::vector<LayerPlace> boxes;
   for (const ShownLayer& layer : stage.layers)
-    if (layer.visible || !any) boxes.push_back(layer.box);
+    if (layer.place.visible || !any) boxes.push_back(layer.place);
   stage.scene.subject = subject_of(boxes, stage.scene.subject.up, stage.scene.cameras);
   stage.controls.set_subject(stage.scene.subject);
 }
@@ -139,14 +138,14 @@ void PageView::place_layer(std::size_t layer, const glm::dmat4& world_from_layer
   if (const auto reason = defect(Layer{.world_from_layer = world_from_layer}))
     throw UsageError("the layer cannot be placed: " + *reason);
   stage.renderer->place_layer(layer, world_from_layer);
-  stage.layers[layer].box.world_from_layer = world_from_layer;
+  stage.layers[layer].place.world_from_layer = world_from_layer;
   follow_layers(stage);
 }
 
 void PageView::show_layer(std::size_t layer, bool visible) {
   Stage& stage = stage_with(layer);
   stage.renderer->show_layer(layer, visible);
-  stage.layers[layer].visible = visible;
+  stage.layers[layer].place.visible = visible;
   follow_layers(stage);
 }
 
@@ -176,10 +175,8 @@ void PageView::move_layer(std::size_t from, std::size_t to) {
 std::vector<PlacedLayer> PageView::read_layers() const {
   const ReadScene& read = read_scene_.value();
   std::vector<PlacedLayer> layers;
-  for (std::size_t i = 0; i < read.layers.size(); ++i) {
-    const ShownLayer& layer = stage_->layers[i];
-    layers.push_back({*read.layers[i], layer.box.world_from_layer, {}, layer.visible});
-  }
+  for (std::size_t i = 0; i < read.layers.size(); ++i)
+    layers.push_back(placed_layer(*read.layers[i], stage_->layers[i].place));
   return layers;
 }
 

@@ -10,14 +10,13 @@
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/renderer.hpp"
-#include "scene/clip_range.hpp"
+#include "scene/placed_layer.hpp"
 
 namespace tureen::web {
 
 /// A layer on the device, in the renderer's order.
 struct ShownLayer {
-  PlacedBounds box;
-  bool visible = true;
+  LayerPlace place;                       // with framed_bounds()
   std::size_t triangles = 0, splats = 0;  // one of them is 0
   std::size_t device_bytes = 0;           // of ordinary frames
 };

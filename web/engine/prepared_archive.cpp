@@ -127,7 +127,8 @@ void archive_soup(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
-  auto& [name, bounds, framed, world_from_layer, visible, soup, splats, tiled_splats] = value;
+  auto& [place, framed, soup, splats, tiled_splats] = value;
+  auto& [bounds, world_from_layer, visible, name] = place;
   archive(name, bounds, framed, world_from_layer, visible);
   bool of_splats = splats.has_value(), of_tiles = tiled_splats.has_value();
   archive(of_splats, of_tiles);
@@ -150,12 +151,18 @@ void archive_layer(Archive& archive, Value& value) {
 template <class Archive, class Value>
 void archive_scene(Archive& archive, Value& value) {
   auto& [plan, layers, make_passes] = value;
-  auto& [reversed_depth, quality, specialise, requested_stage, layer_plans, description] = plan;
+  auto& [reversed_depth, quality, specialise, requested_stage, layer_plans, splats_in_tiles,
+         description] = plan;
   archive(reversed_depth);
   archive_quality(archive, quality);
   archive(specialise, requested_stage);
-  archive_list(archive, layer_plans, [](auto& to, auto& layer) { archive_plan(to, layer); });
-  archive(description);
+  archive_list(archive, layer_plans, [](auto& to, auto& layer) {
+    if constexpr (std::is_const_v<Value>)
+      archive_plan(to, std::as_const(*layer));
+    else
+      archive_plan(to, *(layer = std::make_shared<LayerPlan>()));
+  });
+  archive(splats_in_tiles, description);
   archive_list(archive, layers, [](auto& to, auto& layer) { archive_layer(to, layer); });
 }
 

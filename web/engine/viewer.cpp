@@ -48,21 +48,21 @@ ShownScene scene_of(const Json& scene) {
 
 Json layers() {
   Json list = Json::array();
-  for (const auto& [box, visible, triangles, splats, device_bytes] : view().layers())
+  for (const auto& [place, triangles, splats, device_bytes] : view().layers())
     list.push_back(object({{"triangles", triangles},
                            {"splats", splats},
-                           {"visible", visible},
-                           {"transform", to_json(box.world_from_layer)},
-                           {"placement", to_json(similarity_of(box.world_from_layer))},
+                           {"visible", place.visible},
+                           {"transform", to_json(place.world_from_layer)},
+                           {"placement", to_json(similarity_of(place.world_from_layer))},
                            {"device_bytes", device_bytes}}));
   return list;
 }
 
 Json facts() {
   std::size_t drawn = 0;
-  for (const LayerPlan& layer : view().renderer().plan().layers) {
-    const auto* soup = std::get_if<SoupPlan>(&layer);
-    drawn += soup ? soup->faces.size() : std::get<SplatPlan>(layer).drawn.size();
+  for (const std::shared_ptr<LayerPlan>& layer : view().renderer().plan().layers) {
+    const auto* soup = std::get_if<SoupPlan>(layer.get());
+    drawn += soup ? soup->faces.size() : std::get<SplatPlan>(*layer).drawn.size();
   }
   return object({{"plan", describe(view().renderer().plan())},
                  {"drawn", drawn},
