@@ -433,7 +433,9 @@ ExitCode inform(const InfoOptions& options) {
     inform_of_dataset({.path = options.scene.paths[0], .plot = options.plot, .json = options.json});
     return ExitCode::done;
   }
-  const Scene scene = read(options.scene);
+  SceneArguments arguments = options.scene;
+  arguments.choice.keep_rows = true;  // lint names rows of the file
+  const Scene scene = read(arguments);
   std::vector<LayerFacts> layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) layers.push_back(facts_of(scene, i));
   const Subject subject = subject_of(boxes_of(scene), glm::dvec3(scene.info.up));

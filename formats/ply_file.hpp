@@ -16,8 +16,8 @@ namespace tureen {
 Scene read_ply(Input& input, const ReadOptions& options = {});
 Scene read_ply(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Splats if the scene is one layer of Gaussians or neural densities, otherwise polygons. Returns
-/// the losses. Throws OutputError.
+/// Splats if fits_splat_ply() (formats/splat/splat_ply.hpp), otherwise polygons. Returns the
+/// losses. Throws OutputError.
 std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -27,6 +27,9 @@ struct ReadOptions {
   /// (scene/edit/splat_limit.hpp), with a remark. Readers of splat files hold an eighth more while
   /// they read, that of our GLB all shapes, but only the kept colours, others everything.
   std::optional<std::uint64_t> max_splats = {};
+  /// Whether readers that reorder or drop splats fill Splats::rows. Not for our GLB, which keeps
+  /// the order.
+  bool keep_rows = false;
   /// Called with the number of splats in the file and their bytes in memory, before that memory is
   /// taken; may throw to stop. Not for triangle windows and foreign glTF.
   std::function<void(std::uint64_t splats, std::uint64_t bytes)> found_splats = {};

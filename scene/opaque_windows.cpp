@@ -1,23 +1,25 @@
 #include "scene/opaque_windows.hpp"
 
+#include "scene/edit/splat_edits.hpp"
+
 namespace tureen {
 
-double mean_coverage(double opacity, double sigma) {
-  return opacity * 2.0 / ((sigma + 1.0) * (sigma + 2.0));
-}
-
 OpaqueResult to_opaque(Splats splats, float minimum_opacity) {
+  const std::size_t count = tureen::count(splats);
+  {
+    const auto& opacity = std::get<TriangleWindows>(splats.kernel).opacity;
+    std::vector<std::uint8_t> keeps(count);
+    for (std::size_t t = 0; t < count; ++t) keeps[t] = opacity[t] >= minimum_opacity;
+    splats = keep_splats(std::move(splats), keeps);
+  }
   auto& windows = std::get<TriangleWindows>(splats.kernel);
   SplatColor& color = splats.color;
-  const std::size_t count = windows.sigma.size();
+  const std::size_t kept = windows.opacity.size();
   double coverage = 0, mean_opacity = 0;
-  const std::size_t kept = keep_windows(splats, [&](std::size_t t) {
-    // Negated, so that a NaN opacity is dropped too.
-    if (!(windows.opacity[t] >= minimum_opacity)) return false;
+  for (std::size_t t = 0; t < kept; ++t) {
     coverage += mean_coverage(windows.opacity[t], windows.sigma[t]);
     mean_opacity += windows.opacity[t];
-    return true;
-  });
+  }
 
   OpaqueResult result;
   result.soup.positions = std::move(windows.corners);

@@ -9,10 +9,6 @@
 
 namespace tureen {
 
-/// Mean coverage of a triangle window: opacity * 2 / ((sigma+1)(sigma+2)). The factor after opacity
-/// is the mean of rho^sigma over the triangle.
-double mean_coverage(double opacity, double sigma);
-
 struct OpaqueResult {
   TriangleSoup soup;
   std::vector<Remark> remarks;  // what was lost

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
-#include <limits>
+#include <numeric>
 
 #include "scene/finite.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -21,133 +22,71 @@ constexpr Profile gaussians_2d{.projection = Profile::Projection::plane,
                                .low_pass = Profile::LowPass::screen,
                                .min_center_depth = published_center_depth};
 
-template <class T>
-std::size_t vector_bytes(const std::vector<T>& values) {
-  return values.size() * sizeof(T);
-}
-
-bool is_fraction(float value) { return value >= 0 && value <= 1; }
-
-/// Readers normalise in single precision; the rounding is below 1e-6.
-bool has_unit_length(const glm::quat& q) { return std::abs(glm::dot(q, q) - 1.0f) <= 1e-5f; }
-
-struct SplatBox {
-  glm::vec3 low{std::numeric_limits<float>::max()};
-  glm::vec3 high{std::numeric_limits<float>::lowest()};
-
-  void add(const glm::vec3& point) {
-    if (!is_finite(point)) return;
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-  void add(const glm::dvec3& center, const glm::dvec3& extent) {
-    add(glm::vec3(center - extent));
-    add(glm::vec3(center + extent));
-  }
-  Bounds bounds() const { return low.x <= high.x ? Bounds{low, high} : Bounds{}; }
-};
-
-/// Half the box around the ellipsoid with these semi-axes.
-glm::dvec3 extent_of(const glm::quat& rotation, const glm::dvec3& semi_axes) {
-  const glm::dmat3 axes = glm::mat3_cast(glm::dquat(rotation));
-  glm::dvec3 squared(0.0);
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 axis = axes[i] * semi_axes[i];
-    squared += axis * axis;
-  }
-  return glm::sqrt(squared);
-}
-
-/// Adds what splat `i` covers to a box.
-struct AddToBox {
-  const Profile& profile;
-  SplatBox& box;
-
-  void operator()(const TriangleWindows& windows, std::size_t i) const {
-    if (windows.opacity[i] >= profile.min_alpha)
-      for (std::size_t corner = 0; corner < 3; ++corner) box.add(windows.corners[3 * i + corner]);
-  }
-
-  void operator()(const Gaussians& gaussians, std::size_t i) const {
-    const double squared = 2 * std::log(double(gaussians.opacity[i]) / double(profile.min_alpha));
-    if (!(squared >= 0)) return;
-    glm::dvec3 axes(gaussians.scales[i]);
-    if (gaussians.flat) axes.z = 0;
-    box.add(gaussians.centers[i], extent_of(gaussians.rotations[i], std::sqrt(squared) * axes));
-  }
-
-  void operator()(const NeuralDensities& densities, std::size_t i) const {
-    box.add(densities.centers[i], extent_of(densities.rotations[i], densities.semi_axes[i]));
-  }
-};
-
 using SplatDefect = std::optional<std::string>;
 
-std::string at(std::size_t splat, const char* what) {
-  return "splat " + std::to_string(splat) + " has " + what;
+/// Readers normalise in single precision; the rounding is below 1e-6.
+bool has_unit_length(std::span<const float> xyzw) {
+  const glm::quat q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  return std::abs(glm::dot(q, q) - 1.0f) <= 1e-5f;
 }
 
-struct FindKernelDefect {
-  SplatDefect operator()(const TriangleWindows& windows) const {
-    const std::size_t splats = windows.opacity.size();
-    if (windows.corners.size() != 3 * splats || windows.sigma.size() != splats)
-      return "the windows have " + std::to_string(windows.corners.size()) + " corners and " +
-             std::to_string(windows.sigma.size()) + " sigmas for " + std::to_string(splats) +
-             " opacities";
-    for (std::size_t i = 0; i < splats; ++i) {
-      for (std::size_t corner = 0; corner < 3; ++corner)
-        if (!is_finite(windows.corners[3 * i + corner]))
-          return at(i, "a corner that is not finite");
-      if (!(windows.sigma[i] > 0) || !std::isfinite(windows.sigma[i]))
-        return at(i, "a sigma that is not positive and finite");
-      if (!is_fraction(windows.opacity[i])) return at(i, "an opacity outside 0..1");
-    }
-    return {};
-  }
+bool is_inside(ColumnRange range, std::span<const float> values) {
+  if (range == ColumnRange::unit_length) return has_unit_length(values);
+  return std::all_of(values.begin(), values.end(), [&](float value) {
+    if (range == ColumnRange::fraction) return value >= 0 && value <= 1;
+    return std::isfinite(value) && (range == ColumnRange::finite || value > 0 ||
+                                    (range == ColumnRange::not_negative && value == 0));
+  });
+}
 
-  SplatDefect operator()(const Gaussians& gaussians) const {
-    const std::size_t splats = gaussians.centers.size();
-    if (gaussians.scales.size() != splats || gaussians.rotations.size() != splats ||
-        gaussians.opacity.size() != splats)
-      return "the Gaussians have " + std::to_string(gaussians.scales.size()) + " scales, " +
-             std::to_string(gaussians.rotations.size()) + " rotations and " +
-             std::to_string(gaussians.opacity.size()) + " opacities for " + std::to_string(splats) +
-             " centres";
-    for (std::size_t i = 0; i < splats; ++i) {
-      if (!is_finite(gaussians.centers[i])) return at(i, "a centre that is not finite");
-      const glm::vec3& scales = gaussians.scales[i];
-      if (!is_finite(scales) || scales.x < 0 || scales.y < 0 || scales.z < 0)
-        return at(i, "a scale that is negative or not finite");
-      if (!has_unit_length(gaussians.rotations[i]))
-        return at(i, "a rotation that is not of unit length");
-      if (!is_fraction(gaussians.opacity[i])) return at(i, "an opacity outside 0..1");
-    }
-    return {};
-  }
+/// What a value outside its ColumnRange is.
+constexpr std::array<const char*, 5> outside{
+    " that is not finite", " that is not positive and finite", " that is negative or not finite",
+    " outside 0..1", " that is not of unit length"};
 
-  SplatDefect operator()(const NeuralDensities& densities) const {
-    const std::size_t splats = densities.centers.size();
-    if (densities.semi_axes.size() != splats || densities.rotations.size() != splats ||
-        densities.networks.size() != NeuralDensities::parameters * splats)
-      return "the neural densities have " + std::to_string(densities.semi_axes.size()) +
-             " semi-axes, " + std::to_string(densities.rotations.size()) + " rotations and " +
-             std::to_string(densities.networks.size()) + " network parameters for " +
-             std::to_string(splats) + " centres";
-    for (std::size_t i = 0; i < splats; ++i) {
-      if (!is_finite(densities.centers[i])) return at(i, "a centre that is not finite");
-      const glm::vec3& axes = densities.semi_axes[i];
-      if (!is_finite(axes) || !(axes.x > 0 && axes.y > 0 && axes.z > 0))
-        return at(i, "a semi-axis that is not positive and finite");
-      if (!has_unit_length(densities.rotations[i]))
-        return at(i, "a rotation that is not of unit length");
-    }
-    for (std::size_t k = 0; k < densities.networks.size(); ++k)
-      if (!std::isfinite(densities.networks[k]))
-        return at(k / NeuralDensities::parameters, "a network parameter that is not finite");
-    if (!std::isfinite(densities.omega)) return "omega is not finite";
-    return {};
-  }
-};
+/// "scale", "network parameter".
+std::string value_name(const auto& column) {
+  const bool is_part = column.role == ColumnRole::value && column.per_splat > 1;
+  return column.name + std::string(is_part ? " parameter" : "");
+}
+
+std::string at(std::size_t splat, const std::string& what) {
+  return "splat " + std::to_string(splat) + " has a" +
+         (std::strchr("aeiou", what.front()) ? "n " : " ") + what;
+}
+
+SplatDefect find_kernel_defect(const SplatKernel& kernel, std::size_t i) {
+  SplatDefect result;
+  for_each_column(kernel, [&](const auto& column) {
+    if (!result && !is_inside(column.range, column.of_splat(i)))
+      result = at(i, value_name(column) + outside[std::size_t(column.range)]);
+  });
+  return result;
+}
+
+SplatDefect find_size_defect(const SplatKernel& kernel, std::size_t splats) {
+  std::vector<std::string> sizes;
+  bool is_good = true;
+  for_each_column(kernel, [&](const auto& column) {
+    is_good = is_good && column.values.size() == column.per_splat * splats;
+    sizes.push_back(std::to_string(column.values.size()) + " " + plural(value_name(column)));
+  });
+  if (is_good) return {};
+  std::string text = std::string("the ") + kernel_name(kernel) + " have " + sizes[1];
+  for (std::size_t k = 2; k < sizes.size(); ++k)
+    text += (k + 1 < sizes.size() ? ", " : " and ") + sizes[k];
+  return text + " for " + sizes[0];
+}
+
+SplatDefect find_kernel_defect(const SplatKernel& kernel) {
+  const std::size_t splats = count(kernel);
+  if (SplatDefect reason = find_size_defect(kernel, splats)) return reason;
+  for (std::size_t i = 0; i < splats; ++i)
+    if (SplatDefect reason = find_kernel_defect(kernel, i)) return reason;
+  const auto* densities = std::get_if<NeuralDensities>(&kernel);
+  if (densities && !std::isfinite(densities->omega)) return "omega is not finite";
+  return {};
+}
 
 SplatDefect find_splat_defect(const SplatColor& color, const SplatKernel& kernel,
                               std::size_t splats) {
@@ -163,7 +102,7 @@ SplatDefect find_splat_defect(const SplatColor& color, const SplatKernel& kernel
       std::find_if_not(color.coefficients.begin(), color.coefficients.end(), is_finite<float>);
   if (bad == color.coefficients.end()) return {};
   return at(std::size_t(bad - color.coefficients.begin()) / per_splat,
-            "a harmonics coefficient that is not finite");
+            "harmonics coefficient that is not finite");
 }
 
 }  // namespace
@@ -221,9 +160,12 @@ std::optional<std::string> profile_defect(const SplatKernel& kernel, const Splat
 }
 
 const std::vector<float>* opacity_of(const SplatKernel& kernel) {
-  if (const auto* windows = std::get_if<TriangleWindows>(&kernel)) return &windows->opacity;
-  if (const auto* gaussians = std::get_if<Gaussians>(&kernel)) return &gaussians->opacity;
-  return nullptr;
+  const std::vector<float>* result = nullptr;
+  for_each_column(kernel, [&](const auto& column) {
+    if constexpr (requires { result = &column.values; })
+      if (column.role == ColumnRole::opacity) result = &column.values;
+  });
+  return result;
 }
 
 int degree_in_use(const SplatColor& color) {
@@ -243,19 +185,18 @@ bool is_transparent(const Splats& splats) {
                       [&](float each) { return each >= splats.profile.min_alpha; });
 }
 
-std::size_t count(const Splats& splats) {
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
-    return windows->opacity.size();
-  if (const auto* gaussians = std::get_if<Gaussians>(&splats.kernel))
-    return gaussians->centers.size();
-  return std::get<NeuralDensities>(splats.kernel).centers.size();
+std::size_t count(const SplatKernel& kernel) {
+  std::optional<std::size_t> result;
+  for_each_column(kernel, [&](const auto& column) {
+    if (!result) result = column.values.size() / column.per_splat;
+  });
+  return *result;
 }
 
+std::size_t count(const Splats& splats) { return count(splats.kernel); }
+
 const char* kernel_name(const SplatKernel& kernel) {
-  if (std::holds_alternative<TriangleWindows>(kernel)) return "triangle windows";
-  if (const auto* gaussians = std::get_if<Gaussians>(&kernel))
-    return gaussians->flat ? "flat Gaussians" : "Gaussians";
-  return "neural densities";
+  return std::visit([](const auto& each) { return kernel_name(each); }, kernel);
 }
 
 std::string describe(const Splats& splats) {
@@ -277,19 +218,24 @@ std::string_view profile_name(const Splats& splats) {
 }
 
 glm::dvec3 center(const Splats& splats, std::size_t i) {
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-    const glm::vec3* corner = &windows->corners[3 * i];
-    return (glm::dvec3(corner[0]) + glm::dvec3(corner[1]) + glm::dvec3(corner[2])) / 3.0;
-  }
-  if (const auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) return gaussians->centers[i];
-  return std::get<NeuralDensities>(splats.kernel).centers[i];
+  glm::dvec3 result(0.0);
+  for_each_column(splats.kernel, [&](const auto& column) {
+    if constexpr (requires { result = column.values[0]; }) {
+      if (column.role != ColumnRole::position && column.role != ColumnRole::corner) return;
+      const glm::vec3* points = &column.values[column.per_splat * i];
+      result = points[0];
+      for (std::size_t k = 1; k < column.per_splat; ++k) result += glm::dvec3(points[k]);
+      result /= double(column.per_splat);
+    }
+  });
+  return result;
 }
 
 Bounds bounds(const Splats& splats) {
   SplatBox box;
   std::visit(
-      [add = AddToBox{splats.profile, box}, all = count(splats)](const auto& kernel) {
-        for (std::size_t i = 0; i < all; ++i) add(kernel, i);
+      [&, all = count(splats)](const auto& kernel) {
+        for (std::size_t i = 0; i < all; ++i) add_to_box(kernel, i, splats.profile.min_alpha, box);
       },
       splats.kernel);
   return box.bounds();
@@ -299,61 +245,43 @@ Bounds bounds(const Splats& splats, std::span<const std::uint32_t> which,
               const SplatProfile& profile) {
   SplatBox box;
   std::visit(
-      [add = AddToBox{profile, box}, which](const auto& kernel) {
-        for (const std::uint32_t i : which) add(kernel, i);
+      [&](const auto& kernel) {
+        for (const std::uint32_t i : which) add_to_box(kernel, i, profile.min_alpha, box);
       },
       splats.kernel);
   return box.bounds();
 }
 
 std::size_t byte_size(const Splats& splats) {
-  std::size_t bytes = vector_bytes(splats.color.coefficients);
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
-    return bytes + vector_bytes(windows->corners) + vector_bytes(windows->sigma) +
-           vector_bytes(windows->opacity);
-  if (const auto* gaussians = std::get_if<Gaussians>(&splats.kernel))
-    return bytes + vector_bytes(gaussians->centers) + vector_bytes(gaussians->scales) +
-           vector_bytes(gaussians->rotations) + vector_bytes(gaussians->opacity);
-  const auto& densities = std::get<NeuralDensities>(splats.kernel);
-  return bytes + vector_bytes(densities.centers) + vector_bytes(densities.semi_axes) +
-         vector_bytes(densities.rotations) + vector_bytes(densities.networks);
+  std::size_t bytes = splats.color.coefficients.size() * sizeof(glm::vec3);
+  for_each_column(splats.kernel, [&](const auto& column) {
+    bytes += column.values.size() * sizeof column.values[0];
+  });
+  return bytes;
 }
 
 std::size_t bytes_per_splat(const SplatKernel& kernel, int degree) {
-  constexpr std::size_t ellipsoid = 2 * sizeof(glm::vec3) + sizeof(glm::quat);
-  const std::size_t shape = std::holds_alternative<TriangleWindows>(kernel)
-                                ? 3 * sizeof(glm::vec3) + 2 * sizeof(float)
-                            : std::holds_alternative<Gaussians>(kernel)
-                                ? ellipsoid + sizeof(float)
-                                : ellipsoid + NeuralDensities::parameters * sizeof(float);
-  return shape + std::size_t(harmonics::count(degree)) * sizeof(glm::vec3);
+  std::size_t bytes = std::size_t(harmonics::count(degree)) * sizeof(glm::vec3);
+  for_each_column(kernel,
+                  [&](const auto& column) { bytes += column.per_splat * sizeof column.values[0]; });
+  return bytes;
 }
 
-std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>& keeps) {
-  auto& [corners, sigma, opacity] = std::get<TriangleWindows>(splats.kernel);
-  std::vector<glm::vec3>& coefficients = splats.color.coefficients;
+void number_rows(Splats& splats) {
+  splats.rows.resize(count(splats));
+  std::iota(splats.rows.begin(), splats.rows.end(), 0u);
+}
+
+bool is_valid(const Splats& splats, std::size_t i) {
   const std::size_t each = coefficients_per_splat(splats.color);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < opacity.size(); ++i) {
-    if (!keeps(i)) continue;
-    if (kept != i) {
-      std::copy_n(&corners[3 * i], 3, &corners[3 * kept]);
-      sigma[kept] = sigma[i];
-      opacity[kept] = opacity[i];
-      std::copy_n(&coefficients[each * i], each, &coefficients[each * kept]);
-    }
-    ++kept;
-  }
-  corners.resize(3 * kept);
-  sigma.resize(kept);
-  opacity.resize(kept);
-  coefficients.resize(each * kept);
-  return kept;
+  const glm::vec3* first = splats.color.coefficients.data() + each * i;
+  return !find_kernel_defect(splats.kernel, i) &&
+         std::all_of(first, first + each, is_finite<float>);
 }
 
 std::optional<std::string> defect(const Splats& splats) {
   if (SplatDefect reason = profile_defect(splats.kernel, splats.profile)) return reason;
-  if (SplatDefect reason = std::visit(FindKernelDefect{}, splats.kernel)) return reason;
+  if (SplatDefect reason = find_kernel_defect(splats.kernel)) return reason;
   return find_splat_defect(splats.color, splats.kernel, count(splats));
 }
 

@@ -8,8 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -18,48 +16,20 @@
 #include <variant>
 #include <vector>
 
+#include "scene/kernels/gaussians.hpp"
+#include "scene/kernels/neural_densities.hpp"
+#include "scene/kernels/triangle_windows.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
 
-/// Triangle Splatting (arXiv 2505.19175). alpha = opacity * rho^sigma, where rho is the distance
-/// from the nearest edge over the inradius, both in the image: 1 at the incenter, 0 on the edges.
-/// The centre is the mean of the corners.
-struct TriangleWindows {
-  std::vector<glm::vec3> corners;  // three a splat
-  std::vector<float> sigma;        // > 0
-  std::vector<float> opacity;      // [0, 1]
-};
-
-/// 3D Gaussian Splatting, and with `flat` the discs of 2DGS, GaMeS and REdiSplats (arXiv
-/// 2503.12284). alpha = opacity * exp(-q / 2), where q is the squared distance from the centre in
-/// standard deviations; SplatProfile::projection says where it is measured.
-struct Gaussians {
-  std::vector<glm::vec3> centers;
-  /// Standard deviations along the local axes, in layer units, >= 0. Discs span the local x and y
-  /// axes; their z is not used.
-  std::vector<glm::vec3> scales;
-  std::vector<glm::quat> rotations;  // of unit length: layer from local coordinates
-  std::vector<float> opacity;        // [0, 1]
-  bool flat = false;
-};
-
-/// Splattable neural primitives (arXiv 2510.08491): ellipsoids with the density
-/// b2 + sum_k a_k cos(omega (w_k . u + b1_k)), u = (point - centre) / largest semi-axis, not
-/// rotated. alpha = 1 - exp(-optical depth), where the optical depth is the integral of the density
-/// along the ray's chord, in units of the largest semi-axis; below 0 it is 0.
-struct NeuralDensities {
-  static constexpr int width = 8;                           // neurons
-  static constexpr std::size_t parameters = 5 * width + 1;  // a splat
-  std::vector<glm::vec3> centers;
-  std::vector<glm::vec3> semi_axes;  // along the local axes, in layer units, > 0
-  std::vector<glm::quat> rotations;  // of unit length: layer from local coordinates
-  /// `parameters` values a splat: w_0.xyz, w_1.xyz, .. w_7.xyz, b1_0 .. b1_7, a_0 .. a_7, b2.
-  std::vector<float> networks;
-  float omega = 30;
-};
-
 using SplatKernel = std::variant<TriangleWindows, Gaussians, NeuralDensities>;
+
+/// Calls act(Column) for each array of the kernel, in the order of its file in kernels/.
+template <MaybeConst<SplatKernel> Kernel>
+void for_each_column(Kernel& kernel, auto&& act) {
+  std::visit([&](auto& each) { for_each_column(each, act); }, kernel);
+}
 
 /// Colour max(0, 1/2 + sum_i Y_i(d) c_i), where d is the unit direction from the eye to the splat's
 /// centre. It may exceed 1; only pixels are clamped.
@@ -98,7 +68,7 @@ struct SplatProfile {
   float max_alpha = 0.99f;          // larger values are clamped
   float min_alpha = 1.0f / 255.0f;  // smaller values are not blended
   /// A splat that would lower the transmittance of a pixel below this value ends the pixel and is
-  /// not blended. 0: every splat is blended. The device does not follow this rule, only the oracle.
+  /// not blended. 0: every splat is blended. Rasters ignore it; tiles and the oracle apply it.
   float stop_transmittance = 1e-4f;
   /// Splats whose centre has at most this view depth, in layer units, are not drawn: too near for
   /// the affine approximation of EWA, and the rule of 3DGS and of the methods built on its
@@ -139,7 +109,16 @@ struct Splats {
   SplatKernel kernel = {};
   SplatColor color = {};
   SplatProfile profile = {};
+  /// The row of each splat in its file, from 0, if the reader was asked for it; otherwise empty.
+  std::vector<std::uint32_t> rows = {};
 };
+
+/// Calls act(array, elements per splat) for all arrays.
+void for_each_array(MaybeConst<Splats> auto& splats, auto&& act) {
+  for_each_column(splats.kernel, [&](const auto& column) { act(column.values, column.per_splat); });
+  act(splats.color.coefficients, coefficients_per_splat(splats.color));
+  if (!splats.rows.empty()) act(splats.rows, std::size_t(1));
+}
 
 /// The reason why splats with this kernel cannot have this profile, or nullopt: a value outside its
 /// range, or a rule that the kernel does not support. O(1).
@@ -154,6 +133,7 @@ bool is_transparent(const Splats& splats);
 int degree_in_use(const SplatColor& color);
 
 /// Number of splats.
+std::size_t count(const SplatKernel& kernel);
 std::size_t count(const Splats& splats);
 
 /// "triangle windows", "Gaussians", "flat Gaussians" or "neural densities".
@@ -179,9 +159,11 @@ std::size_t byte_size(const Splats& splats);
 /// Bytes of one splat with this kernel and one colour of this degree.
 std::size_t bytes_per_splat(const SplatKernel& kernel, int degree);
 
-/// Removes the windows for which `keeps` returns false, and their colours. It is called once for
-/// each window, in order, before that window moves. Returns the number that remain.
-std::size_t keep_windows(Splats& splats, const std::function<bool(std::size_t)>& keeps);
+/// Sets the rows to 0, 1, ..: before a reader drops or reorders splats.
+void number_rows(Splats& splats);
+
+/// Whether the values of splat `i` are in their ranges, as defect() checks them.
+bool is_valid(const Splats& splats, std::size_t i);
 
 /// The reason why these splats cannot be drawn (a size that does not match, a value outside its
 /// range or not finite, a profile_defect()), or nullopt. Readers return

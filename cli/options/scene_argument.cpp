@@ -36,6 +36,7 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
   options.vertex_colors = choice.vertex_colors;
   options.octagon_q = choice.octagon_q;
   options.max_splats = choice.max_splats;
+  options.keep_rows = choice.keep_rows;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
   if (!choice.up.empty()) choose_up(scene.info, glm::vec3(glm::normalize(up)));

@@ -20,6 +20,7 @@ struct ReadingChoice {
   std::string_view profile;  // of named_profiles, for all splats; empty: the scene's own
   std::optional<double> octagon_q = {};          // ReadOptions::octagon_q
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
+  bool keep_rows = false;                        // ReadOptions::keep_rows; not an option
 
   bool operator==(const ReadingChoice&) const = default;
 };

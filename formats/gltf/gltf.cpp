@@ -40,7 +40,7 @@ class Importer {
         options_(options),
         generator_(document.model().asset.generator),
         builder_(document, color_space()),
-        splats_(document) {}
+        splats_(document, options.keep_rows) {}
 
   Scene scene() {
     walk();

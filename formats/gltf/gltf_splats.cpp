@@ -8,6 +8,7 @@
 #include "formats/gltf/gltf_accessor.hpp"
 #include "formats/splat/splat_values.hpp"
 #include "scene/edit/morton_order.hpp"
+#include "scene/edit/splat_edits.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -34,13 +35,6 @@ std::vector<glm::vec3> as_vec3(const std::vector<float>& values) {
   for (std::size_t i = 0; i < result.size(); ++i)
     result[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return result;
-}
-
-/// Splat i; `xyzw` is its quaternion.
-SplatValues splat_at(const Gaussians& gaussians, const glm::vec4& xyzw, std::size_t i) {
-  const glm::dvec4 q(xyzw);
-  return {gaussians.centers[i], gaussians.scales[i], glm::dquat(q.w, q.x, q.y, q.z),
-          gaussians.opacity[i]};
 }
 
 }  // namespace
@@ -160,20 +154,24 @@ Splats GltfSplatBuilder::read(const tinygltf::Primitive& primitive, const std::s
   Splats splats{.profile = *profile_named("3dgs")};
   splats.color.degree = degree_of(primitive, where);
   const std::size_t stride = harmonics::count(splats.color.degree);
-  document_.take_memory(count, sizeof(glm::vec3) * (2 + stride) + sizeof(glm::quat) + sizeof(float),
+  Gaussians& gaussians = splats.kernel.emplace<Gaussians>();
+  document_.take_memory(count,
+                        bytes_per_splat(splats.kernel, splats.color.degree) +
+                            (keep_rows_ ? sizeof splats.rows[0] : 0),
                         where);
   PassingMemory passing(document_.budget());
-  document_.take_memory(count, sizeof(glm::vec4), where);
-  Gaussians& gaussians = splats.kernel.emplace<Gaussians>();
+  document_.take_memory(count, sizeof(std::uint8_t), where);
   gaussians.centers = as_vec3(attribute(primitive, "POSITION", 3, where));
   gaussians.scales = as_vec3(attribute(primitive, splatting_attribute("SCALE"), 3, where));
   gaussians.opacity = attribute(primitive, splatting_attribute("OPACITY"), 1, where);
   require_normalized(primitive, splatting_attribute("OPACITY"), where);
-  std::vector<glm::vec4> rotations(count);
   const std::vector<float> xyzw = attribute(primitive, splatting_attribute("ROTATION"), 4, where);
   require_normalized(primitive, splatting_attribute("ROTATION"), where);
-  for (std::size_t i = 0; i < count; ++i)
-    rotations[i] = {xyzw[4 * i], xyzw[4 * i + 1], xyzw[4 * i + 2], xyzw[4 * i + 3]};
+  gaussians.rotations.reserve(count);
+  for (std::size_t i = 0; i < 4 * count; i += 4)
+    gaussians.rotations.push_back(
+        unit_rotation(glm::dquat(xyzw[i + 3], xyzw[i], xyzw[i + 1], xyzw[i + 2]))
+            .value_or(glm::quat(0, 0, 0, 0)));  // is_valid() rejects it
 
   splats.color.coefficients.resize(count * stride);
   std::size_t k = 0;
@@ -186,37 +184,14 @@ Splats GltfSplatBuilder::read(const tinygltf::Primitive& primitive, const std::s
         splats.color.coefficients[stride * i + k] = {plane[3 * i], plane[3 * i + 1],
                                                      plane[3 * i + 2]};
     }
-  drop_invalid(splats, rotations);
+  if (keep_rows_) number_rows(splats);
+  std::vector<std::uint8_t> keeps(count);
+  for (std::size_t i = 0; i < count; ++i) keeps[i] = is_valid(splats, i);
+  splats = keep_splats(std::move(splats), keeps);
+  dropped_ += count - tureen::count(splats);
   document_.take_memory(morton_order_bytes(splats), 1, where);
   sort_in_morton_order(splats);
   return splats;
-}
-
-void GltfSplatBuilder::drop_invalid(Splats& splats, std::vector<glm::vec4>& rotations) {
-  auto& gaussians = std::get<Gaussians>(splats.kernel);
-  std::vector<glm::vec3>& coefficients = splats.color.coefficients;
-  const std::size_t count = gaussians.centers.size(),
-                    stride = harmonics::count(splats.color.degree);
-  gaussians.rotations.reserve(count);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const SplatValues splat = splat_at(gaussians, rotations[i], i);
-    const std::optional<glm::quat> rotation = unit_rotation(splat.rotation);
-    if (!rotation || !is_valid_splat(splat, std::span(coefficients).subspan(stride * i, stride)))
-      continue;
-    gaussians.centers[kept] = gaussians.centers[i];
-    gaussians.scales[kept] = gaussians.scales[i];
-    gaussians.opacity[kept] = gaussians.opacity[i];
-    gaussians.rotations.push_back(*rotation);
-    std::copy_n(coefficients.begin() + std::ptrdiff_t(stride * i), stride,
-                coefficients.begin() + std::ptrdiff_t(stride * kept));
-    ++kept;
-  }
-  gaussians.centers.resize(kept);
-  gaussians.scales.resize(kept);
-  gaussians.opacity.resize(kept);
-  coefficients.resize(kept * stride);
-  dropped_ += count - kept;
 }
 
 }  // namespace tureen

@@ -21,7 +21,9 @@ bool has_splats(const tinygltf::Primitive& primitive);
 
 class GltfSplatBuilder {
  public:
-  explicit GltfSplatBuilder(GltfDocument& document) : document_(document) {}
+  /// `keep_rows`: ReadOptions::keep_rows; rows are elements of the accessors.
+  GltfSplatBuilder(GltfDocument& document, bool keep_rows)
+      : document_(document), keep_rows_(keep_rows) {}
 
   /// A node with a mesh.
   struct Node {
@@ -30,8 +32,8 @@ class GltfSplatBuilder {
   };
 
   /// Adds a layer for each primitive with splats of meshes[index]; the index is valid. `where` is
-  /// the node's place in errors. Splats are dropped by the rules of formats/splat/splat_values.hpp.
-  /// Throws InputError.
+  /// the node's place in errors. Splats are dropped unless is_valid() and unit_rotation() accept
+  /// them. Throws InputError.
   void add_mesh(int index, const Node& node, const std::string& where);
 
   /// The layers so far, in the order of the nodes. Their splats are in Morton order and have no
@@ -48,9 +50,9 @@ class GltfSplatBuilder {
   void require_normalized(const tinygltf::Primitive& primitive, const std::string& name,
                           const std::string& where) const;
   int degree_of(const tinygltf::Primitive& primitive, const std::string& where) const;
-  void drop_invalid(Splats& splats, std::vector<glm::vec4>& rotations);
 
   GltfDocument& document_;
+  bool keep_rows_;
   std::vector<Layer> layers_;
   std::vector<std::uint32_t> all_;  // 0, 1, .. of the current primitive
   std::uint64_t total_ = 0, dropped_ = 0;

@@ -78,7 +78,7 @@ class CompressedPlyReader {
       else
         values_.skip_rows(element);
     }
-    const SplatPlyProfile profile = splat_ply_profile(header_, SplatBuilder::Kind::gaussians);
+    const SplatPlyProfile profile = splat_ply_profile(header_, Gaussians{});
     Scene scene = unpack(degree, profile);
     add_profile_remarks(profile, scene);
     if (values_.anything_left())
@@ -154,9 +154,8 @@ class CompressedPlyReader {
   }
 
   Scene unpack(int degree, const SplatPlyProfile& profile) {
-    const auto kind =
-        profile.is_flat ? SplatBuilder::Kind::flat_gaussians : SplatBuilder::Kind::gaussians;
-    SplatBuilder builder(input_, options_, kind, degree, packed_.size());
+    SplatBuilder builder(input_, options_, Gaussians{.flat = profile.is_flat}, degree,
+                         packed_.size());
     const auto rest = static_cast<std::size_t>(harmonics::count(degree) - 1);
     std::array<glm::vec3, harmonics::count(harmonics::max_degree)> coefficients;
     for (std::size_t i = 0; i < packed_.size(); ++i) {

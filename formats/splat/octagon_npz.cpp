@@ -94,7 +94,7 @@ Scene read_octagon_npz(Input input, const ReadOptions& options) {
   require_shape(colors, vertices.rows(), 4);
   if (!colors.holds_floats()) colors.fail("holds integers instead of floats from 0 to 1");
 
-  SplatBuilder builder(archive.input(), options, SplatBuilder::Kind::flat_gaussians, 0, octagons);
+  SplatBuilder builder(archive.input(), options, Gaussians{.flat = true}, 0, octagons);
   ProgressMeter meter(options);
   for (std::size_t i = 0; i < octagons; ++i) {
     meter.step([&] { return double(i) / double(octagons); });

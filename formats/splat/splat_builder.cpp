@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_limit.hpp"
@@ -13,25 +14,11 @@
 
 namespace tureen {
 
-namespace {
-
-bool is_valid_density(const glm::vec3& semi_axes, std::span<const float> network) {
-  return semi_axes.x > 0 && semi_axes.y > 0 && semi_axes.z > 0 &&
-         std::all_of(network.begin(), network.end(), [](float v) { return std::isfinite(v); });
-}
-
-}  // namespace
-
-SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, Kind kind, int degree,
+SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, SplatKernel kernel, int degree,
                            std::uint64_t count)
-    : input_(input), kind_(kind) {
+    : input_(input), keep_rows_(options.keep_rows), splats_{.kernel = std::move(kernel)} {
   if (count > std::numeric_limits<std::uint32_t>::max())
     input.fail(std::to_string(count) + " splats are more than 32 bits can count");
-  const bool is_neural = kind == Kind::neural_densities;
-  if (is_neural)
-    splats_.kernel.emplace<NeuralDensities>();
-  else
-    splats_.kernel.emplace<Gaussians>().flat = kind == Kind::flat_gaussians;
   if (options.found_splats)
     options.found_splats(count, count * bytes_per_splat(splats_.kernel, degree));
   const std::uint64_t kept = std::min(count, options.max_splats.value_or(count));
@@ -43,22 +30,12 @@ SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, Kind kind, 
   // needs.
   fitting_ = input.budget().left() / (2 * bytes + bytes / 8 + 1 + 16 + 2 * limit_bytes_per_splat);
   take(held * bytes, std::to_string(count) + " splats of " + std::to_string(bytes) + " bytes each");
-  const auto reserve = [&](auto& values, std::size_t each) { values.reserve(held_ * each); };
-  splats_.color.degree = degree;
-  reserve(splats_.color.coefficients, std::size_t(harmonics::count(degree)));
-  if (is_neural) {
-    auto& densities = std::get<NeuralDensities>(splats_.kernel);
-    reserve(densities.centers, 1);
-    reserve(densities.semi_axes, 1);
-    reserve(densities.rotations, 1);
-    reserve(densities.networks, NeuralDensities::parameters);
-  } else {
-    auto& gaussians = std::get<Gaussians>(splats_.kernel);
-    reserve(gaussians.centers, 1);
-    reserve(gaussians.scales, 1);
-    reserve(gaussians.rotations, 1);
-    reserve(gaussians.opacity, 1);
+  if (keep_rows_) {
+    take(held * sizeof splats_.rows[0], "the rows of the splats");
+    splats_.rows.reserve(held_);
   }
+  splats_.color.degree = degree;
+  for_each_array(splats_, [&](auto& values, std::size_t each) { values.reserve(held_ * each); });
 }
 
 void SplatBuilder::take(std::uint64_t bytes, const std::string& what) {
@@ -76,32 +53,31 @@ void SplatBuilder::keep_largest() {
 }
 
 void SplatBuilder::add(const SplatValues& splat, std::span<const glm::vec3> coefficients,
-                       std::span<const float> network) {
+                       std::span<const float> values) {
   assert(coefficients.size() == std::size_t(harmonics::count(splats_.color.degree)));
-  ++added_;
+  const std::uint64_t row = added_++;
   const std::optional<glm::quat> rotation = unit_rotation(splat.rotation);
-  const bool is_neural = kind_ == Kind::neural_densities;
-  if (!rotation || !is_valid_splat(splat, coefficients) ||
-      (is_neural && !is_valid_density(glm::vec3(splat.scales), network))) {
+  if (!rotation) {
     ++dropped_;
     return;
   }
   if (kept_ < held_ && count(splats_) == held_) keep_largest();
+  for_each_column(splats_.kernel, [&]<class Each>(const Column<Each>& column) {
+    if constexpr (std::is_same_v<Each, std::vector<glm::quat>>)
+      column.values.push_back(*rotation);
+    else if constexpr (std::is_same_v<Each, std::vector<glm::vec3>>)
+      column.values.emplace_back(column.role == ColumnRole::scale ? splat.scales : splat.center);
+    else if (column.role == ColumnRole::opacity)
+      column.values.push_back(static_cast<float>(splat.opacity));
+    else
+      column.values.insert(column.values.end(), values.begin(), values.end());
+  });
   auto& colors = splats_.color.coefficients;
   colors.insert(colors.end(), coefficients.begin(), coefficients.end());
-  if (is_neural) {
-    auto& densities = std::get<NeuralDensities>(splats_.kernel);
-    densities.centers.emplace_back(splat.center);
-    densities.semi_axes.emplace_back(splat.scales);
-    densities.rotations.push_back(*rotation);
-    densities.networks.insert(densities.networks.end(), network.begin(), network.end());
-    return;
-  }
-  auto& gaussians = std::get<Gaussians>(splats_.kernel);
-  gaussians.centers.emplace_back(splat.center);
-  gaussians.scales.emplace_back(splat.scales);
-  gaussians.rotations.push_back(*rotation);
-  gaussians.opacity.push_back(static_cast<float>(splat.opacity));
+  if (keep_rows_) splats_.rows.push_back(static_cast<std::uint32_t>(row));
+  if (is_valid(splats_, count(splats_) - 1)) return;
+  ++dropped_;
+  for_each_array(splats_, [](auto& array, std::size_t each) { array.resize(array.size() - each); });
 }
 
 Scene SplatBuilder::finish(const SplatProfile& profile, const std::string& format) {

@@ -17,23 +17,20 @@ namespace tureen {
 
 class SplatBuilder {
  public:
-  enum class Kind { gaussians, flat_gaussians, neural_densities };
-
-  /// Takes the memory of `count` splats from the input's budget, of at most an
-  /// eighth more than ReadOptions::max_splats. The caller has checked that the input can hold them.
-  /// Throws InputError for 2^32 splats or more.
-  SplatBuilder(Input& input, const ReadOptions& options, Kind kind, int degree,
+  /// `kernel` without splats, `count` splats to come. Takes the memory of `count` splats from the
+  /// input's budget, of at most an eighth more than ReadOptions::max_splats. The caller has checked
+  /// that the input can hold them. Throws InputError for 2^32 splats or more.
+  SplatBuilder(Input& input, const ReadOptions& options, SplatKernel kernel, int degree,
                std::uint64_t count);
 
-  /// Rounds the values to float and adds the splat. Drops it unless is_valid_splat() and
-  /// unit_rotation() accept it. Drops neural densities also if a semi-axis is 0 or a network
-  /// parameter is not finite. `coefficients`: harmonics::count(degree). `network`:
-  /// NeuralDensities::parameters floats, or none.
+  /// Rounds the values to float and adds the splat. Drops it unless is_valid() and unit_rotation()
+  /// accept it. `coefficients`: harmonics::count(degree). `values`: of the kernel's column with the
+  /// role ColumnRole::value, if it has one.
   void add(const SplatValues& splat, std::span<const glm::vec3> coefficients,
-           std::span<const float> network = {});
+           std::span<const float> values = {});
 
   /// A scene with the splats in Morton order, up -y (assumed, as in COLMAP), and remarks.
-  /// `profile` must fit the kind. `format` is its name in sentences.
+  /// `profile` must fit the kernel. `format` is its name in sentences.
   Scene finish(const SplatProfile& profile, const std::string& format);
 
  private:
@@ -44,7 +41,7 @@ class SplatBuilder {
   void keep_largest();
 
   Input& input_;
-  Kind kind_;
+  bool keep_rows_;
   /// With ReadOptions::max_splats: the number that stays, and that to which the splats may grow.
   std::size_t kept_ = 0, held_ = 0;
   std::uint64_t fitting_ = 0;  // number of splats that the budget holds

@@ -21,7 +21,7 @@ PlySlots required_slots(const SplatPlyLayout& layout) {
   add_slots(slots, "f_dc_", slot::color, 3);
   for (int k = 0; k < 3 * (harmonics::count(layout.degree) - 1); ++k)
     slots["f_rest_" + std::to_string(k)] = slot::color + 3 + place_of_rest(k, layout.degree);
-  if (layout.kind != SplatBuilder::Kind::neural_densities) {
+  if (opacity_of(layout.kernel)) {
     slots["opacity"] = slot::opacity;
     return slots;
   }
@@ -82,9 +82,9 @@ int place_of_rest(int k, int degree) {
 SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
   SplatPlyLayout layout;
   if (vertex.find("frequencies_0")) {
-    layout.kind = SplatBuilder::Kind::neural_densities;
+    layout.kernel = NeuralDensities{};
   } else if (!vertex.find("scale_2")) {
-    layout.kind = SplatBuilder::Kind::flat_gaussians;
+    layout.kernel = Gaussians{.flat = true};
     layout.scales = 2;
   }
   layout.degree = degree_of_rest(input, vertex, count_rest(vertex));
@@ -92,8 +92,9 @@ SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
   return layout;
 }
 
-SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind kind) {
-  if (kind == SplatBuilder::Kind::neural_densities) return {.profile = *profile_named("splatnet")};
+SplatPlyProfile splat_ply_profile(const PlyHeader& header, const SplatKernel& kernel) {
+  const auto* gaussians = std::get_if<Gaussians>(&kernel);
+  if (!gaussians) return {.profile = *profile_named("splatnet")};
   constexpr std::string_view render_mode = "SplatRenderMode: ";
   std::string_view mode, unknown;
   for (std::string_view rest = header.comments; !rest.empty();) {
@@ -108,7 +109,7 @@ SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind ki
     if (line == "antialiased 1") mode = "mip";
     if (line == "TureenSplatProfile: redisplats") mode = "redisplats";
   }
-  const bool is_flat = kind == SplatBuilder::Kind::flat_gaussians;
+  const bool is_flat = gaussians->flat;
   SplatPlyProfile result{.is_flat = is_flat, .unknown_mode = std::string(unknown)};
   if (mode == "2dgs" || (is_flat && mode.empty())) {
     result.is_flat = true;

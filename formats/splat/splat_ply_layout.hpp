@@ -43,7 +43,7 @@ inline constexpr int center = 0, opacity = 3, scale = 4, rotation = 7, color = 1
 }  // namespace splat_slot
 
 struct SplatPlyLayout {
-  SplatBuilder::Kind kind = SplatBuilder::Kind::gaussians;
+  SplatKernel kernel = Gaussians{};  // without splats
   int degree = 0;
   /// One a property of the vertices: its slot, or none.
   std::vector<int> slots;
@@ -64,8 +64,8 @@ struct SplatPlyProfile {
   std::string unknown_mode = {};
 };
 
-/// The profile that the header's comments select; `kind` is that of the properties.
-SplatPlyProfile splat_ply_profile(const PlyHeader& header, SplatBuilder::Kind kind);
+/// The profile that the header's comments select; `kernel` is that of the properties.
+SplatPlyProfile splat_ply_profile(const PlyHeader& header, const SplatKernel& kernel);
 
 /// Adds the remarks about `assumed` and `unknown_mode` to a scene of one layer of splats.
 void add_profile_remarks(const SplatPlyProfile& profile, Scene& scene);

@@ -20,9 +20,9 @@ class SplatPlyReader {
   Scene read() {
     const PlyElement& vertex = *header_.find("vertex");
     SplatPlyLayout layout = splat_ply_layout(input_, vertex);
-    const SplatPlyProfile profile = splat_ply_profile(header_, layout.kind);
-    if (profile.is_flat) layout.kind = SplatBuilder::Kind::flat_gaussians;
-    SplatBuilder builder(input_, options_, layout.kind, layout.degree, vertex.count);
+    const SplatPlyProfile profile = splat_ply_profile(header_, layout.kernel);
+    if (profile.is_flat) layout.kernel = Gaussians{.flat = true};
+    SplatBuilder builder(input_, options_, layout.kernel, layout.degree, vertex.count);
     for (const PlyElement& element : header_.elements) {
       if (&element != &vertex) {
         values_.skip_rows(element);
@@ -68,8 +68,7 @@ class SplatPlyReader {
     // The cyclic exchange of axes: our x, y, z are the file's y, z, x.
     if (profile.normal_first) splat.rotation = splat.rotation * glm::dquat(0.5, 0.5, 0.5, 0.5);
     splat.scales = {std::exp(row_[slot::scale]), std::exp(row_[slot::scale + 1]), 0.0};
-    if (layout.kind != SplatBuilder::Kind::flat_gaussians)
-      splat.scales.z = std::exp(row_[slot::scale + 2]);
+    if (!profile.is_flat) splat.scales.z = std::exp(row_[slot::scale + 2]);
     splat.opacity = sigmoid(row_[slot::opacity]);
     std::array<glm::vec3, harmonics::count(harmonics::max_degree)> coefficients;
     const auto used = static_cast<std::size_t>(harmonics::count(layout.degree));
@@ -78,7 +77,7 @@ class SplatPlyReader {
       coefficients[i] = {rgb[0], rgb[1], rgb[2]};
     }
     std::array<float, NeuralDensities::parameters> parameters{};
-    const bool is_neural = layout.kind == SplatBuilder::Kind::neural_densities;
+    const bool is_neural = std::holds_alternative<NeuralDensities>(layout.kernel);
     for (std::size_t i = 0; is_neural && i < parameters.size(); ++i)
       parameters[i] = static_cast<float>(row_[slot::network + i]);
     builder.add(splat, std::span(coefficients).first(used),

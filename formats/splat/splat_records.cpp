@@ -32,8 +32,7 @@ Scene read_splat_records(Input& input, const ReadOptions& options) {
     input.fail_at(input.size() / splat_record_size * splat_record_size,
                   "a .splat file has records of 32 bytes, but its last one has " +
                       std::to_string(input.size() % splat_record_size));
-  SplatBuilder builder(input, options, SplatBuilder::Kind::gaussians, 0,
-                       input.size() / splat_record_size);
+  SplatBuilder builder(input, options, Gaussians{}, 0, input.size() / splat_record_size);
   ProgressMeter meter(options);
   std::array<std::byte, 256 * splat_record_size> block;
   input.seek(0);

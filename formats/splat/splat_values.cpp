@@ -3,17 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/finite.hpp"
-
 namespace tureen {
-
-bool is_valid_splat(const SplatValues& splat, std::span<const glm::vec3> coefficients) {
-  const glm::vec3 scales(splat.scales);
-  const auto opacity = static_cast<float>(splat.opacity);
-  return is_finite(glm::vec3(splat.center)) && is_finite(scales) && scales.x >= 0 &&
-         scales.y >= 0 && scales.z >= 0 && opacity >= 0 && opacity <= 1 &&
-         std::all_of(coefficients.begin(), coefficients.end(), is_finite<float>);
-}
 
 std::optional<glm::quat> unit_rotation(const glm::dquat& q) {
   // Divided by the largest part first, so that no square underflows or overflows.

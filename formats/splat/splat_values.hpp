@@ -1,10 +1,9 @@
-// One splat of a file, and the rules of all readers for values that are invalid.
+// One splat of a file, and the rule of all readers for its rotation.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <span>
 
 namespace tureen {
 
@@ -15,10 +14,6 @@ struct SplatValues {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // layer from local coordinates, of any length but 0
   double opacity = 1;                       // not for neural densities
 };
-
-/// Whether, rounded to float, centre, scales and coefficients are finite, no scale is negative, and
-/// the opacity is in 0..1. unit_rotation() checks the rotation.
-bool is_valid_splat(const SplatValues& splat, std::span<const glm::vec3> coefficients);
 
 /// The quaternion of unit length, rounded to float. nullopt if its length is 0 or not finite. A
 /// quaternion that already has this length, up to the rounding of its parts, keeps its bits.

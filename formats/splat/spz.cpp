@@ -299,7 +299,7 @@ class SpzReader {
   Scene unpack() const {
     const auto count = static_cast<std::size_t>(header_.splats);
     const auto strides = header_.strides();
-    SplatBuilder builder(input_, options_, SplatBuilder::Kind::gaussians, header_.degree, count);
+    SplatBuilder builder(input_, options_, Gaussians{}, header_.degree, count);
     const auto signs = signs_after_turn();
     std::array<glm::vec3, harmonics::count(harmonics::max_degree)> coefficients;
     const auto used = std::span(coefficients).first(std::size_t(harmonics::count(header_.degree)));

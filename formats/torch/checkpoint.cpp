@@ -12,6 +12,7 @@
 #include "formats/splat/splat_activation.hpp"
 #include "formats/torch/torch_archive.hpp"
 #include "scene/edit/morton_order.hpp"
+#include "scene/edit/splat_edits.hpp"
 #include "scene/finite.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -206,23 +207,18 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
   return result;
 }
 
-/// Whether defect() accepts the values of window `i`.
-bool is_valid_window(const Splats& splats, std::size_t i) {
-  const auto& windows = std::get<TriangleWindows>(splats.kernel);
-  const auto finite = [](const glm::vec3* first, std::size_t count) {
-    return std::all_of(first, first + count, is_finite<float>);
-  };
-  const std::size_t each = coefficients_per_splat(splats.color);
-  return finite(&windows.corners[3 * i], 3) && windows.sigma[i] > 0 &&
-         std::isfinite(windows.sigma[i]) && !std::isnan(windows.opacity[i]) &&
-         finite(&splats.color.coefficients[each * i], each);
-}
-
 /// The scene of the valid windows, in Morton order. `origin`: of errors about memory.
-Scene scene_of_windows(TorchArchive& archive, const TorchTensor& origin, Splats splats) {
+Scene scene_of_windows(TorchArchive& archive, const TorchTensor& origin, const ReadOptions& options,
+                       Splats splats) {
   const std::size_t all = count(splats);
-  const std::size_t kept =
-      keep_windows(splats, [&](std::size_t i) { return is_valid_window(splats, i); });
+  std::vector<std::uint8_t> keeps(all);
+  for (std::size_t i = 0; i < all; ++i) keeps[i] = is_valid(splats, i);
+  if (options.keep_rows) {
+    archive.take_memory(origin, all, sizeof splats.rows[0]);
+    number_rows(splats);
+  }
+  splats = keep_splats(std::move(splats), keeps);
+  const std::size_t kept = count(splats);
   {
     PassingMemory passing(archive.budget());
     archive.take_memory(origin, morton_order_bytes(splats), 1);
@@ -258,7 +254,7 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
 
   splats.color.degree = sh.degree;
   splats.color.coefficients = std::move(sh.coefficients);
-  Scene scene = scene_of_windows(archive, points, std::move(splats));
+  Scene scene = scene_of_windows(archive, points, options, std::move(splats));
   scene.info.source = "Triangle Splatting checkpoint";
   return scene;
 }
@@ -335,7 +331,7 @@ Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options
     passing.keep(triangles.size() * (3 * sizeof(glm::vec3) + 2 * sizeof(float) +
                                      coefficients_per_splat(color) * sizeof color.coefficients[0]));
   }
-  Scene scene = scene_of_windows(archive, points, std::move(splats));
+  Scene scene = scene_of_windows(archive, points, options, std::move(splats));
   scene.info.source =
       mesh_splatting ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";
   return scene;

@@ -26,8 +26,8 @@ inline constexpr int tureen_compressed_version = 3;
 /// Version of files with several layers, or with one layer that is hidden, named, rotated, scaled
 /// or mirrored.
 inline constexpr int tureen_layers_version = 4;
-/// Version of files with a layer of Gaussians or neural densities, or of triangle windows with
-/// another profile than Triangle Splatting's. Otherwise like version 4.
+/// Version of files with a layer of splats, except triangle windows with the profile of Triangle
+/// Splatting. Otherwise like version 4.
 inline constexpr int tureen_splats_version = 5;
 
 /// Reads the binary chunk in file order, directly into the scene's vectors. Additional memory: one
@@ -50,7 +50,7 @@ bool is_tureen_glb(const GlbContainer& glb);
 ///
 /// Memory in addition to the scene: the vertex colours for other glTF viewers (8 bytes a vertex of
 /// the glTF mesh, and as many a splat), the encoded images, and a second copy of the harmonics of
-/// Gaussians and neural densities. Other arrays of the scene are written without a copy.
+/// splats, except triangle windows. Other arrays of the scene are written without a copy.
 std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -83,7 +83,7 @@ Scene read_preview(GlbArrays& arrays, const JsonView& extension, const PreviewLa
   return scene;
 }
 
-/// The node of the only layer, if that has Gaussians or neural densities.
+/// The node of the only layer, if that has splats that are stored as points.
 std::optional<JsonView> node_with_splats(const GlbArrays& arrays, const JsonView& extension) {
   if (!has_layers(extension) || extension["layers"].size() != 1) return std::nullopt;
   const JsonView node = arrays.root()["nodes"].at(GlbArrays::index(extension["layers"].at(0)));

@@ -2,7 +2,8 @@
 // loads.
 // - A soup: the mesh for other glTF viewers with its mean colours. Our writer stores them before
 //   network and texels (docs/format.md).
-// - Gaussians and neural densities: all splats in the colours of degree 0, which precede those of
+// - Splats that are stored as points: all of them in the colours of degree 0, which precede those
+// of
 //   higher degrees.
 //
 // Not supported: other formats, files with several layers, whose colours are not at the start, and

@@ -412,7 +412,7 @@ class Reader {
   GlbArrays arrays_;
   JsonView extension_;
   const ReadOptions& options_;
-  // Numbers of Gaussians and neural densities: in the file, in the layers so far, and kept.
+  // Numbers of splats that are stored as points: in the file, in the layers so far, and kept.
   std::uint64_t all_splats_ = 0, read_splats_ = 0, kept_splats_ = 0;
   std::uint64_t images_end_ = 0;
 };

@@ -1,7 +1,7 @@
-// Layers of Gaussians and neural densities in our GLB files, version 5 (docs/format.md): points
-// with KHR_gaussian_splatting. Other viewers draw the Gaussians, or else points. TUREEN_splats, an
-// extension of the same object, holds what KHR_gaussian_splatting does not: flat Gaussians, neural
-// densities, degree 4 and the profile. Include it only in sources.
+// Layers of splats around centres in our GLB files, version 5 (docs/format.md): points with
+// KHR_gaussian_splatting. Other viewers draw the Gaussians, or else points. TUREEN_splats, an
+// extension of the same object, holds what KHR_gaussian_splatting does not: other kernels, degree 4
+// and the profile. Include it only in sources.
 //
 // Not here: triangle windows, whose files have a mesh of triangles (AddAppearance and its
 // neighbours in tureen_glb_write.cpp).
@@ -24,13 +24,13 @@ namespace glb_writing {
 
 class BinaryPlan;
 
-/// Whether version 4 cannot store the splats: Gaussians, neural densities, colours of corners, or a
+/// Whether version 4 cannot store the splats: not triangle windows, colours of corners, or a
 /// profile that differs from Triangle Splatting's.
 bool needs_splat_version(const Splats& splats);
 
 nlohmann::json profile_json(const SplatProfile& profile);
 
-/// Adds the arrays of Gaussians or neural densities to the plan, and the keys of the layer to
+/// Adds the arrays of splats that are no triangle windows to the plan, and the keys of the layer to
 /// `extension`. Returns the primitive; null without splats. The splats must outlive the plan.
 /// Throws UsageError for a defect().
 nlohmann::json add_splats(BinaryPlan& plan, nlohmann::json& extension, const Splats& splats);
@@ -40,6 +40,10 @@ nlohmann::json add_splats(BinaryPlan& plan, nlohmann::json& extension, const Spl
 /// The attribute of harmonics coefficient `order` of `degree`, from 0:
 /// "KHR_gaussian_splatting:SH_DEGREE_1_COEF_2". Degree 4 has the prefix of TUREEN_splats.
 std::string harmonics_attribute(int degree, int order);
+
+/// The key of an array: an attribute of the primitive, or for the role ColumnRole::value a key of
+/// TUREEN_splats.
+std::string column_key(ColumnRole role, const char* name);
 
 SplatProfile read_splat_profile(const JsonView& view);
 

@@ -25,13 +25,25 @@ JsonView ours_of(const JsonView& primitive) {
 
 /// Where a layer's splats are.
 struct SplatLayout {
-  JsonView ours;  // TUREEN_splats
-  std::size_t kernel;
+  JsonView ours;       // TUREEN_splats
+  SplatKernel kernel;  // without splats
   std::uint64_t splats = 0;
-  GlbArrays::Location centers = {}, scales = {}, rotations = {}, opacity = {}, networks = {};
+  std::vector<GlbArrays::Location> columns = {};       // of the kernel
   std::vector<GlbArrays::Location> coefficients = {};  // one array each
-  bool is_neural() const { return kernel == 2; }
 };
+
+/// The kernel that `ours` names.
+SplatKernel kernel_without_splats(const JsonView& ours) {
+  const std::size_t stored = ours["kernel"].one_of(splat_layout::splat_kernels);
+  if (stored == 2) return NeuralDensities{};
+  return Gaussians{.flat = stored == 1};
+}
+
+template <class Value>
+constexpr GlbArrays::Format format_of = sizeof(Value) == sizeof(glm::quat) ? glb_formats::vec4_float
+                                        : sizeof(Value) == sizeof(glm::vec3)
+                                            ? glb_formats::vec3_float
+                                            : glb_formats::scalar_float;
 
 /// Locates every array before any is read: a false count fails before the memory is taken.
 SplatLayout splat_layout_of(const GlbArrays& arrays, const JsonView& node,
@@ -39,49 +51,37 @@ SplatLayout splat_layout_of(const GlbArrays& arrays, const JsonView& node,
   const std::uint64_t splats = splat_count.natural(GlbArrays::max_count);
   if (splats == 0) {
     const JsonView ours = node["extensions"][tureen_extension]["splats"];
-    return {.ours = ours, .kernel = ours["kernel"].one_of(splat_layout::splat_kernels)};
+    return {.ours = ours, .kernel = kernel_without_splats(ours)};
   }
   const JsonView primitive = primitive_of(arrays, node), attributes = primitive["attributes"];
   const JsonView ours = ours_of(primitive);
-  SplatLayout layout{
-      .ours = ours, .kernel = ours["kernel"].one_of(splat_layout::splat_kernels), .splats = splats};
-  const auto locate = [&](const std::string& key, const GlbArrays::Format& format) {
-    return arrays.location(attributes, key.c_str(), splats, format);
-  };
-  const std::string prefix = std::string(splat_layout::splatting_extension) + ":";
-  layout.centers = locate("POSITION", glb_formats::vec3_float);
-  layout.scales = locate(prefix + "SCALE", glb_formats::vec3_float);
-  layout.rotations = locate(prefix + "ROTATION", glb_formats::vec4_float);
-  if (layout.is_neural())
-    layout.networks = arrays.location(ours, "networks", NeuralDensities::parameters * splats,
-                                      glb_formats::scalar_float);
-  else
-    layout.opacity = locate(prefix + "OPACITY", glb_formats::scalar_float);
+  SplatLayout layout{.ours = ours, .kernel = kernel_without_splats(ours), .splats = splats};
+  for_each_column(layout.kernel, [&]<class Values>(const Column<Values>& column) {
+    layout.columns.push_back(arrays.location(column.role == ColumnRole::value ? ours : attributes,
+                                             column_key(column.role, column.name).c_str(),
+                                             column.per_splat * splats,
+                                             format_of<typename Values::value_type>));
+  });
   const int degree = std::min(int(ours["degree"].natural(harmonics::max_degree)), max_degree);
   for (int l = 0; l <= degree; ++l)
     for (int order = 0; order < 2 * l + 1; ++order)
-      layout.coefficients.push_back(locate(harmonics_attribute(l, order), glb_formats::vec3_float));
+      layout.coefficients.push_back(arrays.location(
+          attributes, harmonics_attribute(l, order).c_str(), splats, glb_formats::vec3_float));
   return layout;
 }
 
 SplatKernel read_kernel(GlbArrays& arrays, const SplatLayout& layout) {
-  const auto read_ellipsoids = [&](auto& centers, auto& scales, auto& rotations) {
-    centers = arrays.read_at<glm::vec3>(layout.centers, "POSITION");
-    scales = arrays.read_at<glm::vec3>(layout.scales, "SCALE");
-    rotations = arrays.read_at<glm::quat>(layout.rotations, "ROTATION");
-  };
-  if (!layout.is_neural()) {
-    Gaussians gaussians;
-    gaussians.flat = layout.kernel == 1;
-    read_ellipsoids(gaussians.centers, gaussians.scales, gaussians.rotations);
-    gaussians.opacity = arrays.read_at<float>(layout.opacity, "OPACITY");
-    return gaussians;
-  }
-  NeuralDensities densities;
-  read_ellipsoids(densities.centers, densities.semi_axes, densities.rotations);
-  densities.networks = arrays.read_at<float>(layout.networks, "networks");
-  densities.omega = layout.ours["omega"].number_float();
-  return densities;
+  SplatKernel kernel = layout.kernel;
+  auto location = layout.columns.begin();
+  if (layout.splats > 0)
+    for_each_column(kernel, [&]<class Values>(const Column<Values>& column) {
+      const std::string key = column_key(column.role, column.name);
+      column.values = arrays.read_at<typename Values::value_type>(
+          *location++, key.substr(key.find(':') + 1).c_str());
+    });
+  if (auto* densities = std::get_if<NeuralDensities>(&kernel))
+    densities->omega = layout.ours["omega"].number_float();
+  return kernel;
 }
 
 /// The coefficients of the `kept` splats with a nonzero entry in `keeps`.
@@ -145,17 +145,16 @@ std::uint64_t splat_bytes(const GlbArrays& arrays, const JsonView& node,
   const std::uint64_t splats = splat_count.natural(GlbArrays::max_count);
   if (splats == 0) return 0;
   const JsonView ours = ours_of(primitive_of(arrays, node));
-  const bool is_neural = ours["kernel"].one_of(splat_layout::splat_kernels) == 2;
-  const SplatKernel kernel = is_neural ? SplatKernel(NeuralDensities{}) : Gaussians{};
-  return splats * bytes_per_splat(kernel, int(ours["degree"].natural(harmonics::max_degree)));
+  return splats * bytes_per_splat(kernel_without_splats(ours),
+                                  int(ours["degree"].natural(harmonics::max_degree)));
 }
 
 std::uint64_t splats_end(const GlbArrays& arrays, const JsonView& node, const JsonView& splat_count,
                          int max_degree) {
   const SplatLayout layout = splat_layout_of(arrays, node, splat_count, max_degree);
-  std::uint64_t end = std::max({layout.centers.end(), layout.scales.end(), layout.rotations.end(),
-                                layout.opacity.end(), layout.networks.end()});
-  for (const GlbArrays::Location& plane : layout.coefficients) end = std::max(end, plane.end());
+  std::uint64_t end = 0;
+  for (const auto* locations : {&layout.columns, &layout.coefficients})
+    for (const GlbArrays::Location& each : *locations) end = std::max(end, each.end());
   return end;
 }
 

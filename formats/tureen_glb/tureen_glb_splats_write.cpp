@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "base/error.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
@@ -16,6 +17,15 @@ std::string harmonics_attribute(int degree, int order) {
          std::to_string(order);
 }
 
+std::string column_key(ColumnRole role, const char* name) {
+  if (role == ColumnRole::position) return "POSITION";
+  if (role == ColumnRole::value) return plural(name);
+  const char* attribute = role == ColumnRole::scale      ? ":SCALE"
+                          : role == ColumnRole::rotation ? ":ROTATION"
+                                                         : ":OPACITY";
+  return glb_layout::splatting_extension + std::string(attribute);
+}
+
 namespace glb_writing {
 
 namespace {
@@ -28,53 +38,41 @@ constexpr BinaryPlan::Format splat_color{"VEC4", layout::unsigned_short, 4, true
 // glTF stores x, y, z, w.
 static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
 
-std::string attribute(const char* name) {
-  return std::string(layout::splatting_extension) + ":" + name;
+template <class Value>
+constexpr const BinaryPlan::Format& format_of = sizeof(Value) == sizeof(glm::quat)   ? splat_vec4
+                                                : sizeof(Value) == sizeof(glm::vec3) ? splat_vec3
+                                                                                     : splat_scalar;
+
+/// KHR_gaussian_splatting requires an opacity. Viewers without our kernel use that of a sphere
+/// with the constant part of the density, along its diameter of 2.
+std::vector<float> mean_opacity(const NeuralDensities& densities) {
+  std::vector<float> opacity(densities.centers.size());
+  for (std::size_t i = 0; i < opacity.size(); ++i) {
+    const float constant =
+        densities.networks[NeuralDensities::parameters * i + NeuralDensities::parameters - 1];
+    opacity[i] = static_cast<float>(1.0 - std::exp(-2.0 * std::max(double(constant), 0.0)));
+  }
+  return opacity;
 }
 
-/// The arrays of a primitive of points.
-struct AddSplatArrays {
-  BinaryPlan& plan;
-  json& attributes;
-  json& ours;  // TUREEN_splats
-
-  void operator()(const Gaussians& gaussians) const {
-    add_ellipsoids(gaussians.centers, gaussians.scales, gaussians.rotations);
-    plan.accessor(attributes, attribute("OPACITY").c_str(), bytes_of(gaussians.opacity),
-                  splat_scalar);
-  }
-
-  void operator()(const NeuralDensities& densities) const {
-    add_ellipsoids(densities.centers, densities.semi_axes, densities.rotations);
-    plan.owned_accessor(attributes, attribute("OPACITY").c_str(), mean_opacity(densities),
-                        splat_scalar);
-    plan.accessor(ours, "networks", bytes_of(densities.networks), splat_scalar);
-    ours["omega"] = densities.omega;
-  }
-
-  void operator()(const TriangleWindows&) const {}
-
-  void add_ellipsoids(const std::vector<glm::vec3>& centers, const std::vector<glm::vec3>& scales,
-                      const std::vector<glm::quat>& rotations) const {
-    plan.accessor(attributes, "POSITION", bytes_of(centers), splat_vec3);
-    if (!centers.empty())
-      add_range(plan.accessors[attributes["POSITION"].get<std::size_t>()], centers);
-    plan.accessor(attributes, attribute("SCALE").c_str(), bytes_of(scales), splat_vec3);
-    plan.accessor(attributes, attribute("ROTATION").c_str(), bytes_of(rotations), splat_vec4);
-  }
-
-  /// KHR_gaussian_splatting requires an opacity. Viewers without our kernel use that of a sphere
-  /// with the constant part of the density, along its diameter of 2.
-  static std::vector<float> mean_opacity(const NeuralDensities& densities) {
-    std::vector<float> opacity(densities.centers.size());
-    for (std::size_t i = 0; i < opacity.size(); ++i) {
-      const float constant =
-          densities.networks[NeuralDensities::parameters * i + NeuralDensities::parameters - 1];
-      opacity[i] = static_cast<float>(1.0 - std::exp(-2.0 * std::max(double(constant), 0.0)));
-    }
-    return opacity;
-  }
-};
+/// Adds the arrays of a primitive of points. `ours` is TUREEN_splats.
+void add_columns(BinaryPlan& plan, json& attributes, json& ours, const SplatKernel& kernel) {
+  for_each_column(kernel, [&]<class Values>(const Column<Values>& column) {
+    using Value = typename Values::value_type;
+    const std::string key = column_key(column.role, column.name);
+    if (column.role == ColumnRole::value)
+      if (const auto* densities = std::get_if<NeuralDensities>(&kernel)) {
+        plan.owned_accessor(attributes, column_key(ColumnRole::opacity, "").c_str(),
+                            mean_opacity(*densities), splat_scalar);
+        ours["omega"] = densities->omega;
+      }
+    plan.accessor(column.role == ColumnRole::value ? ours : attributes, key.c_str(),
+                  bytes_of(column.values), format_of<Value>);
+    if constexpr (std::is_same_v<Value, glm::vec3>)
+      if (column.role == ColumnRole::position && !column.values.empty())
+        add_range(plan.accessors[attributes[key].template get<std::size_t>()], column.values);
+  });
+}
 
 /// The colours for other viewers: the constant part of the harmonics, and the opacity.
 std::vector<glm::u16vec4> point_colors(const Splats& splats) {
@@ -132,7 +130,7 @@ json add_splats(BinaryPlan& plan, json& extension, const Splats& splats) {
                {"degree", splats.color.degree},
                {"profile", profile_json(splats.profile)}};
   json attributes = json::object();
-  std::visit(AddSplatArrays{plan, attributes, ours}, splats.kernel);
+  add_columns(plan, attributes, ours, splats.kernel);
   if (count(splats) == 0) {
     extension["splats"] = std::move(ours);  // there is no primitive: glTF has no empty mesh
     return nullptr;

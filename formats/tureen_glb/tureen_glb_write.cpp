@@ -502,7 +502,7 @@ class Document {
   std::deque<TriangleSoup> shapes_;  // the plan refers to them; a deque never moves its elements
   json meshes_ = json::array();
   bool any_hidden_ = false;
-  bool any_points_ = false;  // a layer of Gaussians or neural densities
+  bool any_points_ = false;  // a layer of splats that are stored as points
 };
 
 }  // namespace

@@ -45,7 +45,9 @@ class DiffsoupMethod final : public TrainingMethod {
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
     const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
     // Triangle windows become opaque triangles; Gaussians give places and normals.
-    if (!splats || !std::holds_alternative<NeuralDensities>(splats->kernel)) return std::nullopt;
+    if (!splats || std::holds_alternative<TriangleWindows>(splats->kernel) ||
+        std::holds_alternative<Gaussians>(splats->kernel))
+      return std::nullopt;
     return UnsuitableStart{
         fmt::format("the scene has {} ({}), but soups begin with triangles or Gaussians",
                     counted(splat_count(start), "splat"), kernel_name(splats->kernel)),

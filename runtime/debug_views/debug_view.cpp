@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/ext/vector_uint4_sized.hpp>
@@ -142,6 +143,11 @@ std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup) {
   return std::nullopt;
 }
 
+std::string with_capital(std::string text) {
+  text[0] = char(std::toupper(text[0]));
+  return text;
+}
+
 std::optional<std::string> why_not(DebugView what, const Splats& splats) {
   switch (what) {
     case DebugView::triangle_id:
@@ -152,8 +158,8 @@ std::optional<std::string> why_not(DebugView what, const Splats& splats) {
     case DebugView::holes:
       return "It shows triangles, not splats.";
     case DebugView::opacity:
-      if (!std::holds_alternative<NeuralDensities>(splats.kernel)) break;
-      return "Neural densities have no opacity.";
+      if (opacity_of(splats.kernel)) break;
+      return with_capital(kernel_name(splats.kernel)) + " have no opacity.";
     case DebugView::sigma:
       if (std::holds_alternative<TriangleWindows>(splats.kernel)) break;
       return std::string("There is no sigma (the layer has ") + kernel_name(splats.kernel) + ").";

@@ -1,5 +1,6 @@
 #include "runtime/splats/splat_source.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include "base/error.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "splatting/gaussians/gaussian_kernels.hpp"
+#include "splatting/harmonics_rows.hpp"
 #include "splatting/neural/neural_kernels.hpp"
 #include "splatting/windows/window_kernels.hpp"
 
@@ -17,56 +19,100 @@ namespace tureen {
 
 namespace {
 
-constexpr int neural_texels = 3 + NeuralDensities::width + NeuralDensities::width / 4;
+/// The kernel whose rows a layer has.
+enum class RowsOf { windows, gaussians, densities };
 
-using Texels = std::array<glm::vec4, neural_texels>;
+RowsOf rows_of(SplatShaders shaders) {
+  if (shaders == SplatShaders::windows) return RowsOf::windows;
+  return shaders == SplatShaders::neural_density ? RowsOf::densities : RowsOf::gaussians;
+}
 
-struct WriteKernel {
-  std::size_t i;
-  Texels& out;
+RowsOf rows_of(splatting::LayerKind kind) {
+  using Kind = splatting::LayerKind;
+  if (kind == Kind::windows || kind == Kind::corner_color_windows) return RowsOf::windows;
+  return kind == Kind::densities ? RowsOf::densities : RowsOf::gaussians;
+}
 
-  void operator()(const TriangleWindows& windows) const {
-    const glm::vec3* corners = &windows.corners[3 * i];
-    out[0] = glm::vec4(corners[0], windows.sigma[i]);
-    out[1] = glm::vec4(corners[1], windows.opacity[i]);
-    out[2] = glm::vec4(corners[2], 0.0f);
+/// Where a value that is 0 for all splats is read.
+constexpr std::size_t no_row = ~std::size_t(0);
+
+/// The layout of a splat's kernel texels: the row of each component.
+std::vector<std::size_t> kernel_rows(RowsOf kernel) {
+  namespace window = splatting::window_row;
+  namespace gaussian = splatting::gaussian_row;
+  namespace neural = splatting::neural_row;
+  std::vector<std::size_t> rows;
+  const auto add = [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) rows.push_back(first + k);
+  };
+  switch (kernel) {
+    case RowsOf::windows:
+      add(window::corners, 3);
+      rows.push_back(window::sigma);
+      add(window::corners + 3, 3);
+      rows.push_back(window::opacity);
+      add(window::corners + 6, 3);
+      rows.push_back(no_row);
+      break;
+    case RowsOf::gaussians:
+      add(gaussian::x, 3);
+      rows.push_back(gaussian::opacity);
+      add(gaussian::scale_x, 3);
+      rows.push_back(no_row);
+      add(gaussian::rotation_x, 4);
+      break;
+    case RowsOf::densities:
+      add(neural::center, 3);
+      rows.push_back(no_row);
+      add(neural::semi_axes, 3);
+      rows.push_back(neural::offset);
+      add(neural::rotation, 4);
+      for (std::size_t k = 0; k < NeuralDensities::width; ++k) {
+        add(neural::frequencies + 3 * k, 3);
+        rows.push_back(neural::phases + k);
+      }
+      add(neural::amplitudes, NeuralDensities::width);
+      break;
   }
-  void operator()(const Gaussians& gaussians) const {
-    out[0] = glm::vec4(gaussians.centers[i], gaussians.opacity[i]);
-    const glm::vec3& scales = gaussians.scales[i];
-    out[1] = glm::vec4(scales.x, scales.y, gaussians.flat ? 0.0f : scales.z, 0.0f);
-    out[2] = rotation(gaussians.rotations[i]);
-  }
-  void operator()(const NeuralDensities& densities) const {
-    constexpr std::size_t width = NeuralDensities::width;
-    const float* w = &densities.networks[NeuralDensities::parameters * i];
-    const float *b1 = w + 3 * width, *a = b1 + width;
-    out[0] = glm::vec4(densities.centers[i], 0.0f);
-    out[1] = glm::vec4(densities.semi_axes[i], a[width]);
-    out[2] = rotation(densities.rotations[i]);
-    for (std::size_t k = 0; k < width; ++k)
-      out[3 + k] = densities.omega * glm::vec4(w[3 * k], w[3 * k + 1], w[3 * k + 2], b1[k]);
-    for (std::size_t k = 0; k < width; k += 4)
-      out[3 + width + k / 4] = glm::vec4(a[k], a[k + 1], a[k + 2], a[k + 3]);
-  }
-  static glm::vec4 rotation(const glm::quat& q) { return {q.x, q.y, q.z, q.w}; }
-};
+  return rows;
+}
+
+/// The values of a splat's rows. They have the order of the kernel's columns.
+using RowValues = std::array<float, splatting::neural_row::harmonics>;
+
+void write_rows(const SplatKernel& kernel, std::size_t i, RowValues& out) {
+  float* next = out.data();
+  for_each_column(
+      kernel, [&](const auto& column) { next = std::ranges::copy(column.of_splat(i), next).out; });
+  if (const auto* gaussians = std::get_if<Gaussians>(&kernel); gaussians && gaussians->flat)
+    out[splatting::gaussian_row::scale_z] = 0;
+  if (const auto* densities = std::get_if<NeuralDensities>(&kernel))
+    for (std::size_t k = splatting::neural_row::frequencies; k < splatting::neural_row::amplitudes;
+         ++k)
+      out[k] *= densities->omega;
+}
 
 TexelSource kernel_source(const Splats& splats, const SplatPlan& plan) {
-  const auto each = std::size_t(kernel_texels(plan.shaders));
+  std::vector<std::size_t> rows = kernel_rows(rows_of(plan.shaders));
   const std::uint32_t* drawn = plan.drawn.data();  // stays when the plan is moved
   return {.format = texel_formats::rgba32f,
-          .count = each * plan.drawn.size(),
+          .count = rows.size() / 4 * plan.drawn.size(),
           .what = "splats",
-          .fill = [&kernel = splats.kernel, drawn, each](std::uint64_t first,
-                                                         std::span<std::byte> out) {
-            Texels texels{};
+          .fill = [&kernel = splats.kernel, drawn, rows = std::move(rows)](
+                      std::uint64_t first, std::span<std::byte> out) {
+            RowValues values{};
             std::uint64_t written = ~std::uint64_t(0);
+            const std::size_t each = rows.size() / 4;
             for (std::size_t at = 0; at < out.size(); at += sizeof(glm::vec4), ++first) {
               const std::uint64_t splat = first / each;
-              if (splat != written) std::visit(WriteKernel{drawn[splat], texels}, kernel);
+              if (splat != written) write_rows(kernel, drawn[splat], values);
               written = splat;
-              std::memcpy(&out[at], &texels[first % each], sizeof(glm::vec4));
+              glm::vec4 texel;
+              for (int k = 0; k < 4; ++k) {
+                const std::size_t row = rows[first % each * 4 + std::size_t(k)];
+                texel[k] = row == no_row ? 0.0f : values[row];
+              }
+              std::memcpy(&out[at], &texel, sizeof texel);
             }
           }};
 }
@@ -90,53 +136,6 @@ TexelSource coefficient_source(const Splats& splats, const SplatPlan& plan) {
           }};
 }
 
-/// Where a value that is 0 for all splats is read.
-constexpr std::size_t no_row = ~std::size_t(0);
-
-/// The rows of the components of a splat's kernel texels.
-std::vector<std::size_t> kernel_rows(splatting::LayerKind kind) {
-  using Kind = splatting::LayerKind;
-  namespace window = splatting::window_row;
-  namespace gaussian = splatting::gaussian_row;
-  namespace neural = splatting::neural_row;
-  std::vector<std::size_t> rows;
-  const auto add = [&](std::size_t first, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) rows.push_back(first + k);
-  };
-  switch (kind) {
-    case Kind::windows:
-    case Kind::corner_color_windows:
-      add(window::corners, 3);
-      rows.push_back(window::sigma);
-      add(window::corners + 3, 3);
-      rows.push_back(window::opacity);
-      add(window::corners + 6, 3);
-      rows.push_back(no_row);
-      break;
-    case Kind::discs:
-    case Kind::gaussians:
-      add(gaussian::x, 3);
-      rows.push_back(gaussian::opacity);
-      add(gaussian::scale_x, 3);
-      rows.push_back(no_row);
-      add(gaussian::rotation_x, 4);
-      break;
-    case Kind::densities:
-      add(neural::center, 3);
-      rows.push_back(no_row);
-      add(neural::semi_axes, 3);
-      rows.push_back(neural::offset);
-      add(neural::rotation, 4);
-      for (std::size_t k = 0; k < NeuralDensities::width; ++k) {
-        add(neural::frequencies + 3 * k, 3);
-        rows.push_back(neural::phases + k);
-      }
-      add(neural::amplitudes, NeuralDensities::width);
-      break;
-  }
-  return rows;
-}
-
 /// A source whose texels have the values of these rows in turn: the first `rows.size()` values are
 /// those of splat 0.
 TexelSource row_source(const splatting::ParameterRows& values, std::vector<std::size_t> rows,
@@ -153,41 +152,19 @@ TexelSource row_source(const splatting::ParameterRows& values, std::vector<std::
           }};
 }
 
-std::size_t first_harmonics_row(splatting::LayerKind kind) {
-  switch (kind) {
-    case splatting::LayerKind::windows:
-    case splatting::LayerKind::corner_color_windows:
-      return splatting::window_row::harmonics;
-    case splatting::LayerKind::densities:
-      return splatting::neural_row::harmonics;
-    default:
-      return splatting::gaussian_row::harmonics;
-  }
-}
-
+/// The centre of splat `i`: the first rows of every kernel have points.
 glm::vec3 center(const splatting::LayerData& layer, std::size_t i) {
   const auto point = [&](std::size_t row) {
     return glm::dvec3(layer.rows.row(row)[i], layer.rows.row(row + 1)[i],
                       layer.rows.row(row + 2)[i]);
   };
-  switch (layer.kind) {
-    case splatting::LayerKind::windows:
-    case splatting::LayerKind::corner_color_windows: {
-      const std::size_t first = splatting::window_row::corners;
-      return (point(first) + point(first + 3) + point(first + 6)) / 3.0;
-    }
-    case splatting::LayerKind::densities:
-      return point(splatting::neural_row::center);
-    default:
-      return point(splatting::gaussian_row::x);
-  }
+  if (rows_of(layer.kind) != RowsOf::windows) return point(0);
+  return (point(0) + point(3) + point(6)) / 3.0;
 }
 
 }  // namespace
 
-int kernel_texels(SplatShaders shaders) {
-  return shaders == SplatShaders::neural_density ? neural_texels : 3;
-}
+int kernel_texels(SplatShaders shaders) { return int(kernel_rows(rows_of(shaders)).size() / 4); }
 
 SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const TexelLayout& layout) {
   SplatSource source;
@@ -200,11 +177,12 @@ SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const Te
 }
 
 SplatSource prepare_splats(const splatting::LayerData& layer, const TexelLayout& layout) {
-  const std::size_t first = first_harmonics_row(layer.kind);
-  std::vector<std::size_t> harmonics(layer.rows.rows() - first);
-  std::iota(harmonics.begin(), harmonics.end(), first);
+  const std::size_t colors = layer.kind == splatting::LayerKind::corner_color_windows ? 3 : 1;
+  std::vector<std::size_t> harmonics(colors * splatting::harmonics_rows(layer.degree));
+  std::iota(harmonics.begin(), harmonics.end(), layer.rows.rows() - harmonics.size());
   SplatSource source;
-  source.kernel = row_source(layer.rows, kernel_rows(layer.kind), texel_formats::rgba32f, "splats");
+  source.kernel =
+      row_source(layer.rows, kernel_rows(rows_of(layer.kind)), texel_formats::rgba32f, "splats");
   source.coefficients =
       row_source(layer.rows, std::move(harmonics), texel_formats::rgb32f, "harmonics");
   source.layout = layout.fitted(std::max(source.kernel.count, source.coefficients.count));

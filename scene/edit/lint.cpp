@@ -235,7 +235,13 @@ std::string describe(const LintFinding& finding) {
 }
 
 void count(LintFinding& finding, std::size_t index) {
-  if (finding.count++ < LintFinding::shown) finding.first.push_back(std::uint32_t(index));
+  ++finding.count;
+  std::vector<std::uint32_t>& first = finding.first;
+  if (first.size() == LintFinding::shown) {
+    if (index >= first.back()) return;
+    first.pop_back();
+  }
+  first.insert(std::upper_bound(first.begin(), first.end(), index), std::uint32_t(index));
 }
 
 void add_counted(Lint& lint, std::initializer_list<LintFinding*> findings) {

@@ -69,7 +69,8 @@ struct LintFinding {
   Id id{};
   std::size_t count = 0;                  // number of faces, vertices, .. found
   std::size_t of = 0;                     // number in the soup or the splats
-  std::vector<std::uint32_t> first = {};  // the lowest indices found, at most `shown`
+  /// The lowest indices found, at most `shown`; of splats with Splats::rows, the lowest rows.
+  std::vector<std::uint32_t> first = {};
   double extent_over_offset = 0;          // for far_from_origin
 };
 

@@ -8,7 +8,7 @@
 
 namespace tureen {
 
-/// Counts an element; keeps its index if it is among the first.
+/// Counts an element; keeps its index if it is among the lowest.
 void count(LintFinding& finding, std::size_t index);
 /// Moves the findings with a count above 0 to `lint`.
 void add_counted(Lint& lint, std::initializer_list<LintFinding*> findings);

@@ -76,30 +76,14 @@ void sort_in_morton_order(Splats& splats) {
   std::sort(keys.begin(), keys.end(), [](const MortonKey& a, const MortonKey& b) {
     return a.code != b.code ? a.code < b.code : a.splat < b.splat;
   });
-  if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-    reorder(windows->corners, 3, keys);
-    reorder(windows->sigma, 1, keys);
-    reorder(windows->opacity, 1, keys);
-  } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
-    reorder(gaussians->centers, 1, keys);
-    reorder(gaussians->scales, 1, keys);
-    reorder(gaussians->rotations, 1, keys);
-    reorder(gaussians->opacity, 1, keys);
-  } else {
-    auto& densities = std::get<NeuralDensities>(splats.kernel);
-    reorder(densities.centers, 1, keys);
-    reorder(densities.semi_axes, 1, keys);
-    reorder(densities.rotations, 1, keys);
-    reorder(densities.networks, NeuralDensities::parameters, keys);
-  }
-  reorder(splats.color.coefficients, coefficients_per_splat(splats.color), keys);
+  for_each_array(splats, [&](auto& values, std::size_t each) { reorder(values, each, keys); });
 }
 
 std::size_t morton_order_bytes(const Splats& splats) {
-  std::size_t largest = std::max(sizeof(glm::quat), 3 * sizeof(glm::vec3));
-  if (std::holds_alternative<NeuralDensities>(splats.kernel))
-    largest = NeuralDensities::parameters * sizeof(float);
-  largest = std::max(largest, coefficients_per_splat(splats.color) * sizeof(glm::vec3));
+  std::size_t largest = 0;
+  for_each_array(splats, [&](const auto& values, std::size_t each) {
+    largest = std::max(largest, each * sizeof values[0]);
+  });
   return count(splats) * (sizeof(MortonKey) + largest);
 }
 

@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "scene/spherical_harmonics.hpp"
@@ -57,39 +58,14 @@ class HarmonicsMap {
   std::array<std::array<double, 25>, 25> to_{};
 };
 
-struct MoveKernel {
-  const glm::dmat4& place;
-  double scale;
-  glm::dmat3 turn;      // orthogonal; with determinant -1, a mirror
-  glm::dquat rotation;  // of `turn`, or of its negative for a mirror
-
-  void positions(std::vector<glm::vec3>& points) const {
-    for (glm::vec3& point : points) point = glm::vec3(place * glm::dvec4(glm::dvec3(point), 1));
-  }
-
-  void ellipsoids(std::vector<glm::vec3>& sizes, std::vector<glm::quat>& rotations) const {
-    for (glm::vec3& size : sizes) size = glm::vec3(scale * glm::dvec3(size));
-    for (glm::quat& each : rotations) each = glm::quat(glm::normalize(rotation * glm::dquat(each)));
-  }
-
-  void operator()(TriangleWindows& windows) const { positions(windows.corners); }
-
-  void operator()(Gaussians& gaussians) const {
-    positions(gaussians.centers);
-    ellipsoids(gaussians.scales, gaussians.rotations);
-  }
-
-  void operator()(NeuralDensities& densities) const {
-    positions(densities.centers);
-    ellipsoids(densities.semi_axes, densities.rotations);
-    for (std::size_t i = 0; i < densities.networks.size(); i += NeuralDensities::parameters)
-      for (std::size_t k = i; k < i + 3 * std::size_t(NeuralDensities::width); k += 3) {
-        float* w = &densities.networks[k];
-        const glm::vec3 moved(turn * glm::dvec3(w[0], w[1], w[2]));
-        for (int axis = 0; axis < 3; ++axis) w[axis] = moved[axis];
-      }
-  }
-};
+void turn_networks(NeuralDensities& densities, const glm::dmat3& turn) {
+  for (std::size_t i = 0; i < densities.networks.size(); i += NeuralDensities::parameters)
+    for (std::size_t k = i; k < i + 3 * std::size_t(NeuralDensities::width); k += 3) {
+      float* w = &densities.networks[k];
+      const glm::vec3 moved(turn * glm::dvec3(w[0], w[1], w[2]));
+      for (int axis = 0; axis < 3; ++axis) w[axis] = moved[axis];
+    }
+}
 
 }  // namespace
 
@@ -99,7 +75,19 @@ void move_splats(Splats& splats, const glm::dmat4& place) {
   const glm::dmat3 turn = linear / scale;
   // An ellipsoid equals its image in its centre, so a mirror acts on it as the rotation -turn.
   const glm::dquat rotation = glm::quat_cast(glm::determinant(turn) < 0 ? -turn : turn);
-  std::visit(MoveKernel{place, scale, turn, rotation}, splats.kernel);
+  for_each_column(splats.kernel, [&](const auto& column) {
+    for (auto& value : column.values)
+      if constexpr (std::is_same_v<decltype(value), glm::quat&>)
+        value = glm::quat(glm::normalize(rotation * glm::dquat(value)));
+      else if constexpr (std::is_same_v<decltype(value), glm::vec3&>) {
+        if (column.role == ColumnRole::scale)
+          value = glm::vec3(scale * glm::dvec3(value));
+        else
+          value = glm::vec3(place * glm::dvec4(glm::dvec3(value), 1));
+      }
+  });
+  if (auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
+    turn_networks(*densities, turn);
   splats.profile.min_center_depth *= float(scale);
   if (splats.color.degree == 0) return;
   const HarmonicsMap map(turn, splats.color.degree);

@@ -24,28 +24,13 @@ void keep(std::vector<T>& values, std::size_t per_splat, std::span<const std::ui
 }  // namespace
 
 void keep_splats(SplatKernel& kernel, std::span<const std::uint8_t> keeps) {
-  if (auto* windows = std::get_if<TriangleWindows>(&kernel)) {
-    keep(windows->corners, 3, keeps);
-    keep(windows->sigma, 1, keeps);
-    keep(windows->opacity, 1, keeps);
-  } else if (auto* gaussians = std::get_if<Gaussians>(&kernel)) {
-    keep(gaussians->centers, 1, keeps);
-    keep(gaussians->scales, 1, keeps);
-    keep(gaussians->rotations, 1, keeps);
-    keep(gaussians->opacity, 1, keeps);
-  } else {
-    auto& densities = std::get<NeuralDensities>(kernel);
-    keep(densities.centers, 1, keeps);
-    keep(densities.semi_axes, 1, keeps);
-    keep(densities.rotations, 1, keeps);
-    keep(densities.networks, NeuralDensities::parameters, keeps);
-  }
+  for_each_column(kernel,
+                  [&](const auto& column) { keep(column.values, column.per_splat, keeps); });
 }
 
 Splats keep_splats(Splats splats, std::span<const std::uint8_t> keeps) {
   assert(keeps.size() == count(splats));
-  keep_splats(splats.kernel, keeps);
-  keep(splats.color.coefficients, coefficients_per_splat(splats.color), keeps);
+  for_each_array(splats, [&](auto& values, std::size_t each) { keep(values, each, keeps); });
   return splats;
 }
 

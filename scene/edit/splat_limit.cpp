@@ -2,40 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
 #include "scene/edit/splat_edits.hpp"
-#include "scene/opaque_windows.hpp"
 
 namespace tureen {
 
-namespace {
-
-/// The product of the two largest, in double: it may exceed a float.
-double largest_area(const glm::dvec3& axes) {
-  return std::max({axes.x * axes.y, axes.y * axes.z, axes.z * axes.x});
-}
-
-}  // namespace
-
 std::vector<double> splat_contributions(const SplatKernel& kernel) {
-  std::vector<double> result;
-  if (const auto* gaussians = std::get_if<Gaussians>(&kernel)) {
-    for (std::size_t i = 0; i < gaussians->scales.size(); ++i)
-      result.push_back(double(gaussians->opacity[i]) * largest_area(gaussians->scales[i]));
-  } else if (const auto* windows = std::get_if<TriangleWindows>(&kernel)) {
-    for (std::size_t i = 0; i < windows->opacity.size(); ++i) {
-      const glm::dvec3 a = windows->corners[3 * i], b = windows->corners[3 * i + 1],
-                       c = windows->corners[3 * i + 2];
-      result.push_back(mean_coverage(double(windows->opacity[i]), double(windows->sigma[i])) *
-                       glm::length(glm::cross(b - a, c - a)));
-    }
-  } else {
-    for (const glm::vec3& axes : std::get<NeuralDensities>(kernel).semi_axes)
-      result.push_back(largest_area(axes));
-  }
+  std::vector<double> result(count(kernel));
+  std::visit(
+      [&](const auto& each) {
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = contribution(each, i);
+      },
+      kernel);
   // A reader may not have rejected its values yet.
   for (double& each : result)
     if (std::isnan(each)) each = 0;

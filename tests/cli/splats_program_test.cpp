@@ -66,6 +66,11 @@ TEST_F(SplatsProgram, LintIsReported) {
   EXPECT_EQ(lint["duplicate_splats"]["first"], nlohmann::json({7}));
   EXPECT_EQ(lint["needle_splats"]["count"], 0);
   EXPECT_FALSE(lint.contains("unused_vertices"));
+  // Readers of PLY reorder splats. Lint names the file's rows.
+  ASSERT_EQ(run({"convert", "faint.glb", "faint.ply"}).exit_code, 0);
+  const nlohmann::json of_ply = json_of({"info", "faint.ply", "--json"})["lint"];
+  EXPECT_EQ(of_ply["transparent_splats"]["first"], nlohmann::json({0, 1, 2, 3, 4}));
+  EXPECT_EQ(of_ply["duplicate_splats"]["first"], nlohmann::json({7}));
   EXPECT_THAT(run({"info", "faint.glb"}).err, HasSubstr("none is drawn"));
   EXPECT_EQ(run({"info", "faint.glb", "--strict"}).exit_code, 1);
   EXPECT_EQ(run({"info", "gaussians.glb", "--strict"}).exit_code, 0);

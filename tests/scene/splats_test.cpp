@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "scene/edit/morton_order.hpp"
+#include "scene/edit/splat_edits.hpp"
 #include "scene/opaque_windows.hpp"
 #include "scene/spherical_harmonics.hpp"
 
@@ -82,7 +83,8 @@ TEST(Splats, CornersHaveColours) {
 
 TEST(Splats, WindowsKeepTheirOwnColours) {
   Splats splats = windows_per_corner();
-  EXPECT_EQ(keep_windows(splats, [](std::size_t i) { return i == 1; }), 1u);
+  splats = keep_splats(std::move(splats), std::vector<std::uint8_t>{0, 1});
+  EXPECT_EQ(count(splats), 1u);
   EXPECT_EQ(defect(splats), std::nullopt);
   EXPECT_EQ(std::get<TriangleWindows>(splats.kernel).corners[2], glm::vec3(5, 6, 5));
   EXPECT_EQ(std::get<TriangleWindows>(splats.kernel).sigma[0], 3);

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "base/memory_budget.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/splat/splat_ply.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "tests/formats/random_scene.hpp"
 #include "tests/support/errors.hpp"
@@ -87,6 +90,23 @@ TEST_F(SplatReadingLimit, IsSuggestedWhenTheMemoryIsTooSmall) {
       EXPECT_GT(fitting, 100u);
       EXPECT_NO_THROW(read_scene(path(".ply"), {.max_splats = fitting}));
     }
+  }
+}
+
+/// Splats::rows: readers drop, limit and reorder.
+TEST_F(SplatReadingLimit, RowsNameTheSplatsOfTheFile) {
+  test::RandomScene random(4);
+  Splats splats = random.gaussians(60, 1, "3dgs", false);
+  splats.color.coefficients[4 * 10].x = std::numeric_limits<float>::infinity();
+  write_splat_ply(scene_of(splats), path(".ply"));
+  EXPECT_TRUE(std::get<Splats>(only_layer(read_scene(path(".ply"))).primitives).rows.empty());
+  for (const std::uint64_t max : {20, 60}) {
+    const Scene read = read_scene(path(".ply"), {.max_splats = max, .keep_rows = true});
+    const auto& kept = std::get<Splats>(only_layer(read).primitives);
+    ASSERT_EQ(kept.rows.size(), std::min<std::size_t>(max, 59));
+    EXPECT_FALSE(std::is_sorted(kept.rows.begin(), kept.rows.end()));
+    for (std::size_t i = 0; i < kept.rows.size(); ++i)
+      EXPECT_EQ(center(kept, i), center(splats, kept.rows[i])) << i;
   }
 }
 

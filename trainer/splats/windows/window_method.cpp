@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "scene/edit/splat_edits.hpp"
 #include "scene/opaque_windows.hpp"
 
 namespace tureen::trainer {
@@ -94,10 +96,11 @@ Primitives WindowTraining::primitives(const WindowConfig& config,
   const bool becomes_soup = config.opaque && parameters.solidity >= solidity_of_triangles;
   const bool some_shown =
       std::any_of(evident.begin(), evident.end(), [](float e) { return e > 0; });
-  keep_windows(splats, [&](std::size_t i) {
-    return parameters.is_finite(i) && parameters.opacity(i) >= splats.profile.min_alpha &&
-           (!becomes_soup || !some_shown || evident[i] > 0);
-  });
+  std::vector<std::uint8_t> keeps(count(splats));
+  for (std::size_t i = 0; i < keeps.size(); ++i)
+    keeps[i] = parameters.is_finite(i) && parameters.opacity(i) >= splats.profile.min_alpha &&
+               (!becomes_soup || !some_shown || evident[i] > 0);
+  splats = keep_splats(std::move(splats), keeps);
   if (!becomes_soup) return splats;
   return to_opaque(std::move(splats)).soup;
 }
