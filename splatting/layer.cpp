@@ -7,11 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "splatting/discs/disc_layer.hpp"
-#include "splatting/gaussians/gaussian_layer.hpp"
-#include "splatting/gaussians/gaussian_rows.hpp"
-#include "splatting/neural/neural_layer.hpp"
-#include "splatting/windows/window_layer.hpp"
+#include "splatting/discs/disc_kernels.hpp"
+#include "splatting/gaussians/gaussian_kernels.hpp"
+#include "splatting/kernel_layer.hpp"
+#include "splatting/neural/neural_kernels.hpp"
+#include "splatting/windows/corner_window_kernels.hpp"
+#include "splatting/windows/window_kernels.hpp"
 
 namespace tureen::splatting {
 
@@ -46,6 +47,19 @@ bool has_nan(const Splats& splats, std::size_t i) {
          any_nan(gaussians.rotations[i]) || std::isnan(gaussians.opacity[i]);
 }
 
+LayerKind kind_of(const Splats& splats, const SplatProfile& profile) {
+  if (std::holds_alternative<TriangleWindows>(splats.kernel))
+    return splats.color.per_corner ? LayerKind::corner_color_windows : LayerKind::windows;
+  if (std::holds_alternative<NeuralDensities>(splats.kernel)) return LayerKind::densities;
+  const bool on_plane = profile.projection == SplatProfile::Projection::plane;
+  return on_plane ? LayerKind::discs : LayerKind::gaussians;
+}
+
+template <class Kernel>
+std::unique_ptr<Layer> layer_of(LayerData&& data) {
+  return std::make_unique<KernelLayer<Kernel>>(std::move(data));
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> without_nan(const Splats& splats, std::span<const std::uint32_t> which) {
@@ -59,31 +73,19 @@ LayerData layer_data(const Splats& splats, const SplatProfile& profile,
                      std::span<const std::uint32_t> which, int degree) {
   assert(has_layer_for(splats));
   const std::vector<std::uint32_t> kept = without_nan(splats, which);
-  const SplatColor& color = splats.color;
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
-    return {color.per_corner ? LayerKind::corner_color_windows : LayerKind::windows, degree,
-            rows_of(*windows, color, kept, degree)};
-  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
-    return {LayerKind::densities, degree, rows_of(*densities, color, kept, degree)};
-  const bool on_plane = profile.projection == SplatProfile::Projection::plane;
-  return {on_plane ? LayerKind::discs : LayerKind::gaussians, degree,
-          rows_of(std::get<Gaussians>(splats.kernel), color, kept, degree)};
+  const auto rows = [&](const auto& kernel) { return rows_of(kernel, splats.color, kept, degree); };
+  return {kind_of(splats, profile), degree, std::visit(rows, splats.kernel)};
 }
 
 std::unique_ptr<Layer> make_layer(LayerData data) {
-  switch (data.kind) {
-    case LayerKind::windows:
-      return std::make_unique<WindowLayer<OneColorWindows>>(std::move(data));
-    case LayerKind::corner_color_windows:
-      return std::make_unique<WindowLayer<CornerColorWindows>>(std::move(data));
-    case LayerKind::discs:
-      return std::make_unique<DiscLayer>(std::move(data));
-    case LayerKind::gaussians:
-      return std::make_unique<GaussianLayer>(std::move(data));
-    case LayerKind::densities:
-      return std::make_unique<NeuralLayer>(std::move(data));
-  }
-  return nullptr;
+  constexpr std::unique_ptr<Layer> (*makers[])(LayerData &&) = {
+      &layer_of<WindowKernel>,        // windows
+      &layer_of<CornerWindowKernel>,  // corner_color_windows
+      &layer_of<DiscKernel>,          // discs
+      &layer_of<GaussianKernel>,      // gaussians
+      &layer_of<NeuralKernel>,        // densities
+  };
+  return makers[std::size_t(data.kind)](std::move(data));
 }
 
 }  // namespace tureen::splatting

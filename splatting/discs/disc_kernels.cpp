@@ -37,7 +37,7 @@ HWY_INLINE void bounds_of(const Vector3& along, const Vector3& of_w, Floats orig
 }
 
 void project_discs_on(const ImageView& view, const ParameterRows& discs, int degree,
-                      std::size_t begin, std::size_t end, ParameterRows& projected) {
+                      std::size_t begin, std::size_t end, DiscKernel::Projected& projected) {
   namespace in = gaussian_row;
   namespace out = projected_disc_row;
   const Floats zero = hn::Zero(d), one = constant(1.0f), near = constant(view.near);
@@ -100,18 +100,22 @@ void project_discs_on(const ImageView& view, const ParameterRows& discs, int deg
   }
 }
 
-void blend_discs_on(const ImageView& view, std::span<const DiscEntry> entries,
-                    std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  blend_entries(view, entries, tile, DiscAlpha{std::log2(view.min_alpha), disc_constants(view)},
-                pixels);
-}
+struct DiscLoops {
+  using Entry = DiscEntry;
+  using ColorOf = OneColor;
+  static HWY_INLINE DiscAlpha alpha_of(const ImageView& view) {
+    return {std::log2(view.min_alpha), disc_constants(view)};
+  }
+  static HWY_INLINE auto depth_of(const ImageView& view, const ParameterRows&,
+                                  std::span<const std::uint32_t>) {
+    return [&view](std::uint32_t) { return DiscDepth{disc_constants(view)}; };
+  }
+};
 
-void collect_discs_on(const ImageView& view, std::span<const DiscEntry> entries,
-                      std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                      TileHits& hits) {
-  collect_entries(
-      view, entries, tile, DiscAlpha{std::log2(view.min_alpha), disc_constants(view)},
-      [&](std::uint32_t) { return DiscDepth{disc_constants(view)}; }, pixels, hits);
+const KernelFunctions<DiscKernel>& disc_functions() {
+  static constexpr KernelFunctions<DiscKernel> functions{&project_discs_on, &blend_on<DiscLoops>,
+                                                         &collect_on<DiscLoops>};
+  return functions;
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE
@@ -120,23 +124,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tureen::splatting {
 
-HWY_EXPORT(project_discs_on);
-HWY_EXPORT(blend_discs_on);
-HWY_EXPORT(collect_discs_on);
+HWY_EXPORT(disc_functions);
 
-void project_discs(const ImageView& view, const ParameterRows& discs, int harmonics_degree,
-                   std::size_t begin, std::size_t end, ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_discs_on)(view, discs, harmonics_degree, begin, end, projected);
+const KernelFunctions<DiscKernel>& DiscKernel::functions() {
+  return HWY_DYNAMIC_DISPATCH(disc_functions)();
 }
 
-void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,
-                 std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  HWY_DYNAMIC_DISPATCH(blend_discs_on)(view, entries, tile, pixels);
-}
-
-void collect_discs(const ImageView& view, std::span<const DiscEntry> entries,
-                   std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits) {
-  HWY_DYNAMIC_DISPATCH(collect_discs_on)(view, entries, tile, pixels, hits);
+void DiscKernel::read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline) {
+  namespace row = projected_disc_row;
+  const auto value = [&](std::size_t which) { return projected.row(which)[i]; };
+  entry = {value(row::x),   value(row::y),     value(row::u_x), value(row::v_x),
+           value(row::c_x), value(row::u_y),   value(row::v_y), value(row::c_y),
+           value(row::u_w), value(row::v_w),   value(row::c_w), value(row::log_opacity),
+           value(row::red), value(row::green), value(row::blue)};
+  outline = {value(row::left), value(row::right), value(row::top), value(row::bottom)};
 }
 
 }  // namespace tureen::splatting

@@ -6,10 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "splatting/image_view.hpp"
-#include "splatting/layer.hpp"
-#include "splatting/parameter_rows.hpp"
-#include "splatting/tiles/tile_lists.hpp"
+#include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
 
@@ -47,17 +44,16 @@ struct alignas(64) DiscEntry {
   float x, y, u_x, v_x, c_x, u_y, v_y, c_y, u_w, v_w, c_w, log_opacity, red, green, blue;
 };
 
-/// Projects the discs [begin, end), with `begin` a multiple of row_alignment. `discs` has the rows
-/// of gaussian_row, `projected` projected_disc_row::count rows of as many splats.
-void project_discs(const ImageView& view, const ParameterRows& discs, int harmonics_degree,
-                   std::size_t begin, std::size_t end, ParameterRows& projected);
-
-/// Blends the entries front to back into the pixels of a tile.
-void blend_discs(const ImageView& view, std::span<const DiscEntry> entries,
-                 std::span<const std::uint32_t> tile, TilePixels& pixels);
-
-/// Adds the entries to the hits of a tile (Layer::collect).
-void collect_discs(const ImageView& view, std::span<const DiscEntry> entries,
-                   std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits);
+/// See KernelFunctions. The rows are those of gaussian_row.
+struct DiscKernel {
+  using Entry = DiscEntry;
+  using Outline = Box;
+  using Projected = ProjectedRows<projected_disc_row::count, projected_disc_row::depth>;
+  static const KernelFunctions<DiscKernel>& functions();
+  static void read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline);
+  static void list(const Entry&, const Outline& outline, std::uint32_t splat, TileLists& lists) {
+    lists.add(outline, splat);
+  }
+};
 
 }  // namespace tureen::splatting

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "splatting/ellipse.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "splatting/gaussians/gaussian_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -17,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
 
-/// The members of GaussianEntry, in their order.
+/// The members of GaussianEntry, in their order, and the depth.
 namespace entry_member {
 enum : std::size_t {
   x,
@@ -30,34 +32,37 @@ enum : std::size_t {
   green,
   blue,
   inverse_depth,
-  depth,
+  limit,
   half_width,
   half_height,
+  depth,  // of the centre; NaN: not drawn
   count
 };
 }
 
-/// The entries of a vector of splats, member by member.
+/// A vector of projected splats, member by member.
 struct ProjectedVector {
   alignas(64) float values[entry_member::count][lanes];
 
-  HWY_INLINE void write(std::span<GaussianEntry> entries) const {
+  HWY_INLINE void write(std::span<GaussianEntry> entries, std::span<float> depths) const {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const auto of = [&](std::size_t k) { return values[k][i]; };
       entries[i] = {of(0), of(1), of(2), of(3),  of(4),  of(5), of(6),
                     of(7), of(8), of(9), of(10), of(11), of(12)};
+      depths[i] = of(entry_member::depth);
     }
   }
 };
 
 void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians, int degree,
-                          std::size_t begin, std::span<GaussianEntry> entries) {
+                          std::size_t begin, std::size_t end, ProjectedGaussians& projected) {
   namespace in = gaussian_row;
   namespace out = entry_member;
   const Floats min_log_alpha = constant(std::log2(view.min_alpha));
   const Floats zero = hn::Zero(d), one = constant(1.0f);
-  for (std::size_t first = 0; first < entries.size(); first += lanes) {
-    const std::size_t i = begin + first;
+  const std::span<GaussianEntry> entries = projected.entries;
+  const std::span<float> depths = projected.depth;
+  for (std::size_t i = begin; i < end; i += lanes) {
     ProjectedVector result;
     const auto load = [&](std::size_t row) { return hn::Load(d, gaussians.row(row) + i); };
     const auto store = [&](std::size_t member, Floats value) {
@@ -131,6 +136,7 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     store(out::r, hn::Mul(hn::Mul(factor, inverse_y), by_unit));
     store(out::log_opacity, log_opacity);
     store(out::inverse_depth, inverse_depth);
+    store(out::limit, excess);
     store(out::depth, hn::IfThenElse(drawn, center.z, not_drawn()));
     const Floats radius = hn::Mul(hn::Div(hn::Sqrt(hn::Max(excess, zero)), factor), unit_size);
     store(out::half_width, hn::Mul(radius, hn::Sqrt(xx)));
@@ -141,24 +147,29 @@ void project_gaussians_on(const ImageView& view, const ParameterRows& gaussians,
     store(out::red, color.x);
     store(out::green, color.y);
     store(out::blue, color.z);
-    result.write(entries.subspan(first, std::min(lanes, entries.size() - first)));
+    const std::size_t splats = std::min(lanes, end - i);
+    result.write(entries.subspan(i, splats), depths.subspan(i, splats));
   }
 }
 
-void blend_gaussians_on(const ImageView& view, std::span<const GaussianEntry> entries,
-                        std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  blend_entries(view, entries, tile, GaussianAlpha{constant(std::log2(view.min_alpha))}, pixels);
-}
+struct GaussianLoops {
+  using Entry = GaussianEntry;
+  using ColorOf = OneColor;
+  static HWY_INLINE GaussianAlpha alpha_of(const ImageView& view) {
+    return {constant(std::log2(view.min_alpha))};
+  }
+  static HWY_INLINE auto depth_of(const ImageView& view, const ParameterRows& gaussians,
+                                  std::span<const std::uint32_t> order) {
+    return [&view, &gaussians, order](std::uint32_t place) {
+      return GaussianPeakDepth{view, gaussian_peak(view, gaussians, order[place])};
+    };
+  }
+};
 
-void collect_gaussians_on(const ImageView& view, std::span<const GaussianEntry> entries,
-                          const ParameterRows& gaussians, std::span<const std::uint32_t> order,
-                          std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                          TileHits& hits) {
-  const auto depth_of = [&](std::uint32_t place) {
-    return GaussianPeakDepth{view, gaussian_peak(view, gaussians, order[place])};
-  };
-  collect_entries(view, entries, tile, GaussianAlpha{constant(std::log2(view.min_alpha))}, depth_of,
-                  pixels, hits);
+const KernelFunctions<GaussianKernel>& gaussian_functions() {
+  static constexpr KernelFunctions<GaussianKernel> functions{
+      &project_gaussians_on, &blend_on<GaussianLoops>, &collect_on<GaussianLoops>};
+  return functions;
 }
 
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }
@@ -169,26 +180,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tureen::splatting {
 
-HWY_EXPORT(project_gaussians_on);
-HWY_EXPORT(blend_gaussians_on);
-HWY_EXPORT(collect_gaussians_on);
+HWY_EXPORT(gaussian_functions);
 HWY_EXPORT(target_name);
 
-void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
-                       std::size_t begin, std::span<GaussianEntry> entries) {
-  HWY_DYNAMIC_DISPATCH(project_gaussians_on)(view, gaussians, harmonics_degree, begin, entries);
+const KernelFunctions<GaussianKernel>& GaussianKernel::functions() {
+  return HWY_DYNAMIC_DISPATCH(gaussian_functions)();
 }
 
-void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
-                     std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  HWY_DYNAMIC_DISPATCH(blend_gaussians_on)(view, entries, tile, pixels);
-}
-
-void collect_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
-                       const ParameterRows& gaussians, std::span<const std::uint32_t> order,
-                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                       TileHits& hits) {
-  HWY_DYNAMIC_DISPATCH(collect_gaussians_on)(view, entries, gaussians, order, tile, pixels, hits);
+void GaussianKernel::list(const Entry& entry, const Outline&, std::uint32_t splat,
+                          TileLists& lists) {
+  list_ellipse({.x = entry.x,
+                .y = entry.y,
+                .p = entry.p,
+                .q = entry.q,
+                .r = entry.r,
+                .limit = entry.limit,
+                .half_width = entry.half_width,
+                .half_height = entry.half_height},
+               splat, lists);
 }
 
 GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians, std::size_t i) {

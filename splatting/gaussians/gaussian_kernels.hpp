@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "splatting/image_view.hpp"
-#include "splatting/layer.hpp"
-#include "splatting/parameter_rows.hpp"
-#include "splatting/tiles/tile_lists.hpp"
+#include "scene/splats.hpp"
+#include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
 
@@ -37,17 +36,39 @@ enum : std::size_t {
 struct alignas(64) GaussianEntry {
   float x, y, p, q, r, log_opacity;
   float red, green, blue;         // >= 0
-  float inverse_depth, depth;     // of the centre; a NaN depth: not drawn
+  float inverse_depth;            // of the centre
+  float limit;                    // log_opacity minus the logarithm of the smallest alpha
   float half_width, half_height;  // in pixels, of the ellipse where alpha is the smallest
 };
 
-/// Projects as many splats as there are entries, from `begin` on, a multiple of row_alignment.
-void project_gaussians(const ImageView& view, const ParameterRows& gaussians, int harmonics_degree,
-                       std::size_t begin, std::span<GaussianEntry> entries);
+/// Entries, because each row would be a cache miss in the order of blending.
+struct ProjectedGaussians {
+  static constexpr std::size_t bytes_a_splat = sizeof(GaussianEntry);
 
-/// Blends the entries front to back into the pixels of a tile.
-void blend_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
-                     std::span<const std::uint32_t> tile, TilePixels& pixels);
+  std::vector<GaussianEntry> entries;
+  std::vector<float> depth;
+
+  explicit ProjectedGaussians(std::size_t count = 0) : entries(count), depth(count) {}
+  std::size_t count() const { return entries.size(); }
+  std::span<const float> depths() const { return depth; }
+};
+
+/// See KernelFunctions.
+struct GaussianKernel {
+  using Entry = GaussianEntry;
+  struct Outline {};  // the entry has it
+  using Projected = ProjectedGaussians;
+  static const KernelFunctions<GaussianKernel>& functions();
+  static void read(const Projected& projected, std::size_t i, Entry& entry, Outline&) {
+    entry = projected.entries[i];
+  }
+  static void list(const Entry& entry, const Outline&, std::uint32_t splat, TileLists& lists);
+};
+
+/// The rows of gaussian_row, for the splats with these indices and harmonics up to `degree`. The
+/// third scale of flat Gaussians is 0.
+ParameterRows rows_of(const Gaussians& gaussians, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree);
 
 /// A Gaussian in view coordinates, for the depth at which a ray meets its largest density: the
 /// unit axes, each times the smallest scale over its own, and the centre, in layer units.
@@ -56,13 +77,6 @@ struct GaussianPeak {
 };
 /// Of Gaussian `i` in rows of gaussian_row.
 GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians, std::size_t i);
-
-/// Adds the entries to the hits of a tile (Layer::collect). The Gaussian at place i of the entries
-/// is order[i] in the rows.
-void collect_gaussians(const ImageView& view, std::span<const GaussianEntry> entries,
-                       const ParameterRows& gaussians, std::span<const std::uint32_t> order,
-                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                       TileHits& hits);
 
 /// The name of the chosen vectors: "AVX3_ZEN4", "AVX2", ..
 const char* vector_target();

@@ -1,5 +1,3 @@
-#include "splatting/gaussians/gaussian_rows.hpp"
-
 #include "splatting/gaussians/gaussian_kernels.hpp"
 #include "splatting/harmonics_rows.hpp"
 

@@ -87,7 +87,7 @@ HWY_INLINE void outline_of(const ImageView& view, const Ellipsoid& ellipsoid,
 }
 
 void project_densities_on(const ImageView& view, const ParameterRows& densities, int degree,
-                          std::size_t begin, std::size_t end, ParameterRows& projected) {
+                          std::size_t begin, std::size_t end, NeuralKernel::Projected& projected) {
   namespace in = neural_row;
   namespace out = projected_neural_row;
   const Floats one = constant(1.0f);
@@ -158,17 +158,20 @@ void project_densities_on(const ImageView& view, const ParameterRows& densities,
   }
 }
 
-void blend_densities_on(const ImageView& view, std::span<const NeuralEntry> entries,
-                        std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  blend_entries(view, entries, tile, NeuralAlpha(view), pixels);
-}
+struct NeuralLoops {
+  using Entry = NeuralEntry;
+  using ColorOf = OneColor;
+  static HWY_INLINE NeuralAlpha alpha_of(const ImageView& view) { return NeuralAlpha(view); }
+  static HWY_INLINE auto depth_of(const ImageView& view, const ParameterRows&,
+                                  std::span<const std::uint32_t>) {
+    return [&view](std::uint32_t) { return NeuralDepth{NeuralAlpha(view)}; };
+  }
+};
 
-void collect_densities_on(const ImageView& view, std::span<const NeuralEntry> entries,
-                          std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                          TileHits& hits) {
-  collect_entries(
-      view, entries, tile, NeuralAlpha(view),
-      [&](std::uint32_t) { return NeuralDepth{NeuralAlpha(view)}; }, pixels, hits);
+const KernelFunctions<NeuralKernel>& neural_functions() {
+  static constexpr KernelFunctions<NeuralKernel> functions{
+      &project_densities_on, &blend_on<NeuralLoops>, &collect_on<NeuralLoops>};
+  return functions;
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE
@@ -177,25 +180,49 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tureen::splatting {
 
-HWY_EXPORT(project_densities_on);
-HWY_EXPORT(blend_densities_on);
-HWY_EXPORT(collect_densities_on);
+HWY_EXPORT(neural_functions);
 
-void project_densities(const ImageView& view, const ParameterRows& densities, int harmonics_degree,
-                       std::size_t begin, std::size_t end, ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_densities_on)
-  (view, densities, harmonics_degree, begin, end, projected);
+const KernelFunctions<NeuralKernel>& NeuralKernel::functions() {
+  return HWY_DYNAMIC_DISPATCH(neural_functions)();
 }
 
-void blend_densities(const ImageView& view, std::span<const NeuralEntry> entries,
-                     std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  HWY_DYNAMIC_DISPATCH(blend_densities_on)(view, entries, tile, pixels);
+void NeuralKernel::read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline) {
+  namespace row = projected_neural_row;
+  const auto value = [&](std::size_t which) { return projected.row(which)[i]; };
+  const auto read = [&](std::size_t first, auto& values) {
+    for (std::size_t k = 0; k < std::size(values); ++k) values[k] = value(first + k);
+  };
+  read(row::center, entry.center);
+  read(row::sphere_from_view, entry.sphere_from_view);
+  entry.by_unit = value(row::by_unit);
+  entry.near = value(row::near);
+  entry.twice_by_largest = value(row::twice_by_largest);
+  read(row::frequencies, entry.frequencies);
+  read(row::phases, entry.phases);
+  read(row::amplitudes, entry.amplitudes);
+  entry.offset = value(row::offset);
+  entry.red = value(row::red);
+  entry.green = value(row::green);
+  entry.blue = value(row::blue);
+  float of_outline[7];
+  read(row::outline, of_outline);
+  const auto& [x, y, p, q, r, half_width, half_height] = of_outline;
+  outline = {.x = x,
+             .y = y,
+             .p = p,
+             .q = q,
+             .r = r,
+             .limit = 1,
+             .half_width = half_width,
+             .half_height = half_height};
 }
 
-void collect_densities(const ImageView& view, std::span<const NeuralEntry> entries,
-                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                       TileHits& hits) {
-  HWY_DYNAMIC_DISPATCH(collect_densities_on)(view, entries, tile, pixels, hits);
+void NeuralKernel::list(const Entry&, const Outline& outline, std::uint32_t splat,
+                        TileLists& lists) {
+  if (std::isnan(outline.x))
+    lists.add_everywhere(splat);
+  else
+    list_ellipse(outline, splat, lists);
 }
 
 }  // namespace tureen::splatting

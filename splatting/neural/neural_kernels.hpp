@@ -7,10 +7,8 @@
 #include <span>
 
 #include "scene/splats.hpp"
-#include "splatting/image_view.hpp"
-#include "splatting/layer.hpp"
-#include "splatting/parameter_rows.hpp"
-#include "splatting/tiles/tile_lists.hpp"
+#include "splatting/ellipse.hpp"
+#include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
 
@@ -65,18 +63,18 @@ struct alignas(64) NeuralEntry {
   float red, green, blue;  // >= 0
 };
 
-/// Projects the densities [begin, end), with `begin` a multiple of row_alignment. `projected` has
-/// projected_neural_row::count rows of as many splats.
-void project_densities(const ImageView& view, const ParameterRows& densities, int harmonics_degree,
-                       std::size_t begin, std::size_t end, ParameterRows& projected);
+/// See KernelFunctions. x of an outline is NaN if the splat may cover any pixel.
+struct NeuralKernel {
+  using Entry = NeuralEntry;
+  using Outline = Ellipse;
+  using Projected = ProjectedRows<projected_neural_row::count, projected_neural_row::depth>;
+  static const KernelFunctions<NeuralKernel>& functions();
+  static void read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline);
+  static void list(const Entry&, const Outline& outline, std::uint32_t splat, TileLists& lists);
+};
 
-/// Blends the entries front to back into the pixels of a tile.
-void blend_densities(const ImageView& view, std::span<const NeuralEntry> entries,
-                     std::span<const std::uint32_t> tile, TilePixels& pixels);
-
-/// Adds the entries to the hits of a tile (Layer::collect).
-void collect_densities(const ImageView& view, std::span<const NeuralEntry> entries,
-                       std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                       TileHits& hits);
+/// The rows of neural_row, for the densities with these indices and harmonics up to `degree`.
+ParameterRows rows_of(const NeuralDensities& densities, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree);
 
 }  // namespace tureen::splatting

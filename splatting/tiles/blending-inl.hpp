@@ -11,6 +11,7 @@
 #include <span>
 
 #include "splatting/image_view.hpp"
+#include "splatting/kernel.hpp"
 #include "splatting/layer.hpp"
 #include "splatting/tiles/tile_lists.hpp"
 #include "splatting/vector_math-inl.hpp"
@@ -222,6 +223,24 @@ HWY_INLINE void collect_entries(const ImageView& view, std::span<const Entry> en
               {depths[i], alphas[i], red[i], green[i], blue[i], view.stop_transmittance, place});
     }
   }
+}
+
+/// KernelFunctions::blend. `Loops` has the type Entry, the type ColorOf of color_of above, and
+/// alpha_of(view), which returns alpha_of.
+template <class Loops>
+void blend_on(const ImageView& view, std::span<const typename Loops::Entry> entries,
+              std::span<const std::uint32_t> tile, TilePixels& pixels) {
+  blend_entries(view, entries, tile, Loops::alpha_of(view), pixels, typename Loops::ColorOf{});
+}
+
+/// KernelFunctions::collect. `Loops` has depth_of(view, rows, order), too, which returns depth_of.
+template <class Loops>
+void collect_on(const ImageView& view, const ParameterRows& rows,
+                std::span<const std::uint32_t> order,
+                std::span<const typename Loops::Entry> entries, std::span<const std::uint32_t> tile,
+                const TilePixels& pixels, TileHits& hits) {
+  collect_entries(view, entries, tile, Loops::alpha_of(view), Loops::depth_of(view, rows, order),
+                  pixels, hits, typename Loops::ColorOf{});
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE

@@ -16,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
 
 void project_corner_windows_on(const ImageView& view, const ParameterRows& windows, int degree,
-                               std::size_t begin, std::size_t end, ParameterRows& projected) {
+                               std::size_t begin, std::size_t end,
+                               CornerWindowKernel::Projected& projected) {
   namespace out = projected_corner_row;
   const auto write_colors = [&](std::size_t i, const WindowCorners& at, const WindowPlane& plane) {
     Floats weights[3], largest = hn::Zero(d);
@@ -62,18 +63,15 @@ struct CornerColor {
   }
 };
 
-void blend_corner_windows_on(const ImageView& view, std::span<const CornerWindowEntry> entries,
-                             std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  blend_entries(view, entries, tile, WindowAlpha{constant(1.0f / view.near)}, pixels,
-                CornerColor{});
-}
+struct CornerWindowLoops : WindowLoops {
+  using Entry = CornerWindowEntry;
+  using ColorOf = CornerColor;
+};
 
-void collect_corner_windows_on(const ImageView& view, std::span<const CornerWindowEntry> entries,
-                               std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                               TileHits& hits) {
-  collect_entries(
-      view, entries, tile, WindowAlpha{constant(1.0f / view.near)},
-      [](std::uint32_t) { return WindowDepth(); }, pixels, hits, CornerColor{});
+const KernelFunctions<CornerWindowKernel>& corner_window_functions() {
+  static constexpr KernelFunctions<CornerWindowKernel> functions{
+      &project_corner_windows_on, &blend_on<CornerWindowLoops>, &collect_on<CornerWindowLoops>};
+  return functions;
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE
@@ -82,26 +80,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tureen::splatting {
 
-HWY_EXPORT(project_corner_windows_on);
-HWY_EXPORT(blend_corner_windows_on);
-HWY_EXPORT(collect_corner_windows_on);
+HWY_EXPORT(corner_window_functions);
 
-void project_corner_windows(const ImageView& view, const ParameterRows& windows,
-                            int harmonics_degree, std::size_t begin, std::size_t end,
-                            ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_corner_windows_on)
-  (view, windows, harmonics_degree, begin, end, projected);
-}
-
-void blend_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
-                          std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  HWY_DYNAMIC_DISPATCH(blend_corner_windows_on)(view, entries, tile, pixels);
-}
-
-void collect_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
-                            std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                            TileHits& hits) {
-  HWY_DYNAMIC_DISPATCH(collect_corner_windows_on)(view, entries, tile, pixels, hits);
+const KernelFunctions<CornerWindowKernel>& CornerWindowKernel::functions() {
+  return HWY_DYNAMIC_DISPATCH(corner_window_functions)();
 }
 
 }  // namespace tureen::splatting

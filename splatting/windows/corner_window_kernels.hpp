@@ -28,18 +28,16 @@ struct alignas(16) CornerWindowEntry : WindowShape {
   float weights[3], red[3], green[3], blue[3];  // as projected_corner_row
 };
 
-/// As project_windows(); `projected` has projected_corner_row::count rows.
-void project_corner_windows(const ImageView& view, const ParameterRows& windows,
-                            int harmonics_degree, std::size_t begin, std::size_t end,
-                            ParameterRows& projected);
-
-/// Blends the entries front to back into the pixels of a tile.
-void blend_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
-                          std::span<const std::uint32_t> tile, TilePixels& pixels);
-
-/// Adds the entries to the hits of a tile (Layer::collect).
-void collect_corner_windows(const ImageView& view, std::span<const CornerWindowEntry> entries,
-                            std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                            TileHits& hits);
+/// See KernelFunctions.
+struct CornerWindowKernel {
+  using Entry = CornerWindowEntry;
+  using Outline = WindowOutline;
+  using Projected = ProjectedRows<projected_corner_row::count, projected_window_row::depth>;
+  static const KernelFunctions<CornerWindowKernel>& functions();
+  static void read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline);
+  static void list(const Entry&, const Outline& outline, std::uint32_t splat, TileLists& lists) {
+    list_window(outline, splat, lists);
+  }
+};
 
 }  // namespace tureen::splatting

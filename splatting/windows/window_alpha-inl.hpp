@@ -79,6 +79,19 @@ struct WindowDepth {
   }
 };
 
+/// The loops of blend_on() and collect_on().
+struct WindowLoops {
+  using Entry = WindowEntry;
+  using ColorOf = OneColor;
+  static HWY_INLINE WindowAlpha alpha_of(const ImageView& view) {
+    return {constant(1.0f / view.near)};
+  }
+  static HWY_INLINE auto depth_of(const ImageView&, const ParameterRows&,
+                                  std::span<const std::uint32_t>) {
+    return [](std::uint32_t) { return WindowDepth(); };
+  }
+};
+
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

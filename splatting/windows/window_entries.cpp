@@ -1,8 +1,10 @@
-#include "splatting/windows/window_entries.hpp"
-
+// Projected windows one by one: their entries for blending, and the tiles that each covers.
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "splatting/windows/corner_window_kernels.hpp"
+#include "splatting/windows/window_kernels.hpp"
 
 namespace tureen::splatting {
 
@@ -65,8 +67,7 @@ void read_shape(const ParameterRows& projected, std::size_t i, WindowShape& entr
 
 }  // namespace
 
-void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entry,
-                WindowOutline& outline) {
+void WindowKernel::read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline) {
   namespace row = projected_window_row;
   const auto value = [&](std::size_t which) { return projected.row(which)[i]; };
   read_shape(projected, i, entry, outline);
@@ -76,8 +77,8 @@ void read_entry(const ParameterRows& projected, std::size_t i, WindowEntry& entr
   entry.reaches_near = std::isnan(outline[0]);
 }
 
-void read_corner_entry(const ParameterRows& projected, std::size_t i, CornerWindowEntry& entry,
-                       WindowOutline& outline) {
+void CornerWindowKernel::read(const Projected& projected, std::size_t i, Entry& entry,
+                              Outline& outline) {
   namespace row = projected_corner_row;
   read_shape(projected, i, entry, outline);
   for (std::size_t k = 0; k < 3; ++k) {

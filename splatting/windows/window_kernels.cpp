@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
 
 void project_windows_on(const ImageView& view, const ParameterRows& windows, int degree,
-                        std::size_t begin, std::size_t end, ParameterRows& projected) {
+                        std::size_t begin, std::size_t end, WindowKernel::Projected& projected) {
   namespace out = projected_window_row;
   const auto write_color = [&](std::size_t i, const WindowCorners& at, const WindowPlane&) {
     const Vector3 color =
@@ -26,17 +26,10 @@ void project_windows_on(const ImageView& view, const ParameterRows& windows, int
   project_shapes(view, windows, begin, end, projected, write_color);
 }
 
-void blend_windows_on(const ImageView& view, std::span<const WindowEntry> entries,
-                      std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  blend_entries(view, entries, tile, WindowAlpha{constant(1.0f / view.near)}, pixels);
-}
-
-void collect_windows_on(const ImageView& view, std::span<const WindowEntry> entries,
-                        std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                        TileHits& hits) {
-  collect_entries(
-      view, entries, tile, WindowAlpha{constant(1.0f / view.near)},
-      [](std::uint32_t) { return WindowDepth(); }, pixels, hits);
+const KernelFunctions<WindowKernel>& window_functions() {
+  static constexpr KernelFunctions<WindowKernel> functions{
+      &project_windows_on, &blend_on<WindowLoops>, &collect_on<WindowLoops>};
+  return functions;
 }
 
 }  // namespace tureen::splatting::HWY_NAMESPACE
@@ -45,24 +38,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tureen::splatting {
 
-HWY_EXPORT(project_windows_on);
-HWY_EXPORT(blend_windows_on);
-HWY_EXPORT(collect_windows_on);
+HWY_EXPORT(window_functions);
 
-void project_windows(const ImageView& view, const ParameterRows& windows, int harmonics_degree,
-                     std::size_t begin, std::size_t end, ParameterRows& projected) {
-  HWY_DYNAMIC_DISPATCH(project_windows_on)(view, windows, harmonics_degree, begin, end, projected);
-}
-
-void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,
-                   std::span<const std::uint32_t> tile, TilePixels& pixels) {
-  HWY_DYNAMIC_DISPATCH(blend_windows_on)(view, entries, tile, pixels);
-}
-
-void collect_windows(const ImageView& view, std::span<const WindowEntry> entries,
-                     std::span<const std::uint32_t> tile, const TilePixels& pixels,
-                     TileHits& hits) {
-  HWY_DYNAMIC_DISPATCH(collect_windows_on)(view, entries, tile, pixels, hits);
+const KernelFunctions<WindowKernel>& WindowKernel::functions() {
+  return HWY_DYNAMIC_DISPATCH(window_functions)();
 }
 
 }  // namespace tureen::splatting

@@ -2,14 +2,13 @@
 // processor, chosen at run time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "splatting/image_view.hpp"
-#include "splatting/layer.hpp"
-#include "splatting/parameter_rows.hpp"
-#include "splatting/tiles/tile_lists.hpp"
+#include "scene/splats.hpp"
+#include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
 
@@ -57,17 +56,26 @@ struct alignas(16) WindowEntry : WindowShape {
   bool reaches_near;  // some part may be nearer than the near plane
 };
 
-/// Projects the windows [begin, end), with `begin` a multiple of row_alignment. `projected` has
-/// projected_window_row::count rows of as many splats.
-void project_windows(const ImageView& view, const ParameterRows& windows, int harmonics_degree,
-                     std::size_t begin, std::size_t end, ParameterRows& projected);
+/// projected_window_row::outline.
+using WindowOutline = std::array<float, 6>;
 
-/// Blends the entries front to back into the pixels of a tile.
-void blend_windows(const ImageView& view, std::span<const WindowEntry> entries,
-                   std::span<const std::uint32_t> tile, TilePixels& pixels);
+/// Adds `splat` to all tiles with a pixel centre in the outline, and to few others.
+void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& lists);
 
-/// Adds the entries to the hits of a tile (Layer::collect).
-void collect_windows(const ImageView& view, std::span<const WindowEntry> entries,
-                     std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits);
+/// See KernelFunctions.
+struct WindowKernel {
+  using Entry = WindowEntry;
+  using Outline = WindowOutline;
+  using Projected = ProjectedRows<projected_window_row::count, projected_window_row::depth>;
+  static const KernelFunctions<WindowKernel>& functions();
+  static void read(const Projected& projected, std::size_t i, Entry& entry, Outline& outline);
+  static void list(const Entry&, const Outline& outline, std::uint32_t splat, TileLists& lists) {
+    list_window(outline, splat, lists);
+  }
+};
+
+/// The rows of window_row, for the windows with these indices and harmonics up to `degree`.
+ParameterRows rows_of(const TriangleWindows& windows, const SplatColor& color,
+                      std::span<const std::uint32_t> which, int degree);
 
 }  // namespace tureen::splatting

@@ -1,12 +1,11 @@
 // The tiles of triangles against the pixel centres inside of them.
-#include "splatting/windows/window_entries.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "splatting/windows/window_kernels.hpp"
 #include "tests/support/random.hpp"
 
 namespace tureen::test {

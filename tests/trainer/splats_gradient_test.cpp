@@ -13,8 +13,7 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/gaussian_reference.hpp"
 #include "tests/trainer/gradient_views.hpp"
-#include "trainer/splats/discs/disc_raster.hpp"
-#include "trainer/splats/gaussians/gaussian_raster.hpp"
+#include "trainer/splats/gaussians/gaussian_method.hpp"
 
 namespace tureen::trainer {
 namespace splats_gradient_test {
@@ -52,11 +51,10 @@ GaussianParameters random_parameters(std::uint64_t seed, std::size_t count, int 
 struct GaussianKernel {
   template <class Real>
   using Reference = test::ReferenceGaussian<Real>;
-  using Raster = GaussianRaster;
+  using Method = GaussianTraining;
+  using Raster = TileRaster<Method>;
   using Moments = GaussianMoments;
   static float& red(Moments& moments) { return moments.red; }
-  static constexpr auto gradients = &gaussian_gradients;
-  static constexpr auto step = &step_gaussians;
   static constexpr bool flat = false;
   static constexpr std::string_view branches = "ncams";
 };
@@ -64,11 +62,10 @@ struct GaussianKernel {
 struct DiscKernel {
   template <class Real>
   using Reference = test::ReferenceDisc<Real>;
-  using Raster = DiscRaster;
+  using Method = DiscTraining;
+  using Raster = TileRaster<Method>;
   using Moments = DiscMoments;
   static float& red(Moments& moments) { return moments.one.color; }
-  static constexpr auto gradients = &disc_gradients;
-  static constexpr auto step = &step_discs;
   static constexpr bool flat = true;
   static constexpr std::string_view branches = "nfamsp";
 };
@@ -118,7 +115,7 @@ std::vector<float> kernel_gradient(const GaussianParameters& parameters, int deg
   raster.forward(parameters, camera(), degree, background, planes);
   const auto input = raster.backward(planes, gradient);
   splatting::ParameterRows rows(parameters.rows(), parameters.count());
-  Kernel::gradients(input, parameters, 0, parameters.count(), rows);
+  Kernel::Method::step_functions().gradients(input, {}, parameters, 0, parameters.count(), rows);
   std::vector<float> result;
   for (std::size_t i = 0; i < parameters.count(); ++i)
     for (std::size_t r = 0; r < parameters.rows(); ++r) result.push_back(rows.row(r)[i]);
@@ -344,7 +341,7 @@ TYPED_TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
                           .min_log_scale = -20,
                           .max_log_scale = 20};
   const decltype(raster.backward({}, {})) damaged{input.view, input.degree, input.pairs, moments};
-  EXPECT_EQ(TypeParam::step(damaged, step, 0, 20, parameters, memory), 1u);
+  EXPECT_EQ(TypeParam::Method::step_functions().step(damaged, step, 0, 20, parameters, memory), 1u);
   for (std::size_t i = 0; i < 20; ++i) {
     if (input.pairs[i].begin == input.pairs[i].end) continue;
     EXPECT_EQ(parameters.trained(row::opacity)[i] == before.trained(row::opacity)[i], i == 7) << i;
@@ -372,8 +369,8 @@ TYPED_TEST(SplatsGradient, HoldsBesideAnInfiniteColor) {
                           .min_log_scale = -20,
                           .max_log_scale = 20};
   const GaussianParameters before = parameters;
-  EXPECT_EQ(TypeParam::step(raster.backward(planes, random_gradient(31)), step, 0, 20, parameters,
-                            memory),
+  EXPECT_EQ(TypeParam::Method::step_functions().step(raster.backward(planes, random_gradient(31)),
+                                                     step, 0, 20, parameters, memory),
             0u);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < 20; ++i) {

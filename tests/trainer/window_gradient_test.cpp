@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/gradient_views.hpp"
 #include "tests/trainer/window_reference.hpp"
-#include "trainer/splats/windows/window_raster.hpp"
+#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
 namespace window_gradient_test {
@@ -93,12 +93,13 @@ std::vector<float> kernel_gradient(const WindowParameters& parameters, int degre
                                    const std::vector<float>& gradient, int threads = 1,
                                    const WindowLoss& loss = {}, const VarianceLoss& variance = {}) {
   ThreadPool pool(threads);
-  WindowRaster raster(pool);
+  TileRaster<WindowTraining> raster(pool);
   std::vector<float> planes(gradient.size());
   raster.forward(parameters, camera(), degree, background, planes, variance.weight > 0);
-  const WindowBackwardInput input = raster.backward(planes, gradient, variance);
+  const BackwardInput<WindowMoments> input = raster.backward(planes, gradient, variance);
   splatting::ParameterRows rows(parameters.rows(), parameters.count());
-  window_gradients(input, loss, parameters, 0, parameters.count(), rows);
+  window_step_functions().gradients(input, {.rates = {}, .loss = loss}, parameters, 0,
+                                    parameters.count(), rows);
   std::vector<float> result;
   for (std::size_t i = 0; i < parameters.count(); ++i)
     for (std::size_t r = 0; r < parameters.rows(); ++r) result.push_back(rows.row(r)[i]);
@@ -187,7 +188,7 @@ TEST(WindowGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {
 TEST(WindowGradient, ImagesOfTheKernelsAreThoseOfTheReference) {
   const WindowParameters parameters = random_parameters(4, 40, 3, 1);
   ThreadPool pool(1);
-  WindowRaster raster(pool);
+  TileRaster<WindowTraining> raster(pool);
   std::vector<float> planes(3 * width * height);
   raster.forward(parameters, camera(), 3, background, planes);
   const std::vector<double> image = image_of(values_of<double>(parameters), parameters, 3);
@@ -516,20 +517,20 @@ TEST(WindowGradient, HasTheSameBitsWithMoreThreads) {
 TEST(WindowGradient, ThatIsNotFiniteIsQuarantined) {
   WindowParameters parameters = random_parameters(31, 20, 1);
   ThreadPool pool(1);
-  WindowRaster raster(pool);
+  TileRaster<WindowTraining> raster(pool);
   std::vector<float> planes(3 * width * height);
   raster.forward(parameters, camera(), 1, background, planes);
-  const WindowBackwardInput input = raster.backward(planes, random_gradient(31));
+  const BackwardInput<WindowMoments> input = raster.backward(planes, random_gradient(31));
   std::vector<WindowMoments> moments(input.moments.begin(), input.moments.end());
   ASSERT_LT(input.pairs[7].begin, input.pairs[7].end);
   moments[input.pairs[7].begin].y.q[1] = std::numeric_limits<float>::quiet_NaN();
   const WindowParameters before = parameters;
   SplatMemory memory(parameters.rows(), parameters.count());
   const WindowStep step{.rates = {1e-3f, 1e-3f, 1e-3f, 1e-3f, 1e-3f}};
-  const WindowBackwardInput damaged{input.view, input.degree, input.pairs, moments};
+  const BackwardInput<WindowMoments> damaged{input.view, input.degree, input.pairs, moments};
   splatting::ParameterRows gradients(parameters.rows(), 20);
-  window_gradients(input, {}, parameters, 0, 20, gradients);
-  EXPECT_EQ(step_windows(damaged, step, 0, 20, parameters, memory), 1u);
+  window_step_functions().gradients(input, step, parameters, 0, 20, gradients);
+  EXPECT_EQ(window_step_functions().step(damaged, step, 0, 20, parameters, memory), 1u);
   int moving = 0;
   for (std::size_t i = 0; i < 20; ++i) {
     // Some windows have a tile, but not the centre of a pixel.

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "splatting/vector_math-inl.hpp"
-#include "trainer/splats/splat_adam.hpp"
 #include "trainer/splats/splat_memory.hpp"
+#include "trainer/splats/splat_step.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trainer/common/stopwatch.hpp"
 #include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/windows/window_method.hpp"
 
@@ -30,16 +29,20 @@ std::uint64_t pixels_of(const std::vector<Photograph>& photographs) {
 }
 
 template <class Method>
-double bytes_a_splat(const SplatConfig& config) {
+double bytes_a_splat_of(const SplatConfig& config) {
   using Parameters = typename Method::Parameters;
-  using Raster = typename Method::Raster;
+  using Moments = typename Method::Moments;
   const double rows = double(Parameters(0, config.degree).rows());
   const double trained =
       sizeof(float) * (3 * rows + double(Parameters::raw_rows + splat_statistic::count));
-  const double drawn = double(Raster::Projected::bytes_a_splat + 2 * sizeof(KeyedIndex) +
-                              sizeof(PairSpan) + sizeof(std::uint32_t));
-  return 2 * trained + drawn +
-         pairs_a_splat * double(sizeof(typename Raster::Moments) + 4 * sizeof(std::uint32_t));
+  const double drawn = double(ProjectedSplats<typename Method::Kernel>::bytes_a_splat +
+                              2 * sizeof(KeyedIndex) + sizeof(PairSpan) + sizeof(std::uint32_t));
+  return 2 * trained + drawn + pairs_a_splat * double(sizeof(Moments) + 4 * sizeof(std::uint32_t));
+}
+
+template <class Config>
+double bytes_a_splat(const Config& config) {
+  return with_training(config, [&]<class Method>() { return bytes_a_splat_of<Method>(config); });
 }
 
 double bytes_without_splats(const Dataset& dataset) {
@@ -52,74 +55,21 @@ double bytes_without_splats(const Dataset& dataset) {
          planes_a_pixel * sizeof(float) * double(largest);
 }
 
-template <class Method>
-std::uint64_t memory_of(const SplatConfig& config, const Dataset& dataset) {
-  return std::uint64_t(bytes_without_splats(dataset) +
-                       bytes_a_splat<Method>(config) * double(config.max_splats));
-}
-
-template <class Method>
-std::optional<std::uint64_t> splats_within(std::uint64_t bytes, const SplatConfig& config,
-                                           const Dataset& dataset) {
-  const double left = double(bytes) - bytes_without_splats(dataset);
-  const double fitting = std::floor(left / bytes_a_splat<Method>(config));
-  if (!(fitting >= double(std::min(min_splats, config.max_splats)))) return std::nullopt;
-  return std::min(config.max_splats, std::uint64_t(fitting));
-}
-
-template <class Method>
-double step_seconds(typename Method::Config probe, std::span<const TrainingView> views,
-                    const Region& region, int threads,
-                    const SplatState<typename Method::Parameters>& state) {
-  constexpr int max_steps = 20;
-  constexpr double enough = 0.5;  // seconds
-  probe.steps = state.step + max_steps + 1;
-  probe.densify_until = 0;
-  probe.half_size_until = 0;
-  SplatTrainer<Method> trainer(probe, views, region, threads, state);
-  trainer.step();  // allocates
-  double seconds = 0;
-  int steps = 0;
-  for (; steps < max_steps && seconds < enough; ++steps) {
-    const Stopwatch watch(seconds);
-    trainer.step();
-  }
-  return seconds / steps;
-}
-
 }  // namespace
 
-std::uint64_t splat_memory(const GaussianConfig& config, const Dataset& dataset) {
-  return with_training(config, [&]<class Method>() { return memory_of<Method>(config, dataset); });
+template <class Config>
+std::uint64_t splat_memory(const Config& config, const Dataset& dataset) {
+  return std::uint64_t(bytes_without_splats(dataset) +
+                       bytes_a_splat(config) * double(config.max_splats));
 }
 
-std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset) {
-  return memory_of<WindowTraining>(config, dataset);
-}
-
-std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
+template <class Config>
+std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Config& config,
                                                const Dataset& dataset) {
-  return with_training(
-      config, [&]<class Method>() { return splats_within<Method>(bytes, config, dataset); });
-}
-
-std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const WindowConfig& config,
-                                               const Dataset& dataset) {
-  return splats_within<WindowTraining>(bytes, config, dataset);
-}
-
-double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
-                             const Region& region, int threads, const GaussianState& state) {
-  return with_training(config, [&]<class Method>() {
-    return step_seconds<Method>(config, views, region, threads, state);
-  });
-}
-
-double measured_step_seconds(const WindowConfig& config, std::span<const TrainingView> views,
-                             const Region& region, int threads, const WindowState& state) {
-  WindowConfig soft = config;
-  soft.opaque = false;  // the schedule of the probe would make the windows opaque
-  return step_seconds<WindowTraining>(soft, views, region, threads, state);
+  const double left = double(bytes) - bytes_without_splats(dataset);
+  const double fitting = std::floor(left / bytes_a_splat(config));
+  if (!(fitting >= double(std::min(min_splats, config.max_splats)))) return std::nullopt;
+  return std::min(config.max_splats, std::uint64_t(fitting));
 }
 
 double remaining_work(const SplatConfig& config, int done) {
@@ -149,5 +99,12 @@ int fitted_steps(const SplatConfig& config, int done, double seconds, double ste
   if (half * steps < done) steps = done + work;
   return int(std::clamp(std::round(steps), double(done) + 1, 1e7));
 }
+
+template std::uint64_t splat_memory(const GaussianConfig&, const Dataset&);
+template std::uint64_t splat_memory(const WindowConfig&, const Dataset&);
+template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const GaussianConfig&,
+                                                        const Dataset&);
+template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const WindowConfig&,
+                                                        const Dataset&);
 
 }  // namespace tureen::trainer

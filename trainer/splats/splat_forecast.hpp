@@ -4,26 +4,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "scene/photographs.hpp"
-#include "scene/region.hpp"
-#include "trainer/common/training_views.hpp"
-#include "trainer/splats/splat_state.hpp"
+#include "trainer/splats/splat_config.hpp"
 
 namespace tureen::trainer {
+
+// Config is GaussianConfig or WindowConfig.
 
 /// Bytes that a run needs at its largest: the program, photographs, parameters with their moments
 /// (twice, while their number grows), lists of tiles, and planes of images. An estimate: lists
 /// depend on the sizes of splats.
-std::uint64_t splat_memory(const GaussianConfig& config, const Dataset& dataset);
-std::uint64_t splat_memory(const WindowConfig& config, const Dataset& dataset);
+template <class Config>
+std::uint64_t splat_memory(const Config& config, const Dataset& dataset);
 
 /// The largest max_splats, at most config.max_splats, with which splat_memory() is at most
 /// `bytes`; nullopt if not even 1,000 splats fit.
-std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const GaussianConfig& config,
-                                               const Dataset& dataset);
-std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const WindowConfig& config,
+template <class Config>
+std::optional<std::uint64_t> max_splats_within(std::uint64_t bytes, const Config& config,
                                                const Dataset& dataset);
 
 /// The work of a step on images with half the width and height, relative to one of full size: a
@@ -37,13 +35,6 @@ double remaining_work(const SplatConfig& config, int done);
 /// The mean time of the steps after the first `done`, over that of a step with `count` splats: the
 /// number grows as fast as it may, and the time of a step in proportion to it. An estimate.
 double growth_of_work(const SplatConfig& config, int done, std::size_t count);
-
-/// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
-/// half a second, or two steps if they take longer. `threads`: 0 for all cores.
-double measured_step_seconds(const GaussianConfig& config, std::span<const TrainingView> views,
-                             const Region& region, int threads, const GaussianState& state);
-double measured_step_seconds(const WindowConfig& config, std::span<const TrainingView> views,
-                             const Region& region, int threads, const WindowState& state);
 
 /// The number of steps, of which `done` are done, whose remaining work takes `seconds` if a step of
 /// full size takes `step_seconds`; at least done + 1, at most 10 million.

@@ -17,9 +17,6 @@
 
 namespace tureen::trainer {
 
-/// The value of the constant spherical harmonic, 1 / (2 sqrt(pi)).
-inline constexpr double constant_harmonic = 0.28209479177387814;
-
 struct ColoredPoint {
   glm::dvec3 position;    // relative to the region's centre
   glm::vec3 color{0.5f};  // display-referred

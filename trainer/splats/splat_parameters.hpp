@@ -1,12 +1,14 @@
 // Values of splats in training, for any kernel: those that are drawn, and those that are trained.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 
+#include "scene/spherical_harmonics.hpp"
 #include "scene/splats.hpp"
 #include "splatting/harmonics_rows.hpp"
 #include "splatting/parameter_rows.hpp"
@@ -45,6 +47,19 @@ struct SplatParameters {
       if (!std::isfinite(trained(row)[splat]) || !std::isfinite(drawn.row(row)[splat]))
         return false;
     return true;
+  }
+
+  /// The first `values`.rows() drawn values become these; other harmonics stay 0.
+  void set_drawn(const splatting::ParameterRows& values) {
+    for (std::size_t row = 0; row < values.rows(); ++row)
+      std::copy_n(values.row(row), count(), drawn.row(row));
+  }
+
+  /// The colour from all directions, display-referred, of a splat without other harmonics.
+  void set_color(std::size_t splat, const glm::vec3& color) {
+    for (int channel = 0; channel < 3; ++channel)
+      trained(Harmonics + std::size_t(channel))[splat] =
+          float((double(color[channel]) - 0.5) / harmonics::y00);
   }
 
   /// The trained values of one splat become those of another one.

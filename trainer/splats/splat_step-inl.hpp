@@ -16,6 +16,7 @@
 #include "trainer/splats/parameter_kinds.hpp"
 #include "trainer/splats/splat_adam-inl.hpp"
 #include "trainer/splats/splat_memory.hpp"
+#include "trainer/splats/splat_step.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
@@ -47,18 +48,21 @@ HWY_INLINE void for_each_row(const SplatGradient<first_harmonic>& gradient, int 
   }
 }
 
-/// Writes the derivatives by all rows; 0 for splats that are not drawn. `gradient_of(i)` computes
-/// those of the splats from `i` on.
-template <class Parameters, class GradientOf>
-HWY_INLINE void write_gradients(const Parameters& parameters, int degree, std::size_t begin,
-                                std::size_t end, splatting::ParameterRows& gradients,
-                                const GradientOf& gradient_of) {
+/// StepFunctions::gradients. `Loops` has the types Moments, Step and Parameters, and
+///   kinds                                     the table of parameters
+///   gradient_of(input, step, parameters, i)   the derivatives of the splats from `i` on
+///   activate(step, i, parameters)             limits their trained values, and computes the drawn
+///                                             ones
+template <class Loops>
+void write_gradients(const BackwardInput<typename Loops::Moments>& input,
+                     const typename Loops::Step& step, const typename Loops::Parameters& parameters,
+                     std::size_t begin, std::size_t end, splatting::ParameterRows& gradients) {
   for (std::size_t r = 0; r < parameters.rows(); ++r)
     std::fill(gradients.row(r) + begin, gradients.row(r) + end, 0.0f);
   for (std::size_t i = begin; i < end; i += lanes) {
-    const auto gradient = gradient_of(i);
+    const auto gradient = Loops::gradient_of(input, step, parameters, i);
     if (hn::AllFalse(d, gradient.drawn)) continue;
-    for_each_row(gradient, degree, [&](std::size_t r, Floats value) {
+    for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
       hn::Store(hn::IfThenElseZero(gradient.drawn, value), d, gradients.row(r) + i);
     });
   }
@@ -72,21 +76,18 @@ HWY_INLINE Mask can_step(const SplatGradient<first_harmonic>& gradient) {
   return result;
 }
 
-/// A step by Adam of the drawn splats, and their statistics. Returns the number of splats that stay
-/// because their derivatives are not finite, or too large to be squared. `step` has the rates of
-/// the kinds, and Adam's constants. `activate(i)` limits the trained values of the splats from `i`
-/// on, and computes the drawn ones.
-template <class Kinds, class Step, class Parameters, class GradientOf, class Activate>
-HWY_INLINE std::size_t step_splats(const Kinds& kinds, const Step& step, int degree,
-                                   std::size_t begin, std::size_t end, Parameters& parameters,
-                                   SplatMemory& memory, const GradientOf& gradient_of,
-                                   const Activate& activate) {
+/// StepFunctions::step, with `Loops` as above.
+template <class Loops>
+std::size_t step_splats(const BackwardInput<typename Loops::Moments>& input,
+                        const typename Loops::Step& step, std::size_t begin, std::size_t end,
+                        typename Loops::Parameters& parameters, SplatMemory& memory) {
   namespace statistic = splat_statistic;
   constexpr std::size_t block = SplatMemory::block;
   constexpr std::size_t max_rows = 64;  // triangle windows of degree 3 have 59
   const std::size_t rows = parameters.rows();
   assert(rows <= max_rows);
   float rates[max_rows];
+  const auto& kinds = Loops::kinds;
   for (std::size_t k = 0; k < kinds.size(); ++k)
     for (std::size_t r = kinds[k].first; r < std::min(kinds[k].first + kinds[k].size, rows); ++r)
       rates[r] = step.rates[k];
@@ -95,7 +96,7 @@ HWY_INLINE std::size_t step_splats(const Kinds& kinds, const Step& step, int deg
     // More rows than the processor recognises as streams. Two blocks ahead.
     if (i + 3 * block <= parameters.drawn.stride() && i % block == 0)
       for (std::size_t r = 0; r < rows; ++r) hwy::Prefetch(parameters.trained(r) + i + 2 * block);
-    const auto gradient = gradient_of(i);
+    const auto gradient = Loops::gradient_of(input, step, parameters, i);
     if (hn::AllFalse(d, gradient.drawn)) continue;
     const Mask steps = hn::And(gradient.drawn, can_step(gradient));
     quarantined += hn::CountTrue(d, hn::AndNot(steps, gradient.drawn));
@@ -111,13 +112,17 @@ HWY_INLINE std::size_t step_splats(const Kinds& kinds, const Step& step, int deg
     add(statistic::evident, gradient.evident);
     const AdamOfSplats adam(step.adam, steps_done, steps);
     SplatMemory::Line* lines = memory.lines_of(i);
-    for_each_row(gradient, degree, [&](std::size_t r, Floats value) {
+    for_each_row(gradient, input.degree, [&](std::size_t r, Floats value) {
       adam(rates[r], value, parameters.trained(r) + i, lines[2 * r].values + i % block);
     });
-    activate(i);
+    Loops::activate(step, i, parameters);
   }
   return quarantined;
 }
+
+template <class Loops>
+constexpr StepFunctions<typename Loops::Moments, typename Loops::Step, typename Loops::Parameters>
+    step_functions{&write_gradients<Loops>, &step_splats<Loops>};
 
 }  // namespace shared
 }  // namespace tureen::trainer::HWY_NAMESPACE

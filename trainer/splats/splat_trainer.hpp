@@ -84,7 +84,7 @@ class SplatTrainer {
     planes_.resize(3 * std::size_t(width) * std::size_t(height));
     gradient_.resize(planes_.size());
     VarianceLoss variance{.ignored = view.ignored};
-    if constexpr (Method::Raster::has_variance)
+    if constexpr (TileRaster<Method>::has_variance)
       variance.weight = Method::variance_weight(config_, parameters());
     raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_,
                     variance.weight > 0);
@@ -179,7 +179,7 @@ class SplatTrainer {
   }
 
   /// Returns the number of splats that are not finite.
-  std::size_t update(const typename Method::Raster::BackwardInput& input) {
+  std::size_t update(const BackwardInput<typename Method::Moments>& input) {
     const double done = double(state_.step) / config_.steps;
     const std::size_t count = parameters().count();
     typename Method::Step step = Method::step_of(config_, region_.half_side, done, count);
@@ -190,7 +190,8 @@ class SplatTrainer {
     step.rates[0] *= float(region_.half_side) * Method::position_rate(parameters());
     std::atomic<std::size_t> quarantined = 0;
     run_in_tasks(pool_, count, [&](std::size_t begin, std::size_t end) {
-      quarantined += Method::step_splats(input, step, begin, end, state_.parameters, state_.memory);
+      quarantined +=
+          Method::step_functions().step(input, step, begin, end, state_.parameters, state_.memory);
     });
     return quarantined;
   }
@@ -200,7 +201,7 @@ class SplatTrainer {
   std::vector<TrainingView> half_views_;
   Region region_;  // its half side is the unit of rates and scales
   ThreadPool pool_;
-  typename Method::Raster raster_;
+  TileRaster<Method> raster_;
   State state_;
   const TrainingView* last_view_ = nullptr;
   std::vector<float> planes_, gradient_;

@@ -113,6 +113,30 @@ class SplatRun final : public Trainable {
   int fits_ = 0;
 };
 
+/// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
+/// half a second, or two steps if they take longer. `threads`: 0 for all cores.
+template <class Method>
+double measured_step_seconds(typename Method::Config probe, std::span<const TrainingView> views,
+                             const Region& region, int threads,
+                             const SplatState<typename Method::Parameters>& state) {
+  constexpr int max_steps = 20;
+  constexpr double enough = 0.5;  // seconds
+  probe.steps = state.step + max_steps + 1;
+  probe.densify_until = 0;
+  probe.half_size_until = 0;
+  // The schedule of the probe would make the windows opaque.
+  if constexpr (requires { probe.opaque; }) probe.opaque = false;
+  SplatTrainer<Method> trainer(probe, views, region, threads, state);
+  trainer.step();  // allocates
+  double seconds = 0;
+  int steps = 0;
+  for (; steps < max_steps && seconds < enough; ++steps) {
+    const Stopwatch watch(seconds);
+    trainer.step();
+  }
+  return seconds / steps;
+}
+
 template <class Method, class Request>
 SplatResult train_by(Dataset& dataset, Request request) {
   typename SplatRun<Method>::Checkpoint run{
@@ -134,7 +158,8 @@ SplatResult train_by(Dataset& dataset, Request request) {
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
   const double step_seconds =
-      overhead * measured_step_seconds(run.config, views, local, request.run.threads, run.state) *
+      overhead *
+      measured_step_seconds<Method>(run.config, views, local, request.run.threads, run.state) *
       growth_of_work(run.config, run.state.step, run.state.parameters.count());
   if (!request.checkpoint && run.config.minutes > 0)
     run.config.steps = fitted_steps(run.config, 0, 60 * run.config.minutes, step_seconds);
@@ -158,14 +183,14 @@ SplatResult train_by(Dataset& dataset, Request request) {
 
 }  // namespace
 
-SplatResult train_splats(Dataset& dataset, GaussianRequest request) {
+template <class Config, class Parameters>
+SplatResult train_splats(Dataset& dataset, SplatRequest<Config, Parameters> request) {
   return with_training(request.config, [&]<class Method>() {
     return train_by<Method>(dataset, std::move(request));
   });
 }
 
-SplatResult train_splats(Dataset& dataset, WindowRequest request) {
-  return train_by<WindowTraining>(dataset, std::move(request));
-}
+template SplatResult train_splats(Dataset&, GaussianRequest);
+template SplatResult train_splats(Dataset&, WindowRequest);
 
 }  // namespace tureen::trainer

@@ -47,7 +47,7 @@ struct SplatResult {
 /// that, a run that resumes has the same bits. Throws the errors of region_of_interest,
 /// initial_splats and run_to_the_end. Asserts that a checkpoint has the views of the dataset; its
 /// configuration must be request.config, except `steps` with minutes.
-SplatResult train_splats(Dataset& dataset, GaussianRequest request);
-SplatResult train_splats(Dataset& dataset, WindowRequest request);
+template <class Config, class Parameters>
+SplatResult train_splats(Dataset& dataset, SplatRequest<Config, Parameters> request);
 
 }  // namespace tureen::trainer

@@ -1,7 +1,8 @@
 // The loops over the splats of a tile in training, for any kernel. Included once for each target of
 // Highway.
 //
-// A kernel is a struct with constants of the view, `view` itself, and
+// A kernel is a struct with constants of the view, `view` itself, made from it and from
+// TileGradient::by_square, and
 //   Entry, Moments
 //   value_of(entry, x, y)     a value at pixels, below the threshold where the entry is not drawn
 //   threshold_of(entry)       the entry covers the pixels whose value is at least this
@@ -10,6 +11,7 @@
 //   values_a_pixel            2 or 4: the layout of PixelValues; for its sums see `columns`
 //   replay(entry, block, values, sums)    blends the entry again (blend_again()), and writes the
 //                             values of the block's pixels, and up to three sums without a factor
+//   sums_squares              whether TileRecord::keeps_squares is supported
 //   moved(entry, line, x, y)  the moments about the entry's (x, y) from those about the middle of
 //                             the tile, `x` and `y` pixels after it.
 #if defined(TUREEN_TILE_LOOPS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -350,14 +352,26 @@ HWY_INLINE Replayed blend_again(const Kernel& kernel, const typename Kernel::Ent
   return blend_again(kernel.view, entry, covered, unlimited, ratio, block, part);
 }
 
-/// Blends the recorded splats of a tile again, for their moments.
+/// TileFunctions::blend_recorded.
 template <class Kernel>
-HWY_INLINE void blend_backward(const Kernel& kernel,
-                               std::span<const typename Kernel::Entry> entries,
-                               std::span<const std::uint32_t> tile,
-                               std::span<const std::uint32_t> numbers, const TileRecord& record,
-                               const TileGradient& gradient, TileScratch& scratch,
-                               std::span<typename Kernel::Moments> moments) {
+void blend_tile_recorded(const ImageView& view, std::span<const typename Kernel::Entry> entries,
+                         std::span<const std::uint32_t> tile, TilePixels& pixels,
+                         TileRecord& record) {
+  const Kernel kernel(view, 0);
+  if constexpr (Kernel::sums_squares)
+    if (record.keeps_squares)
+      return blend_recorded<true>(kernel, view, entries, tile, pixels, record);
+  blend_recorded<false>(kernel, view, entries, tile, pixels, record);
+}
+
+/// TileFunctions::blend_backward: blends the recorded splats again.
+template <class Kernel>
+void blend_tile_backward(const ImageView& view, std::span<const typename Kernel::Entry> entries,
+                         std::span<const std::uint32_t> tile,
+                         std::span<const std::uint32_t> numbers, const TileRecord& record,
+                         const TileGradient& gradient, TileScratch& scratch,
+                         std::span<typename Kernel::Moments> moments) {
+  const Kernel kernel(view, gradient.by_square);
   if (scratch.lines.size() < tile.size()) scratch.lines.resize(tile.size());
   TileLine* lines = scratch.lines.data();
   std::memset(lines, 0, tile.size() * sizeof *lines);
@@ -388,6 +402,10 @@ HWY_INLINE void blend_backward(const Kernel& kernel,
         kernel.moved(entry, lines[k].values, middle_x - entry.x, middle_y - entry.y);
   }
 }
+
+template <class Kernel>
+constexpr TileFunctions<typename Kernel::Entry, typename Kernel::Moments> tile_functions{
+    &blend_tile_recorded<Kernel>, &blend_tile_backward<Kernel>};
 
 }  // namespace tiles
 }  // namespace tureen::trainer::HWY_NAMESPACE

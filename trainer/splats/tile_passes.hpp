@@ -12,8 +12,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "splatting/image_view.hpp"
 #include "splatting/tiles/tile_lists.hpp"
 
 namespace tureen::trainer {
@@ -61,6 +63,21 @@ struct alignas(64) TileLine {
 /// Memory of a tile's backward pass, kept between calls.
 struct TileScratch {
   std::vector<TileLine> lines;
+};
+
+/// The hot loops over a tile, for the vectors of the processor, chosen at run time.
+template <class Entry, class Moments>
+struct TileFunctions {
+  /// splatting::KernelFunctions::blend for a tile without opaque surfaces, with its record.
+  void (*blend_recorded)(const splatting::ImageView& view, std::span<const Entry> entries,
+                         std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
+                         TileRecord& record);
+  /// Writes the moments of each entry of `tile` to moments[numbers[its index]].
+  void (*blend_backward)(const splatting::ImageView& view, std::span<const Entry> entries,
+                         std::span<const std::uint32_t> tile,
+                         std::span<const std::uint32_t> numbers, const TileRecord& record,
+                         const TileGradient& gradient, TileScratch& scratch,
+                         std::span<Moments> moments);
 };
 
 }  // namespace tureen::trainer

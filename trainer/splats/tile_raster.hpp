@@ -21,8 +21,8 @@
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tiles/tile_lists.hpp"
 #include "trainer/common/stopwatch.hpp"
-#include "trainer/splats/splat_memory.hpp"
-#include "trainer/splats/tasks.hpp"
+#include "trainer/splats/projected_splats.hpp"
+#include "trainer/splats/splat_step.hpp"
 #include "trainer/splats/tile_passes.hpp"
 
 namespace tureen::trainer {
@@ -61,15 +61,13 @@ struct VarianceLoss {
   std::span<const std::uint8_t> ignored = {};  // as in ImageLossView
 };
 
-/// `Method` names the types and functions of a kernel, as GaussianMethod and WindowMethod do. Its
-/// Projected holds the projected splats in their order in memory.
+/// `Method`: a method of SplatTrainer, as GaussianTraining. Of it, the types Kernel, Parameters and
+/// Moments, `profile`, tile_functions() and perhaps has_variance are used.
 template <class Method>
 class TileRaster {
  public:
   using Parameters = typename Method::Parameters;
-  using Projected = typename Method::Projected;
   using Moments = typename Method::Moments;
-  using BackwardInput = typename Method::BackwardInput;
   static constexpr std::string_view profile = Method::profile;
   /// Whether the passes of the method sum what a VarianceLoss needs.
   static constexpr bool has_variance = requires { requires Method::has_variance; };
@@ -99,8 +97,8 @@ class TileRaster {
 
   /// After forward() of the same camera and parameters. `planes` are its result, `gradient` the
   /// derivatives of a loss by them. Valid until the next call.
-  BackwardInput backward(std::span<const float> planes, std::span<const float> gradient,
-                         const VarianceLoss& variance = {}) {
+  BackwardInput<Moments> backward(std::span<const float> planes, std::span<const float> gradient,
+                                  const VarianceLoss& variance = {}) {
     assert(variance.weight == 0 || keeps_squares_);
     const Stopwatch watch(times_.backward);
     moments_.resize(lists_.pairs());
@@ -195,7 +193,8 @@ class TileRaster {
       TileRecord& record = kept.records[std::size_t(column)];
       record.blended = blended;
       record.keeps_squares = keeps_squares_;
-      Method::blend_recorded(view_, projected_.entries(), lists_.tile(column, row), pixels, record);
+      Method::tile_functions().blend_recorded(view_, projected_.entries(), lists_.tile(column, row),
+                                              pixels, record);
       blended += record.ends[blocks_a_tile - 1];
       for_each_run(pixels.x, pixels.y, view_.width, view_.height,
                    [&](std::size_t at, std::size_t pixel, std::size_t count) {
@@ -248,16 +247,16 @@ class TileRaster {
                        tile.transmittance[at + i] = 1;
                      }
                    });
-      Method::blend_backward(view_, projected_.entries(), lists_.tile(column, row),
-                             lists_.pair_numbers(column, row), record, tile, kept.scratch,
-                             moments_);
+      Method::tile_functions().blend_backward(view_, projected_.entries(), lists_.tile(column, row),
+                                              lists_.pair_numbers(column, row), record, tile,
+                                              kept.scratch, moments_);
     }
   }
 
   ThreadPool& pool_;
   splatting::ImageView view_{};
   int degree_ = 0;
-  Projected projected_;
+  ProjectedSplats<typename Method::Kernel> projected_;  // in their order in memory
   splatting::DepthOrder order_;
   std::vector<PairSpan> pairs_;        // of each splat
   std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs

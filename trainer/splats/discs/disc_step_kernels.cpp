@@ -24,7 +24,7 @@ using namespace gaussians;
 /// and that of dx dL/dk + dy dL/dl is M = H_y x Q_x - H_x x Q_y. The rows of the disc in view
 /// coordinates, (U, V, C), have the derivatives f_x K, f_y L and -M - f_x s_x K - f_y s_y L, where
 /// s_x and s_y are the slopes of the centre.
-HWY_INLINE Gradient disc_gradient_of(const DiscBackwardInput& input,
+HWY_INLINE Gradient disc_gradient_of(const BackwardInput<DiscMoments>& input,
                                      const GaussianParameters& parameters, std::size_t i) {
   Gradient gradient;
   const auto sums = shared::sums_of_three(input.pairs, input.moments, i);
@@ -87,41 +87,30 @@ HWY_INLINE Gradient disc_gradient_of(const DiscBackwardInput& input,
   return gradient;
 }
 
-void disc_gradients_on(const DiscBackwardInput& input, const GaussianParameters& parameters,
-                       std::size_t begin, std::size_t end, ParameterRows& gradients) {
-  shared::write_gradients(parameters, input.degree, begin, end, gradients,
-                          [&](std::size_t i) { return disc_gradient_of(input, parameters, i); });
-}
+struct DiscLoops : GaussianLoops {
+  using Moments = DiscMoments;
+  static HWY_INLINE Gradient gradient_of(const BackwardInput<Moments>& input, const Step&,
+                                         const Parameters& parameters, std::size_t i) {
+    return disc_gradient_of(input, parameters, i);
+  }
+};
 
-std::size_t step_discs_on(const DiscBackwardInput& input, const GaussianStep& step,
-                          std::size_t begin, std::size_t end, GaussianParameters& parameters,
-                          SplatMemory& memory) {
-  return shared::step_splats(
-      gaussian_parameter_kinds, step, input.degree, begin, end, parameters, memory,
-      [&](std::size_t i) { return disc_gradient_of(input, parameters, i); },
-      [&](std::size_t i) { activate(step, i, parameters); });
+const StepFunctions<DiscMoments, GaussianStep, GaussianParameters>& disc_step_functions_on() {
+  return shared::step_functions<DiscLoops>;
 }
 
 }  // namespace discs
-using discs::disc_gradients_on;
-using discs::step_discs_on;
+using discs::disc_step_functions_on;
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tureen::trainer {
 
-HWY_EXPORT(disc_gradients_on);
-HWY_EXPORT(step_discs_on);
+HWY_EXPORT(disc_step_functions_on);
 
-void disc_gradients(const DiscBackwardInput& input, const GaussianParameters& parameters,
-                    std::size_t begin, std::size_t end, splatting::ParameterRows& gradients) {
-  HWY_DYNAMIC_DISPATCH(disc_gradients_on)(input, parameters, begin, end, gradients);
-}
-
-std::size_t step_discs(const DiscBackwardInput& input, const GaussianStep& step, std::size_t begin,
-                       std::size_t end, GaussianParameters& parameters, SplatMemory& memory) {
-  return HWY_DYNAMIC_DISPATCH(step_discs_on)(input, step, begin, end, parameters, memory);
+const StepFunctions<DiscMoments, GaussianStep, GaussianParameters>& disc_step_functions() {
+  return HWY_DYNAMIC_DISPATCH(disc_step_functions_on)();
 }
 
 }  // namespace tureen::trainer

@@ -22,11 +22,12 @@ struct Discs {
   using Entry = DiscEntry;
   using Moments = DiscMoments;
   static constexpr std::size_t values_a_pixel = 4;
+  static constexpr bool sums_squares = false;
   const ImageView& view;
   DiscConstants constants;
   Floats min_log_alpha;
 
-  explicit Discs(const ImageView& image)
+  Discs(const ImageView& image, float)
       : view(image),
         constants(disc_constants(image)),
         min_log_alpha(constant(std::log2(image.min_alpha))) {}
@@ -69,47 +70,22 @@ struct Discs {
   }
 };
 
-void blend_discs_recorded_on(const ImageView& view, std::span<const DiscEntry> entries,
-                             std::span<const std::uint32_t> tile, TilePixels& pixels,
-                             TileRecord& record) {
-  blend_recorded<false>(Discs(view), view, entries, tile, pixels, record);
-}
-
-void blend_discs_backward_on(const ImageView& view, std::span<const DiscEntry> entries,
-                             std::span<const std::uint32_t> tile,
-                             std::span<const std::uint32_t> numbers, const TileRecord& record,
-                             const TileGradient& gradient, TileScratch& scratch,
-                             std::span<DiscMoments> moments) {
-  blend_backward(Discs(view), entries, tile, numbers, record, gradient, scratch, moments);
+const TileFunctions<DiscEntry, DiscMoments>& disc_tile_functions_on() {
+  return tile_functions<Discs>;
 }
 
 }  // namespace discs
-using discs::blend_discs_backward_on;
-using discs::blend_discs_recorded_on;
+using discs::disc_tile_functions_on;
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tureen::trainer {
 
-HWY_EXPORT(blend_discs_recorded_on);
-HWY_EXPORT(blend_discs_backward_on);
+HWY_EXPORT(disc_tile_functions_on);
 
-void blend_discs_recorded(const splatting::ImageView& view,
-                          std::span<const splatting::DiscEntry> entries,
-                          std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
-                          TileRecord& record) {
-  HWY_DYNAMIC_DISPATCH(blend_discs_recorded_on)(view, entries, tile, pixels, record);
-}
-
-void blend_discs_backward(const splatting::ImageView& view,
-                          std::span<const splatting::DiscEntry> entries,
-                          std::span<const std::uint32_t> tile,
-                          std::span<const std::uint32_t> numbers, const TileRecord& record,
-                          const TileGradient& gradient, TileScratch& scratch,
-                          std::span<DiscMoments> moments) {
-  HWY_DYNAMIC_DISPATCH(blend_discs_backward_on)
-  (view, entries, tile, numbers, record, gradient, scratch, moments);
+const TileFunctions<splatting::DiscEntry, DiscMoments>& disc_tile_functions() {
+  return HWY_DYNAMIC_DISPATCH(disc_tile_functions_on)();
 }
 
 }  // namespace tureen::trainer

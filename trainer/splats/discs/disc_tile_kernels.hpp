@@ -2,9 +2,6 @@
 // chosen at run time.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "splatting/discs/disc_kernels.hpp"
 #include "trainer/splats/tile_passes.hpp"
 
@@ -19,18 +16,6 @@ namespace tureen::trainer {
 /// that of the filter on the screen: `others` are the sums of h x and h y there.
 using DiscMoments = MomentsOfThree;
 
-/// splatting::blend_discs() for a tile without opaque surfaces, with its record.
-void blend_discs_recorded(const splatting::ImageView& view,
-                          std::span<const splatting::DiscEntry> entries,
-                          std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
-                          TileRecord& record);
-
-/// Writes the moments of each entry of `tile` to moments[numbers[its index]].
-void blend_discs_backward(const splatting::ImageView& view,
-                          std::span<const splatting::DiscEntry> entries,
-                          std::span<const std::uint32_t> tile,
-                          std::span<const std::uint32_t> numbers, const TileRecord& record,
-                          const TileGradient& gradient, TileScratch& scratch,
-                          std::span<DiscMoments> moments);
+const TileFunctions<splatting::DiscEntry, DiscMoments>& disc_tile_functions();
 
 }  // namespace tureen::trainer

@@ -40,9 +40,8 @@ void GaussianTraining::put(const GaussianConfig& config, const ColoredPoint& poi
   for (int axis = 0; axis < 3; ++axis) {
     parameters.trained(row::x + std::size_t(axis))[place] = float(point.position[axis]);
     parameters.trained(row::scale_x + std::size_t(axis))[place] = float(std::log(size));
-    parameters.trained(row::harmonics + std::size_t(axis))[place] =
-        float((double(point.color[axis]) - 0.5) / constant_harmonic);
   }
+  parameters.set_color(place, point.color);
   parameters.trained(row::rotation_w)[place] = 1;
   if (config.flat) {
     const glm::dquat rotation(random.rotation());
@@ -61,7 +60,7 @@ Primitives GaussianTraining::primitives(const GaussianConfig& config,
                                         const GaussianParameters& parameters,
                                         std::span<const float>) {
   const float min_alpha = with_training(
-      config, []<class Method>() { return profile_named(Method::Raster::profile)->min_alpha; });
+      config, []<class Method>() { return profile_named(Method::profile)->min_alpha; });
   GaussianParameters kept = parameters;
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t i = 0; i < parameters.count(); ++i)

@@ -8,20 +8,23 @@
 #include <span>
 
 #include "scene/scene.hpp"
-#include "trainer/splats/discs/disc_raster.hpp"
+#include "trainer/splats/discs/disc_step_kernels.hpp"
 #include "trainer/splats/gaussians/gaussian_densify.hpp"
-#include "trainer/splats/gaussians/gaussian_raster.hpp"
+#include "trainer/splats/gaussians/gaussian_step_kernels.hpp"
 #include "trainer/splats/splat_trainer.hpp"
 
 namespace tureen::trainer {
 
 struct GaussianTraining {
   using Config = GaussianConfig;
+  using Kernel = splatting::GaussianKernel;
   using Parameters = GaussianParameters;
-  using Raster = GaussianRaster;
+  using Moments = GaussianMoments;
   using Step = GaussianStep;
+  static constexpr std::string_view profile = "3dgs";
   static constexpr const auto& kinds = gaussian_parameter_kinds;
-  static constexpr auto step_splats = &step_gaussians;
+  static constexpr auto tile_functions = &gaussian_tile_functions;
+  static constexpr auto step_functions = &gaussian_step_functions;
 
   /// The constants of a step after the fraction `done` of the run, without the rates.
   static Step step_of(const Config& config, double half_side, double done, std::size_t count);
@@ -57,8 +60,11 @@ using GaussianTrainer = SplatTrainer<GaussianTraining>;
 /// For GaussianConfig::flat. Discs have the parameters of Gaussians; their third scale stays the
 /// smallest one.
 struct DiscTraining : GaussianTraining {
-  using Raster = DiscRaster;
-  static constexpr auto step_splats = &step_discs;
+  using Kernel = splatting::DiscKernel;
+  using Moments = DiscMoments;
+  static constexpr std::string_view profile = "2dgs";
+  static constexpr auto tile_functions = &disc_tile_functions;
+  static constexpr auto step_functions = &disc_step_functions;
 };
 
 /// Calls act<DiscTraining>() or act<GaussianTraining>(), by config.flat.

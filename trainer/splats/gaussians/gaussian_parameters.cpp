@@ -5,9 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "splatting/gaussians/gaussian_rows.hpp"
-#include "splatting/harmonics_rows.hpp"
-
 namespace tureen::trainer {
 
 namespace row = splatting::gaussian_row;
@@ -28,17 +25,13 @@ GaussianParameters::GaussianParameters(const Gaussians& gaussians, const SplatCo
     : SplatParameters(gaussians.centers.size(), degree_of_harmonics) {
   std::vector<std::uint32_t> all(count());
   std::iota(all.begin(), all.end(), 0u);
-  const splatting::ParameterRows values =
-      splatting::rows_of(gaussians, color, all, std::min(degree, color.degree));
-  const std::size_t stored = row::harmonics + splatting::harmonics_rows(color.degree);
+  set_drawn(splatting::rows_of(gaussians, color, all, std::min(degree, color.degree)));
   for (std::size_t i = 0; i < count(); ++i) {
-    for (std::size_t r = 0; r < std::min(rows(), stored); ++r) drawn.row(r)[i] = values.row(r)[i];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      trained(row::scale_x + axis)[i] =
-          std::log(std::max(values.row(row::scale_x + axis)[i], 1e-30f));
-    for (std::size_t k = 0; k < 4; ++k)
-      trained(row::rotation_x + k)[i] = values.row(row::rotation_x + k)[i];
-    const float opacity = std::clamp(values.row(row::opacity)[i], 0.001f, 0.999f);
+    for (std::size_t r = row::scale_x; r <= row::scale_z; ++r)
+      trained(r)[i] = std::log(std::max(drawn.row(r)[i], 1e-30f));
+    for (std::size_t r = row::rotation_x; r <= row::rotation_w; ++r)
+      trained(r)[i] = drawn.row(r)[i];
+    const float opacity = std::clamp(drawn.row(row::opacity)[i], 0.001f, 0.999f);
     trained(row::opacity)[i] = std::log(opacity / (1 - opacity));
     activate(i);
   }

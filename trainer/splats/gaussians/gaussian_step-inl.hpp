@@ -90,6 +90,16 @@ HWY_INLINE void activate(const GaussianStep& step, std::size_t i, GaussianParame
   store(row::opacity, hn::Div(one, hn::Add(one, exp_of(hn::Neg(logit)))));
 }
 
+/// What write_gradients() and step_splats() need, without Moments and gradient_of().
+struct GaussianLoops {
+  using Step = GaussianStep;
+  using Parameters = GaussianParameters;
+  static constexpr const auto& kinds = gaussian_parameter_kinds;
+  static HWY_INLINE void activate(const Step& step, std::size_t i, Parameters& parameters) {
+    gaussians::activate(step, i, parameters);
+  }
+};
+
 }  // namespace gaussians
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -9,12 +9,11 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
-
-using namespace gaussians;
+namespace gaussians {
 
 /// Through the projection of splatting/gaussian_kernels.cpp. With the covariance S of the image and
 /// the moments about the centre, dL/d(centre) = S^-1 (x, y) and dL/dS = S^-1 M S^-1 / 2.
-HWY_INLINE Gradient gradient_of(const GaussianBackwardInput& input,
+HWY_INLINE Gradient gradient_of(const BackwardInput<GaussianMoments>& input,
                                 const GaussianParameters& parameters, std::size_t i) {
   Gradient gradient;
   const auto sums = shared::pair_sums(input.pairs, input.moments, i);
@@ -116,38 +115,31 @@ HWY_INLINE Gradient gradient_of(const GaussianBackwardInput& input,
   return gradient;
 }
 
-void gradients_on(const GaussianBackwardInput& input, const GaussianParameters& parameters,
-                  std::size_t begin, std::size_t end, ParameterRows& gradients) {
-  shared::write_gradients(parameters, input.degree, begin, end, gradients,
-                          [&](std::size_t i) { return gradient_of(input, parameters, i); });
+struct RoundLoops : GaussianLoops {
+  using Moments = GaussianMoments;
+  static HWY_INLINE Gradient gradient_of(const BackwardInput<Moments>& input, const Step&,
+                                         const Parameters& parameters, std::size_t i) {
+    return gaussians::gradient_of(input, parameters, i);
+  }
+};
+
+const StepFunctions<GaussianMoments, GaussianStep, GaussianParameters>&
+gaussian_step_functions_on() {
+  return shared::step_functions<RoundLoops>;
 }
 
-std::size_t step_on(const GaussianBackwardInput& input, const GaussianStep& step, std::size_t begin,
-                    std::size_t end, GaussianParameters& parameters, SplatMemory& memory) {
-  return shared::step_splats(
-      gaussian_parameter_kinds, step, input.degree, begin, end, parameters, memory,
-      [&](std::size_t i) { return gradient_of(input, parameters, i); },
-      [&](std::size_t i) { activate(step, i, parameters); });
-}
-
+}  // namespace gaussians
+using gaussians::gaussian_step_functions_on;
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tureen::trainer {
 
-HWY_EXPORT(gradients_on);
-HWY_EXPORT(step_on);
+HWY_EXPORT(gaussian_step_functions_on);
 
-void gaussian_gradients(const GaussianBackwardInput& input, const GaussianParameters& parameters,
-                        std::size_t begin, std::size_t end, splatting::ParameterRows& gradients) {
-  HWY_DYNAMIC_DISPATCH(gradients_on)(input, parameters, begin, end, gradients);
-}
-
-std::size_t step_gaussians(const GaussianBackwardInput& input, const GaussianStep& step,
-                           std::size_t begin, std::size_t end, GaussianParameters& parameters,
-                           SplatMemory& memory) {
-  return HWY_DYNAMIC_DISPATCH(step_on)(input, step, begin, end, parameters, memory);
+const StepFunctions<GaussianMoments, GaussianStep, GaussianParameters>& gaussian_step_functions() {
+  return HWY_DYNAMIC_DISPATCH(gaussian_step_functions_on)();
 }
 
 }  // namespace tureen::trainer

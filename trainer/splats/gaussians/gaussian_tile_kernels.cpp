@@ -23,10 +23,11 @@ struct Gaussians {
   using Entry = GaussianEntry;
   using Moments = GaussianMoments;
   static constexpr std::size_t values_a_pixel = 2;
+  static constexpr bool sums_squares = false;
   const ImageView& view;
   Floats min_log_alpha;
 
-  explicit Gaussians(const ImageView& image)
+  Gaussians(const ImageView& image, float)
       : view(image), min_log_alpha(constant(std::log2(image.min_alpha))) {}
 
   HWY_INLINE Floats value_of(const Entry& entry, Floats x, Floats y) const {
@@ -62,46 +63,22 @@ struct Gaussians {
   }
 };
 
-void blend_recorded_on(const ImageView& view, std::span<const GaussianEntry> entries,
-                       std::span<const std::uint32_t> tile, TilePixels& pixels,
-                       TileRecord& record) {
-  blend_recorded<false>(Gaussians(view), view, entries, tile, pixels, record);
-}
-
-void blend_backward_on(const ImageView& view, std::span<const GaussianEntry> entries,
-                       std::span<const std::uint32_t> tile, std::span<const std::uint32_t> numbers,
-                       const TileRecord& record, const TileGradient& gradient, TileScratch& scratch,
-                       std::span<GaussianMoments> moments) {
-  blend_backward(Gaussians(view), entries, tile, numbers, record, gradient, scratch, moments);
+const TileFunctions<GaussianEntry, GaussianMoments>& gaussian_tile_functions_on() {
+  return tile_functions<Gaussians>;
 }
 
 }  // namespace gaussian_tiles
-using gaussian_tiles::blend_backward_on;
-using gaussian_tiles::blend_recorded_on;
+using gaussian_tiles::gaussian_tile_functions_on;
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tureen::trainer {
 
-HWY_EXPORT(blend_recorded_on);
-HWY_EXPORT(blend_backward_on);
+HWY_EXPORT(gaussian_tile_functions_on);
 
-void blend_gaussians_recorded(const splatting::ImageView& view,
-                              std::span<const splatting::GaussianEntry> entries,
-                              std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
-                              TileRecord& record) {
-  HWY_DYNAMIC_DISPATCH(blend_recorded_on)(view, entries, tile, pixels, record);
-}
-
-void blend_gaussians_backward(const splatting::ImageView& view,
-                              std::span<const splatting::GaussianEntry> entries,
-                              std::span<const std::uint32_t> tile,
-                              std::span<const std::uint32_t> numbers, const TileRecord& record,
-                              const TileGradient& gradient, TileScratch& scratch,
-                              std::span<GaussianMoments> moments) {
-  HWY_DYNAMIC_DISPATCH(blend_backward_on)
-  (view, entries, tile, numbers, record, gradient, scratch, moments);
+const TileFunctions<splatting::GaussianEntry, GaussianMoments>& gaussian_tile_functions() {
+  return HWY_DYNAMIC_DISPATCH(gaussian_tile_functions_on)();
 }
 
 }  // namespace tureen::trainer

@@ -2,9 +2,6 @@
 // processor, chosen at run time.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "splatting/gaussians/gaussian_kernels.hpp"
 #include "trainer/splats/tile_passes.hpp"
 
@@ -18,18 +15,6 @@ struct GaussianMoments {
   float evident;  // > 0: evident_weight is reached
 };
 
-/// splatting::blend_gaussians() for a tile without opaque surfaces, with its record.
-void blend_gaussians_recorded(const splatting::ImageView& view,
-                              std::span<const splatting::GaussianEntry> entries,
-                              std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
-                              TileRecord& record);
-
-/// Writes the moments of each entry of `tile` to moments[numbers[its index]].
-void blend_gaussians_backward(const splatting::ImageView& view,
-                              std::span<const splatting::GaussianEntry> entries,
-                              std::span<const std::uint32_t> tile,
-                              std::span<const std::uint32_t> numbers, const TileRecord& record,
-                              const TileGradient& gradient, TileScratch& scratch,
-                              std::span<GaussianMoments> moments);
+const TileFunctions<splatting::GaussianEntry, GaussianMoments>& gaussian_tile_functions();
 
 }  // namespace tureen::trainer

@@ -107,13 +107,11 @@ Primitives WindowTraining::primitives(const WindowConfig& config,
 
 void put_window(const WindowConfig& config, const glm::dvec3 (&corners)[3], const glm::vec3& color,
                 std::size_t place, WindowParameters& parameters) {
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 3; ++axis)
     for (std::size_t k = 0; k < 3; ++k)
       parameters.trained(window_row::corners + 3 * k + std::size_t(axis))[place] =
           float(corners[k][axis]);
-    parameters.trained(window_row::harmonics + std::size_t(axis))[place] =
-        float((double(color[axis]) - 0.5) / constant_harmonic);
-  }
+  parameters.set_color(place, color);
   parameters.trained(window_row::sigma)[place] = WindowParameters::log_of_sigma(config.first_sigma);
   parameters.trained(window_row::opacity)[place] = parameters.logit_of(config.first_opacity);
   parameters.activate(place);

@@ -16,17 +16,21 @@
 #include "scene/scene.hpp"
 #include "trainer/splats/splat_trainer.hpp"
 #include "trainer/splats/windows/window_densify.hpp"
-#include "trainer/splats/windows/window_raster.hpp"
+#include "trainer/splats/windows/window_step_kernels.hpp"
 
 namespace tureen::trainer {
 
 struct WindowTraining {
   using Config = WindowConfig;
+  using Kernel = splatting::WindowKernel;
   using Parameters = WindowParameters;
-  using Raster = WindowRaster;
+  using Moments = WindowMoments;
   using Step = WindowStep;
+  static constexpr std::string_view profile = "triangle-splatting";
+  static constexpr bool has_variance = true;
   static constexpr const auto& kinds = window_parameter_kinds;
-  static constexpr auto step_splats = &step_windows;
+  static constexpr auto tile_functions = &window_tile_functions;
+  static constexpr auto step_functions = &window_step_functions;
 
   /// The constants of a step after the fraction `done` of the run, without the rates.
   static Step step_of(const Config& config, double half_side, double done, std::size_t count);
@@ -75,6 +79,12 @@ struct WindowTraining {
 };
 
 using WindowTrainer = SplatTrainer<WindowTraining>;
+
+/// Calls act<WindowTraining>().
+template <class Act>
+decltype(auto) with_training(const WindowConfig&, const Act& act) {
+  return act.template operator()<WindowTraining>();
+}
 
 /// A window with these corners, first_sigma and first_opacity.
 void put_window(const WindowConfig& config, const glm::dvec3 (&corners)[3], const glm::vec3& color,

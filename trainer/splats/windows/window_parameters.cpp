@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "splatting/harmonics_rows.hpp"
+#include <numeric>
+#include <vector>
 
 namespace tureen::trainer {
 
@@ -24,17 +24,12 @@ const std::array<ParameterKind, 5> window_parameter_kinds = {{
 WindowParameters::WindowParameters(const TriangleWindows& windows, const SplatColor& color,
                                    int degree_of_harmonics)
     : SplatParameters(windows.sigma.size(), degree_of_harmonics) {
-  const auto stored = std::size_t(harmonics::count(color.degree));
-  const auto used = std::min(stored, std::size_t(harmonics::count(degree)));
+  std::vector<std::uint32_t> all(count());
+  std::iota(all.begin(), all.end(), 0u);
+  set_drawn(splatting::rows_of(windows, color, all, std::min(degree, color.degree)));
   for (std::size_t i = 0; i < count(); ++i) {
-    for (std::size_t k = 0; k < 9; ++k)
-      trained(window_row::corners + k)[i] = windows.corners[3 * i + k / 3][int(k % 3)];
     trained(window_row::sigma)[i] = log_of_sigma(windows.sigma[i]);
     trained(window_row::opacity)[i] = logit_of(windows.opacity[i]);
-    for (std::size_t k = 0; k < used; ++k)
-      for (int channel = 0; channel < 3; ++channel)
-        trained(window_row::harmonics + 3 * k + std::size_t(channel))[i] =
-            color.coefficients[stored * i + k][channel];
     activate(i);
   }
 }

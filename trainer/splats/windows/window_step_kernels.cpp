@@ -91,7 +91,7 @@ HWY_INLINE void inverse_area_gradient(const Vector3 (&corner)[3], Vector3 (&by_c
   for (std::size_t k = 0; k < 3; ++k) by_corner[k] = product(cross(normal, edges[k]), factor);
 }
 
-HWY_INLINE Gradient gradient_of(const WindowBackwardInput& input, const WindowLoss& loss,
+HWY_INLINE Gradient gradient_of(const BackwardInput<WindowMoments>& input, const WindowLoss& loss,
                                 const WindowParameters& parameters, std::size_t i) {
   const shared::SumsOfThree moments = shared::sums_of_three(input.pairs, input.moments, i);
   Gradient gradient;
@@ -170,44 +170,36 @@ HWY_INLINE void activate(std::size_t i, WindowParameters& parameters) {
             parameters.drawn.row(row::opacity) + i);
 }
 
-void window_gradients_on(const WindowBackwardInput& input, const WindowLoss& loss,
-                         const WindowParameters& parameters, std::size_t begin, std::size_t end,
-                         ParameterRows& gradients) {
-  shared::write_gradients(parameters, input.degree, begin, end, gradients,
-                          [&](std::size_t i) { return gradient_of(input, loss, parameters, i); });
-}
+struct WindowStepLoops {
+  using Moments = WindowMoments;
+  using Step = WindowStep;
+  using Parameters = WindowParameters;
+  static constexpr const auto& kinds = window_parameter_kinds;
+  static HWY_INLINE Gradient gradient_of(const BackwardInput<Moments>& input, const Step& step,
+                                         const Parameters& parameters, std::size_t i) {
+    return windows::gradient_of(input, step.loss, parameters, i);
+  }
+  static HWY_INLINE void activate(const Step&, std::size_t i, Parameters& parameters) {
+    windows::activate(i, parameters);
+  }
+};
 
-std::size_t step_windows_on(const WindowBackwardInput& input, const WindowStep& step,
-                            std::size_t begin, std::size_t end, WindowParameters& parameters,
-                            SplatMemory& memory) {
-  return shared::step_splats(
-      window_parameter_kinds, step, input.degree, begin, end, parameters, memory,
-      [&](std::size_t i) { return gradient_of(input, step.loss, parameters, i); },
-      [&](std::size_t i) { activate(i, parameters); });
+const StepFunctions<WindowMoments, WindowStep, WindowParameters>& window_step_functions_on() {
+  return shared::step_functions<WindowStepLoops>;
 }
 
 }  // namespace windows
-using windows::step_windows_on;
-using windows::window_gradients_on;
+using windows::window_step_functions_on;
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tureen::trainer {
 
-HWY_EXPORT(window_gradients_on);
-HWY_EXPORT(step_windows_on);
+HWY_EXPORT(window_step_functions_on);
 
-void window_gradients(const WindowBackwardInput& input, const WindowLoss& loss,
-                      const WindowParameters& parameters, std::size_t begin, std::size_t end,
-                      splatting::ParameterRows& gradients) {
-  HWY_DYNAMIC_DISPATCH(window_gradients_on)(input, loss, parameters, begin, end, gradients);
-}
-
-std::size_t step_windows(const WindowBackwardInput& input, const WindowStep& step,
-                         std::size_t begin, std::size_t end, WindowParameters& parameters,
-                         SplatMemory& memory) {
-  return HWY_DYNAMIC_DISPATCH(step_windows_on)(input, step, begin, end, parameters, memory);
+const StepFunctions<WindowMoments, WindowStep, WindowParameters>& window_step_functions() {
+  return HWY_DYNAMIC_DISPATCH(window_step_functions_on)();
 }
 
 }  // namespace tureen::trainer

@@ -22,8 +22,11 @@ struct Windows {
   using Entry = WindowEntry;
   using Moments = WindowMoments;
   static constexpr std::size_t values_a_pixel = 4;
+  static constexpr bool sums_squares = true;
   const ImageView& view;
-  float by_square = 0;  // TileGradient's
+  float by_square;  // TileGradient's
+
+  Windows(const ImageView& image, float square) : view(image), by_square(square) {}
 
   HWY_INLINE Floats value_of(const Entry& entry, Floats x, Floats y) const {
     return visible_rho(entry, WindowAt(entry, x, y));
@@ -89,51 +92,22 @@ struct Windows {
   }
 };
 
-void blend_windows_recorded_on(const ImageView& view, std::span<const WindowEntry> entries,
-                               std::span<const std::uint32_t> tile, TilePixels& pixels,
-                               TileRecord& record) {
-  if (record.keeps_squares)
-    blend_recorded<true>(Windows{view}, view, entries, tile, pixels, record);
-  else
-    blend_recorded<false>(Windows{view}, view, entries, tile, pixels, record);
-}
-
-void blend_windows_backward_on(const ImageView& view, std::span<const WindowEntry> entries,
-                               std::span<const std::uint32_t> tile,
-                               std::span<const std::uint32_t> numbers, const TileRecord& record,
-                               const TileGradient& gradient, TileScratch& scratch,
-                               std::span<WindowMoments> moments) {
-  blend_backward(Windows{view, gradient.by_square}, entries, tile, numbers, record, gradient,
-                 scratch, moments);
+const TileFunctions<WindowEntry, WindowMoments>& window_tile_functions_on() {
+  return tile_functions<Windows>;
 }
 
 }  // namespace windows
-using windows::blend_windows_backward_on;
-using windows::blend_windows_recorded_on;
+using windows::window_tile_functions_on;
 }  // namespace tureen::trainer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tureen::trainer {
 
-HWY_EXPORT(blend_windows_recorded_on);
-HWY_EXPORT(blend_windows_backward_on);
+HWY_EXPORT(window_tile_functions_on);
 
-void blend_windows_recorded(const splatting::ImageView& view,
-                            std::span<const splatting::WindowEntry> entries,
-                            std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
-                            TileRecord& record) {
-  HWY_DYNAMIC_DISPATCH(blend_windows_recorded_on)(view, entries, tile, pixels, record);
-}
-
-void blend_windows_backward(const splatting::ImageView& view,
-                            std::span<const splatting::WindowEntry> entries,
-                            std::span<const std::uint32_t> tile,
-                            std::span<const std::uint32_t> numbers, const TileRecord& record,
-                            const TileGradient& gradient, TileScratch& scratch,
-                            std::span<WindowMoments> moments) {
-  HWY_DYNAMIC_DISPATCH(blend_windows_backward_on)
-  (view, entries, tile, numbers, record, gradient, scratch, moments);
+const TileFunctions<splatting::WindowEntry, WindowMoments>& window_tile_functions() {
+  return HWY_DYNAMIC_DISPATCH(window_tile_functions_on)();
 }
 
 }  // namespace tureen::trainer

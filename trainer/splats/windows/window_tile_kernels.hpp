@@ -2,9 +2,6 @@
 // processor, chosen at run time.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "splatting/windows/window_kernels.hpp"
 #include "trainer/splats/tile_passes.hpp"
 
@@ -23,18 +20,6 @@ using WindowMoments = MomentsOfThree;
 /// derivative has no bound). A random pixel of a triangle is nearer with a probability of 2e-6.
 inline constexpr float min_rho_in_gradient = 1e-6f;
 
-/// splatting::blend_windows() for a tile without opaque surfaces, with its record.
-void blend_windows_recorded(const splatting::ImageView& view,
-                            std::span<const splatting::WindowEntry> entries,
-                            std::span<const std::uint32_t> tile, splatting::TilePixels& pixels,
-                            TileRecord& record);
-
-/// Writes the moments of each entry of `tile` to moments[numbers[its index]].
-void blend_windows_backward(const splatting::ImageView& view,
-                            std::span<const splatting::WindowEntry> entries,
-                            std::span<const std::uint32_t> tile,
-                            std::span<const std::uint32_t> numbers, const TileRecord& record,
-                            const TileGradient& gradient, TileScratch& scratch,
-                            std::span<WindowMoments> moments);
+const TileFunctions<splatting::WindowEntry, WindowMoments>& window_tile_functions();
 
 }  // namespace tureen::trainer

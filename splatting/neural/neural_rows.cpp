@@ -1,8 +1,5 @@
-#include "splatting/neural/neural_layer.hpp"
-
-#include <utility>
-
 #include "splatting/harmonics_rows.hpp"
+#include "splatting/neural/neural_kernels.hpp"
 
 namespace tureen::splatting {
 
@@ -30,37 +27,6 @@ ParameterRows rows_of(const NeuralDensities& densities, const SplatColor& color,
   }
   write_harmonics(color, which, degree, rows, row::harmonics);
   return rows;
-}
-
-NeuralLayer::NeuralLayer(LayerData data)
-    : Layer(std::move(data)), projected_(projected_neural_row::count, count()) {}
-
-std::span<const float> NeuralLayer::project(const ImageView& view) {
-  project_densities(view, data().rows, data().degree, 0, count(), projected_);
-  return {projected_.row(projected_neural_row::depth), count()};
-}
-
-void NeuralLayer::set_order(std::span<const std::uint32_t> splats) {
-  entries_.resize(splats.size());
-  outlines_.resize(splats.size());
-  for (std::size_t place = 0; place < splats.size(); ++place)
-    read_density(projected_, splats[place], entries_[place], outlines_[place]);
-}
-
-void NeuralLayer::list(const ImageView&, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
-                       TileLists& lists) const {
-  for (std::uint32_t place = begin; place < end; ++place)
-    list_density(outlines_[place], tag | place, lists);
-}
-
-void NeuralLayer::blend(const ImageView& view, std::span<const std::uint32_t> splats,
-                        TilePixels& pixels) const {
-  blend_densities(view, entries_, splats, pixels);
-}
-
-void NeuralLayer::collect(const ImageView& view, std::span<const std::uint32_t> splats,
-                          const TilePixels& pixels, TileHits& hits) const {
-  collect_densities(view, entries_, splats, pixels, hits);
 }
 
 }  // namespace tureen::splatting
