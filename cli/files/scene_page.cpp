@@ -13,7 +13,7 @@
 #include "base/input.hpp"
 #include "base/output.hpp"
 #include "base/program_folder.hpp"
-#include "formats/gltf/glb_container.hpp"
+#include "formats/glb/glb_container.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
 namespace tureen::cli {

@@ -30,8 +30,8 @@ class GltfSplatBuilder {
   };
 
   /// Adds a layer for each primitive with splats of meshes[index]; the index is valid. `where` is
-  /// the node's place in errors. Splats are dropped by the rules of formats/splat/splat_values.hpp.
-  /// Throws InputError.
+  /// the node's place in errors. Splats are dropped by the rules of
+  /// formats/common/splat_values.hpp. Throws InputError.
   void add_mesh(int index, const Node& node, const std::string& where);
 
   /// The layers so far, in the order of the nodes. Their splats are in Morton order and have no

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 
 namespace tureen {
 

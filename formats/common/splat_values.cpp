@@ -1,4 +1,4 @@
-#include "formats/splat/splat_values.hpp"
+#include "formats/common/splat_values.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "formats/gltf/glb_container.hpp"
+#include "formats/glb/glb_container.hpp"
 
 #include <bit>
 #include <optional>

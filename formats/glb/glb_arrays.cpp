@@ -1,4 +1,4 @@
-#include "formats/gltf/glb_arrays.hpp"
+#include "formats/glb/glb_arrays.hpp"
 
 #include <algorithm>
 

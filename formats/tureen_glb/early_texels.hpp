@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/file_range.hpp"
+#include "formats/glb/file_range.hpp"
 #include "image/deflated_png.hpp"
 
 namespace tureen {

@@ -15,9 +15,9 @@
 
 #include "base/input.hpp"
 #include "base/json/json_view.hpp"
-#include "formats/file_range.hpp"
-#include "formats/gltf/glb_container.hpp"
-#include "formats/tureen_glb/tureen_glb_layout.hpp"
+#include "formats/glb/component_types.hpp"
+#include "formats/glb/file_range.hpp"
+#include "formats/glb/glb_container.hpp"
 
 namespace tureen {
 
