@@ -12,7 +12,7 @@
 #include "base/html_escape.hpp"
 #include "base/input.hpp"
 #include "base/output.hpp"
-#include "base/program_folder.hpp"
+#include "base/platform/program_folder.hpp"
 #include "formats/glb/glb_container.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 

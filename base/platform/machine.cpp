@@ -1,4 +1,4 @@
-#include "base/machine.hpp"
+#include "base/platform/machine.hpp"
 
 #include <cstdlib>
 #include <fstream>

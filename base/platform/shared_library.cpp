@@ -1,9 +1,12 @@
+#include "base/platform/shared_library.hpp"
+
 #include <dlfcn.h>
 
-#include "base/error.hpp"
-#include "runtime/gl/platform.hpp"
+#include <string>
 
-namespace tureen::gl {
+#include "base/error.hpp"
+
+namespace tureen {
 
 SharedLibrary::SharedLibrary(const char* name)
     : name_(name), handle_(dlopen(name, RTLD_LAZY | RTLD_LOCAL)) {
@@ -19,4 +22,4 @@ void* SharedLibrary::symbol(const char* name) const {
   return address;
 }
 
-}  // namespace tureen::gl
+}  // namespace tureen
