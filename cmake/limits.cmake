@@ -9,7 +9,6 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(limits
-  "files viewer 49: today"
   "files tests/cli 44: today"
   "files tests/fuzz 43: today, one file per reader"
   "files tests/golden 60: images, not sources"

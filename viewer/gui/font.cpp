@@ -1,11 +1,9 @@
-#include "viewer/font.hpp"
+#include "viewer/gui/font.hpp"
 
 #include <imgui/imgui.h>
 #include <stb/stb_truetype.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/input.hpp"
+#include "base/platform/process.hpp"
 
 namespace tureen::viewer {
 
@@ -46,25 +45,10 @@ const std::vector<FontFiles>& known_fonts() {
   return fonts;
 }
 
-/// The first line that a command prints; empty if it fails or does not exist.
-std::string first_line_of([[maybe_unused]] const char* command) {
-#if defined(__unix__)
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command, "r"), &::pclose);
-  char line[4096];
-  if (!pipe || !std::fgets(line, sizeof line, pipe.get())) return {};
-  std::string result = line;
-  while (!result.empty() && result.back() == '\n') result.pop_back();
-  return result;
-#else
-  return {};
-#endif
-}
-
 /// Fontconfig's default font, if the machine has fontconfig's programs.
 FontFiles fontconfig_font() {
-  return {first_line_of("fc-match -f '%{file}\\n' sans-serif:fontformat=TrueType 2>/dev/null"),
-          first_line_of("fc-match -f '%{file}\\n' sans-serif:bold:fontformat=TrueType "
-                        "2>/dev/null")};
+  return {output_of("fc-match", {"-f", "%{file}", "sans-serif:fontformat=TrueType"}),
+          output_of("fc-match", {"-f", "%{file}", "sans-serif:bold:fontformat=TrueType"})};
 }
 
 /// Height of a line, in em squares; nullopt if the file is missing or has no usable font. Dear

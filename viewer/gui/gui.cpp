@@ -1,4 +1,4 @@
-#include "viewer/gui.hpp"
+#include "viewer/gui/gui.hpp"
 
 #include <imgui/imgui.h>
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <type_traits>
 
-#include "viewer/font.hpp"
-#include "viewer/gui_drawing.hpp"
-#include "viewer/theme.hpp"
+#include "viewer/gui/font.hpp"
+#include "viewer/gui/gui_drawing.hpp"
+#include "viewer/gui/theme.hpp"
 
 namespace tureen::viewer {
 

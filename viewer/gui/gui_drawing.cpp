@@ -1,4 +1,4 @@
-#include "viewer/gui_drawing.hpp"
+#include "viewer/gui/gui_drawing.hpp"
 
 #include <imgui/imgui.h>
 

@@ -1,11 +1,11 @@
-#include "viewer/theme.hpp"
+#include "viewer/gui/theme.hpp"
 
 #include <imgui/imgui.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "viewer/panels/colors.hpp"
+#include "viewer/gui/colors.hpp"
 
 namespace tureen::viewer {
 

@@ -6,10 +6,10 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
-#include "viewer/font.hpp"
+#include "viewer/gui/font.hpp"
+#include "viewer/gui/theme.hpp"
+#include "viewer/gui/window.hpp"
 #include "viewer/input/event.hpp"
-#include "viewer/theme.hpp"
-#include "viewer/window.hpp"
 
 struct ImGuiContext;
 struct ImDrawData;

@@ -1,4 +1,4 @@
-#include "viewer/window.hpp"
+#include "viewer/gui/window.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -1,4 +1,4 @@
-#include "viewer/input/shortcuts.hpp"
+#include "viewer/shortcuts.hpp"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "viewer/files/writing.hpp"
+#include "viewer/writing.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/texture.hpp"
+#include "viewer/gui/texture.hpp"
 
 #include <cstdint>
 
