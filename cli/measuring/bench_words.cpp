@@ -1,4 +1,4 @@
-#include "cli/bench/bench_words.hpp"
+#include "cli/measuring/bench_words.hpp"
 
 #include <fmt/format.h>
 

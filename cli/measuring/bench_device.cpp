@@ -1,4 +1,4 @@
-#include "cli/bench/bench_device.hpp"
+#include "cli/measuring/bench_device.hpp"
 
 #include "base/error.hpp"
 #include "jobs/timing/benchmark.hpp"

@@ -1,4 +1,4 @@
-#include "cli/bench/bench_views.hpp"
+#include "cli/measuring/bench_views.hpp"
 
 #include <algorithm>
 #include <filesystem>
