@@ -6,10 +6,7 @@
 #include <utility>
 
 #include "base/output_path.hpp"
-
-#ifndef _WIN32
-#include <fcntl.h>
-#endif
+#include "base/platform/system.hpp"
 
 namespace tureen {
 
@@ -17,16 +14,6 @@ namespace {
 
 std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
-}
-
-/// Swaps two existing names atomically. Returns false and changes nothing if the system cannot.
-bool swap_names([[maybe_unused]] const std::filesystem::path& a,
-                [[maybe_unused]] const std::filesystem::path& b) {
-#ifdef RENAME_EXCHANGE
-  return renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
-#else
-  return false;
-#endif
 }
 
 }  // namespace

@@ -4,32 +4,11 @@
 #include <string>
 
 #include "base/error.hpp"
-
-#ifdef _WIN32
-#include <io.h>
-#include <process.h>
-#define getpid _getpid
-#else
-#include <fcntl.h>
-#include <unistd.h>
-#endif
+#include "base/platform/system.hpp"
 
 namespace tureen {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-bool may_write(const fs::path& path) {
-#ifdef _WIN32
-  return _waccess(path.c_str(), 2) == 0;
-#else
-  // AT_EACCESS checks the effective user, as opening a file does.
-  return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
-#endif
-}
-
-}  // namespace
 
 fs::path followed(const fs::path& path) {
   constexpr int max_links = 40;  // Linux's limit per path
@@ -69,7 +48,7 @@ fs::path writable_folder(const fs::path& path) {
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
   fs::path name = path;
-  name += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+  name += ".tmp" + std::to_string(process_id()) + "-" + std::to_string(counter++);
   return name;
 }
 

@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "cli/bench/bench_device.hpp"
 #include "cli/bench/bench_reports.hpp"
 #include "cli/bench/bench_table.hpp"
-#include "cli/bench/bench_views.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/measuring/bench_device.hpp"
+#include "cli/measuring/bench_views.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/bench_case_options.hpp"
 #include "cli/options/memory_option.hpp"

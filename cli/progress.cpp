@@ -5,14 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#ifdef _WIN32
-#include <io.h>
-#define isatty _isatty
-#define fileno _fileno
-#else
-#include <unistd.h>
-#endif
-
+#include "base/platform/system.hpp"
 #include "base/shown_text.hpp"
 #include "cli/interrupt.hpp"
 
@@ -28,7 +21,7 @@ int percent(double fraction) { return int(std::clamp(fraction, 0.0, 1.0) * 100);
 }  // namespace
 
 Progress::Output Progress::standard_error() {
-  return {.stream = stderr, .terminal = isatty(fileno(stderr)) != 0, .seconds = [] {
+  return {.stream = stderr, .terminal = is_terminal(stderr), .seconds = [] {
             const auto now = std::chrono::steady_clock::now().time_since_epoch();
             return std::chrono::duration<double>(now).count();
           }};

@@ -1,19 +1,16 @@
 // `tureen report`: results as one page, in the browser or in a file.
-#include <spawn.h>
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <memory>
+#include <system_error>
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "base/output.hpp"
+#include "base/platform/process.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/report_results.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/report.hpp"
-
-extern char** environ;
 
 namespace tureen::cli {
 
@@ -47,18 +44,17 @@ fs::path page_in_cache() {
 /// Returns whether the browser opened the page.
 bool open_in_browser(const std::string& page) {
 #ifdef __APPLE__
-  std::string program = "open";
+  const char* program = "open";
 #else
   // Without a display, xdg-open would start a text browser in the terminal.
   if (!set_variable("DISPLAY") && !set_variable("WAYLAND_DISPLAY")) return false;
-  std::string program = "xdg-open";
+  const char* program = "xdg-open";
 #endif
-  std::string argument = page;
-  char* arguments[] = {program.data(), argument.data(), nullptr};
-  pid_t process = 0;
-  int status = 0;
-  return posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) == 0 &&
-         waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  try {
+    return Process(program, {page}, {}).wait() == 0;
+  } catch (const std::system_error&) {
+    return false;
+  }
 }
 
 ExitCode report(const ReportOptions& options) {

@@ -1,84 +1,246 @@
-# Checks which module includes headers from which (diagram: ARCHITECTURE.md). A module is a folder in
-# the list below. A file belongs to the module with the longest matching path. Every build runs:
+# Checks which module includes files of which (diagram: ARCHITECTURE.md): C++ headers, GLSL includes
+# and imports of TypeScript and JavaScript. Every build runs:
 #   cmake -DROOT=<repository> -DSTAMP=<file> -P cmake/arrows.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Each line has a module and the modules that it may include; "scene" contains scene/edit.
+# Each line has the paths of a module, and the modules that it may include, which stand on earlier
+# lines: so there are no circles. A path is a folder, a file, or a file with any extension. A file
+# belongs to the module with the longest matching path; "scene" contains scene/edit. The name of a
+# module is its first path; "formats/*" means formats and all modules in it.
 set(arrows
   "base:"
   "image: base"
   "scene: base image"
   "camera: base image scene"
-  "formats: base image scene"
+
+  "formats/read_options.hpp: scene"
+  "formats/common: base scene formats/read_options.hpp"
+  "formats/archive: base formats/common"
+  "formats/glb: base formats/common"
+  "formats/ply: base formats/read_options.hpp formats/common"
+  "formats/dataset: base image scene formats/read_options.hpp formats/common formats/ply"
+  "formats/diffsoup: base image scene formats/read_options.hpp formats/common formats/ply"
+  "formats/gltf: base image scene formats/read_options.hpp formats/common formats/glb"
+  "formats/mesh: base image scene formats/read_options.hpp formats/common formats/ply"
+  "formats/splat: base image scene formats/read_options.hpp formats/common formats/archive formats/ply"
+  "formats/torch: base image scene formats/read_options.hpp formats/common formats/archive"
+  "formats/tureen_glb: base image scene formats/read_options.hpp formats/common formats/glb"
+  "formats: base image scene formats/*"
+
   "oracle: base image scene"
-  "splatting: base image scene"
+
+  "splatting/tiles/tile_lists.*: base scene"
+  "splatting: base image scene splatting/tiles/tile_lists.*"
+  "splatting/tiles: base image scene splatting splatting/tiles/tile_lists.*"
+  "splatting/gaussians: scene splatting splatting/tiles splatting/tiles/tile_lists.*"
+  # To go: discs use the Gaussians' rows of harmonics.
+  "splatting/discs: scene splatting splatting/tiles splatting/tiles/tile_lists.* splatting/gaussians"
+  "splatting/neural: scene splatting splatting/tiles splatting/tiles/tile_lists.*"
+  "splatting/windows: scene splatting splatting/tiles splatting/tiles/tile_lists.*"
+  "splatting/layer.cpp: base scene splatting/*"
+
   "shaders:"
+  "shaders/splats: shaders"
+  "shaders/debug_views: shaders"
+
   "runtime/gl: base"
   "runtime/plan: base image scene splatting"
   "runtime/passes: base image scene shaders runtime/gl runtime/plan"
-  "runtime/splats: base image scene splatting shaders runtime/gl runtime/plan runtime/passes"
-  "runtime: base image scene splatting runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views"
-  "runtime/debug_views: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
+  "runtime/splats: base image scene splatting/* shaders runtime/gl runtime/plan runtime/passes"
+  "runtime: base image scene splatting/* runtime/gl runtime/plan runtime/passes runtime/splats"
+  "runtime/debug_views: base image scene runtime/*"
+
   "trainer/common: base image scene"
-  "trainer/diffsoup: base image scene trainer/common trainer/splats"
-  "trainer/splats: base image scene splatting trainer/common"
+  "trainer/splats: base scene splatting/* trainer/common"
+  "trainer/splats/gaussians: base scene splatting/* trainer/common trainer/splats"
+  # To go: discs are stepped as Gaussians.
+  "trainer/splats/discs: base scene splatting/* trainer/common trainer/splats trainer/splats/gaussians"
+  "trainer/splats/windows: base scene splatting/* trainer/common trainer/splats"
+  # A state and its trainer know all kernels; the methods of training derive from the trainer.
+  "trainer/splats/splat_state.* trainer/splats/splat_start.hpp trainer/splats/splat_initialise.hpp trainer/splats/splat_trainer.*: base scene splatting/* trainer/common trainer/splats/*"
+  "trainer/splats/gaussians/gaussian_method.* trainer/splats/windows/window_method.*: base scene splatting/* trainer/common trainer/splats/*"
+  "trainer/splats/splat_initialise.cpp trainer/splats/splat_forecast.* trainer/splats/splat_training.*: base scene splatting/* trainer/common trainer/splats/*"
+  # To go: the first Gaussians of a soup.
+  "trainer/diffsoup: base image scene trainer/common trainer/splats/*"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
-  "jobs/tradeoff: base image scene oracle splatting runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/eval jobs/timing jobs/visibility"
-  "jobs/training: base image scene runtime/gl jobs/eval jobs/results trainer/common trainer/diffsoup trainer/splats"
-  "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
+  "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/eval jobs/timing jobs/visibility"
+  "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
   "jobs/results: base scene runtime/plan jobs/bench jobs/eval jobs/timing jobs/tradeoff"
-  "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views trainer/common jobs/baseline jobs/timing"
-  "web: base image scene splatting camera formats runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing")
+  "jobs/training: base image scene runtime/gl jobs/eval jobs/results trainer/*"
 
+  "viewer/input: base scene camera"
+  "viewer/gui: base image scene runtime/gl runtime/passes viewer/input"
+  "viewer/files: base scene formats/* trainer/common viewer/input viewer/gui"
+  "viewer: base image scene camera formats/* runtime/* trainer/common jobs/baseline jobs/timing viewer/*"
+  "viewer/panels: base image scene camera formats/* runtime/plan trainer/common viewer viewer/files viewer/gui viewer/input"
+
+  "web/engine: base image scene splatting/* camera formats/* runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing"
+  "web/viewer:"
+  "web/package: web/viewer"
+  "web/page: web/viewer"
+  "web/page/sections: web/viewer web/page"
+  "web/page/viewer_page.ts web/page/page.ts web/page/single_file.ts: web/viewer web/page web/page/sections"
+  # To go: the page of benchmarks uses elements and messages of the viewer's page.
+  "web/bench: web/viewer web/page"
+  "web/report:"
+
+  "cli/exit_code.hpp cli/interrupt.* cli/progress.* cli/report.* cli/table.* cli/version.*: base scene jobs/results"
+  "cli/options: base image scene camera formats/* runtime/* jobs/* cli/exit_code.hpp"
+  "cli/files: base image scene formats/* runtime/* trainer/common jobs/* cli/exit_code.hpp cli/options"
+  "cli/measuring: base scene camera runtime/gl jobs/* cli/exit_code.hpp cli/options"
+  "cli/bench: base scene jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"
+  "cli/tradeoff: base scene camera formats/* runtime/gl jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"
+  "cli: base image scene camera formats/* runtime/* trainer/* jobs/* cli/*")
+
+set(wrong "")
 set(modules "")
 set(folders "")
 foreach(line IN LISTS arrows)
-  string(REGEX MATCH "^[^:]+" module "${line}")
-  string(REGEX REPLACE "^[^:]+: *" "" allowed "${line}")
-  string(REPLACE " " ";" allowed "${allowed}")
+  string(REGEX MATCH "^([^:]+): *(.*)$" line "${line}")
+  string(REPLACE " " ";" paths "${CMAKE_MATCH_1}")
+  string(REPLACE " " ";" names "${CMAKE_MATCH_2}")
+  list(GET paths 0 module)
+  set(allowed_${module} "")
+  foreach(name IN LISTS names)
+    set(meant ${name})
+    if(name MATCHES "^(.*)/[*]$")
+      set(meant ${modules})
+      list(FILTER meant INCLUDE REGEX "^${CMAKE_MATCH_1}(/|$)")
+    elseif(NOT name IN_LIST modules)
+      string(APPEND wrong "\n  ${module} names ${name}, which stands on no earlier line")
+    endif()
+    list(APPEND allowed_${module} ${meant})
+  endforeach()
   list(APPEND modules ${module})
-  string(REGEX MATCH "^[^/]+" folder "${module}")
-  list(APPEND folders ${folder})
-  set(allowed_${module} ${allowed})
+  foreach(path IN LISTS paths)
+    set(module_at_${path} ${module})
+    string(REGEX MATCH "^(web/)?[^/]+" folder "${path}")
+    list(APPEND folders ${folder})
+  endforeach()
 endforeach()
 list(REMOVE_DUPLICATES folders)
-# In descending order, so that runtime/gl is found before runtime.
-list(SORT modules ORDER DESCENDING)
 
 # module_of(PATH OUT): sets OUT to the module of PATH, or to "".
 function(module_of path out)
-  foreach(module IN LISTS modules)
-    string(FIND "${path}" "${module}/" at)
-    if(at EQUAL 0)
-      set(${out} ${module} PARENT_SCOPE)
-      return()
-    endif()
-  endforeach()
-  set(${out} "" PARENT_SCOPE)
+  string(REGEX REPLACE "[.][^/.]*$" ".*" any "${path}")
+  if(NOT DEFINED module_at_${path} AND DEFINED module_at_${any})
+    set(path "${any}")
+  endif()
+  while(NOT DEFINED module_at_${path} AND path MATCHES "^(.*)/[^/]*$")
+    set(path "${CMAKE_MATCH_1}")
+  endwhile()
+  set(${out} "${module_at_${path}}" PARENT_SCOPE)
 endfunction()
 
-set(wrong "")
+# check(SOURCE FILE): adds to `wrong` unless SOURCE may include FILE.
+function(check source file)
+  module_of(${source} from)
+  module_of(${file} to)
+  if(NOT to STREQUAL from AND NOT to IN_LIST allowed_${from})
+    list(JOIN allowed_${from} ", " allowed)
+    set(wrong "${wrong}\n  ${source} includes ${file}; ${from} may include ${allowed}" PARENT_SCOPE)
+  endif()
+endfunction()
+
+set(scripts "")
+set(shaders "")
 foreach(folder IN LISTS folders)
   file(GLOB_RECURSE sources RELATIVE "${ROOT}"
     "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp" "${ROOT}/${folder}/*.cu*")
   foreach(source IN LISTS sources)
-    module_of(${source} from)
-    file(STRINGS "${ROOT}/${source}" lines REGEX "^#include \"")
+    file(STRINGS "${ROOT}/${source}" lines REGEX "^#include [\"<]")
     foreach(line IN LISTS lines)
-      string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" header "${line}")
-      module_of(${header} to)
-      if(NOT EXISTS "${ROOT}/${header}" OR to STREQUAL from OR to IN_LIST allowed_${from})
-        continue()
+      if(NOT source MATCHES "^base/platform/" AND line MATCHES "<(sys/.*|dlfcn|fcntl|poll|spawn|unistd)[.]h>")
+        string(APPEND wrong "\n  ${source} includes <${CMAKE_MATCH_1}.h>; only base/platform/ may")
+      elseif(line MATCHES "^#include \"([^\"]*)\"")
+        if(EXISTS "${ROOT}/${CMAKE_MATCH_1}")
+          check(${source} ${CMAKE_MATCH_1})
+        endif()
       endif()
-      list(JOIN allowed_${from} ", " allowed)
-      string(APPEND wrong "\n  ${source} includes ${header}; ${from}/ may include ${allowed}")
     endforeach()
   endforeach()
+  file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${folder}/*.glsl" "${ROOT}/${folder}/*.frag"
+    "${ROOT}/${folder}/*.vert" "${ROOT}/${folder}/*.comp")
+  list(APPEND shaders ${sources})
+  file(GLOB_RECURSE sources RELATIVE "${ROOT}"
+    "${ROOT}/${folder}/*.ts" "${ROOT}/${folder}/*.js" "${ROOT}/${folder}/*.mjs")
+  list(FILTER sources EXCLUDE REGEX "/node_modules/")
+  list(APPEND scripts ${sources})
 endforeach()
+
+# A shader includes others by their names, and some that the program writes.
+foreach(source IN LISTS shaders)
+  get_filename_component(name ${source} NAME)
+  set(shader_${name} ${source})
+endforeach()
+foreach(source IN LISTS shaders)
+  file(STRINGS "${ROOT}/${source}" lines REGEX "^#include \"")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" name "${line}")
+    if(DEFINED shader_${name})
+      check(${source} ${shader_${name}})
+      list(APPEND included_${source} ${shader_${name}})
+    endif()
+  endforeach()
+endforeach()
+
+# An import names the script that TypeScript's compiler makes of a file.
+foreach(source IN LISTS scripts)
+  get_filename_component(folder ${source} DIRECTORY)
+  file(READ "${ROOT}/${source}" text)
+  string(REGEX MATCHALL "(from |import |import\\()'\\.[^']*'" imports "${text}")
+  foreach(import IN LISTS imports)
+    string(REGEX REPLACE ".*'(.*)'" "\\1" file "${import}")
+    get_filename_component(file "${folder}/${file}" ABSOLUTE BASE_DIR "/")
+    string(REGEX REPLACE "^/" "" file "${file}")
+    string(REGEX REPLACE "\\.js$" ".ts" typed "${file}")
+    if(typed IN_LIST scripts)
+      set(file ${typed})
+    endif()
+    if(file IN_LIST scripts)
+      check(${source} ${file})
+      list(APPEND included_${source} ${file})
+    endif()
+  endforeach()
+endforeach()
+
+# Circles of shaders or scripts: what remains after all files are removed that include no remaining
+# file, or that none includes.
+set(left "${shaders};${scripts}")
+set(before "")
+while(NOT left STREQUAL before)
+  set(before "${left}")
+  foreach(source IN LISTS before)
+    set(includes ${included_${source}})
+    list(FILTER includes INCLUDE REGEX ".")
+    foreach(file IN LISTS includes)
+      if(NOT file IN_LIST left)
+        list(REMOVE_ITEM includes ${file})
+      endif()
+    endforeach()
+    if(NOT includes)
+      list(REMOVE_ITEM left ${source})
+    endif()
+  endforeach()
+  set(used "")
+  foreach(source IN LISTS left)
+    list(APPEND used ${included_${source}})
+  endforeach()
+  foreach(source IN LISTS before)
+    if(NOT source IN_LIST used)
+      list(REMOVE_ITEM left ${source})
+    endif()
+  endforeach()
+endwhile()
+if(left)
+  list(JOIN left ", " left)
+  string(APPEND wrong "\n  these include each other in a circle: ${left}")
+endif()
+
 if(wrong)
   message(FATAL_ERROR "Arrows between modules that cmake/arrows.cmake does not list:${wrong}")
 endif()

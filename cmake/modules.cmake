@@ -2,9 +2,10 @@
 # before compiling.
 file(GLOB_RECURSE checked_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
   base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp splatting/*.?pp
-  runtime/*.?pp trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp web/engine/*.?pp)
+  runtime/*.?pp trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp cli/*.?pp shaders/* web/engine/*.?pp
+  web/viewer/* web/page/* web/bench/* web/package/* web/report/*)
 file(GLOB_RECURSE measured_by_limits CONFIGURE_DEPENDS LIST_DIRECTORIES false
-  README.md docs/* cli/* examples/* shaders/* cmake/* tests/* web/viewer/* web/page/* web/bench/* web/report/*)
+  README.md docs/* cli/* examples/* cmake/* tests/*)
 foreach(check arrows limits)
   set(stamp "${PROJECT_BINARY_DIR}/${check}.stamp")
   add_custom_command(

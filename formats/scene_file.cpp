@@ -8,6 +8,7 @@
 #include "base/input.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/gltf/gltf.hpp"
+#include "formats/gltf_file.hpp"
 #include "formats/mesh/mobilenerf.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/stray_content.hpp"

@@ -10,14 +10,10 @@
 #include <span>
 #include <string>
 
+#include "formats/common/preview_size.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
-
-struct PreviewSize {
-  std::uint64_t bytes = 0;  // leading bytes of the file; 0 if there is no (further) preview
-  bool has_splats = false;  // otherwise it shows a soup
-};
 
 /// The size of the next preview, after one of `shown` bytes (0: none yet). Returns nullopt until
 /// `prefix`, the available first bytes, determines it. Errors print `name` as the file. Throws

@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "base/platform/process.hpp"
 #include "image/image.hpp"
 
 namespace tureen {
@@ -51,8 +52,6 @@ class VideoFile {
 
  private:
   void start();
-  void send(const std::vector<std::uint8_t>& bytes);
-  int wait();
   [[noreturn]] void fail();
 
   struct Close {
@@ -61,9 +60,8 @@ class VideoFile {
   std::filesystem::path path_, target_, temporary_;  // target_: path_ with links resolved
   Format format_;
   std::unique_ptr<std::FILE, Close> complaints_;  // stderr of ffmpeg; unnamed file
-  int input_ = -1;                                // our end of its stdin
-  int process_ = -1;
-  std::vector<std::uint8_t> bytes_;  // one frame
+  std::optional<Process> process_;                // ffmpeg, after start()
+  std::vector<std::uint8_t> bytes_;               // one frame
 };
 
 }  // namespace tureen

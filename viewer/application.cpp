@@ -12,8 +12,8 @@
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/targets.hpp"
-#include "viewer/input/shortcuts.hpp"
 #include "viewer/panels.hpp"
+#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 

@@ -14,11 +14,11 @@
 #include "viewer/files/file_watch.hpp"
 #include "viewer/files/session.hpp"
 #include "viewer/frame_clock.hpp"
-#include "viewer/gui.hpp"
+#include "viewer/gui/gui.hpp"
+#include "viewer/gui/window.hpp"
 #include "viewer/input/double_click.hpp"
 #include "viewer/input/navigation_input.hpp"
 #include "viewer/state.hpp"
-#include "viewer/window.hpp"
 #include "viewer/worker.hpp"
 
 namespace tureen::viewer {

@@ -8,10 +8,10 @@
 #include "formats/dataset/camera_file.hpp"
 #include "runtime/passes/accumulation.hpp"
 #include "viewer/application.hpp"
-#include "viewer/files/writing.hpp"
 #include "viewer/names.hpp"
 #include "viewer/page_command.hpp"
 #include "viewer/render_command.hpp"
+#include "viewer/writing.hpp"
 
 namespace tureen::viewer {
 

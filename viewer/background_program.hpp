@@ -11,35 +11,36 @@
 #include <string>
 #include <vector>
 
+#include "base/platform/process.hpp"
+
 namespace tureen::viewer {
 
 class BackgroundProgram {
  public:
   /// `program`: a path, or a name that is searched on PATH. Its standard output is discarded.
-  /// Throws OutputError with the program if it cannot be started; on Windows always.
+  /// Throws OutputError with the program if it cannot be started.
   BackgroundProgram(std::string program, const std::vector<std::string>& arguments);
 
   /// Whether it has ended.
-  bool ended();
+  bool ended() { return process_->ended(); }
   /// Interrupts it and the programs that it has started, as Ctrl-C in a terminal does. Returns
   /// whether it was still running.
-  bool interrupt();
+  bool interrupt() { return process_->interrupt(); }
   /// Interrupts it and waits for its end. After `patience` terminates it, after the same time again
   /// kills it.
-  void end(std::chrono::milliseconds patience = std::chrono::seconds(5));
+  void end(std::chrono::milliseconds patience = std::chrono::seconds(5)) {
+    process_->end(patience);
+  }
   /// The last line of its errors, if it has ended with an exit code other than 0.
   std::optional<std::string> failure();
 
  private:
-  /// To its group. Returns false after its end.
-  bool send(int signal);
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::string program_;
   std::unique_ptr<std::FILE, Close> errors_;  // a file without a name
-  int process_ = 0;
-  std::optional<int> exit_code_;
+  std::optional<Process> process_;            // never empty
 };
 
 /// Runs a program that writes `output` to its end. Calls `check` 20 times a second; if it throws,

@@ -7,7 +7,7 @@
 #include "image/image.hpp"
 #include "image/metrics.hpp"
 #include "scene/camera.hpp"
-#include "viewer/texture.hpp"
+#include "viewer/gui/texture.hpp"
 
 namespace tureen::viewer {
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "viewer/window.hpp"
+#include "viewer/gui/window.hpp"
 
 namespace tureen::viewer {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/bench/bench_words.hpp"
+#include "cli/measuring/bench_words.hpp"
 #include "cli/table.hpp"
 #include "jobs/results/comparison_json.hpp"
 

@@ -10,8 +10,8 @@
 #include "base/input.hpp"
 #include "base/output.hpp"
 #include "cli/bench/bench_comparison.hpp"
-#include "cli/bench/bench_words.hpp"
 #include "cli/files/result_files.hpp"
+#include "cli/measuring/bench_words.hpp"
 #include "cli/options/output_argument.hpp"
 #include "jobs/results/comparison_json.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "cli/bench/bench_words.hpp"
+#include "cli/measuring/bench_words.hpp"
 #include "cli/table.hpp"
 #include "scene/scene.hpp"
 

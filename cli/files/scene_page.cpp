@@ -12,8 +12,8 @@
 #include "base/html_escape.hpp"
 #include "base/input.hpp"
 #include "base/output.hpp"
-#include "base/program_folder.hpp"
-#include "formats/gltf/glb_container.hpp"
+#include "base/platform/program_folder.hpp"
+#include "formats/glb/glb_container.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
 namespace tureen::cli {

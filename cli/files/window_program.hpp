@@ -8,8 +8,8 @@
 
 namespace tureen::cli {
 
-/// Replaces this process by the window program; on Windows, runs it and returns its exit code.
-/// Throws UsageError if it is not found, and OutputError if it cannot be started.
+/// Replaces this process by the window program. Throws UsageError if it is not found, and
+/// OutputError if it cannot be started.
 ExitCode become_window(const std::vector<std::string>& arguments);
 
 /// Starts the window program and does not wait for it. It prints only errors. Throws the same.

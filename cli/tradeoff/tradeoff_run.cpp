@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "cli/bench/bench_device.hpp"
+#include "cli/measuring/bench_device.hpp"
 #include "cli/progress.hpp"
 #include "cli/tradeoff/tradeoff_views.hpp"
 #include "cli/version.hpp"

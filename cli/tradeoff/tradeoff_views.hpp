@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/bench/bench_views.hpp"
+#include "cli/measuring/bench_views.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen::cli {

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "base/existing_path.hpp"
+#include "formats/common/uri.hpp"
 #include "formats/dataset/bundler.hpp"
 #include "formats/dataset/colmap.hpp"
 #include "formats/dataset/photograph.hpp"
 #include "formats/dataset/transforms_dataset.hpp"
-#include "formats/gltf/uri.hpp"
 #include "image/png.hpp"
 
 namespace tureen {

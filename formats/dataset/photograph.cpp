@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "base/decimal.hpp"
-#include "formats/gltf/uri.hpp"
+#include "formats/common/uri.hpp"
 #include "image/box_scale.hpp"
 #include "image/png.hpp"
 

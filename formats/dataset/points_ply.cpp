@@ -7,7 +7,7 @@
 
 #include "formats/ply/ply_header.hpp"
 #include "formats/ply/ply_values.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 
 namespace tureen {
 

@@ -5,11 +5,11 @@
 
 #include "base/input.hpp"
 #include "base/json/json_file.hpp"
+#include "formats/common/uri.hpp"
 #include "formats/dataset/camera_json.hpp"
 #include "formats/dataset/colmap.hpp"
 #include "formats/dataset/points_ply.hpp"
 #include "formats/dataset/transforms_json.hpp"
-#include "formats/gltf/uri.hpp"
 
 namespace tureen {
 

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 

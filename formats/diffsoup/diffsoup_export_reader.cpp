@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "base/json/json_file.hpp"
+#include "formats/common/uri.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/diffsoup/diffsoup_mesh.hpp"
-#include "formats/gltf/uri.hpp"
 #include "image/png.hpp"
 #include "scene/lattice.hpp"
 

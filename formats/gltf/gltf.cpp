@@ -11,7 +11,6 @@
 
 #include "formats/gltf/gltf_soup.hpp"
 #include "formats/gltf/gltf_splats.hpp"
-#include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -219,17 +218,6 @@ class Importer {
   std::vector<Camera> cameras_;
 };
 
-GlbContainer read_json_file(Input& input) {
-  const auto bytes = input.read_rest();
-  if (!is_gltf(bytes))
-    input.fail_at(
-        0, "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\"");
-  GlbContainer glb;
-  glb.json = parse_json(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
-                        input.name(), 0, input.budget());
-  return glb;
-}
-
 }  // namespace
 
 bool is_gltf(std::span<const std::byte> head) {
@@ -241,23 +229,22 @@ bool is_gltf(std::span<const std::byte> head) {
          text.find("\"asset\"") != std::string_view::npos;
 }
 
-Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
-  Input input = Input::open(path);
-  return read_gltf_or_glb(input, path.parent_path(), options);
+GlbContainer read_gltf_json(Input& input) {
+  const auto bytes = input.read_rest();
+  if (!is_gltf(bytes))
+    input.fail_at(
+        0, "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\"");
+  GlbContainer glb;
+  glb.json = parse_json(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                        input.name(), 0, input.budget());
+  return glb;
 }
 
-Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
-                       const ReadOptions& options) {
-  const bool binary = is_glb(input);
-  GlbContainer glb = binary ? read_glb_container(input) : read_json_file(input);
-  if (binary && is_tureen_glb(glb)) return read_tureen_glb(input, glb, options);
-  const bool ours = is_tureen_glb(glb);
+Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
+                const ReadOptions& options) {
   GltfDocument document(input, std::move(glb), folder);
   Scene scene = Importer(document, options).scene();
   scene.info.name = std::filesystem::path(input.name()).stem().string();
-  if (ours)
-    scene.info.remarks.push_back(
-        {.kind = Remark::Kind::mean_colors_shown, .names = {tureen_extension}});
   return scene;
 }
 

@@ -1,7 +1,6 @@
-// glTF 2.0, .gltf and .glb: the entry point for our own files (formats/tureen_glb/tureen_glb.hpp)
-// and the reader of foreign files.
+// Foreign glTF 2.0. Of our own files, it reads what any viewer shows.
 //
-// Supported in foreign files: triangles, strips and fans in all nodes of the scene, indexed or not,
+// Supported: triangles, strips and fans in all nodes of the scene, indexed or not,
 // any component type, normalised, quantised (KHR_mesh_quantization) or sparse. Also vertex colours
 // (COLOR_0); the base colour's factor and texture with its sampler, KHR_texture_transform and alpha
 // mode; perspective cameras. Materials are drawn unlit, with or without KHR_materials_unlit, since
@@ -21,23 +20,25 @@
 #include <span>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
+
+struct GlbContainer;
 
 /// Whether a file with these first bytes may be glTF: the magic of a GLB, or a JSON object with an
 /// early "asset".
 bool is_gltf(std::span<const std::byte> head);
 
-/// Reads a .gltf, or a .glb of ours or of others, detected by content. All triangles of a foreign
-/// file are one soup, the first layer; a file with splats only has no such layer. The soup has
-/// VertexColors if no material has a texture, otherwise UvTextures. Throws InputError; its reason
-/// begins with the place in the JSON, as in "accessors[3]: ..".
-Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options = {});
+/// The JSON of a .gltf file, without a binary chunk. Throws InputError.
+GlbContainer read_gltf_json(Input& input);
 
-/// The same for bytes from any source; files that they name lie in `folder`.
-Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
-                       const ReadOptions& options = {});
+/// Reads the scene of a .gltf or .glb. All triangles are one soup, the first layer; a file with
+/// splats only has no such layer. The soup has VertexColors if no material has a texture, otherwise
+/// UvTextures. Files that the document names lie in `folder`. Throws InputError; its reason begins
+/// with the place in the JSON, as in "accessors[3]: ..".
+Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
+                const ReadOptions& options);
 
 }  // namespace tureen

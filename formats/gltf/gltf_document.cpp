@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/json/json_limits.hpp"
-#include "formats/gltf/uri.hpp"
+#include "formats/common/uri.hpp"
 #include "image/png.hpp"
 
 namespace tureen {

@@ -14,7 +14,7 @@
 
 #include "base/input.hpp"
 #include "base/json/json_view.hpp"
-#include "formats/gltf/glb_container.hpp"
+#include "formats/glb/glb_container.hpp"
 #include "formats/gltf/tinygltf.hpp"
 #include "image/image.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "formats/gltf/gltf_document.hpp"
 #include "formats/gltf/gltf_material.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/remark.hpp"
 #include "scene/triangle_soup.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "formats/common/splat_values.hpp"
 #include "formats/gltf/gltf_accessor.hpp"
-#include "formats/splat/splat_values.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_edits.hpp"
 #include "scene/spherical_harmonics.hpp"

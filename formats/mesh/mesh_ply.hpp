@@ -17,7 +17,7 @@
 
 #include "base/input.hpp"
 #include "formats/ply/ply_header.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

@@ -12,7 +12,7 @@
 
 #include "base/extension.hpp"
 #include "base/json/json_file.hpp"
-#include "formats/gltf/uri.hpp"
+#include "formats/common/uri.hpp"
 #include "formats/mesh/obj.hpp"
 #include "image/png.hpp"
 

@@ -10,8 +10,9 @@
 
 #include <filesystem>
 
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/color_mlp.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 

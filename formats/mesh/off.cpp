@@ -9,8 +9,8 @@
 #include "base/decimal.hpp"
 #include "base/output.hpp"
 #include "base/text_scanner.hpp"
+#include "formats/common/progress_meter.hpp"
 #include "formats/mesh/plain_mesh.hpp"
-#include "formats/progress_meter.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {

@@ -9,8 +9,8 @@
 
 #include "base/input.hpp"
 #include "base/text_scanner.hpp"
+#include "formats/common/progress_meter.hpp"
 #include "formats/ply/ply_header.hpp"
-#include "formats/progress_meter.hpp"
 
 namespace tureen {
 

@@ -11,7 +11,7 @@
 
 #include "base/little_endian.hpp"
 #include "formats/archive/npy_array.hpp"
-#include "formats/progress_meter.hpp"
+#include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

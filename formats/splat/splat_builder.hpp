@@ -9,8 +9,8 @@
 #include <string>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
-#include "formats/splat/splat_values.hpp"
+#include "formats/common/splat_values.hpp"
+#include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

@@ -1,8 +1,8 @@
 #include <array>
 #include <optional>
 
+#include "formats/common/splat_activation.hpp"
 #include "formats/ply/ply_values.hpp"
-#include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "formats/splat/splat_ply_layout.hpp"
 

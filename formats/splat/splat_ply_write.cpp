@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "base/output.hpp"
+#include "formats/common/splat_activation.hpp"
 #include "formats/ply/ply_bytes.hpp"
-#include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "scene/edit/baked_transform.hpp"

@@ -5,7 +5,7 @@
 
 #include "base/extension.hpp"
 #include "base/little_endian.hpp"
-#include "formats/progress_meter.hpp"
+#include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

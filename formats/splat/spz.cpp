@@ -14,7 +14,7 @@
 
 #include "base/little_endian.hpp"
 #include "formats/archive/inflater.hpp"
-#include "formats/progress_meter.hpp"
+#include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "scene/spherical_harmonics.hpp"
 

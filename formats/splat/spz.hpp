@@ -25,7 +25,7 @@
 #include <span>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

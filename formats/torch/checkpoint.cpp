@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "formats/splat/splat_activation.hpp"
+#include "formats/common/splat_activation.hpp"
 #include "formats/torch/torch_archive.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_edits.hpp"

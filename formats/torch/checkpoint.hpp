@@ -12,7 +12,8 @@
 #include <span>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 

@@ -9,6 +9,7 @@
 
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
+#include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {

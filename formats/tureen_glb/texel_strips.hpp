@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "formats/early_texels.hpp"
-#include "formats/gltf/glb_arrays.hpp"
+#include "formats/glb/glb_arrays.hpp"
+#include "formats/tureen_glb/early_texels.hpp"
 #include "image/image.hpp"
 
 namespace tureen {

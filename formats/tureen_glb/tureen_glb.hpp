@@ -2,7 +2,7 @@
 // scene exactly. Any glTF viewer opens it. Compressed files have the same extension, but store a
 // scene with losses, and only Tureen reads them. docs/format.md specifies every byte.
 //
-// Not supported: foreign glTF, which formats/gltf/gltf.hpp reads (it is the entry point for both),
+// Not supported: foreign glTF, which formats/gltf/gltf.hpp reads (formats/gltf_file.hpp chooses),
 // and files above 4 GiB, the limit of GLB.
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "formats/scene_file.hpp"
+#include "formats/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

@@ -2,6 +2,7 @@
 
 #include "base/json/json_vector.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "image/png.hpp"
 
 namespace tureen {

@@ -2,7 +2,7 @@
 // and triangles. The full reader and the preview share it. Include it only in sources.
 #pragma once
 
-#include "formats/gltf/glb_arrays.hpp"
+#include "formats/glb/glb_arrays.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

@@ -4,13 +4,9 @@
 
 #include <cstdint>
 
-namespace tureen::glb_layout {
+#include "formats/glb/component_types.hpp"
 
-// glTF component types.
-inline constexpr int unsigned_byte = 5121;
-inline constexpr int unsigned_short = 5123;
-inline constexpr int unsigned_int = 5125;
-inline constexpr int float32 = 5126;
+namespace tureen::glb_layout {
 
 /// The glTF extension by which a node, and so a layer, is hidden. Ratified by Khronos.
 inline constexpr const char visibility_extension[] = "KHR_node_visibility";

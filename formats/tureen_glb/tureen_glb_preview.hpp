@@ -17,7 +17,7 @@
 #include <span>
 #include <string>
 
-#include "formats/scene_preview.hpp"
+#include "formats/common/preview_size.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {

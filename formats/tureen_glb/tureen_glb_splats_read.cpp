@@ -1,7 +1,8 @@
 #include <algorithm>
 
-#include "formats/gltf/glb_arrays.hpp"
+#include "formats/glb/glb_arrays.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
 #include "scene/edit/splat_edits.hpp"
 #include "scene/edit/splat_limit.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/machine.hpp"
+#include "base/platform/machine.hpp"
 #include "jobs/timing/frame_statistics.hpp"
 #include "jobs/timing/pass_times_gap.hpp"
 #include "runtime/plan/specialisation.hpp"

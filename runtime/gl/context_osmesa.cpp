@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/platform/shared_library.hpp"
 #include "runtime/gl/platform.hpp"
 
 namespace tureen::gl {

@@ -8,7 +8,7 @@
 #include "base/output.hpp"
 #include "cli/bench/bench_comparison.hpp"
 #include "cli/bench/bench_reports.hpp"
-#include "cli/bench/bench_words.hpp"
+#include "cli/measuring/bench_words.hpp"
 #include "jobs/results/bench_json.hpp"
 #include "jobs/results/comparison_json.hpp"
 #include "tests/formats/format_testing.hpp"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/bench/bench_words.hpp"
+#include "cli/measuring/bench_words.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "formats/gltf/uri.hpp"
+#include "formats/common/uri.hpp"
 #include "formats/scene_file.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/support/errors.hpp"

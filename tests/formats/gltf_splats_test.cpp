@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output.hpp"
-#include "formats/gltf/gltf.hpp"
+#include "formats/gltf_file.hpp"
 #include "formats/scene_file.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "tests/formats/format_testing.hpp"

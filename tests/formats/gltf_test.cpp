@@ -1,8 +1,6 @@
 // Foreign glTF: small files made here, each for one feature, then hostile files and a real one. The
 // file is long because each sentence of the glTF specification that the reader relies on has its
 // own test.
-#include "formats/gltf/gltf.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output.hpp"
+#include "formats/gltf_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
 #include "image/srgb.hpp"

@@ -1,4 +1,4 @@
-#include "formats/gltf/uri.hpp"
+#include "formats/common/uri.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // A .glb or .gltf, by this program in all its kinds, or by others.
-#include "formats/gltf/gltf.hpp"
-
+#include "formats/gltf_file.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {

@@ -1,6 +1,6 @@
 // The first bytes of a file, while it arrives.
-#include "formats/early_texels.hpp"
 #include "formats/scene_preview.hpp"
+#include "formats/tureen_glb/early_texels.hpp"
 #include "tests/fuzz/scratch.hpp"
 #include "tests/support/inflated.hpp"
 

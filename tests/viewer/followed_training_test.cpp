@@ -1,4 +1,4 @@
-#include "viewer/followed_training.hpp"
+#include "viewer/files/followed_training.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

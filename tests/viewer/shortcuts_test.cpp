@@ -1,5 +1,5 @@
 // Keys and what they change.
-#include "viewer/input/shortcuts.hpp"
+#include "viewer/shortcuts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The window has the colours of the page.
-#include "viewer/theme.hpp"
+#include "viewer/gui/theme.hpp"
 
 #include <gtest/gtest.h>
 

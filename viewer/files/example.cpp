@@ -1,6 +1,6 @@
 #include "viewer/files/example.hpp"
 
-#include "base/program_folder.hpp"
+#include "base/platform/program_folder.hpp"
 
 namespace tureen::viewer {
 

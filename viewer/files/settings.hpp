@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/theme.hpp"
+#include "viewer/gui/theme.hpp"
 
 namespace tureen::viewer {
 

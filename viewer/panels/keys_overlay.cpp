@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "viewer/input/shortcuts.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 

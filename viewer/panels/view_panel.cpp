@@ -3,9 +3,9 @@
 #include <iterator>
 
 #include "viewer/axes.hpp"
-#include "viewer/input/shortcuts.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 

@@ -14,7 +14,8 @@ constexpr float label_width = 6.2f;
 
 ImVec4 style_color(ImGuiCol which) { return ImGui::GetStyleColorVec4(which); }
 
-/// `index`: in the order of add_fonts() (viewer/font.hpp). Dear ImGui's own font is the only one.
+/// `index`: in the order of add_fonts() (viewer/gui/font.hpp). Dear ImGui's own font is the only
+/// one.
 void push_font(int index) {
   const ImVector<ImFont*>& fonts = ImGui::GetIO().Fonts->Fonts;
   ImGui::PushFont(fonts[index < fonts.Size ? index : 0]);

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "image/heat_map.hpp"
-#include "viewer/panels/colors.hpp"
+#include "viewer/gui/colors.hpp"
 
 namespace tureen::viewer {
 

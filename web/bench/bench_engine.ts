@@ -2,12 +2,12 @@
 // `tureen bench` (web/engine/bench.cpp). It draws with the viewer's pipeline.
 
 import { ArrivingScene } from '../viewer/arriving_scene.js';
-import { assetsAt, type Assets } from '../viewer/assets.js';
+import { assetsAt } from '../viewer/assets.js';
 import { compile, Engine } from '../viewer/engine.js';
 import type { PreparedScene, SceneDescription } from '../viewer/loader_messages.js';
 import { isShortage, Loading } from '../viewer/loading.js';
 import { openFiles, readWith } from '../viewer/scene_files.js';
-import { ViewerError, type LoadProgress, type SceneFile } from '../viewer/types.js';
+import { ViewerError, type Assets, type LoadProgress, type SceneFile } from '../viewer/types.js';
 import { setName, type CameraChoice, type Size } from './request.js';
 
 export interface Device {

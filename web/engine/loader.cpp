@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "camera/up_axis.hpp"
-#include "formats/early_texels.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/scene_preview.hpp"
+#include "formats/tureen_glb/early_texels.hpp"
 #include "runtime/debug_views/debug_view.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/render_options.hpp"

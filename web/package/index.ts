@@ -3,5 +3,4 @@
 export { createViewer } from '../viewer/viewer.js';
 export { attachControls } from '../viewer/controls.js';
 export { maxLayers, namedViews, ViewerError } from '../viewer/types.js';
-export type { Assets } from '../viewer/assets.js';
 export type * from '../viewer/types.js';

@@ -1,4 +1,4 @@
-// Keys of the page: the same as in the desktop window (viewer/input/shortcuts.cpp), unless browsers use
+// Keys of the page: the same as in the desktop window (viewer/shortcuts.cpp), unless browsers use
 // them. Keys that move the view belong to the canvas (viewer/controls.ts) and have priority.
 
 import { block, byId, input, make, takesText } from './dom.js';

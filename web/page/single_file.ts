@@ -1,8 +1,7 @@
 // The page as one file that opens from the disk. It contains the engine, the worker and the scene from
 // `tureen convert SCENE page.html` as base64, and fetches nothing.
 
-import type { Assets } from '../viewer/assets.js';
-import type { SceneSource } from '../viewer/types.js';
+import type { Assets, SceneSource } from '../viewer/types.js';
 import { openViewerPage } from './viewer_page.js';
 
 /** Characters per call of atob: a multiple of four, because four characters are three bytes. */

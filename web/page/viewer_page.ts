@@ -1,8 +1,7 @@
 // The page: creates a viewer on the canvas, and the controls around it.
 
 import { urlOf } from '../viewer/addresses.js';
-import type { Assets } from '../viewer/assets.js';
-import { namedViews, ViewerError, type SceneSource, type Viewer } from '../viewer/types.js';
+import { namedViews, ViewerError, type Assets, type SceneSource, type Viewer } from '../viewer/types.js';
 import { createViewer } from '../viewer/viewer.js';
 import { AddressBar } from './address_bar.js';
 import { block, byId, make } from './dom.js';

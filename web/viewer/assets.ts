@@ -1,13 +1,6 @@
 // The files that the viewer needs besides its script: the engine, and the worker that loads scenes.
 
-import { ViewerError } from './types.js';
-
-export interface Assets {
-  /** The bytes of tureen.wasm. */
-  wasm(): Promise<ArrayBuffer>;
-  /** A new worker that runs the loader. Rejects with ViewerError if its script cannot be fetched. */
-  loaderWorker(): Promise<Worker>;
-}
+import { ViewerError, type Assets } from './types.js';
 
 async function fetched(url: URL): Promise<Response> {
   const response = await fetch(url).catch(() => null);

@@ -1,4 +1,4 @@
-// Decodes a soup's texels while their file arrives (formats/early_texels.hpp). A second worker inflates them, because
+// Decodes a soup's texels while their file arrives (formats/tureen_glb/early_texels.hpp). A second worker inflates them, because
 // the loader must receive the file; when the file is there, both do.
 
 import type { Engine } from './engine.js';

@@ -2,8 +2,7 @@
 // A page has one instance for drawing. Each load has another in a worker, which frees all its memory.
 
 import createTureen, { type TureenModule } from 'tureen-engine';
-import type { Assets } from './assets.js';
-import { ViewerError } from './types.js';
+import { ViewerError, type Assets } from './types.js';
 
 type Failure = { readonly kind: ViewerError['kind']; readonly message: string };
 

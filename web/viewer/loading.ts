@@ -1,9 +1,8 @@
 // One running load: its worker and the worker's messages.
 
 import { fileNameOf, urlOf } from './addresses.js';
-import type { Assets } from './assets.js';
 import type { Block, FromLoader, LoadRole, PreparedLayer, PreparedScene, SourceToLoad, Taken, ToLoader } from './loader_messages.js';
-import { ViewerError, type LoadProgress, type SceneSource, type SplatOffer } from './types.js';
+import { ViewerError, type Assets, type LoadProgress, type SceneSource, type SplatOffer } from './types.js';
 
 interface CommonEvents {
   progress(progress: LoadProgress): void;

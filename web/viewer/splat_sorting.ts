@@ -1,9 +1,9 @@
 // The worker that sorts splats while frames are drawn. It starts with the first task: scenes with few splats have
 // none.
 
-import type { Assets } from './assets.js';
 import type { Engine } from './engine.js';
 import type { FromLoader, SortTask, ToLoader } from './loader_messages.js';
+import type { Assets } from './types.js';
 
 export class SplatSorting {
   private worker: Promise<Worker> | null = null;

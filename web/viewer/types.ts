@@ -4,7 +4,13 @@
 // Lengths on the screen are CSS pixels from the canvas's top left corner; angles are radians; colours
 // are display-referred, 0..1; world coordinates are the scene's.
 
-import type { Assets } from './assets.js';
+/** The files that the viewer needs besides its script (assets.ts). */
+export interface Assets {
+  /** The bytes of tureen.wasm. */
+  wasm(): Promise<ArrayBuffer>;
+  /** A new worker that runs the loader. Rejects with ViewerError if its script cannot be fetched. */
+  loaderWorker(): Promise<Worker>;
+}
 
 export type Vec3 = readonly [number, number, number];
 

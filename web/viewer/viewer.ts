@@ -4,7 +4,7 @@
 
 import { urlOf } from './addresses.js';
 import { ArrivingScene } from './arriving_scene.js';
-import { assetsAt, type Assets } from './assets.js';
+import { assetsAt } from './assets.js';
 import { attachControls } from './controls.js';
 import { compile, Engine, type Parcel } from './engine.js';
 import { FrameTimes } from './frame_times.js';
@@ -19,8 +19,8 @@ import {
   lowerLevelSentence, nothingDrawn, othersDrawn, sceneSummary, tooLargeSentence, type ShownFacts, type ShownLayer,
 } from './scene_summary.js';
 import {
-  maxLayers, ViewerError, type FrameStats, type LegendEntry, type Matrix, type NamedView, type NavigationMode,
-  type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
+  maxLayers, ViewerError, type Assets, type FrameStats, type LegendEntry, type Matrix, type NamedView,
+  type NavigationMode, type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
   type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
 } from './types.js';
 

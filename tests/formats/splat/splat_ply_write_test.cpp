@@ -1,9 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/common/splat_activation.hpp"
 #include "formats/ply_file.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/splat/splat_activation.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/moved_splats.hpp"

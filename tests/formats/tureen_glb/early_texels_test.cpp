@@ -1,5 +1,5 @@
 // Texels that are decoded before the whole file is there.
-#include "formats/early_texels.hpp"
+#include "formats/tureen_glb/early_texels.hpp"
 
 #include <gtest/gtest.h>
 

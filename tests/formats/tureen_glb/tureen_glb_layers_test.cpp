@@ -11,7 +11,7 @@
 #include <set>
 
 #include "base/memory_budget.hpp"
-#include "formats/gltf/gltf.hpp"
+#include "formats/gltf_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_preview.hpp"
 #include "tests/formats/truncation.hpp"

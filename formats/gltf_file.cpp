@@ -1,0 +1,29 @@
+#include "formats/gltf_file.hpp"
+
+#include <utility>
+
+#include "formats/glb/glb_container.hpp"
+#include "formats/gltf/gltf.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+
+namespace tureen {
+
+Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
+  Input input = Input::open(path);
+  return read_gltf_or_glb(input, path.parent_path(), options);
+}
+
+Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
+                       const ReadOptions& options) {
+  const bool binary = is_glb(input);
+  GlbContainer glb = binary ? read_glb_container(input) : read_gltf_json(input);
+  const bool ours = is_tureen_glb(glb);
+  if (binary && ours) return read_tureen_glb(input, glb, options);
+  Scene scene = read_gltf(input, std::move(glb), folder, options);
+  if (ours)
+    scene.info.remarks.push_back(
+        {.kind = Remark::Kind::mean_colors_shown, .names = {tureen_extension}});
+  return scene;
+}
+
+}  // namespace tureen
