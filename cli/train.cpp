@@ -24,6 +24,7 @@
 #include "cli/table.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
+#include "jobs/training/diffsoup_options.hpp"
 #include "jobs/training/training_method.hpp"
 #include "jobs/training/training_outcome.hpp"
 #include "trainer/common/kernels/projection.hpp"
@@ -41,8 +42,7 @@ struct TrainOptions {
   DatasetArgument dataset;
   TrainingOptions training;
   std::string output;
-  std::string log;              // empty: beside the output
-  std::string diffsoup_export;  // empty: none
+  std::string log;  // empty: beside the output
   int threads = 0;
   std::optional<int> checkpoint_every;
   int preview_every = 0;
@@ -54,13 +54,9 @@ struct TrainOptions {
 
 TrainingFiles files_of(const TrainOptions& options) {
   if (options.output.empty()) throw UsageError("-o OUT.glb is required");
-  if (!options.diffsoup_export.empty() && options.training.method != TrainingMethodName::diffsoup)
-    throw UsageError("--export-diffsoup needs --method diffsoup",
-                     "Tureen's own page shows scenes of every method: tureen convert OUT.glb "
-                     "page.html");
   TrainingFiles files = training_files(options.output);
   if (!options.log.empty()) files.log = options.log;
-  fs::path folder = options.diffsoup_export;
+  fs::path folder = options.training[export_option].text;
   if (!folder.empty() && !folder.has_filename()) folder = folder.parent_path();  // ends in '/'
   files.diffsoup_export = folder;
   return files;
@@ -103,9 +99,8 @@ void say_result(const TrainOptions& options, const Dataset& dataset,
   std::string sentence = fmt::format(
       "{} after {} in {}", counted(training.primitives.count, noun_of(training.primitives.kind)),
       counted(std::uint64_t(training.steps), "step"), duration_text(training.run.seconds));
-  if (training.opacity_binary_fraction)
-    sentence += fmt::format("; {:.1f} % of the texels are transparent or opaque",
-                            100 * *training.opacity_binary_fraction);
+  for (const OwnResult& own : training.own)
+    if (!own.text.empty()) sentence += "; " + own.text;
   say(sentence);
   if (training.non_finite > 0) say("skipped " + counted(training.non_finite, "non-finite number"));
   if (training.run.test_psnr_db) {
@@ -333,10 +328,6 @@ void add_file_options(Command& command, TrainOptions& options) {
   command.add_flag("--watch", options.watch,
                    "show the training in a window: the scene, curves, pause, stop and keep; the "
                    "window's scene is OUT.watch.glb");
-  command
-      .add_option("--export-diffsoup", options.diffsoup_export,
-                  "also write a folder for DiffSoup's web viewer")
-      .value_name("FOLDER");
 }
 
 }  // namespace
@@ -371,13 +362,6 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
                     [options](std::uint64_t bytes) { options->training.max_memory = bytes; });
   add_file_options(command, *options);
   add_config_options(command, options->training);
-  add_choice<trainer::Device>(
-      command, "--device", options->training.device,
-      {{"auto", trainer::Device::automatic},
-       {"cpu", trainer::Device::cpu},
-       {"cuda", trainer::Device::cuda}},
-      "device for training: auto (default: a GPU if available), cpu or cuda")
-      .value_name("NAME");
   command
       .add_option("--threads", options->threads,
                   "number of processor threads; one per core by default")
@@ -386,7 +370,7 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
   command.add_flag("--print-config", options->print_config,
                    "print all constants of this run as JSON, without training");
   command.add_text_flag(
-      "--list-config", [options] { return constants_reference(options->training); },
+      "--list-config", [options] { return options->training.method->reference(); },
       "list all constants of the method with their defaults, ranges and meanings, and exit");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");

@@ -33,11 +33,10 @@ results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
                      {"steps", training.steps},
                      {"seconds", training.run.seconds},
                      {name_of(training.primitives.kind), training.primitives.count}};
-  if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
+  for (const OwnResult& result : training.own)
+    std::visit([&](auto value) { json[result.name] = value; }, result.value);
   json["test"] = test;
   if (training.run.test_psnr_db) json["trainer_psnr_db"] = *training.run.test_psnr_db;
-  if (training.opacity_binary_fraction)
-    json["opacity_binary_fraction"] = *training.opacity_binary_fraction;
   json["non_finite"] = training.non_finite;
   json["output"] = outcome.output;
   return json;

@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "cli/files/train_files.hpp"
 #include "cli/progress.hpp"
+#include "jobs/training/diffsoup_options.hpp"
 #include "jobs/training/training_method.hpp"
-#include "jobs/training/training_options.hpp"
 #include "scene/scene.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
@@ -76,42 +76,39 @@ TEST(SoupTraining, BeginsOnAllScenesButNeuralDensities) {
 TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {
   const Config base = trainer::published(Preset::object);
   TrainingOptions options;
-  options.triangles = 3000;
+  options.own["triangles"].whole = 3000;
   const Config config = with_options(base, options);
   EXPECT_EQ(config.triangles, 3000);
   EXPECT_EQ(config.initial_triangles, base.initial_triangles / 5);
-  options.triangles = 0;
+  options.own["triangles"].whole = 0;
   EXPECT_THROW(with_options(base, options), UsageError);
-  options.triangles = 1;
+  options.own["triangles"].whole = 1;
   EXPECT_GE(with_options(base, options).initial_triangles, 1);
 }
 
 TEST(ConfigOptions, AreRefusedByTheNumberThatWasTyped) {
-  const auto refusal = [](std::optional<std::int64_t> TrainingOptions::*option,
-                          std::int64_t value) {
+  const auto refusal = [](const std::string& option, std::int64_t value) {
     TrainingOptions options;
-    options.*option = value;
+    (option == "steps" ? options.steps : options.own[option].whole) = value;
     return test::error_of<UsageError>([&] { with_options(Config{}, options); });
   };
   using test::Names;
-  EXPECT_THAT(refusal(&TrainingOptions::triangles, 99'999'999'999),
-              Names("triangles", "99999999999", 4000000));
-  EXPECT_THAT(refusal(&TrainingOptions::steps, -99'999'999'999),
-              Names("steps", "-99999999999", 10000000));
-  EXPECT_THAT(refusal(&TrainingOptions::batch, 1LL << 40), Names("batch", "1099511627776"));
-  EXPECT_THAT(refusal(&TrainingOptions::level, 1LL << 40), Names("max_level", "1099511627776"));
+  EXPECT_THAT(refusal("triangles", 99'999'999'999), Names("triangles", "99999999999", 4000000));
+  EXPECT_THAT(refusal("steps", -99'999'999'999), Names("steps", "-99999999999", 10000000));
+  EXPECT_THAT(refusal("batch", 1LL << 40), Names("batch", "1099511627776"));
+  EXPECT_THAT(refusal("level", 1LL << 40), Names("max_level", "1099511627776"));
 }
 
 TEST(ConfigOptions, LowerWhatWouldBeAboveTheLevel) {
   TrainingOptions options;
-  options.level = 1;
+  options.own["level"].whole = 1;
   Config base = trainer::preset(Preset::object);
   base.coarse_level = 2;
   const Config config = with_options(base, options);
   EXPECT_EQ(config.max_level, 1);
   EXPECT_EQ(config.min_level, 1);
   EXPECT_EQ(config.coarse_level, 1);
-  options.level = 6;
+  options.own["level"].whole = 6;
   EXPECT_EQ(with_options(base, options).min_level, base.min_level);
 }
 
