@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,10 +10,9 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "cli/files/train_files.hpp"
 #include "cli/progress.hpp"
 #include "jobs/training/diffsoup_options.hpp"
-#include "jobs/training/training_method.hpp"
+#include "jobs/training/training_run.hpp"
 #include "scene/scene.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
@@ -24,38 +24,67 @@ namespace fs = std::filesystem;
 using trainer::Config;
 using trainer::Preset;
 
-TEST(TrainingFiles, LieBesideTheSoup) {
-  const TrainingFiles files = training_files("runs/a.b.glb");
+TEST(TrainingFiles, LieBesideTheScene) {
+  const trainer::TrainingFiles files = trainer::training_files("runs/a.b.glb");
   EXPECT_EQ(files.scene, "runs/a.b.glb");
   EXPECT_EQ(files.checkpoint, "runs/a.b.checkpoint");
   EXPECT_EQ(files.log, "runs/a.b.jsonl");
   EXPECT_EQ(files.previews, "runs/a.b.previews");
-  EXPECT_TRUE(files.diffsoup_export.empty());
-  EXPECT_THROW(training_files("a"), UsageError);
-  EXPECT_THROW(training_files("a.gltf"), UsageError);
+  EXPECT_THROW(trainer::training_files("a"), UsageError);
+  EXPECT_THROW(trainer::training_files("a.gltf"), UsageError);
 }
 
-TEST(TrainingFiles, AreTriedAndLeaveNothing) {
+TEST(TrainingRun, TriesItsFilesAndLeavesNothing) {
   const fs::path folder = fs::path(testing::TempDir()) / "tureen_training_files";
   fs::remove_all(folder);
   fs::create_directories(folder / "full");
   std::ofstream(folder / "full" / "letter.txt") << "dear";
-  TrainingFiles files = training_files(folder / "a.glb");
-  EXPECT_NO_THROW(check_writable(files));
-  files.diffsoup_export = folder / "new";
-  EXPECT_NO_THROW(check_writable(files));
-  files.diffsoup_export = folder / "none" / "new";
-  EXPECT_THROW(check_writable(files), OutputError);
-  files.diffsoup_export = folder / "full";
-  EXPECT_THROW(check_writable(files), UsageError);
-  files = training_files(folder / "a.glb");
-  files.log = folder / "full";
-  EXPECT_THROW(check_writable(files), OutputError);
-  EXPECT_THROW(check_writable(training_files(folder / "none" / "a.glb")), OutputError);
+  TrainingJob job{.output = folder / "a.glb"};
+  const auto make = [&] { const TrainingRun run(job); };
+  EXPECT_NO_THROW(make());
+  job.log = folder / "full";
+  EXPECT_THROW(make(), OutputError);
+  job.log = folder / "full" / "letter.txt";
+  EXPECT_THROW(make(), UsageError);
+  job.log = folder / "a.lock";
+  EXPECT_THROW(make(), UsageError);
+  EXPECT_THROW(TrainingRun(TrainingJob{.output = folder / "none" / "a.glb"}), OutputError);
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder)) ++entries;
   EXPECT_EQ(entries, 2u);
   fs::remove_all(folder);
+}
+
+TEST(TrainingMethods, HaveOptionsOfTheirOwnThatOthersRefuse) {
+  for (const auto& [option, methods] : all_method_options())
+    for (const TrainingMethodInfo* method : training_methods()) {
+      TrainingOptions options;
+      options.method = method;
+      OptionValue& value = options.own[option->name];
+      switch (option->type) {
+        case MethodOption::Type::flag:
+          value.flag = true;
+          break;
+        case MethodOption::Type::whole:
+          value.whole = 100;
+          break;
+        case MethodOption::Type::number:
+          value.number = 1;
+          break;
+        case MethodOption::Type::word:
+          value.text = option->words.front();
+          break;
+        case MethodOption::Type::path:
+          value.text = "folder";
+          break;
+      }
+      const bool has = std::ranges::find(methods, method) != methods.end();
+      if (has || !option->everywhere.empty())
+        EXPECT_NO_THROW(make_training_method(options)) << method->name << " --" << option->name;
+      else
+        EXPECT_THROW(make_training_method(options), UsageError)
+            << method->name << " --" << option->name;
+    }
 }
 
 TEST(SoupTraining, BeginsOnAllScenesButNeuralDensities) {
