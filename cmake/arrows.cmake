@@ -27,10 +27,10 @@ set(arrows
   "jobs/visibility: base image scene oracle runtime runtime/gl"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
-  "jobs/tradeoff: base image scene oracle splatting runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/eval jobs/timing jobs/visibility"
-  "jobs/training: base image scene formats runtime/gl jobs/eval jobs/results trainer/common trainer/diffsoup trainer/splats"
+  "jobs/tradeoff: base image scene oracle splatting runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
+  "jobs/training: base image scene formats runtime/gl jobs/eval trainer/common trainer/diffsoup trainer/splats"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
-  "jobs/results: base scene runtime/plan jobs/bench jobs/eval jobs/timing jobs/tradeoff"
+  "jobs/report: base"
   "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/splats runtime/debug_views trainer/common jobs/baseline jobs/timing"
   "web: base image scene splatting camera formats runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing")
 
