@@ -19,9 +19,9 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
+#include "jobs/bench/plan_json.hpp"
+#include "jobs/eval/eval_json.hpp"
 #include "jobs/eval/evaluation.hpp"
-#include "jobs/results/eval_json.hpp"
-#include "jobs/results/plan_json.hpp"
 
 namespace tureen::cli {
 

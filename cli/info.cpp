@@ -20,7 +20,7 @@
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "formats/dataset/dataset.hpp"
-#include "jobs/results/plan_json.hpp"
+#include "jobs/bench/plan_json.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "scene/edit/baked_transform.hpp"

@@ -21,7 +21,7 @@
 #include "cli/options/view_options.hpp"
 #include "cli/report.hpp"
 #include "image/video_file.hpp"
-#include "jobs/results/plan_json.hpp"
+#include "jobs/bench/plan_json.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"

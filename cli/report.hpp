@@ -5,16 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "jobs/results/json_text.hpp"
+#include "base/json/json_text.hpp"
 
 namespace tureen {
 struct Remark;
 }
 
 namespace tureen::cli {
-
-using results::Json;
-using results::json_text;
 
 /// Prints one line on standard error. Escapes control characters and line breaks from files, so
 /// that they neither control the terminal nor imitate another message (base/shown_text.hpp).

@@ -11,25 +11,22 @@
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"
-#include "cli/files/train_files.hpp"
 #include "cli/files/window_program.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/config_options.hpp"
 #include "cli/options/dataset_argument.hpp"
 #include "cli/options/memory_option.hpp"
+#include "cli/options/output_argument.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
-#include "jobs/training/training_method.hpp"
-#include "jobs/training/training_outcome.hpp"
+#include "jobs/training/diffsoup_options.hpp"
+#include "jobs/training/training_run.hpp"
 #include "trainer/common/kernels/projection.hpp"
-#include "trainer/common/preview_video.hpp"
-#include "trainer/common/run_control.hpp"
-#include "trainer/common/run_lock.hpp"
 
 namespace tureen::cli {
 
@@ -39,62 +36,30 @@ namespace fs = std::filesystem;
 
 struct TrainOptions {
   DatasetArgument dataset;
-  TrainingOptions training;
-  std::string output;
-  std::string log;              // empty: beside the output
-  std::string diffsoup_export;  // empty: none
-  int threads = 0;
-  std::optional<int> checkpoint_every;
-  int preview_every = 0;
-  bool resume = false;
+  TrainingJob job;
   bool print_config = false;
   bool watch = false;
   bool json = false;
 };
 
-TrainingFiles files_of(const TrainOptions& options) {
-  if (options.output.empty()) throw UsageError("-o OUT.glb is required");
-  if (!options.diffsoup_export.empty() && options.training.method != TrainingMethodName::diffsoup)
-    throw UsageError("--export-diffsoup needs --method diffsoup",
-                     "Tureen's own page shows scenes of every method: tureen convert OUT.glb "
-                     "page.html");
-  TrainingFiles files = training_files(options.output);
-  if (!options.log.empty()) files.log = options.log;
-  fs::path folder = options.diffsoup_export;
-  if (!folder.empty() && !folder.has_filename()) folder = folder.parent_path();  // ends in '/'
-  files.diffsoup_export = folder;
-  return files;
+/// The folder of --export-diffsoup; empty: none. Throws UsageError if it is another output, or
+/// something else that would be replaced.
+fs::path checked_export(const TrainOptions& options, const trainer::TrainingFiles& files) {
+  fs::path folder = options.job.training[export_option].text;
+  if (folder.empty()) return folder;
+  if (!folder.has_filename()) folder = folder.parent_path();  // ends in '/'
+  for (const fs::path& other :
+       {files.scene, files.checkpoint, files.log, files.previews, files.lock, files.watched})
+    if (folder.lexically_normal() == other.lexically_normal())
+      throw UsageError("--export-diffsoup cannot be " + other.string() +
+                       ", which is another output file");
+  require_writable_export(folder);
+  return folder;
 }
 
 void check_images(const TrainOptions& options, const Dataset& dataset) {
   require_sides(options.dataset, dataset,
                 {.least = ssim_window, .most = trainer::kernels::max_image_side});
-}
-
-/// Writes the previews as a video. It is an aid: its failures do not end the run.
-void write_video(const TrainingFiles& files, TrainingOutcome& result) {
-  try {
-    if (const auto video = trainer::write_preview_video(files.previews))
-      result.output.push_back(video->string());
-  } catch (const Error& error) {
-    say(std::string("The previews did not become a video: ") + error.what());
-  }
-}
-
-/// Writes the scene and the DiffSoup export, then removes the checkpoint.
-void write_results(const TrainOptions& options, const TrainingFiles& files, const Scene& scene,
-                   TrainingOutcome& result) {
-  write_scene(scene, files.scene);
-  result.output.push_back(files.scene.string());
-  if (!files.diffsoup_export.empty()) {
-    say_list("Lost in " + files.diffsoup_export.string() + ":",
-             write_diffsoup_export(scene, files.diffsoup_export));
-    result.output.push_back(files.diffsoup_export.string());
-  }
-  std::error_code ignored;
-  fs::remove(files.checkpoint, ignored);
-  result.output.push_back(files.log.string());
-  if (options.preview_every > 0) write_video(files, result);
 }
 
 void say_result(const TrainOptions& options, const Dataset& dataset,
@@ -103,9 +68,8 @@ void say_result(const TrainOptions& options, const Dataset& dataset,
   std::string sentence = fmt::format(
       "{} after {} in {}", counted(training.primitives.count, noun_of(training.primitives.kind)),
       counted(std::uint64_t(training.steps), "step"), duration_text(training.run.seconds));
-  if (training.opacity_binary_fraction)
-    sentence += fmt::format("; {:.1f} % of the texels are transparent or opaque",
-                            100 * *training.opacity_binary_fraction);
+  for (const OwnResult& own : training.own)
+    if (!own.text.empty()) sentence += "; " + own.text;
   say(sentence);
   if (training.non_finite > 0) say("skipped " + counted(training.non_finite, "non-finite number"));
   if (training.run.test_psnr_db) {
@@ -113,7 +77,7 @@ void say_result(const TrainOptions& options, const Dataset& dataset,
     table.row({"drawn by the trainer", fmt::format("{:.2f}", *training.run.test_psnr_db)});
     if (result.evaluation) {
       const ViewMetrics& mean = result.evaluation->mean;
-      table.row({options.output, fmt::format("{:.2f}", mean.psnr_db),
+      table.row({options.job.output.string(), fmt::format("{:.2f}", mean.psnr_db),
                  fmt::format("{:.4f}", mean.ssim), fmt::format("{:.4f}", mean.flip)});
     }
     for (const std::string& line : table.lines()) say(line);
@@ -124,7 +88,7 @@ void say_result(const TrainOptions& options, const Dataset& dataset,
 /// The window of --watch. It is an aid: its failures do not end the run.
 class TrainingWindow {
  public:
-  TrainingWindow(const TrainOptions& options, const TrainingFiles& files)
+  TrainingWindow(const TrainOptions& options, const trainer::TrainingFiles& files)
       : options_(options), files_(files) {}
 
   /// Writes the scene for the window, which the first call starts.
@@ -144,7 +108,7 @@ class TrainingWindow {
 
  private:
   const TrainOptions& options_;
-  const TrainingFiles& files_;
+  const trainer::TrainingFiles& files_;
   bool started_ = false, failed_ = false;
 };
 
@@ -163,24 +127,12 @@ std::optional<Scene> read_start(const TrainingOptions& options, const TrainingMe
   return scene;
 }
 
-/// Throws UsageError if the run would replace an existing file by mistake.
-void check_existing(const TrainOptions& options, const TrainingFiles& files) {
-  std::error_code error;
-  if (const fs::path mesh = options.training.mesh(); fs::equivalent(mesh, files.scene, error))
-    throw UsageError("-o would replace " + mesh.string() + ", the scene for --init",
-                     "choose another name");
-  if (!options.resume && fs::exists(files.checkpoint, error))
-    throw UsageError(files.checkpoint.string() + " exists, from an unfinished run",
-                     "continue this run with --resume, or remove the file to start again");
-}
-
 /// Notes for after all checks of the inputs, immediately before the training replaces files.
-std::vector<std::string> first_notes(const TrainOptions& options, const TrainingFiles& files,
-                                     const Dataset& dataset) {
+std::vector<std::string> first_notes(const TrainingJob& job, const Dataset& dataset) {
   std::vector<std::string> notes;
   std::error_code error;
-  if (!options.resume && fs::exists(files.scene, error))
-    notes.push_back(files.scene.string() +
+  if (!job.resume && fs::exists(job.output, error))
+    notes.push_back(job.output.string() +
                     " exists; training replaces its log now and the file at the end");
   if (dataset.test.empty())
     notes.push_back("The dataset has no test views: the training does not measure its error");
@@ -195,109 +147,101 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
     return read();
   } catch (const Interrupted&) {
     if (!options.print_config)
-      say(options.resume ? "interrupted before a step was complete; the checkpoint is unchanged"
-                         : "interrupted before a step was complete; no checkpoint was written");
+      say(options.job.resume ? "interrupted before a step was complete; the checkpoint is unchanged"
+                             : "interrupted before a step was complete; no checkpoint was written");
     throw;
   }
 }
 
-ExitCode train(const TrainOptions& options) {
-  // Wrong arguments are reported before the photographs are read.
-  const std::unique_ptr<TrainingMethod> method = make_training_method(options.training);
-  TrainingFiles files;
-  std::optional<trainer::RunLock> lock, log_lock;
-  std::optional<trainer::RunControl> control;
-  if (!options.print_config) {
-    outlive_readers();  // a closed pipe must not end hours of training
-    files = files_of(options);
-    check_writable(files);
-    lock.emplace(files.lock);
-    if (!options.log.empty()) log_lock.emplace(fs::path(files.log) += ".lock");
-    check_existing(options, files);
-    control.emplace(trainer::control_file(files.log));
-    if (options.preview_every > 0) make_folder(files.previews);
-  }
-  if (options.resume) method->resume(files.checkpoint);
-  method->settle(nullptr);
-  const std::optional<Scene> start = before_the_first_step(options, [&] {
-    return options.resume || options.print_config ? std::nullopt
-                                                  : read_start(options.training, *method);
-  });
-
+Dataset read_dataset(const TrainOptions& options) {
   Dataset dataset =
       before_the_first_step(options, [&] { return read(options.dataset, DatasetPart::all); });
   check_images(options, dataset);
+  return dataset;
+}
+
+ExitCode print_config(const TrainOptions& options) {
+  const TrainingJob& job = options.job;
+  const std::unique_ptr<TrainingMethod> method = make_training_method(job.training);
+  if (job.resume) method->resume(trainer::training_files(job.output).checkpoint);
+  method->settle(nullptr);
+  const Dataset dataset = read_dataset(options);
   method->settle(&dataset);
-  if (options.print_config) {
-    print_text(method->constants());
-    return ExitCode::done;
-  }
-  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
+  print_text(method->constants());
+  return ExitCode::done;
+}
+
+ExitCode train(const TrainOptions& options) {
+  if (options.print_config) return print_config(options);
+  outlive_readers();  // a closed pipe must not end hours of training
+  const TrainingJob& job = options.job;
+  if (job.output.empty()) throw UsageError("-o OUT.glb is required");
+  // Wrong arguments are reported before the photographs are read.
+  TrainingRun run(job);
+  const trainer::TrainingFiles& files = run.files();
+  const fs::path diffsoup_export = checked_export(options, files);
+  const std::optional<Scene> start = before_the_first_step(
+      options, [&] { return job.resume ? std::nullopt : read_start(job.training, run.method()); });
+  Dataset dataset = read_dataset(options);
 
   Progress::Output output = Progress::standard_error();
   output.line_seconds = 10;
   std::optional<Progress> progress;
-  TrainingOutcome result;
+  const auto show = [&](const char* what, double fraction) {
+    if (!progress) progress.emplace(what, output);
+    progress->update(fraction);
+  };
   TrainingWindow window(options, files);
-  trainer::RunRequest run{
-      .name = fs::path(options.output).stem().string(),
-      .threads = options.threads,
-      .session = {.checkpoint = files.checkpoint,
-                  .log = files.log,
-                  .previews = files.previews,
-                  .checkpoint_every = options.checkpoint_every,
-                  .preview_every = options.preview_every,
-                  .control = &*control,
-                  .progress =
-                      [&](const trainer::SessionStatus& now) {
-                        if (!progress) progress.emplace("training", output);
-                        progress->update(double(now.step) / now.steps, describe(now));
-                      },
-                  .interrupted =
-                      [&](const trainer::SessionStatus& now) {
-                        progress.reset();
-                        say(
-                            fmt::format("wrote {} after step {} of {}; the same command with "
-                                        "--resume continues from it",
-                                        files.checkpoint.string(), counted(std::uint64_t(now.step)),
-                                        counted(std::uint64_t(now.steps))));
-                      }},
-      .finished =
-          [&](const Scene& scene) {
-            progress.reset();
-            write_results(options, files, scene, result);
-          },
-      .measuring =
-          [&](double fraction) {
-            if (!progress) progress.emplace("measuring");
-            progress->update(fraction);
-          },
-      .evaluate =
-          [&](const Scene& scene) {
-            progress.reset();
-            Progress evaluating("evaluating");
-            evaluate(result, scene, dataset.test,
-                     [&](double fraction) { evaluating.update(fraction); });
-          }};
-  run.preparing = [&](double fraction) {
+  std::vector<std::string> notes = first_notes(job, dataset);
+  TrainingEvents events;
+  events.begun = [&](const std::string& sentence) {
+    progress.reset();
+    for (const std::string& note : std::exchange(notes, {})) say(note);
+    say(sentence);
+  };
+  events.preparing = [&](double fraction) {
     before_the_first_step(options, [&] {
-      if (!progress) progress.emplace("Gaussians for the first triangles", output);
       try {
-        progress->update(fraction);
+        show("Gaussians for the first triangles", fraction);
       } catch (const Interrupted&) {
         progress.reset();
         throw;
       }
     });
   };
-  if (options.watch) run.snapshot = [&](const Scene& scene) { window.show(scene); };
-  std::vector<std::string> notes = first_notes(options, files, dataset);
-  const auto say_checked = [&](const std::string& sentence) {
-    progress.reset();
-    for (const std::string& note : std::exchange(notes, {})) say(note);
-    say(sentence);
+  events.progress = [&](const trainer::SessionStatus& now) {
+    if (!progress) progress.emplace("training", output);
+    progress->update(double(now.step) / now.steps, describe(now));
   };
-  result.training = method->train(dataset, start ? &*start : nullptr, std::move(run), say_checked);
+  events.interrupted = [&](const trainer::SessionStatus& now) {
+    progress.reset();
+    say(
+        fmt::format("wrote {} after step {} of {}; the same command with --resume continues from "
+                    "it",
+                    files.checkpoint.string(), counted(std::uint64_t(now.step)),
+                    counted(std::uint64_t(now.steps))));
+  };
+  if (options.watch) events.snapshot = [&](const Scene& scene) { window.show(scene); };
+  events.finished = [&](const Scene& scene) -> std::vector<std::string> {
+    progress.reset();
+    if (diffsoup_export.empty()) return {};
+    say_list("Lost in " + diffsoup_export.string() + ":",
+             write_diffsoup_export(scene, diffsoup_export));
+    return {diffsoup_export.string()};
+  };
+  events.measuring = [&](double fraction) { show("measuring", fraction); };
+  std::optional<Progress> evaluating;
+  events.evaluating = [&](double fraction) {
+    progress.reset();
+    if (!evaluating) evaluating.emplace("evaluating");
+    evaluating->update(fraction);
+  };
+  events.failed_aid = [](const std::string& sentence) { say(sentence); };
+
+  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
+  const TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
+  progress.reset();
+  evaluating.reset();
   if (!result.evaluation && !dataset.test.empty())
     say("The runtime cannot draw the scene here; the metrics are from the trainer's own "
         "renderer: " +
@@ -308,23 +252,27 @@ ExitCode train(const TrainOptions& options) {
 }
 
 void add_file_options(Command& command, TrainOptions& options) {
-  command.add_option("-o,--output", options.output, "scene to write").value_name("OUT.glb");
+  TrainingJob& job = options.job;
   command
       .add_option(
-          "--log", options.log,
+          "-o,--output", [&job](const std::string& path) { job.output = path; }, "scene to write")
+      .value_name("OUT.glb");
+  command
+      .add_option(
+          "--log", [&job](const std::string& path) { job.log = path; },
           "training log to write, JSON lines; OUT.jsonl by default (tureen report plots it)")
       .value_name("FILE");
   command
-      .add_option("--checkpoint-every", options.checkpoint_every,
+      .add_option("--checkpoint-every", job.checkpoint_every,
                   "steps between checkpoints in OUT.checkpoint; every two minutes by default")
       .check(between(1, 10'000'000))
       .value_name("N");
   command.add_flag(
-      "--resume", options.resume,
+      "--resume", job.resume,
       "continue from OUT.checkpoint; the scene is the same as without the interruption");
   command
       .add_option(
-          "--preview-every", options.preview_every,
+          "--preview-every", job.preview_every,
           "steps between previews; a preview is an image in the folder OUT.previews: a test "
           "view beside its photograph; no previews by default; also a video, OUT-previews.mp4, if "
           "ffmpeg is installed")
@@ -333,10 +281,6 @@ void add_file_options(Command& command, TrainOptions& options) {
   command.add_flag("--watch", options.watch,
                    "show the training in a window: the scene, curves, pause, stop and keep; the "
                    "window's scene is OUT.watch.glb");
-  command
-      .add_option("--export-diffsoup", options.diffsoup_export,
-                  "also write a folder for DiffSoup's web viewer")
-      .value_name("FOLDER");
 }
 
 }  // namespace
@@ -368,25 +312,18 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
 4 no GPU for --device cuda, 5 interrupted, or the scene cannot be written.)");
   add_dataset_argument(command, options->dataset);
   add_memory_option(command,
-                    [options](std::uint64_t bytes) { options->training.max_memory = bytes; });
+                    [options](std::uint64_t bytes) { options->job.training.max_memory = bytes; });
   add_file_options(command, *options);
-  add_config_options(command, options->training);
-  add_choice<trainer::Device>(
-      command, "--device", options->training.device,
-      {{"auto", trainer::Device::automatic},
-       {"cpu", trainer::Device::cpu},
-       {"cuda", trainer::Device::cuda}},
-      "device for training: auto (default: a GPU if available), cpu or cuda")
-      .value_name("NAME");
+  add_config_options(command, options->job.training);
   command
-      .add_option("--threads", options->threads,
+      .add_option("--threads", options->job.threads,
                   "number of processor threads; one per core by default")
       .check(between(1, 1024))
       .value_name("N");
   command.add_flag("--print-config", options->print_config,
                    "print all constants of this run as JSON, without training");
   command.add_text_flag(
-      "--list-config", [options] { return constants_reference(options->training); },
+      "--list-config", [options] { return options->job.training.method->reference(); },
       "list all constants of the method with their defaults, ranges and meanings, and exit");
   command.add_flag("--json", options->json,
                    "print the result as one line of JSON to standard output");

@@ -67,10 +67,10 @@ set(arrows
   "jobs/visibility: base image scene oracle runtime runtime/gl"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
-  "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/eval jobs/timing jobs/visibility"
+  "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
-  "jobs/results: base scene runtime/plan jobs/bench jobs/eval jobs/timing jobs/tradeoff"
-  "jobs/training: base image scene runtime/gl jobs/eval jobs/results trainer/*"
+  "jobs/report: base"
+  "jobs/training: base image scene formats runtime/gl jobs/eval trainer/*"
 
   "viewer/input: base scene camera"
   "viewer/gui: base image scene runtime/gl runtime/passes viewer/input"
@@ -88,7 +88,7 @@ set(arrows
   "web/bench: web/viewer web/page"
   "web/report:"
 
-  "cli/exit_code.hpp cli/interrupt.* cli/progress.* cli/report.* cli/table.* cli/version.*: base scene jobs/results"
+  "cli/exit_code.hpp cli/interrupt.* cli/progress.* cli/report.* cli/table.* cli/version.*: base scene"
   "cli/options: base image scene camera formats/* runtime/* jobs/* cli/exit_code.hpp"
   "cli/files: base image scene formats/* runtime/* trainer/common jobs/* cli/exit_code.hpp cli/options"
   "cli/measuring: base scene camera runtime/gl jobs/* cli/exit_code.hpp cli/options"

@@ -1,6 +1,7 @@
 #include "viewer/training_command.hpp"
 
 #include "base/extension.hpp"
+#include "trainer/common/training_files.hpp"
 #include "viewer/names.hpp"
 #include "viewer/render_command.hpp"
 
@@ -24,9 +25,7 @@ FileTime time_of(const fs::path& file) {
   return error ? FileTime{} : time;
 }
 
-fs::path checkpoint_of(const fs::path& scene) {
-  return fs::path(scene).replace_extension(".checkpoint");
-}
+fs::path checkpoint_of(const fs::path& scene) { return trainer::training_files(scene).checkpoint; }
 
 fs::path new_trained_scene(const fs::path& dataset) {
   std::error_code ignored;

@@ -4,7 +4,7 @@
 
 #include "cli/measuring/bench_words.hpp"
 #include "cli/table.hpp"
-#include "jobs/results/comparison_json.hpp"
+#include "jobs/bench/comparison_json.hpp"
 
 namespace tureen::cli {
 

@@ -13,7 +13,8 @@
 #include "cli/files/result_files.hpp"
 #include "cli/measuring/bench_words.hpp"
 #include "cli/options/output_argument.hpp"
-#include "jobs/results/comparison_json.hpp"
+#include "cli/report.hpp"
+#include "jobs/bench/comparison_json.hpp"
 
 namespace tureen::cli {
 

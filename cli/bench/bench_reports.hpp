@@ -7,7 +7,7 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/options/arguments.hpp"
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 
 namespace tureen::cli {
 

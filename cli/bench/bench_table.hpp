@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 
 namespace tureen::cli {
 

@@ -5,10 +5,10 @@
 #include "base/existing_path.hpp"
 #include "base/extension.hpp"
 #include "base/input.hpp"
-#include "jobs/results/json_reading.hpp"
-#include "jobs/results/provenance.hpp"
-#include "jobs/results/tradeoff_json.hpp"
-#include "jobs/results/web_bench.hpp"
+#include "jobs/bench/json_reading.hpp"
+#include "jobs/bench/provenance.hpp"
+#include "jobs/bench/web_bench.hpp"
+#include "jobs/tradeoff/tradeoff_json.hpp"
 #include "trainer/common/training_log.hpp"
 
 namespace tureen::cli {
@@ -64,7 +64,7 @@ std::vector<ReportResult> web_bench(const std::string& file) {
   Input input = Input::open(file);
   std::vector<ReportResult> results;
   for (const BenchResult& each : results::read_web_bench(input))
-    results.push_back({file, "bench", results::json_text(results::to_json(each))});
+    results.push_back({file, "bench", json_text(results::to_json(each))});
   return results;
 }
 

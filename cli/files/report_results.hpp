@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "jobs/results/report_page.hpp"
+#include "jobs/report/report_page.hpp"
 
 namespace tureen::cli {
 

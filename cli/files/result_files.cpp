@@ -1,7 +1,7 @@
 #include "cli/files/result_files.hpp"
 
 #include "base/output.hpp"
-#include "jobs/results/report_page.hpp"
+#include "jobs/report/report_page.hpp"
 
 namespace tureen::cli {
 

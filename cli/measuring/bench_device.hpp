@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 #include "runtime/gl/context.hpp"
 
 namespace tureen::cli {

@@ -170,6 +170,11 @@ Option Option::excludes(const Option& other) {
   return *this;
 }
 
+Option Option::group(const std::string& heading) {
+  option_->group(heading);
+  return *this;
+}
+
 Option Option::split_at_commas() {
   option_->delimiter(',');
   return *this;

@@ -54,6 +54,8 @@ class Option {
   Option needs(const Option& other);
   /// Parsing fails if this option and `other` were given.
   Option excludes(const Option& other);
+  /// Heading of the option in --help.
+  Option group(const std::string& heading);
   /// A list: "a,b" is two values.
   Option split_at_commas();
   /// A list: only one argument follows the option, not all until the next option.

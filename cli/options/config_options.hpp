@@ -6,9 +6,8 @@
 
 namespace tureen::cli {
 
-/// --method, --preset, --config, --compat, --triangles, --max-splats, --steps, --minutes, --flat,
-/// --opaque, --batch, --seed, --level and --init. `options` must live until the arguments are
-/// parsed.
+/// --method, --config, --steps, --seed and --init, and the options that methods list, in groups by
+/// method. `options` must live until the arguments are parsed.
 void add_config_options(Command& command, TrainingOptions& options);
 
 }  // namespace tureen::cli

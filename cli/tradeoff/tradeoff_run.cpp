@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cli/measuring/bench_device.hpp"
 #include "cli/progress.hpp"
+#include "cli/report.hpp"
 #include "cli/tradeoff/tradeoff_views.hpp"
 #include "cli/version.hpp"
 #include "jobs/tradeoff/model_errors.hpp"

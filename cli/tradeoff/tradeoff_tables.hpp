@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "jobs/results/tradeoff_json.hpp"
+#include "jobs/tradeoff/tradeoff_json.hpp"
 
 namespace tureen::cli {
 

@@ -1,15 +1,23 @@
-// The methods of make_training_method(), and the checks that they share.
+// The methods, and the checks that they share.
 #pragma once
 
-#include <memory>
+#include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/error.hpp"
+#include "base/input.hpp"
 #include "jobs/training/training_method.hpp"
+#include "trainer/common/config_table.hpp"
 #include "trainer/common/initialisation.hpp"
 #include "trainer/common/view_fingerprint.hpp"
 
 namespace tureen {
+
+extern const TrainingMethodInfo diffsoup_method, gaussians_method, triangles_method;
 
 /// "100 training views and 25 test views, the first 400 x 400". Needs a training view.
 std::string describe_views(const Dataset& dataset);
@@ -21,8 +29,49 @@ void require_scene(trainer::Initialisation initialisation, const TrainingOptions
 void require_same_views(const Dataset& dataset,
                         const std::vector<trainer::ViewFingerprint>& stored);
 
-std::unique_ptr<TrainingMethod> make_diffsoup_method(const TrainingOptions& options);
-std::unique_ptr<TrainingMethod> make_gaussian_method(const TrainingOptions& options);
-std::unique_ptr<TrainingMethod> make_window_method(const TrainingOptions& options);
+/// Throws InputError with the right method if the file is a checkpoint of another one.
+void require_checkpoint_of(const TrainingMethodInfo& method, const std::filesystem::path& file);
+
+/// If the file of constants has those of another method, throws InputError with its name.
+/// Otherwise returns.
+void refuse_constants_of_others(const TrainingOptions& options);
+
+/// The constants that `read` takes from the file of the options. Throws its InputError, or that the
+/// file has the constants of another method.
+template <class Read>
+auto constants_of_file(const TrainingOptions& options, const Read& read) {
+  try {
+    return read(std::filesystem::path(options.file));
+  } catch (const InputError&) {
+    refuse_constants_of_others(options);
+    throw;
+  }
+}
+
+/// Sets `initialisation` if the options say where to begin.
+void set_initialisation(trainer::Initialisation& initialisation, const TrainingOptions& options);
+
+/// The names of constants, for TrainingMethodInfo.
+template <class Fields>
+std::vector<std::string> names_of_fields(Fields fields) {
+  std::vector<std::string> names;
+  for (const auto& field : fields) names.emplace_back(field.name);
+  return names;
+}
+
+/// Sets `constant` to `value` if it is given. Throws UsageError for a value beyond the constant's
+/// type; it is beyond the range of the field `name`, too.
+template <class T, class Fields>
+void set_whole(T& constant, const std::optional<std::int64_t>& value, std::string_view name,
+               Fields fields) {
+  if (!value) return;
+  if (!std::in_range<T>(*value)) {
+    for (const auto& field : fields)
+      if (field.name == name)
+        throw UsageError(std::string(name) + ": " +
+                         field.range.refusal(double(*value), std::to_string(*value)));
+  }
+  constant = static_cast<T>(*value);
+}
 
 }  // namespace tureen

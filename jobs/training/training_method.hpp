@@ -1,28 +1,40 @@
 // One training run by any method, for a program that offers several: its constants, its checkpoint
-// and the run itself. The program reads the dataset and stores the scene.
+// and the run itself. The program reads the dataset and stores the scene. A method is a folder in
+// trainer/, a file in this folder and a line in methods.cpp.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "jobs/training/training_options.hpp"
 #include "scene/photographs.hpp"
 #include "scene/scene.hpp"
+#include "trainer/common/checkpoint_file.hpp"
 #include "trainer/common/primitive_count.hpp"
 #include "trainer/common/whole_run.hpp"
 
 namespace tureen {
 
+/// A result that only some methods have.
+struct OwnResult {
+  const char* name;  // its key in JSON
+  std::variant<bool, double> value;
+  std::string text = {};  // for people; empty: nothing to report
+};
+
 struct TrainingSummary {
   trainer::RunResult run;
   trainer::PrimitiveCount primitives;
   int steps = 0;
-  std::uint64_t non_finite = 0;                        // numbers that were skipped
-  std::optional<bool> visible_at_start = {};           // only of diffsoup
-  std::optional<double> opacity_binary_fraction = {};  // only of diffsoup
+  std::uint64_t non_finite = 0;  // numbers that were skipped
+  std::vector<OwnResult> own = {};
 };
 
 /// Why a method cannot begin with a scene, and a hint.
@@ -57,8 +69,23 @@ class TrainingMethod {
                                 const std::function<void(const std::string&)>& say) = 0;
 };
 
-/// Throws UsageError for options of another method, or that exclude each other, and ContextError if
-/// the device is missing. `options` must outlive the result.
+/// What a program knows of a method before a run.
+struct TrainingMethodInfo {
+  const char* name;     // as --method takes it
+  const char* summary;  // "opaque triangles with textures"
+  std::vector<const MethodOption*> options;
+  std::vector<std::string> (*constants)();  // names
+  /// All constants as text: name, default, meaning, range or words.
+  std::string (*reference)();
+  trainer::CheckpointMagic magic;
+  std::unique_ptr<TrainingMethod> (*make)(const TrainingOptions& options);
+};
+
+/// All methods; the first one is the default.
+std::span<const TrainingMethodInfo* const> training_methods();
+
+/// A run by options.method. Throws UsageError for options of another method, or that exclude each
+/// other, and ContextError if the device is missing. `options` must outlive the result.
 std::unique_ptr<TrainingMethod> make_training_method(const TrainingOptions& options);
 
 }  // namespace tureen

@@ -1,82 +1,78 @@
-// The options of a training run: a method, a preset or a file of constants, and the most common
-// single constants. A file can set all constants.
+// The options of a training run: those that every method has, and those that methods list
+// (MethodOption), by name. A file of constants can set all constants; options set the most common
+// ones.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
-
-#include "trainer/diffsoup/config.hpp"
-#include "trainer/diffsoup/device.hpp"
-#include "trainer/splats/gaussians/gaussian_config.hpp"
-#include "trainer/splats/windows/window_config.hpp"
+#include <string_view>
+#include <vector>
 
 namespace tureen {
 
-enum class TrainingMethodName { diffsoup, gaussians, triangles };
+struct TrainingMethodInfo;
 
-/// In the order of the enumerators, as --method takes them.
-inline constexpr const char* training_method_words[] = {"diffsoup", "gaussians", "triangles"};
+/// An option that some methods have, for a command line or a window. Its range and its default are
+/// those of the constant that it sets. Methods with an option of the same name share this value.
+struct MethodOption {
+  enum class Type {
+    flag,    // given or not
+    whole,   // a whole number
+    number,  // a finite number
+    word,    // one of `words`
+    path,
+  };
+  const char* name;  // --NAME on a command line
+  Type type = Type::flag;
+  const char* help;
+  const char* instead;                       // hint of the error for methods without the option
+  const char* value_name = "";               // in --help
+  std::vector<std::string> words = {};       // of Type::word
+  std::vector<std::string> everywhere = {};  // the words that methods without the option accept
+};
 
-constexpr const char* name_of(TrainingMethodName method) {
-  return training_method_words[std::size_t(method)];
-}
+/// The value of an option; the member of its type is set if it is given.
+struct OptionValue {
+  bool flag = false;
+  std::optional<std::int64_t> whole = {};
+  std::optional<double> number = {};
+  std::string text = {};  // of a word or a path; empty: not given
+
+  bool is_given() const { return flag || whole || number || !text.empty(); }
+};
 
 struct TrainingOptions {
-  TrainingMethodName method = TrainingMethodName::diffsoup;
+  TrainingOptions();  // the first method
+
+  const TrainingMethodInfo* method;   // in training_methods()
   std::string file;                   // of constants; empty: none
-  std::optional<std::int64_t> steps;  // with_options() checks ranges, here and below
+  std::optional<std::int64_t> steps;  // ranges are checked with the constants
   std::optional<std::uint64_t> seed;
-  std::string begin;  // "random", "points", a scene, or empty
+  std::optional<std::uint64_t> max_memory;              // bytes; methods that can need less then do
+  std::string begin;                                    // "random", "points", a scene, or empty
+  std::map<std::string, OptionValue, std::less<>> own;  // by MethodOption::name
 
-  // Only of diffsoup.
-  std::optional<trainer::Preset> preset;
-  bool published = false;
-  std::optional<std::int64_t> triangles, batch, level;
-  trainer::Device device = trainer::Device::automatic;
-
-  // Only of gaussians and triangles.
-  std::optional<std::int64_t> max_splats;
-  std::optional<double> minutes;            // of training; the run fits its steps
-  std::optional<std::uint64_t> max_memory;  // bytes; the run has fewer splats if it needs more
-
-  // Only of gaussians.
-  bool flat = false;  // discs
-
-  // Only of triangles.
-  bool opaque = false;  // the result is a triangle soup
-
-  /// Whether a preset, a file or `published` is given. Single constants then change these instead
-  /// of the constants of a checkpoint.
-  bool name_a_base() const { return preset || published || !file.empty(); }
+  /// The value of an option of the method; without a value if it is not given.
+  const OptionValue& operator[](const MethodOption& option) const;
   /// The scene that provides the first primitives; empty: none.
   std::string mesh() const {
     return begin == "random" || begin == "points" ? std::string() : begin;
   }
 };
 
-/// The preset, with the file's constants. `otherwise`: the preset if neither names one. Throws
-/// InputError for an invalid file, UsageError if it names another preset than `preset`.
-trainer::Config base_config(const TrainingOptions& options, trainer::Preset otherwise);
+/// An option, and the methods that have it, in their order.
+struct OptionOfMethods {
+  const MethodOption* option;
+  std::vector<const TrainingMethodInfo*> methods;
+};
+/// All options of all methods: those of the first method, then the further ones of the next.
+std::vector<OptionOfMethods> all_method_options();
 
-/// `defaults` with the file's constants. Throws InputError for an invalid file.
-trainer::GaussianConfig base_config(const TrainingOptions& options,
-                                    const trainer::GaussianConfig& defaults);
-trainer::WindowConfig base_config(const TrainingOptions& options,
-                                  const trainer::WindowConfig& defaults);
-
-/// `base` with the single constants. `triangles` scales the initial number of triangles in
-/// proportion. `level` also limits the other levels. Throws UsageError for invalid constants.
-trainer::Config with_options(const trainer::Config& base, const TrainingOptions& options);
-
-/// The same for splats. `steps` sets minutes to 0 unless they are given, too.
-trainer::GaussianConfig with_options(const trainer::GaussianConfig& base,
-                                     const TrainingOptions& options);
-trainer::WindowConfig with_options(const trainer::WindowConfig& base,
-                                   const TrainingOptions& options);
-
-/// All constants of the method as text: name, default, meaning, range or words.
-std::string constants_reference(const TrainingOptions& options);
+/// "diffsoup", "gaussians or triangles" with the separator " or ".
+std::string names_of(const std::vector<const TrainingMethodInfo*>& methods,
+                     std::string_view separator);
 
 }  // namespace tureen

@@ -1,7 +1,7 @@
 #include "jobs/training/training_outcome.hpp"
 
 #include "base/error.hpp"
-#include "jobs/results/eval_json.hpp"
+#include "jobs/eval/eval_json.hpp"
 
 namespace tureen {
 
@@ -19,9 +19,9 @@ void evaluate(TrainingOutcome& outcome, const Scene& scene, std::span<const Phot
   }
 }
 
-results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
+Json to_json(const TrainingOutcome& outcome, std::size_t views) {
   const TrainingSummary& training = outcome.training;
-  results::Json test{{"views", views}};
+  Json test{{"views", views}};
   if (outcome.evaluation) {
     test.update(results::to_json(outcome.evaluation->mean, true));
     test["drawn_by"] = outcome.evaluation->renderer;
@@ -29,15 +29,14 @@ results::Json to_json(const TrainingOutcome& outcome, std::size_t views) {
     test["psnr_db"] = *training.run.test_psnr_db;
     test["drawn_by"] = "trainer";
   }
-  results::Json json{{"done", true},
-                     {"steps", training.steps},
-                     {"seconds", training.run.seconds},
-                     {name_of(training.primitives.kind), training.primitives.count}};
-  if (training.visible_at_start) json["visible_at_start"] = *training.visible_at_start;
+  Json json{{"done", true},
+            {"steps", training.steps},
+            {"seconds", training.run.seconds},
+            {name_of(training.primitives.kind), training.primitives.count}};
+  for (const OwnResult& result : training.own)
+    std::visit([&](auto value) { json[result.name] = value; }, result.value);
   json["test"] = test;
   if (training.run.test_psnr_db) json["trainer_psnr_db"] = *training.run.test_psnr_db;
-  if (training.opacity_binary_fraction)
-    json["opacity_binary_fraction"] = *training.opacity_binary_fraction;
   json["non_finite"] = training.non_finite;
   json["output"] = outcome.output;
   return json;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/json/json_text.hpp"
 #include "jobs/eval/evaluation.hpp"
-#include "jobs/results/json_text.hpp"
 #include "jobs/training/training_method.hpp"
 
 namespace tureen {
@@ -24,6 +24,6 @@ void evaluate(TrainingOutcome& outcome, const Scene& scene, std::span<const Phot
               const std::function<void(double)>& progress);
 
 /// The last line of `tureen train --json`; `views`: number of test views.
-results::Json to_json(const TrainingOutcome& outcome, std::size_t views);
+Json to_json(const TrainingOutcome& outcome, std::size_t views);
 
 }  // namespace tureen

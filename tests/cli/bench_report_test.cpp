@@ -9,15 +9,15 @@
 #include "cli/bench/bench_comparison.hpp"
 #include "cli/bench/bench_reports.hpp"
 #include "cli/measuring/bench_words.hpp"
-#include "jobs/results/bench_json.hpp"
-#include "jobs/results/comparison_json.hpp"
+#include "jobs/bench/bench_json.hpp"
+#include "jobs/bench/comparison_json.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace bench_report_test {
 
-using results::Json;
+using Json;
 using test::Names;
 using ::testing::AllOf;
 using ::testing::ElementsAre;

@@ -1,5 +1,5 @@
 // The report page contains its data unchanged, and rejects files that are not results.
-#include "jobs/results/report_page.hpp"
+#include "jobs/report/report_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

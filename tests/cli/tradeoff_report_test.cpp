@@ -12,7 +12,7 @@
 namespace tureen::cli {
 namespace tradeoff_report_test {
 
-using results::Json;
+using Json;
 using test::Names;
 using testing::ElementsAre;
 

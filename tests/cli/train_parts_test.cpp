@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,10 +10,9 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "cli/files/train_files.hpp"
 #include "cli/progress.hpp"
-#include "jobs/training/training_method.hpp"
-#include "jobs/training/training_options.hpp"
+#include "jobs/training/diffsoup_options.hpp"
+#include "jobs/training/training_run.hpp"
 #include "scene/scene.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
@@ -24,38 +24,67 @@ namespace fs = std::filesystem;
 using trainer::Config;
 using trainer::Preset;
 
-TEST(TrainingFiles, LieBesideTheSoup) {
-  const TrainingFiles files = training_files("runs/a.b.glb");
+TEST(TrainingFiles, LieBesideTheScene) {
+  const trainer::TrainingFiles files = trainer::training_files("runs/a.b.glb");
   EXPECT_EQ(files.scene, "runs/a.b.glb");
   EXPECT_EQ(files.checkpoint, "runs/a.b.checkpoint");
   EXPECT_EQ(files.log, "runs/a.b.jsonl");
   EXPECT_EQ(files.previews, "runs/a.b.previews");
-  EXPECT_TRUE(files.diffsoup_export.empty());
-  EXPECT_THROW(training_files("a"), UsageError);
-  EXPECT_THROW(training_files("a.gltf"), UsageError);
+  EXPECT_THROW(trainer::training_files("a"), UsageError);
+  EXPECT_THROW(trainer::training_files("a.gltf"), UsageError);
 }
 
-TEST(TrainingFiles, AreTriedAndLeaveNothing) {
+TEST(TrainingRun, TriesItsFilesAndLeavesNothing) {
   const fs::path folder = fs::path(testing::TempDir()) / "tureen_training_files";
   fs::remove_all(folder);
   fs::create_directories(folder / "full");
   std::ofstream(folder / "full" / "letter.txt") << "dear";
-  TrainingFiles files = training_files(folder / "a.glb");
-  EXPECT_NO_THROW(check_writable(files));
-  files.diffsoup_export = folder / "new";
-  EXPECT_NO_THROW(check_writable(files));
-  files.diffsoup_export = folder / "none" / "new";
-  EXPECT_THROW(check_writable(files), OutputError);
-  files.diffsoup_export = folder / "full";
-  EXPECT_THROW(check_writable(files), UsageError);
-  files = training_files(folder / "a.glb");
-  files.log = folder / "full";
-  EXPECT_THROW(check_writable(files), OutputError);
-  EXPECT_THROW(check_writable(training_files(folder / "none" / "a.glb")), OutputError);
+  TrainingJob job{.output = folder / "a.glb"};
+  const auto make = [&] { const TrainingRun run(job); };
+  EXPECT_NO_THROW(make());
+  job.log = folder / "full";
+  EXPECT_THROW(make(), OutputError);
+  job.log = folder / "full" / "letter.txt";
+  EXPECT_THROW(make(), UsageError);
+  job.log = folder / "a.lock";
+  EXPECT_THROW(make(), UsageError);
+  EXPECT_THROW(TrainingRun(TrainingJob{.output = folder / "none" / "a.glb"}), OutputError);
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder)) ++entries;
   EXPECT_EQ(entries, 2u);
   fs::remove_all(folder);
+}
+
+TEST(TrainingMethods, HaveOptionsOfTheirOwnThatOthersRefuse) {
+  for (const auto& [option, methods] : all_method_options())
+    for (const TrainingMethodInfo* method : training_methods()) {
+      TrainingOptions options;
+      options.method = method;
+      OptionValue& value = options.own[option->name];
+      switch (option->type) {
+        case MethodOption::Type::flag:
+          value.flag = true;
+          break;
+        case MethodOption::Type::whole:
+          value.whole = 100;
+          break;
+        case MethodOption::Type::number:
+          value.number = 1;
+          break;
+        case MethodOption::Type::word:
+          value.text = option->words.front();
+          break;
+        case MethodOption::Type::path:
+          value.text = "folder";
+          break;
+      }
+      const bool has = std::ranges::find(methods, method) != methods.end();
+      if (has || !option->everywhere.empty())
+        EXPECT_NO_THROW(make_training_method(options)) << method->name << " --" << option->name;
+      else
+        EXPECT_THROW(make_training_method(options), UsageError)
+            << method->name << " --" << option->name;
+    }
 }
 
 TEST(SoupTraining, BeginsOnAllScenesButNeuralDensities) {
@@ -76,42 +105,39 @@ TEST(SoupTraining, BeginsOnAllScenesButNeuralDensities) {
 TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {
   const Config base = trainer::published(Preset::object);
   TrainingOptions options;
-  options.triangles = 3000;
+  options.own["triangles"].whole = 3000;
   const Config config = with_options(base, options);
   EXPECT_EQ(config.triangles, 3000);
   EXPECT_EQ(config.initial_triangles, base.initial_triangles / 5);
-  options.triangles = 0;
+  options.own["triangles"].whole = 0;
   EXPECT_THROW(with_options(base, options), UsageError);
-  options.triangles = 1;
+  options.own["triangles"].whole = 1;
   EXPECT_GE(with_options(base, options).initial_triangles, 1);
 }
 
 TEST(ConfigOptions, AreRefusedByTheNumberThatWasTyped) {
-  const auto refusal = [](std::optional<std::int64_t> TrainingOptions::*option,
-                          std::int64_t value) {
+  const auto refusal = [](const std::string& option, std::int64_t value) {
     TrainingOptions options;
-    options.*option = value;
+    (option == "steps" ? options.steps : options.own[option].whole) = value;
     return test::error_of<UsageError>([&] { with_options(Config{}, options); });
   };
   using test::Names;
-  EXPECT_THAT(refusal(&TrainingOptions::triangles, 99'999'999'999),
-              Names("triangles", "99999999999", 4000000));
-  EXPECT_THAT(refusal(&TrainingOptions::steps, -99'999'999'999),
-              Names("steps", "-99999999999", 10000000));
-  EXPECT_THAT(refusal(&TrainingOptions::batch, 1LL << 40), Names("batch", "1099511627776"));
-  EXPECT_THAT(refusal(&TrainingOptions::level, 1LL << 40), Names("max_level", "1099511627776"));
+  EXPECT_THAT(refusal("triangles", 99'999'999'999), Names("triangles", "99999999999", 4000000));
+  EXPECT_THAT(refusal("steps", -99'999'999'999), Names("steps", "-99999999999", 10000000));
+  EXPECT_THAT(refusal("batch", 1LL << 40), Names("batch", "1099511627776"));
+  EXPECT_THAT(refusal("level", 1LL << 40), Names("max_level", "1099511627776"));
 }
 
 TEST(ConfigOptions, LowerWhatWouldBeAboveTheLevel) {
   TrainingOptions options;
-  options.level = 1;
+  options.own["level"].whole = 1;
   Config base = trainer::preset(Preset::object);
   base.coarse_level = 2;
   const Config config = with_options(base, options);
   EXPECT_EQ(config.max_level, 1);
   EXPECT_EQ(config.min_level, 1);
   EXPECT_EQ(config.coarse_level, 1);
-  options.level = 6;
+  options.own["level"].whole = 6;
   EXPECT_EQ(with_options(base, options).min_level, base.min_level);
 }
 

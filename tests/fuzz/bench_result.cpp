@@ -1,5 +1,5 @@
 // A result of `tureen bench`, as --against reads it.
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

@@ -1,5 +1,5 @@
 // Measurements by bench.html in a browser.
-#include "jobs/results/web_bench.hpp"
+#include "jobs/bench/web_bench.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

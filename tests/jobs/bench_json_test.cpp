@@ -1,5 +1,5 @@
 // The file of `tureen bench`: written, read back, and rejected if invalid.
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Downloads of bench.html: the results that they become, and the errors.
-#include "jobs/results/web_bench.hpp"
+#include "jobs/bench/web_bench.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -19,15 +19,6 @@ void visit_view(Archive& archive, View& view) {
   archive(pixels, "the checksum of a photograph");
 }
 
-[[noreturn]] void refuse_magic(const Input& input, const CheckpointMagic& magic) {
-  for (const CheckpointMethod& method : checkpoint_methods)
-    if (magic == method.magic)
-      throw InputError({input.name(), {}, {}},
-                       std::string("this is a checkpoint of --method ") + method.name,
-                       std::string("continue it with --method ") + method.name);
-  input.fail_at(0, "this is not a checkpoint of tureen train");
-}
-
 }  // namespace
 
 std::uint32_t checksum(std::uint32_t sum, std::span<const std::byte> bytes) {
@@ -76,7 +67,7 @@ CheckpointHead read_head(CheckpointReader& reader, const CheckpointKind& kind) {
   const Input& input = reader.input();
   CheckpointMagic magic{};
   reader(magic, "the file's kind");
-  if (magic != kind.magic) refuse_magic(input, magic);
+  if (magic != kind.magic) input.fail_at(0, "this is not a checkpoint of tureen train");
   std::uint32_t version = 0;
   reader(version, "the version");
   if (version != kind.version)

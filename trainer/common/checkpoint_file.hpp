@@ -95,15 +95,6 @@ inline constexpr CheckpointMagic diffsoup_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T
 inline constexpr CheckpointMagic gaussians_magic{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'};
 inline constexpr CheckpointMagic triangles_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'W'};
 
-struct CheckpointMethod {
-  CheckpointMagic magic;
-  const char* name;  // of the method, as --method takes it
-};
-
-/// Every method. An error names the method of a checkpoint that another method shall continue.
-inline constexpr CheckpointMethod checkpoint_methods[] = {
-    {diffsoup_magic, "diffsoup"}, {gaussians_magic, "gaussians"}, {triangles_magic, "triangles"}};
-
 struct CheckpointKind {
   CheckpointMagic magic;
   std::uint32_t version;
@@ -117,7 +108,7 @@ struct CheckpointHead {
 };
 
 void write_head(CheckpointWriter& writer, const CheckpointKind& kind, const CheckpointHead& head);
-/// Throws InputError for other kinds and versions; it names the method of another known kind.
+/// Throws InputError for other kinds and versions.
 CheckpointHead read_head(CheckpointReader& reader, const CheckpointKind& kind);
 
 /// The configuration of a head. Requires exactly the text that `write` makes from it, because the

@@ -1,8 +1,8 @@
 // Errors against photographs, as JSON.
 #pragma once
 
+#include "base/json/json_text.hpp"
 #include "jobs/eval/evaluation.hpp"
-#include "jobs/results/json_text.hpp"
 
 namespace tureen::results {
 

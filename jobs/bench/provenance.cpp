@@ -1,6 +1,6 @@
-#include "jobs/results/provenance.hpp"
+#include "jobs/bench/provenance.hpp"
 
-#include "jobs/results/json_reading.hpp"
+#include "jobs/bench/json_reading.hpp"
 
 namespace tureen::results {
 

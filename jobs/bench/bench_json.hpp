@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "base/json/json_text.hpp"
 #include "jobs/bench/bench_result.hpp"
-#include "jobs/results/json_text.hpp"
 
 namespace tureen::results {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "jobs/results/bench_json.hpp"
-#include "jobs/results/json_text.hpp"
+#include "base/json/json_text.hpp"
+#include "jobs/bench/bench_json.hpp"
 #include "jobs/tradeoff/model_errors.hpp"
 #include "jobs/tradeoff/panel.hpp"
 

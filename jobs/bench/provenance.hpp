@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/json/json_view.hpp"
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 
 namespace tureen::results {
 

@@ -1,4 +1,4 @@
-#include "jobs/results/eval_json.hpp"
+#include "jobs/eval/eval_json.hpp"
 
 namespace tureen::results {
 

@@ -1,4 +1,4 @@
-#include "jobs/results/comparison_json.hpp"
+#include "jobs/bench/comparison_json.hpp"
 
 #include <fmt/format.h>
 

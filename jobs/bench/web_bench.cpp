@@ -1,12 +1,12 @@
-#include "jobs/results/web_bench.hpp"
+#include "jobs/bench/web_bench.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/json/json_file.hpp"
-#include "jobs/results/json_reading.hpp"
-#include "jobs/results/plan_json.hpp"
+#include "jobs/bench/json_reading.hpp"
+#include "jobs/bench/plan_json.hpp"
 
 namespace tureen::results {
 

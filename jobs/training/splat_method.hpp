@@ -1,3 +1,6 @@
+// Training of splats: what its methods share.
+#pragma once
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,27 +16,34 @@
 
 namespace tureen {
 
-namespace {
-
-constexpr const char* random_start = "--init random needs no scene";
-
-std::string hint_for(const SplatKernel& kernel, const trainer::GaussianConfig& config) {
-  const auto* gaussians = std::get_if<Gaussians>(&kernel);
-  if (!gaussians || gaussians->flat == config.flat) return random_start;
-  return std::string(gaussians->flat ? "--flat trains flat Gaussians; "
-                                     : "without --flat, Gaussians have three scales; ") +
-         random_start;
-}
-std::string hint_for(const SplatKernel&, const trainer::WindowConfig&) { return random_start; }
+inline const MethodOption max_splats_option{
+    .name = "max-splats",
+    .type = MethodOption::Type::whole,
+    .help = "largest number of Gaussians or soft triangles; 60,000 by default",
+    .instead = "--triangles sets the number of triangles",
+    .value_name = "N"};
+inline const MethodOption minutes_option{
+    .name = "minutes",
+    .type = MethodOption::Type::number,
+    .help =
+        "time for the training, more than 0; the number of steps is fitted to it and replaces "
+        "the steps of --config",
+    .instead = "--steps sets the length of the training",
+    .value_name = "N"};
 
 template <class Config, class Parameters>
-class SplatMethod final : public TrainingMethod {
+class SplatMethod : public TrainingMethod {
  public:
   using Checkpoint = trainer::SplatCheckpoint<Config, Parameters>;
 
-  explicit SplatMethod(const TrainingOptions& options) : options_(options) {}
+  explicit SplatMethod(const TrainingOptions& options) : options_(options) {
+    if (options.steps && options[minutes_option].number)
+      throw UsageError("--steps and --minutes exclude each other",
+                       "--minutes fits the number of steps to the time");
+  }
 
   void resume(const std::filesystem::path& checkpoint) override {
+    require_checkpoint_of(*options_.method, checkpoint);
     checkpoint_ = trainer::read_splat_checkpoint<Checkpoint>(checkpoint);
   }
 
@@ -48,10 +58,12 @@ class SplatMethod final : public TrainingMethod {
       if (!plain) base.far_splats = 0.5;
     }
     if (!options_.file.empty())
-      base = base_config(options_, base);
+      base = constants_of_file(options_, [&](const std::filesystem::path& file) {
+        return trainer::read_splat_config(file, base);
+      });
     else if (checkpoint_)
       base = checkpoint_->config;
-    config_ = with_options(base, options_);
+    config_ = with_options(base);
     replaced_minutes_ = options_.steps ? base.minutes : 0;
     if (dataset) limit_memory(*dataset);
     // --max-memory lowered the number of this run; its limit may depend on the version of Tureen.
@@ -71,7 +83,7 @@ class SplatMethod final : public TrainingMethod {
     return UnsuitableStart{
         fmt::format("the scene has {} ({}), but {} begin with {} or triangles",
                     counted(splat_count(start), "splat"), kernel_name(splats->kernel), own, own),
-        hint_for(splats->kernel, config_)};
+        hint_for(splats->kernel)};
   }
 
   std::string constants() const override { return trainer::splat_config_to_json(config_); }
@@ -102,7 +114,40 @@ class SplatMethod final : public TrainingMethod {
             .non_finite = result.non_finite};
   }
 
+ protected:
+  /// Sets the constants of options that only this method has.
+  virtual void set_own(Config& config) const = 0;
+  /// The hint of unsuitable().
+  virtual std::string hint_for(const SplatKernel&) const { return random_start; }
+
+  static constexpr const char* random_start = "--init random needs no scene";
+
+  const Config& config() const { return config_; }
+  const TrainingOptions& options() const { return options_; }
+
  private:
+  /// `config` with the single constants. --steps sets minutes to 0.
+  Config with_options(Config config) const {
+    const auto fields = trainer::splat_config_fields<Config>();
+    set_own(config);
+    set_whole(config.steps, options_.steps, "steps", fields);
+    if (options_.steps) config.minutes = 0;
+    set_whole(config.max_splats, options_[max_splats_option].whole, "max_splats", fields);
+    if (const auto& minutes = options_[minutes_option].number) {
+      // In a file, 0 means a fixed number of steps; on the command line, --steps does.
+      if (!(*minutes > 0))
+        throw UsageError("--minutes: " + trainer::double_text(*minutes) +
+                             " is out of range; the time must be more than 0",
+                         "--steps sets a fixed number of steps");
+      config.minutes = *minutes;
+    }
+    config.seed = options_.seed.value_or(config.seed);
+    set_initialisation(config.initialisation, options_);
+    if (const std::optional<std::string> reason = trainer::splat_config_defect(config))
+      throw UsageError(*reason);
+    return config;
+  }
+
   /// Lowers max_splats so that the run fits in --max-memory.
   void limit_memory(const Dataset& dataset) {
     if (!options_.max_memory || checkpoint_) return;
@@ -122,15 +167,19 @@ class SplatMethod final : public TrainingMethod {
   double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 
-}  // namespace
-
-std::unique_ptr<TrainingMethod> make_gaussian_method(const TrainingOptions& options) {
-  return std::make_unique<SplatMethod<trainer::GaussianConfig, trainer::GaussianParameters>>(
-      options);
-}
-
-std::unique_ptr<TrainingMethod> make_window_method(const TrainingOptions& options) {
-  return std::make_unique<SplatMethod<trainer::WindowConfig, trainer::WindowParameters>>(options);
+/// The info of a method of splats: `own`: its own option. `Method`: a SplatMethod.
+template <class Method, class Config>
+TrainingMethodInfo splat_method_info(const char* name, const char* summary, const MethodOption& own,
+                                     trainer::CheckpointMagic magic) {
+  return {.name = name,
+          .summary = summary,
+          .options = {&max_splats_option, &minutes_option, &own},
+          .constants = [] { return names_of_fields(trainer::splat_config_fields<Config>()); },
+          .reference = &trainer::splat_config_reference<Config>,
+          .magic = magic,
+          .make = [](const TrainingOptions& options) -> std::unique_ptr<TrainingMethod> {
+            return std::make_unique<Method>(options);
+          }};
 }
 
 }  // namespace tureen

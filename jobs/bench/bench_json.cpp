@@ -1,8 +1,8 @@
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 
-#include "jobs/results/json_reading.hpp"
-#include "jobs/results/plan_json.hpp"
-#include "jobs/results/provenance.hpp"
+#include "jobs/bench/json_reading.hpp"
+#include "jobs/bench/plan_json.hpp"
+#include "jobs/bench/provenance.hpp"
 
 namespace tureen::results {
 

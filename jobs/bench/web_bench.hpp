@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "jobs/results/bench_json.hpp"
+#include "jobs/bench/bench_json.hpp"
 
 namespace tureen::results {
 

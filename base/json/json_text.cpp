@@ -1,9 +1,9 @@
-#include "jobs/results/json_text.hpp"
+#include "base/json/json_text.hpp"
 
-namespace tureen::results {
+namespace tureen {
 
 std::string json_text(const Json& document, int indent) {
   return document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace tureen::results
+}  // namespace tureen

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/json/json_text.hpp"
 #include "jobs/bench/bench_comparison.hpp"
-#include "jobs/results/json_text.hpp"
 
 namespace tureen::results {
 

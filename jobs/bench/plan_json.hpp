@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "base/json/json_text.hpp"
 #include "base/json/json_view.hpp"
-#include "jobs/results/json_text.hpp"
 #include "runtime/plan/specialisation.hpp"
 
 namespace tureen::results {

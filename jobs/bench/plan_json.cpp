@@ -1,6 +1,6 @@
-#include "jobs/results/plan_json.hpp"
+#include "jobs/bench/plan_json.hpp"
 
-#include "jobs/results/json_reading.hpp"
+#include "jobs/bench/json_reading.hpp"
 
 namespace tureen::results {
 

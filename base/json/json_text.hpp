@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace tureen::results {
+namespace tureen {
 
 using Json = nlohmann::ordered_json;
 
@@ -12,4 +12,4 @@ using Json = nlohmann::ordered_json;
 /// U+FFFD.
 std::string json_text(const Json& document, int indent = 2);
 
-}  // namespace tureen::results
+}  // namespace tureen

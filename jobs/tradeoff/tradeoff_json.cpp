@@ -1,6 +1,6 @@
-#include "jobs/results/tradeoff_json.hpp"
+#include "jobs/tradeoff/tradeoff_json.hpp"
 
-#include "jobs/results/provenance.hpp"
+#include "jobs/bench/provenance.hpp"
 
 namespace tureen::results {
 

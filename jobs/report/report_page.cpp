@@ -1,10 +1,10 @@
-#include "jobs/results/report_page.hpp"
+#include "jobs/report/report_page.hpp"
 
 #include <cctype>
 #include <string_view>
 
-#include "jobs/results/json_text.hpp"
-#include "jobs/results/report_files.hpp"
+#include "base/json/json_text.hpp"
+#include "jobs/report/report_files.hpp"
 
 namespace tureen::results {
 
