@@ -29,7 +29,7 @@ set(limits
 
   "code base 2200: fundamentals that no library has, and the code for POSIX"
   "code image 1980: images, metrics, video files"
-  "code scene 4300: the model and its edits"
+  "code scene 4330: the model and its edits"
   "code camera 1500: navigation"
   "code formats 12550: a reader per format, checked against hostile files"
   "code oracle 1700: the reference stays readable"
@@ -37,7 +37,7 @@ set(limits
   "code shaders 1850: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 12800: three methods, CPU and CUDA"
-  "code jobs 5300: work that the programs share, what measures and reports grows no further"
+  "code jobs 5460: work that the programs share, and the whole of a training run; what measures and reports grows no further"
   "code viewer 6680: the window"
   "code web 9200: the page"
   "code cli 6360: the command line computes nothing"
