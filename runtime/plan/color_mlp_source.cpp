@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scene/spherical_harmonics.hpp"
+
 namespace tureen {
 
 namespace {
@@ -33,13 +35,14 @@ std::vector<Input> network_inputs(const ColorMlp& mlp, const FeatureRanges& rang
   if (mlp.encoding == DirectionEncoding::xyz)
     for (const char* axis : {"d.x", "d.y", "d.z"}) inputs.push_back({axis, -1.0f, 1.0f});
   if (mlp.encoding == DirectionEncoding::harmonics2) {
-    // The extrema of each basis function over the sphere, rounded outwards.
-    constexpr float low[9] = {0.28209f,  -0.48861f, -0.48861f, -0.48861f, -0.54628f,
-                              -0.54628f, -0.31540f, -0.54628f, -0.54628f};
-    constexpr float high[9] = {0.28210f, 0.48861f, 0.48861f, 0.48861f, 0.54628f,
-                               0.54628f, 0.63079f, 0.54628f, 0.54628f};
+    // The extrema of each basis function over the sphere, rounded outwards to five digits.
+    constexpr double y00 = harmonics::y00, y10 = harmonics::factors[2];
+    constexpr double y20 = harmonics::factors[6], y22 = harmonics::factors[8];
+    constexpr double low[9] = {y00, -y10, -y10, -y10, -y22, -y22, -y20, -y22, -y22};
+    constexpr double high[9] = {y00, y10, y10, y10, y22, y22, 2 * y20, y22, y22};
     for (int i = 0; i < 9; ++i)
-      inputs.push_back({"basis[" + std::to_string(i) + "]", low[i], high[i]});
+      inputs.push_back({"basis[" + std::to_string(i) + "]", float(std::floor(1e5 * low[i]) / 1e5),
+                        float(std::ceil(1e5 * high[i]) / 1e5)});
   }
   return inputs;
 }

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
-#include "tests/trainer/disc_views.hpp"
+#include "tests/trainer/splat_runs.hpp"
 #include "trainer/splats/gaussians/gaussian_method.hpp"
 #include "trainer/splats/splat_state.hpp"
 

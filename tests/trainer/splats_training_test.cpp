@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 
-#include "tests/trainer/disc_views.hpp"
+#include "tests/trainer/splat_runs.hpp"
 #include "trainer/splats/gaussians/gaussian_method.hpp"
 
 namespace tureen::trainer {
@@ -101,34 +99,6 @@ TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
   }
 }
 
-/// Returns the loss of the last steps over that of the first ones.
-template <class Trainer>
-double expect_training(const GaussianConfig& config) {
-  const std::vector<TrainingView> views = test::views_of_a_disc();
-  double ratio = 0;
-  std::vector<float> images[3];
-  const int threads[] = {1, 2, 5};
-  for (int run = 0; run < 3; ++run) {
-    Trainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, threads[run]);
-    double first = 0, last = 0;
-    std::size_t quarantined = 0;
-    while (!trainer.done()) {
-      const SplatStepReport report = trainer.step();
-      if (trainer.steps_done() <= 6) first += report.loss;
-      if (trainer.steps_done() > 144) last += report.loss;
-      quarantined += report.quarantined;
-    }
-    ratio = last / first;
-    EXPECT_EQ(quarantined, 0u);
-    EXPECT_EQ(trainer.parameters().count(), 300u);
-    images[run] = trainer.render(views[0].camera);
-  }
-  for (const int run : {1, 2})
-    EXPECT_EQ(std::memcmp(images[0].data(), images[run].data(), images[0].size() * sizeof(float)),
-              0);
-  return ratio;
-}
-
 TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
   GaussianConfig config{{.steps = 150,
                          .max_splats = 300,
@@ -136,33 +106,19 @@ TEST(SplatsTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
                          .densify_every = 40,
                          .background = {0, 0, 0}}};
   // 0.41 and 0.40 with this seed; without training the ratio is 1.
-  EXPECT_LT(expect_training<GaussianTrainer>(config), 0.5);
+  const std::vector<TrainingView> views = test::views_of_a_disc();
+  EXPECT_LT(test::loss_ratio_with_any_threads<GaussianTrainer>(config, views, 6), 0.5);
   config.flat = true;
-  EXPECT_LT(expect_training<SplatTrainer<DiscTraining>>(config), 0.5);
+  EXPECT_LT(test::loss_ratio_with_any_threads<SplatTrainer<DiscTraining>>(config, views, 6), 0.5);
 }
 
 /// Discs continue from the state in a checkpoint with the same bits.
 TEST(SplatsTraining, DiscsContinueFromACheckpoint) {
-  const std::vector<TrainingView> views = test::views_of_a_disc();
-  const Region region{.centre = {0, 0, 0}, .half_side = 1};
   GaussianConfig config{{.steps = 90, .max_splats = 150, .first_splats = 100, .densify_every = 20}};
   config.flat = true;
-  const auto path = std::filesystem::path(testing::TempDir()) / "tureen_discs.checkpoint";
-  SplatTrainer<DiscTraining> whole(config, views, region, 2);
-  while (whole.steps_done() < 43) whole.step();
-  write_checkpoint(path, GaussianCheckpoint{.config = config,
-                                            .views = std::vector<ViewFingerprint>(
-                                                views.size(), {"r_0", 40, 33, 1u, 2u}),
-                                            .state = whole.state()});
-  while (!whole.done()) whole.step();
-  GaussianCheckpoint stored = read_splat_checkpoint<GaussianCheckpoint>(path);
-  std::filesystem::remove(path);
-  EXPECT_TRUE(stored.config.flat);
-  SplatTrainer<DiscTraining> second(stored.config, views, region, 1, std::move(stored.state));
-  while (!second.done()) second.step();
-  const auto a = whole.parameters().drawn.values(), b = second.parameters().drawn.values();
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size_bytes()), 0);
+  EXPECT_TRUE(test::expect_same_bits_after_checkpoint<SplatTrainer<DiscTraining>>(
+                  config, test::views_of_a_disc(), 43)
+                  .config.flat);
 }
 
 }  // namespace splats_training_test

@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "oracle/oracle.hpp"
+#include "tests/trainer/splat_runs.hpp"
 #include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
@@ -171,29 +170,10 @@ double psnr(const std::vector<double>& image, const TrainingView& view) {
 }
 
 TEST(WindowTraining, LowersTheLossWithTheSameBitsForAnyNumberOfThreads) {
-  const std::vector<TrainingView> views = views_of_a_square();
-  std::vector<float> images[3];
-  const int threads[] = {1, 2, 5};
-  for (int run = 0; run < 3; ++run) {
-    WindowTrainer trainer(small_run(400), views, {.centre = {0, 0, 0}, .half_side = 1},
-                          threads[run]);
-    double first = 0, last = 0;
-    std::size_t quarantined = 0;
-    while (!trainer.done()) {
-      const SplatStepReport report = trainer.step();
-      if (trainer.steps_done() <= 8) first += report.loss;
-      if (trainer.steps_done() > 392) last += report.loss;
-      quarantined += report.quarantined;
-    }
-    RecordProperty("ratio", std::to_string(last / first));
-    EXPECT_LT(last, 0.5 * first);  // the ratio is 0.20 with this seed; without training it is 1
-    EXPECT_EQ(quarantined, 0u);
-    EXPECT_EQ(trainer.parameters().count(), 300u);
-    images[run] = trainer.render(views[0].camera);
-  }
-  for (const int run : {1, 2})
-    EXPECT_EQ(std::memcmp(images[0].data(), images[run].data(), images[0].size() * sizeof(float)),
-              0);
+  // 0.20 with this seed; without training the ratio is 1.
+  EXPECT_LT(
+      test::loss_ratio_with_any_threads<WindowTrainer>(small_run(400), views_of_a_square(), 8),
+      0.5);
 }
 
 /// The windows of a short run become opaque triangles, whose image by the oracle is near that of
@@ -326,32 +306,14 @@ TEST(WindowTraining, BeginsWithTheTrianglesOfAScene) {
 }
 
 TEST(WindowTraining, ACheckpointContinuesWithTheSameBits) {
-  const std::vector<TrainingView> views = views_of_a_square();
-  const Region region{.centre = {0, 0, 0}, .half_side = 1};
   WindowConfig config = small_run(120);
   config.opaque = true;
-  const auto path = std::filesystem::path(testing::TempDir()) / "tureen_windows.checkpoint";
-  const auto checkpoint = [&](const WindowTrainer& trainer) {
-    write_checkpoint(path, WindowCheckpoint{.config = config,
-                                            .views = std::vector<ViewFingerprint>(
-                                                views.size(), {"r_0", 40, 33, 1u, 2u}),
-                                            .state = trainer.state()});
-  };
-  WindowTrainer whole(config, views, region, 2);
   // Before and after the first limit of opacity, at step 60, and densifications.
-  while (whole.steps_done() < 83) whole.step();
-  checkpoint(whole);
-  while (!whole.done()) whole.step();
-  WindowCheckpoint stored = read_splat_checkpoint<WindowCheckpoint>(path);
-  std::filesystem::remove(path);
+  const WindowCheckpoint stored =
+      test::expect_same_bits_after_checkpoint<WindowTrainer>(config, views_of_a_square(), 83);
   EXPECT_EQ(stored.state.step, 83);
   EXPECT_GT(stored.state.parameters.solidity, 0);
   EXPECT_FALSE(splat_config_difference(stored.config, config));
-  WindowTrainer second(stored.config, views, region, 1, std::move(stored.state));
-  while (!second.done()) second.step();
-  const auto a = whole.parameters().drawn.values(), b = second.parameters().drawn.values();
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size_bytes()), 0);
 }
 
 }  // namespace window_training_test

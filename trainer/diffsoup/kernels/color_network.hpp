@@ -5,6 +5,7 @@
 // colour = (1 - f3) (f0, f1, f2) + f3 mlp(x). DiffSoup (arXiv 2603.27151), section 3.
 #pragma once
 
+#include "scene/spherical_harmonics.hpp"
 #include "trainer/common/kernels/host_device.hpp"
 #include "trainer/common/kernels/scalar.hpp"
 #include "trainer/diffsoup/model.hpp"
@@ -29,15 +30,19 @@ struct NetworkState {
 /// harmonics::basis of degree 2 at the unit direction (x, y, z).
 template <class Real>
 TUREEN_HOST_DEVICE void harmonics9(const Real& x, const Real& y, const Real& z, Real* basis) {
-  basis[0] = Real{} + 0.28209479177387814f;
-  basis[1] = -0.4886025119029199f * y;
-  basis[2] = 0.4886025119029199f * z;
-  basis[3] = -0.4886025119029199f * x;
-  basis[4] = 1.0925484305920792f * x * y;
-  basis[5] = -1.0925484305920792f * y * z;
-  basis[6] = 0.31539156525252005f * (2.0f * z * z - x * x - y * y);
-  basis[7] = -1.0925484305920792f * x * z;
-  basis[8] = 0.5462742152960396f * (x * x - y * y);
+  // Constants of the function: device code cannot read arrays of the host.
+  constexpr float y00 = float(harmonics::factors[0]), y10 = float(harmonics::factors[2]);
+  constexpr float y20 = float(harmonics::factors[6]), y22 = float(harmonics::factors[8]);
+  constexpr float y21 = float(harmonics::factors[4]);
+  basis[0] = Real{} + y00;
+  basis[1] = -y10 * y;
+  basis[2] = y10 * z;
+  basis[3] = -y10 * x;
+  basis[4] = y21 * x * y;
+  basis[5] = -y21 * y * z;
+  basis[6] = y20 * (2.0f * z * z - x * x - y * y);
+  basis[7] = -y21 * x * z;
+  basis[8] = y22 * (x * x - y * y);
 }
 
 /// y = W x + b. `Weight` is float for packs, otherwise Real.
