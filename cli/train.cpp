@@ -232,7 +232,7 @@ ExitCode train(const TrainOptions& options) {
     print_text(method->constants());
     return ExitCode::done;
   }
-  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
+  say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
 
   Progress::Output output = Progress::standard_error();
   output.line_seconds = 10;

@@ -8,6 +8,7 @@
 
 #include "scene/edit/splat_edits.hpp"
 #include "scene/opaque_windows.hpp"
+#include "scene/scene_remarks.hpp"
 
 namespace tureen {
 
@@ -87,7 +88,7 @@ void limit_splats(Scene& scene, std::uint64_t max) {
     before += number;
     kept += count(*splats);
   }
-  scene.info.remarks.push_back({Remark::Kind::splats_limited, {kept, all}});
+  scene.info.remarks.push_back({&remarks::splats_limited, {{"kept", kept}, {"all", all}}});
 }
 
 }  // namespace tureen
