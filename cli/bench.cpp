@@ -89,7 +89,7 @@ BenchResult run(const BenchOptions& options) {
       std::chrono::steady_clock::now() - start;
   apply_opaque(scene, options.cases.drawing);
   result.scene = described(scene, options.scene.path);
-  result.notes = all_notes(scene.info);
+  result.notes = notes_of(scene.info);
   const BenchViewList views = bench_views(options.views, scene, options.scene.path);
   result.notes.insert(result.notes.end(), views.notes.begin(), views.notes.end());
 

@@ -134,7 +134,7 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
     return convert_compressed(std::move(scene), options.compressed, file);
   const std::vector<std::string> lost = write_scene(scene, file);
   say_list("Lost in " + options.output + ":", lost);
-  return {{"notes", all_notes(scene.info)},
+  return {{"notes", notes_of(scene.info)},
           {"remarks", remarks_json(scene.info.remarks)},
           {"lost", lost}};
 }
@@ -151,7 +151,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions
   const std::string name = scene.info.name.empty() ? output.stem().string() : scene.info.name;
   if (is_page_of_file(options)) {
     page.write(options.scene.paths.front(), name, output);
-    return {{"notes", all_notes(scene.info)},
+    return {{"notes", notes_of(scene.info)},
             {"remarks", remarks_json(scene.info.remarks)},
             {"lost", Json::array()}};
   }
@@ -172,7 +172,7 @@ ExitCode convert_scene(ConvertOptions options) {
   std::optional<ScenePageTemplate> page;
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
   Scene scene = read(options.scene);
-  say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
+  say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
   if (!options.layer.empty()) keep_layer(scene, options.layer);
   apply(options.edits, scene);
   if (triangle_count(scene) + splat_count(scene) == 0)

@@ -14,6 +14,7 @@
 #include "cli/measuring/bench_words.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
+#include "cli/report.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "jobs/compress/compress.hpp"
 #include "scene/edit/baked_transform.hpp"
@@ -225,7 +226,7 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   }
   const Json remarks = remarks_json(scene.info.remarks);
   // The file stores the losses of reading and of compressing.
-  scene.info.notes = all_notes(scene.info);
+  scene.info.notes = notes_of(scene.info);
   const Json notes = scene.info.notes;
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());

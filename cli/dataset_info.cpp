@@ -12,6 +12,7 @@
 #include "base/output.hpp"
 #include "cli/files/camera_plot.hpp"
 #include "cli/options/output_argument.hpp"
+#include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "formats/dataset/dataset.hpp"
@@ -101,7 +102,7 @@ void say_dataset(const DatasetInfoOptions& options, const DatasetSummary& datase
   table.row(
       {"up", fmt::format("({:.6g}, {:.6g}, {:.6g})", dataset.up.x, dataset.up.y, dataset.up.z)});
   say_list(options.path + ": a dataset", table.lines());
-  say_list("Notes:", described(dataset.remarks));
+  say_list("Notes:", notes_of(dataset.remarks));
 }
 
 Json dataset_json(const DatasetInfoOptions& options, const DatasetSummary& dataset,
@@ -123,7 +124,7 @@ Json dataset_json(const DatasetInfoOptions& options, const DatasetSummary& datas
       {"point_bounds", dataset.points.empty() ? Json() : facts.points.json()},
       {"up", {dataset.up.x, dataset.up.y, dataset.up.z}},
       {"cameras", Json::parse(cameras_to_json(facts.cameras)).at("cameras")},
-      {"notes", described(dataset.remarks)},
+      {"notes", notes_of(dataset.remarks)},
       {"remarks", remarks_json(dataset.remarks)},
       {"output", options.plot.empty() ? Json() : Json(options.plot)}};
 }

@@ -117,9 +117,9 @@ ExitCode evaluate_scene(EvalOptions options) {
   }
   std::vector<std::string> output;
   if (images) output = images->finish();
-  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  say_list("Reading " + options.scene.path + ":", notes_of(scene.info));
   say_what_is_hidden(scene);
-  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
+  say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
   say_list("Plan:", result.plan);
   say(fmt::format("{} against {} photographs ({}), on {} ({}); SSIM with border {}",
                   primitives_text(triangle_count(scene), splat_count(scene)), photographs.size(),

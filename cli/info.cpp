@@ -357,7 +357,7 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
                        scene.info.source.empty() ? "a scene" : scene.info.source),
            table.lines());
   say_what_is_hidden(scene);
-  say_list("Notes:", all_notes(scene.info));
+  say_list("Notes:", notes_of(scene.info));
   if (only) say_list("Plan:", describe(only->plan));
   say_list("Devices:", devices.lines);
   if (only) say_list("Lint:", lint_lines(only->lint));
@@ -395,7 +395,7 @@ Json to_json(const InfoOptions& options, const Scene& scene, const Subject& subj
   json.update({{"up", to_json(glm::dvec3(scene.info.up))},
                {"background", to_json(glm::dvec3(scene.info.background))},
                {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
-               {"notes", all_notes(scene.info)},
+               {"notes", notes_of(scene.info)},
                {"remarks", remarks_json(scene.info.remarks)},
                {"preset", scene.quality != Quality{} ? Json(describe(scene.quality)) : Json()},
                {"quality",

@@ -198,7 +198,7 @@ ExitCode render(RenderOptions options) {
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
-  say_list("Reading " + listed(options.scene) + ":", all_notes(scene.info));
+  say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
   say_what_is_hidden(scene);
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);

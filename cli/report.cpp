@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <ctime>
 #include <string_view>
+#include <variant>
 
 #include "base/error.hpp"
 #include "base/shown_text.hpp"
-#include "scene/remark.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 
@@ -52,13 +53,45 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 
 void print_json(const Json& document) { print(document, 2); }
 
+namespace {
+
+/// Appends a value to the remark's list of its type.
+struct AddField {
+  Json& json;
+
+  void operator()(std::uint64_t count) const { json["counts"].push_back(count); }
+  void operator()(double value) const { json["values"].push_back(value); }
+  void operator()(const std::string& name) const { json["names"].push_back(name); }
+  template <class T>
+  void operator()(const std::vector<T>& values) const {
+    for (const T& value : values) (*this)(value);
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> notes_of(const std::vector<Remark>& remarks) {
+  std::vector<std::string> notes;
+  for (const Remark& remark : remarks) {
+    std::string option = remark.kind->setting;
+    std::replace(option.begin(), option.end(), '_', '-');
+    notes.push_back(describe(remark) + (option.empty() ? "" : "; --" + option + " changes it"));
+  }
+  return notes;
+}
+
+std::vector<std::string> notes_of(const SceneInfo& info) {
+  std::vector<std::string> notes = info.notes;
+  for (std::string& note : notes_of(info.remarks)) notes.push_back(std::move(note));
+  return notes;
+}
+
 Json remarks_json(const std::vector<Remark>& remarks) {
   Json list = Json::array();
   for (const Remark& remark : remarks) {
-    Json& json = list.emplace_back(Json{{"kind", name_of(remark.kind)}});
-    if (!remark.counts.empty()) json["counts"] = remark.counts;
-    if (!remark.values.empty()) json["values"] = remark.values;
-    if (!remark.names.empty()) json["names"] = remark.names;
+    Json& json = list.emplace_back(
+        Json{{"kind", remark.kind->code}, {"severity", name_of(remark.kind->severity)}});
+    for (const RemarkField& field : remark.fields) std::visit(AddField{json}, field.value);
     if (!remark.scene.empty()) json["scene"] = remark.scene;
   }
   return list;

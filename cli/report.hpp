@@ -9,7 +9,8 @@
 
 namespace tureen {
 struct Remark;
-}
+struct SceneInfo;
+}  // namespace tureen
 
 namespace tureen::cli {
 
@@ -30,8 +31,13 @@ void print_json(const Json& document);
 /// The same in one line, for programs that read output line by line.
 void print_json_line(const Json& document);
 
-/// The kinds and values of the remarks, {"kind", "counts", "values", "names", "scene"}; empty
-/// values are omitted.
+/// Sentences for people: the file's own notes, then the remarks, with the options that change what
+/// the reader assumed.
+std::vector<std::string> notes_of(const SceneInfo& info);
+std::vector<std::string> notes_of(const std::vector<Remark>& remarks);
+
+/// {"kind", "severity", "counts", "values", "names", "scene"} for each remark: whole numbers,
+/// other numbers and texts in the order of the kind's fields; empty lists are omitted.
 Json remarks_json(const std::vector<Remark>& remarks);
 
 /// The time of day, "2026-11-21T15:04:05Z".

@@ -238,7 +238,7 @@ ExitCode train(const TrainOptions& options) {
   };
   events.failed_aid = [](const std::string& sentence) { say(sentence); };
 
-  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
+  say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
   const TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
   progress.reset();
   evaluating.reset();

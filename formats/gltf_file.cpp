@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/glb/glb_container.hpp"
 #include "formats/gltf/gltf.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
@@ -21,8 +22,7 @@ Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
   if (binary && ours) return read_tureen_glb(input, glb, options);
   Scene scene = read_gltf(input, std::move(glb), folder, options);
   if (ours)
-    scene.info.remarks.push_back(
-        {.kind = Remark::Kind::mean_colors_shown, .names = {tureen_extension}});
+    scene.info.remarks.push_back({&remarks::mean_colors_shown, {{"extension", tureen_extension}}});
   return scene;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/extension.hpp"
 #include "base/input.hpp"
+#include "formats/common/format_remarks.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/gltf/gltf.hpp"
 #include "formats/gltf_file.hpp"
@@ -182,7 +183,7 @@ std::string nothing_in(const Scene& scene) {
   for (const Layer& layer : scene.layers)
     if (std::holds_alternative<Splats>(layer.primitives)) {
       for (const Remark& remark : scene.info.remarks)
-        if (remark.kind == Remark::Kind::splats_dropped) return describe(remark);
+        if (remark.kind == &remarks::splats_dropped) return describe(remark);
       return "the file holds no splats";
     }
   return "the file holds no triangles";
@@ -225,7 +226,7 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   if (!candidate.is_folder && !promises(format) &&
       std::any_of(formats().begin(), formats().end(), promises))
     scene.info.remarks.push_back(
-        {.kind = Remark::Kind::content_misnamed, .names = {extension, format.name}});
+        {&remarks::content_misnamed, {{"extension", extension}, {"format", format.name}}});
   bool is_empty = true;
   for (const Layer& layer : scene.layers) {
     const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_remarks.hpp"
 
 namespace tureen {
 
@@ -86,7 +87,7 @@ Scene merged(std::vector<Scene> scenes) {
     if (i > 0)
       if (auto dropped = dropped_settings(scene, result); !dropped.empty())
         scene.info.remarks.push_back(
-            {.kind = Remark::Kind::settings_dropped, .names = std::move(dropped)});
+            {&remarks::settings_dropped, {{"settings", std::move(dropped)}}});
     add(std::move(scene), name, layer_names, result);
   }
   return result;

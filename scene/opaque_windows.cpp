@@ -1,6 +1,7 @@
 #include "scene/opaque_windows.hpp"
 
 #include "scene/edit/splat_edits.hpp"
+#include "scene/scene_remarks.hpp"
 
 namespace tureen {
 
@@ -34,14 +35,16 @@ OpaqueResult to_opaque(Splats splats, float minimum_opacity) {
   if (count == 0) return result;
 
   if (kept > 0)
-    result.remarks.push_back({.kind = Remark::Kind::soft_triangles_opaque,
-                              .values = {coverage / double(kept), mean_opacity / double(kept)}});
+    result.remarks.push_back(
+        {&remarks::soft_triangles_opaque,
+         {{"coverage", coverage / double(kept)}, {"opacity", mean_opacity / double(kept)}}});
   if (kept > 0 && color.per_corner)
-    result.remarks.push_back({Remark::Kind::screen_interpolation_dropped});
+    result.remarks.push_back({&remarks::screen_interpolation_dropped});
   if (kept < count)
-    result.remarks.push_back({.kind = Remark::Kind::soft_triangles_dropped,
-                              .counts = {count - kept, count},
-                              .values = {double(minimum_opacity)}});
+    result.remarks.push_back({&remarks::soft_triangles_dropped,
+                              {{"dropped", count - kept},
+                               {"all", count},
+                               {"smallest_opacity", double(minimum_opacity)}}});
   return result;
 }
 

@@ -2,112 +2,89 @@
 // as a sentence.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace tureen {
 
-/// `kind` determines the number of counts, values and names; the comment after each kind lists
-/// them.
-struct Remark {
-  enum class Kind {
-    // Which way is up.
-    up_unknown_to_format,      // names: the format. z is assumed
-    up_unknown_to_trimesh,     // z is assumed
-    up_unknown_to_checkpoint,  // -y is assumed
-    up_unknown_to_splats,      // names: the format. -y is assumed
-    up_of_colmap_scene,        // the checkpoint has flip_z: -y, and a black background
-    up_of_synthetic_scene,     // no flip_z: +z, and a white background
-    up_of_transforms,          // of a dataset: z, as in the scenes of NeRF
-    up_of_cameras,             // of a dataset: the mean of its cameras' up axes
-    up_of_no_camera,           // of a dataset whose cameras disagree: names[0]
-    // Faces and vertices.
-    polygons_split,          // counts: polygons
-    small_faces_dropped,     // counts: faces with fewer than three corners
-    corners_dropped,         // counts: corners. names: the primitive
-    coordinates_rounded,     // from double to float
-    soft_triangles_opaque,   // values: mean of mean_coverage(), mean opacity
-    soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
-    // Splats.
-    splats_dropped,            // counts: dropped, all
-    splats_limited,            // counts: kept, all
-    splat_colors_linear,       // in linear light, which SplatColor does not hold
-    profile_assumed,           // names: the profile
-    render_mode_unknown,       // names: the mode that the file asks for, the profile that is used
-    octagon_q_assumed,         // values: Q
-    splat_extensions_ignored,  // names: the types of the extensions
-    // Colours.
-    color_components_clamped,  // counts: components
-    face_colors_dropped,       // the file has vertex colours as well
-    colors_missing,
-    face_colors_missing,   // counts: triangles
-    face_colors_mapped,    // counts: faces with a colour map index
-    vertex_colors_srgb,    // requested by the caller
-    vertex_colors_linear,  // likewise
-    vertex_colors_srgb_by_generator,
-    vertex_colors_linear_by_gltf,
-    colors_multiplied,  // as display-referred values
-    materials_unlit,
-    blending_cut_out,
-    alpha_half_restored,  // counts: texels changed, all
-    mean_colors_shown,    // names: the glTF extension, which is read only from .glb
-    // Parts that are not drawn.
-    animations_dropped,
-    skins_dropped,
-    morph_targets_dropped,
-    points_and_lines_dropped,
-    primitives_without_positions_dropped,
-    other_projections_dropped,  // cameras
-    blind_cameras_dropped,
-    screen_interpolation_dropped,  // for the colours of soft triangles' corners
-    shapes_missing,                // counts: indices of missing shapes; last: number of all
-    shapes_untextured,             // counts: likewise
-    preset_dropped,                // it selects among soft triangles
-    preset_applied,                // from an earlier version, to the data. names: names_of(Edits)
-    preset_keys_ignored,           // for settings that no longer exist. names: the keys
-    // The files.
-    text_ignored,        // counts: its first line
-    bytes_ignored,       // counts: bytes after the last element
-    content_misnamed,    // names: the extension, the format of the content
-    settings_dropped,    // of a further scene in merged(). names: "cameras", "up axis", ..
-    meta_missing,        // level 5, up -y and a black background are assumed
-    level_missing,       // level 5 is assumed
-    image_size_missing,  // counts: the assumed width and height
-    lens_dropped,        // for cameras without photographs
-    lens_undone,         // counts: largest number of cropped columns and rows
-    fisheye_undone,      // values: largest horizontal angle of view that remains, in degrees
-    points_missing,      // names: the file with a dataset's points
-    pixels_masked,       // counts: photographs with ignored pixels, all
-  };
-  static constexpr std::size_t kinds = std::size_t(Kind::pixels_masked) + 1;
+struct Remark;
 
-  Kind kind{};
-  std::vector<std::uint64_t> counts = {};
-  std::vector<double> values = {};
-  std::vector<std::string> names = {};
+/// What a remark is about. Each reader has a table of its kinds (formats/gltf/gltf_remarks.hpp).
+struct RemarkKind {
+  enum class Severity {
+    note,        // nothing is lost
+    assumption,  // the file does not say it, and it may be wrong
+    loss,        // a part of the file is not drawn, or drawn differently
+  };
+  const char* code;  // in JSON: "polygons_split"
+  Severity severity;
+  std::string (*text)(const Remark& remark);  // a sentence in English
+  /// The setting that the reader assumed, such as "up"; "": none.
+  const char* setting = "";
+};
+
+using RemarkValue = std::variant<std::uint64_t, double, std::string, std::vector<std::uint64_t>,
+                                 std::vector<std::string>>;
+
+/// A named part of a remark.
+struct RemarkField {
+  std::string_view name;  // a literal
+  RemarkValue value;
+
+  template <std::integral T>
+  RemarkField(std::string_view field, T count) : name(field), value(std::uint64_t(count)) {}
+  template <class T>
+  RemarkField(std::string_view field, T given) : name(field), value(std::move(given)) {}
+
+  bool operator==(const RemarkField&) const = default;
+  friend bool operator<(const RemarkField& a, const RemarkField& b) {
+    return std::tie(a.name, a.value) < std::tie(b.name, b.value);
+  }
+};
+
+struct Remark {
+  const RemarkKind* kind = nullptr;  // a constant
+  std::vector<RemarkField> fields = {};
   /// Name of the scene, if several scenes were merged.
   std::string scene = {};
+
+  /// The value of a field of the kind.
+  const RemarkValue& operator[](std::string_view field) const;
+  std::uint64_t count(std::string_view field) const {
+    return std::get<std::uint64_t>((*this)[field]);
+  }
+  double number(std::string_view field) const { return std::get<double>((*this)[field]); }
+  /// Any value as text: "7", "0.25", "site, color".
+  std::string text(std::string_view field) const;
 
   bool operator==(const Remark&) const = default;
   /// An arbitrary total order, for sets. Browser toolchains lack <=> for vectors.
   friend bool operator<(const Remark& a, const Remark& b) {
-    return std::tie(a.kind, a.counts, a.values, a.names, a.scene) <
-           std::tie(b.kind, b.counts, b.values, b.names, b.scene);
+    return std::tie(a.kind, a.fields, a.scene) < std::tie(b.kind, b.fields, b.scene);
   }
 };
 
-/// The kind's name in JSON: "up_unknown_to_format".
-const char* name_of(Remark::Kind kind);
+/// "note", "assumption" or "loss".
+const char* name_of(RemarkKind::Severity severity);
 
 /// A sentence in English.
 std::string describe(const Remark& remark);
-
-/// The option that changes the assumption, "--up changes it", or "".
-std::string hint_of(const Remark& remark);
-
-/// For each remark describe(), then "; " and the hint if there is one.
+/// The sentences of all remarks.
 std::vector<std::string> described(const std::vector<Remark>& remarks);
+
+namespace remarks {
+
+using Severity = RemarkKind::Severity;
+
+/// "1 face", "2 faces".
+std::string counted(std::uint64_t count, const char* one, const char* many);
+
+}  // namespace remarks
 
 }  // namespace tureen

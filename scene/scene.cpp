@@ -41,10 +41,7 @@ void choose_up(SceneInfo& info, const glm::vec3& up) {
   info.up = up;
   info.up_is_assumed = false;
   std::erase_if(info.remarks, [](const Remark& remark) {
-    return remark.kind == Remark::Kind::up_unknown_to_format ||
-           remark.kind == Remark::Kind::up_unknown_to_trimesh ||
-           remark.kind == Remark::Kind::up_unknown_to_checkpoint ||
-           remark.kind == Remark::Kind::up_unknown_to_splats;
+    return remark.kind->setting == std::string_view("up");
   });
 }
 
@@ -64,8 +61,7 @@ void choose_profile(Scene& scene, std::string_view name) {
   if (!found)
     throw UsageError("the profile " + std::string(name) + " applies to splats; the scene has none");
   std::erase_if(scene.info.remarks, [](const Remark& remark) {
-    return remark.kind == Remark::Kind::profile_assumed ||
-           remark.kind == Remark::Kind::render_mode_unknown;
+    return remark.kind->setting == std::string_view("profile");
   });
 }
 

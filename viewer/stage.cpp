@@ -177,19 +177,11 @@ RefusedLayer refused(const StageLayer& layer, const Scene& scene, const StageReq
 }
 
 /// The panel's control that changes the assumption; "" if there is none.
-const char* control_of(const Remark& remark) {
-  switch (remark.kind) {
-    case Remark::Kind::up_unknown_to_format:
-    case Remark::Kind::up_unknown_to_trimesh:
-    case Remark::Kind::up_unknown_to_checkpoint:
-    case Remark::Kind::up_unknown_to_splats:
-      return "; Up in the panel View changes it";
-    case Remark::Kind::profile_assumed:
-    case Remark::Kind::render_mode_unknown:
-      return "; Profile in the panel Drawing changes it";
-    default:
-      return "";
-  }
+std::string control_of(const Remark& remark) {
+  const std::string_view setting = remark.kind->setting;
+  return setting == "up"        ? "; Up in the panel View changes it"
+         : setting == "profile" ? "; Profile in the panel Drawing changes it"
+                                : "";
 }
 
 }  // namespace

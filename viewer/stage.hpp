@@ -77,7 +77,7 @@ struct StageSource {
 
 bool has_splats(const StageSource& source);
 
-/// all_notes() with the window's controls instead of the command line's options.
+/// all_notes() with the window's controls that change assumptions.
 std::vector<std::string> window_notes(const SceneInfo& info);
 /// The window_notes() of the files as a scene of several files has them: with names.
 std::vector<std::string> named_notes(const StageSource& source);

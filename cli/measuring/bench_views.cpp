@@ -10,6 +10,7 @@
 #include "cli/options/dataset_argument.hpp"
 #include "cli/options/values.hpp"
 #include "cli/options/view_options.hpp"
+#include "cli/report.hpp"
 
 namespace tureen::cli {
 
@@ -71,7 +72,7 @@ std::vector<Camera> dataset_cameras(const std::string& path, std::vector<std::st
   DatasetArgument argument;
   argument.path = path;
   const Dataset dataset = read(argument, DatasetPart::test);
-  for (std::string& note : described(dataset.remarks)) notes.push_back(std::move(note));
+  for (std::string& note : notes_of(dataset.remarks)) notes.push_back(std::move(note));
   std::vector<Camera> cameras;
   for (const Photograph& photograph : dataset.test) cameras.push_back(photograph.camera);
   return cameras;

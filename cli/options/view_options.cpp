@@ -12,6 +12,7 @@
 #include "camera/camera_path.hpp"
 #include "camera/navigation.hpp"
 #include "cli/options/values.hpp"
+#include "cli/report.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
 
@@ -83,12 +84,12 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
   if (found.cameras.empty())
     throw InputError({wanted.file.string(), {}, {}}, "the file has no cameras");
-  if (wanted.which == "all") return {std::move(found.cameras), described(found.remarks)};
+  if (wanted.which == "all") return {std::move(found.cameras), notes_of(found.remarks)};
   const int last = int(found.cameras.size()) - 1;
   // Tests the length first, because std::stol throws for a number of forty digits.
   if (wanted.which.size() > 9 || std::stol(wanted.which) > last)
     throw UsageError(argument + ": cameras are numbered from 0 to " + std::to_string(last));
-  return {{found.cameras[std::size_t(std::stol(wanted.which))]}, described(found.remarks)};
+  return {{found.cameras[std::size_t(std::stol(wanted.which))]}, notes_of(found.remarks)};
 }
 
 namespace {

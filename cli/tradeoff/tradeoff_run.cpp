@@ -60,7 +60,7 @@ std::vector<Photograph> test_photographs(const TradeoffOptions& options, Tradeof
       tradeoff::spread_out(std::move(dataset.test), std::size_t(most));
   if (photographs.empty())
     throw InputError({options.dataset.path, {}, {}}, "the dataset has no test photographs");
-  for (std::string& note : described(dataset.remarks)) report.notes.push_back(std::move(note));
+  for (std::string& note : notes_of(dataset.remarks)) report.notes.push_back(std::move(note));
   return photographs;
 }
 
@@ -82,7 +82,7 @@ void measure_models(const TradeoffOptions& options, const Scene& scene,
 /// The part of the report that is known before the measurements.
 TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
   TradeoffReport report;
-  report.notes = all_notes(scene.info);
+  report.notes = notes_of(scene.info);
   if (scene.quality != Quality{})
     report.notes.push_back("measured with the default quality settings instead of the scene's: " +
                            describe(scene.quality));

@@ -13,6 +13,7 @@
 #include "formats/dataset/colmap.hpp"
 #endif
 #include "base/json/json_file.hpp"
+#include "formats/dataset/dataset_remarks.hpp"
 #include "formats/dataset/gaussian_cameras.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
@@ -35,8 +36,9 @@ CameraFile from_transforms(const Json& root, const std::string& file) {
         pinhole(frame, frame.width.value_or(assumed_side), frame.height.value_or(assumed_side)));
   }
   if (size_assumed)
-    result.remarks.push_back({Remark::Kind::image_size_missing, {assumed_side, assumed_side}});
-  if (distorted) result.remarks.push_back({Remark::Kind::lens_dropped});
+    result.remarks.push_back(
+        {&remarks::image_size_missing, {{"width", assumed_side}, {"height", assumed_side}}});
+  if (distorted) result.remarks.push_back({&remarks::lens_dropped});
   return result;
 }
 
@@ -150,7 +152,7 @@ CameraFile from_colmap(const fs::path& folder) {
     camera.name = image.name;
     camera.view_from_world = image.view_from_world;
   }
-  if (distorted) result.remarks.push_back({Remark::Kind::lens_dropped});
+  if (distorted) result.remarks.push_back({&remarks::lens_dropped});
   return result;
 }
 #else

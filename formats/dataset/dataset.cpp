@@ -12,6 +12,7 @@
 #include "formats/common/uri.hpp"
 #include "formats/dataset/bundler.hpp"
 #include "formats/dataset/colmap.hpp"
+#include "formats/dataset/dataset_remarks.hpp"
 #include "formats/dataset/photograph.hpp"
 #include "formats/dataset/transforms_dataset.hpp"
 #include "image/png.hpp"
@@ -51,7 +52,7 @@ void split(Frames all, const DatasetOptions& options, Outline& outline) {
 
 void take_transforms_up(Dataset& dataset) {
   dataset.up = glm::vec3(0, 0, 1);
-  dataset.remarks.push_back({Remark::Kind::up_of_transforms});
+  dataset.remarks.push_back({&remarks::up_of_transforms});
 }
 
 void take_points(TransformsDataset& read, Dataset& dataset) {
@@ -106,11 +107,10 @@ void take_mean_up(const Frames& frames, bool y_down, Dataset& dataset) {
   // The mean of scattered axes is short.
   if (glm::length(sum) > 0.1 * double(frames.size())) {
     dataset.up = glm::vec3(glm::normalize(sum));
-    dataset.remarks.push_back({Remark::Kind::up_of_cameras});
+    dataset.remarks.push_back({&remarks::up_of_cameras});
   } else {
     dataset.up = glm::vec3(0, y_down ? -1 : 1, 0);
-    dataset.remarks.push_back(
-        {.kind = Remark::Kind::up_of_no_camera, .names = {y_down ? "-y" : "y"}});
+    dataset.remarks.push_back({&remarks::up_of_no_camera, {{"axis", y_down ? "-y" : "y"}}});
   }
 }
 
@@ -404,10 +404,13 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   }
   if (distorted)
     dataset.remarks.push_back(
-        {Remark::Kind::lens_undone, {std::uint64_t(lost_columns), std::uint64_t(lost_rows)}});
+        {&remarks::lens_undone,
+         {{"columns", std::uint64_t(lost_columns)}, {"rows", std::uint64_t(lost_rows)}}});
   if (widest_fisheye > 0)
-    dataset.remarks.push_back({Remark::Kind::fisheye_undone, {}, {widest_fisheye}});
-  if (masked > 0) dataset.remarks.push_back({Remark::Kind::pixels_masked, {masked, frames.size()}});
+    dataset.remarks.push_back({&remarks::fisheye_undone, {{"degrees", widest_fisheye}}});
+  if (masked > 0)
+    dataset.remarks.push_back(
+        {&remarks::pixels_masked, {{"masked", masked}, {"all", frames.size()}}});
   if (options.progress) options.progress(1.0);
   return dataset;
 }

@@ -8,6 +8,7 @@
 #include "formats/common/uri.hpp"
 #include "formats/dataset/camera_json.hpp"
 #include "formats/dataset/colmap.hpp"
+#include "formats/dataset/dataset_remarks.hpp"
 #include "formats/dataset/points_ply.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
@@ -38,7 +39,7 @@ void read_points(const CameraJson& json, const std::filesystem::path& folder,
     }
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
-      dataset.remarks.push_back({.kind = Remark::Kind::points_missing, .names = {name}});
+      dataset.remarks.push_back({&remarks::points_missing, {{"file", name}}});
       return;
     }
     Input input = Input::open(file, budget);

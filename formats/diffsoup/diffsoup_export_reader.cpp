@@ -13,6 +13,7 @@
 #include "formats/common/uri.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/diffsoup/diffsoup_mesh.hpp"
+#include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "image/png.hpp"
 #include "scene/lattice.hpp"
 
@@ -38,7 +39,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
   if (fs::symlink_status(folder / "meta.json", ignored).type() == fs::file_type::not_found) {
     meta.assumed = "meta.json is missing: level 5 is assumed";
     info.up_is_assumed = true;
-    info.remarks.push_back({Remark::Kind::meta_missing});
+    info.remarks.push_back({&remarks::meta_missing});
     return meta;
   }
   Input input = open_in_folder(folder, "meta.json", budget);
@@ -63,7 +64,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
     meta.level = level.get<int>();
   } else {
     meta.assumed = "meta.json has no level: 5 is assumed";
-    info.remarks.push_back({Remark::Kind::level_missing});
+    info.remarks.push_back({&remarks::level_missing});
   }
   meta.up = vector("up", meta.up);
   // In double: squares of floats overflow otherwise.
@@ -143,8 +144,8 @@ void restore_truncated_half(std::vector<std::uint8_t>& texels, std::vector<Remar
   if (histogram[127] <= histogram[126] + histogram[128]) return;
   for (std::size_t i = alpha; i < texels.size(); i += channels)
     if (texels[i] == 127) texels[i] = 128;
-  remarks.push_back(
-      {Remark::Kind::alpha_half_restored, {histogram[127], texels.size() / channels}});
+  remarks.push_back({&remarks::alpha_half_restored,
+                     {{"texels", histogram[127]}, {"all", texels.size() / channels}}});
 }
 
 }  // namespace

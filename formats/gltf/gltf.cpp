@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf/gltf_soup.hpp"
 #include "formats/gltf/gltf_splats.hpp"
 #include "image/png.hpp"
@@ -48,7 +49,7 @@ class Importer {
     if (const auto reason = defect(soup)) document_.fail("", *reason);
     if (builder_.has_vertex_colors()) builder_.remarks.push_back({color_remark()});
     if (!document_.model().animations.empty())
-      builder_.remarks.push_back({Remark::Kind::animations_dropped});
+      builder_.remarks.push_back({&remarks::animations_dropped});
     Scene scene;
     if (has_soup) scene = scene_of(std::move(soup));
     for (Layer& layer : splats_.layers()) scene.layers.push_back(std::move(layer));
@@ -62,7 +63,7 @@ class Importer {
       // trimesh does not convert coordinates, and soups exported with it are z up.
       scene.info.up = {0, 0, 1};
       scene.info.up_is_assumed = true;
-      builder_.remarks.push_back({Remark::Kind::up_unknown_to_trimesh});
+      builder_.remarks.push_back({&remarks::up_unknown_to_trimesh});
     }
     std::set<Remark> known;
     for (Remark& remark : builder_.remarks)
@@ -77,12 +78,12 @@ class Importer {
     return writes_srgb_colors(generator_) ? VertexColorSpace::srgb : VertexColorSpace::linear;
   }
 
-  Remark::Kind color_remark() const {
+  const RemarkKind* color_remark() const {
     const bool srgb = color_space() == VertexColorSpace::srgb;
     if (options_.vertex_colors != VertexColorSpace::automatic)
-      return srgb ? Remark::Kind::vertex_colors_srgb : Remark::Kind::vertex_colors_linear;
-    return srgb ? Remark::Kind::vertex_colors_srgb_by_generator
-                : Remark::Kind::vertex_colors_linear_by_gltf;
+      return srgb ? &remarks::vertex_colors_srgb : &remarks::vertex_colors_linear;
+    return srgb ? &remarks::vertex_colors_srgb_by_generator
+                : &remarks::vertex_colors_linear_by_gltf;
   }
 
   /// The root nodes to draw: those of the default scene, else of the first scene, else all nodes
@@ -132,7 +133,7 @@ class Importer {
       const tinygltf::Node& node = model.nodes[std::size_t(visit.node)];
       const glm::dmat4 world_from_node = visit.world_from_parent * parent_from_node(node, where);
       if (node.mesh != -1) {
-        if (node.skin != -1) builder_.remarks.push_back({Remark::Kind::skins_dropped});
+        if (node.skin != -1) builder_.remarks.push_back({&remarks::skins_dropped});
         builder_.add_mesh(node.mesh, world_from_node);
         splats_.add_mesh(node.mesh, {node.name, world_from_node}, where);
       }
@@ -178,7 +179,7 @@ class Importer {
                      "names camera " + std::to_string(index) + " of " + std::to_string(all.size()));
     const tinygltf::Camera& json = all[std::size_t(index)];
     if (json.type != "perspective") {
-      builder_.remarks.push_back({Remark::Kind::other_projections_dropped});
+      builder_.remarks.push_back({&remarks::other_projections_dropped});
       return;
     }
     const double fov = json.perspective.yfov;
@@ -190,7 +191,7 @@ class Importer {
     const double volume = std::abs(glm::determinant(axes));
     if (!(fov > 0.0 && fov < 3.14159) || !(aspect > 0.01) || !(height * aspect <= max_image_side) ||
         !(volume > 0.0) || !std::isfinite(volume)) {
-      builder_.remarks.push_back({Remark::Kind::blind_cameras_dropped});
+      builder_.remarks.push_back({&remarks::blind_cameras_dropped});
       return;
     }
     // A scale does not change a camera's view. Orthonormal axes remove it together with shear.

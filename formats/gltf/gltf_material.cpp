@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/gltf/gltf_remarks.hpp"
+
 namespace tureen {
 
 namespace {
@@ -123,12 +125,12 @@ GltfMaterial read_gltf_material(const GltfDocument& document, int index,
   } else if (material.alphaMode == "BLEND") {
     result.masked = true;
     result.cutoff = alpha_threshold;
-    remarks.push_back({Remark::Kind::blending_cut_out});
+    remarks.push_back({&remarks::blending_cut_out});
   } else if (material.alphaMode != "OPAQUE") {
     document.fail(where + ".alphaMode", "\"" + material.alphaMode + "\" is unknown");
   }
   if (material.extensions.count("KHR_materials_unlit") == 0)
-    remarks.push_back({Remark::Kind::materials_unlit});
+    remarks.push_back({&remarks::materials_unlit});
   return result;
 }
 

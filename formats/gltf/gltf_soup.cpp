@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "formats/gltf/gltf_accessor.hpp"
+#include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf/gltf_splats.hpp"
 #include "image/srgb.hpp"
 
@@ -62,7 +63,7 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
   }
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
     remarks.push_back(
-        {.kind = Remark::Kind::corners_dropped, .counts = {corners.size()}, .names = {where}});
+        {&remarks::corners_dropped, {{"corners", corners.size()}, {"primitive", where}}});
   // A strip or a fan has two triangles fewer than corners.
   const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
   document_.take_memory(list ? corners.size() / 3 : corners.size(), sizeof(glm::uvec3), where);
@@ -72,17 +73,17 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
 void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const std::string& where,
                                     const glm::dmat4& world_from_mesh) {
   if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-    remarks.push_back({Remark::Kind::points_and_lines_dropped});
+    remarks.push_back({&remarks::points_and_lines_dropped});
     return;
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
     document_.fail(where, "mode " + std::to_string(primitive.mode) + " is unknown");
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) {
-    remarks.push_back({Remark::Kind::primitives_without_positions_dropped});
+    remarks.push_back({&remarks::primitives_without_positions_dropped});
     return;
   }
-  if (!primitive.targets.empty()) remarks.push_back({Remark::Kind::morph_targets_dropped});
+  if (!primitive.targets.empty()) remarks.push_back({&remarks::morph_targets_dropped});
 
   const std::size_t vertices = accessor_count(document_, position->second);
   if (vertices >= unused) document_.fail(where, "has more vertices than 32 bits can count");
@@ -257,7 +258,7 @@ UvTextures GltfSoupBuilder::as_uv_textures() {
                             float(material.factor.w));
     made.mask_threshold = material.masked ? material.cutoff : 0.0f;
   }
-  if (multiplied) remarks.push_back({Remark::Kind::colors_multiplied});
+  if (multiplied) remarks.push_back({&remarks::colors_multiplied});
   return textures;
 }
 

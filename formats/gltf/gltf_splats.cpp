@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/common/splat_values.hpp"
 #include "formats/gltf/gltf_accessor.hpp"
+#include "formats/gltf/gltf_remarks.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_edits.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -64,8 +66,8 @@ void GltfSplatBuilder::add_mesh(int index, const Node& node, const std::string& 
 std::vector<Remark> GltfSplatBuilder::remarks() const {
   std::vector<Remark> result;
   if (dropped_ > 0)
-    result.push_back({.kind = Remark::Kind::splats_dropped, .counts = {dropped_, total_}});
-  if (is_linear_) result.push_back({Remark::Kind::splat_colors_linear});
+    result.push_back({&remarks::splats_dropped, {{"dropped", dropped_}, {"all", total_}}});
+  if (is_linear_) result.push_back({&remarks::splat_colors_linear});
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/output.hpp"
+#include "formats/common/format_remarks.hpp"
 #include "formats/mesh/plain_mesh.hpp"
 #include "formats/ply/ply_bytes.hpp"
 #include "formats/ply/ply_values.hpp"
@@ -48,10 +49,10 @@ class PlyReader {
     }
     std::optional<Remark> trailing;
     if (values_.anything_left())
-      trailing = Remark{Remark::Kind::bytes_ignored, {values_.remaining()}};
+      trailing = Remark{&remarks::bytes_ignored, {{"bytes", values_.remaining()}}};
     Scene scene = mesh_.finish(std::filesystem::path(input_.name()).stem().string(), "PLY");
     if (trailing) scene.info.remarks.push_back(*trailing);
-    if (rounded_) scene.info.remarks.push_back({Remark::Kind::coordinates_rounded});
+    if (rounded_) scene.info.remarks.push_back({&remarks::coordinates_rounded});
     return scene;
   }
 

@@ -13,6 +13,7 @@
 #include "base/extension.hpp"
 #include "base/json/json_file.hpp"
 #include "formats/common/uri.hpp"
+#include "formats/mesh/mesh_remarks.hpp"
 #include "formats/mesh/obj.hpp"
 #include "image/png.hpp"
 
@@ -231,13 +232,12 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
     append_material(textures, features, budget);
     for (const auto& [piece, file] : pieces->second) append(soup, textures, file, material, budget);
   }
-  for (const auto& [kind, shapes_of_kind] :
-       {std::pair(Remark::Kind::shapes_missing, &missing),
-        std::pair(Remark::Kind::shapes_untextured, &untextured)}) {
+  for (const auto& [kind, shapes_of_kind] : {std::pair(&remarks::shapes_missing, &missing),
+                                             std::pair(&remarks::shapes_untextured, &untextured)}) {
     if (shapes_of_kind->empty()) continue;
-    Remark& remark = scene.info.remarks.emplace_back(Remark{kind});
-    remark.counts.assign(shapes_of_kind->begin(), shapes_of_kind->end());
-    remark.counts.push_back(std::uint64_t(network.shapes));
+    std::vector<std::uint64_t> shapes(shapes_of_kind->begin(), shapes_of_kind->end());
+    scene.info.remarks.push_back(
+        {kind, {{"shapes", std::move(shapes)}, {"all", std::uint64_t(network.shapes)}}});
   }
   if (textures.materials.empty())
     throw InputError({folder.string(), {}, {}},

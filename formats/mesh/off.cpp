@@ -10,6 +10,7 @@
 #include "base/output.hpp"
 #include "base/text_scanner.hpp"
 #include "formats/common/progress_meter.hpp"
+#include "formats/mesh/mesh_remarks.hpp"
 #include "formats/mesh/plain_mesh.hpp"
 #include "image/quantise.hpp"
 
@@ -108,12 +109,13 @@ class OffReader {
     read_vertices();
     read_faces();
     std::optional<Remark> trailing;
-    if (scanner_.next_content()) trailing = Remark{Remark::Kind::text_ignored, {scanner_.line()}};
+    if (scanner_.next_content())
+      trailing = Remark{&remarks::text_ignored, {{"line", scanner_.line()}}};
     vertex_scale_.settle(mesh_.vertex_rgba);
     face_scale_.settle(mesh_.face_rgba());
     Scene scene = mesh_.finish(std::filesystem::path(input_.name()).stem().string(), "OFF");
     if (indexed_colors_ > 0)
-      scene.info.remarks.push_back({Remark::Kind::face_colors_mapped, {indexed_colors_}});
+      scene.info.remarks.push_back({&remarks::face_colors_mapped, {{"faces", indexed_colors_}}});
     if (trailing) scene.info.remarks.push_back(*trailing);
     return scene;
   }

@@ -4,6 +4,8 @@
 #include <glm/mat3x3.hpp>
 #include <utility>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/mesh/mesh_remarks.hpp"
 #include "image/quantise.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
@@ -91,24 +93,25 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
   scene.info.up = assumed_up;
   scene.info.up_is_assumed = true;
   std::vector<Remark>& remarks = scene.info.remarks;
-  remarks.push_back({.kind = Remark::Kind::up_unknown_to_format, .names = {source}});
-  if (polygons_ > 0) remarks.push_back({Remark::Kind::polygons_split, {polygons_}});
-  if (too_small_ > 0) remarks.push_back({Remark::Kind::small_faces_dropped, {too_small_}});
+  remarks.push_back({&remarks::up_unknown_to_format, {{"format", source}}});
+  if (polygons_ > 0) remarks.push_back({&remarks::polygons_split, {{"polygons", polygons_}}});
+  if (too_small_ > 0) remarks.push_back({&remarks::small_faces_dropped, {{"faces", too_small_}}});
 
   const std::uint64_t clamped = clamp_colors(vertex_rgba) + clamp_colors(face_rgba_);
-  if (clamped > 0) remarks.push_back({Remark::Kind::color_components_clamped, {clamped}});
+  if (clamped > 0)
+    remarks.push_back({&remarks::color_components_clamped, {{"components", clamped}}});
 
   TriangleSoup soup;
   soup.positions = std::move(positions);
   soup.triangles = std::move(triangles_);
   if (!vertex_rgba.empty()) {
-    if (!face_rgba_.empty()) remarks.push_back({Remark::Kind::face_colors_dropped});
+    if (!face_rgba_.empty()) remarks.push_back({&remarks::face_colors_dropped});
     soup.appearance = VertexColors{std::move(vertex_rgba)};
   } else {
     if (face_rgba_.empty())
-      remarks.push_back({Remark::Kind::colors_missing});
+      remarks.push_back({&remarks::colors_missing});
     else if (uncolored_ > 0)
-      remarks.push_back({Remark::Kind::face_colors_missing, {uncolored_}});
+      remarks.push_back({&remarks::face_colors_missing, {{"triangles", uncolored_}}});
     color_faces(soup.triangles.size(), no_color);
     soup.appearance = FaceColors{std::move(face_rgba_)};
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/ply/ply_values.hpp"
 #include "formats/splat/splat_ply_layout.hpp"
 
@@ -82,7 +83,7 @@ class CompressedPlyReader {
     Scene scene = unpack(degree, profile);
     add_profile_remarks(profile, scene);
     if (values_.anything_left())
-      scene.info.remarks.push_back({Remark::Kind::bytes_ignored, {values_.remaining()}});
+      scene.info.remarks.push_back({&remarks::bytes_ignored, {{"bytes", values_.remaining()}}});
     return scene;
   }
 

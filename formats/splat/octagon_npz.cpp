@@ -13,6 +13,7 @@
 #include "formats/archive/npy_array.hpp"
 #include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -115,8 +116,7 @@ Scene read_octagon_npz(Input input, const ReadOptions& options) {
     builder.add(splat, std::span(&coefficient, 1));
   }
   Scene scene = builder.finish(*profile_named("redisplats"), "octagon mesh");
-  if (!options.octagon_q)
-    scene.info.remarks.push_back({.kind = Remark::Kind::octagon_q_assumed, .values = {q}});
+  if (!options.octagon_q) scene.info.remarks.push_back({&remarks::octagon_q_assumed, {{"q", q}}});
   return scene;
 }
 

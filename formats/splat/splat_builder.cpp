@@ -8,8 +8,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_limit.hpp"
+#include "scene/scene_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -94,10 +97,12 @@ Scene SplatBuilder::finish(const SplatProfile& profile, const std::string& forma
   scene.info.source = format;
   scene.info.up = splat_up;
   scene.info.up_is_assumed = true;
-  scene.info.remarks.push_back({.kind = Remark::Kind::up_unknown_to_splats, .names = {format}});
+  scene.info.remarks.push_back({&remarks::up_unknown_to_splats, {{"format", format}}});
   if (dropped_ > 0)
-    scene.info.remarks.push_back({Remark::Kind::splats_dropped, {dropped_, added_}});
-  if (kept < valid) scene.info.remarks.push_back({Remark::Kind::splats_limited, {kept, valid}});
+    scene.info.remarks.push_back(
+        {&remarks::splats_dropped, {{"dropped", dropped_}, {"all", added_}}});
+  if (kept < valid)
+    scene.info.remarks.push_back({&remarks::splats_limited, {{"kept", kept}, {"all", valid}}});
   return scene;
 }
 

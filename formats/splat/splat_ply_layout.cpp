@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "formats/splat/splat_remarks.hpp"
+
 namespace tureen {
 
 namespace {
@@ -128,11 +130,12 @@ SplatPlyProfile splat_ply_profile(const PlyHeader& header, const SplatKernel& ke
 void add_profile_remarks(const SplatPlyProfile& profile, Scene& scene) {
   std::vector<Remark>& remarks = scene.info.remarks;
   if (!profile.assumed.empty())
-    remarks.push_back({.kind = Remark::Kind::profile_assumed, .names = {profile.assumed}});
+    remarks.push_back({&remarks::profile_assumed, {{"profile", profile.assumed}}});
   if (profile.unknown_mode.empty()) return;
   const auto& splats = std::get<Splats>(only_layer(scene).primitives);
-  remarks.push_back({.kind = Remark::Kind::render_mode_unknown,
-                     .names = {profile.unknown_mode, std::string(profile_name(splats))}});
+  remarks.push_back(
+      {&remarks::render_mode_unknown,
+       {{"mode", profile.unknown_mode}, {"profile", std::string(profile_name(splats))}}});
 }
 
 }  // namespace tureen

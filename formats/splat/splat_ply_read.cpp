@@ -1,6 +1,7 @@
 #include <array>
 #include <optional>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/common/splat_activation.hpp"
 #include "formats/ply/ply_values.hpp"
 #include "formats/splat/splat_ply.hpp"
@@ -36,12 +37,11 @@ class SplatPlyReader {
     }
     std::optional<Remark> trailing;
     if (values_.anything_left())
-      trailing = Remark{Remark::Kind::bytes_ignored, {values_.remaining()}};
+      trailing = Remark{&remarks::bytes_ignored, {{"bytes", values_.remaining()}}};
     Scene scene = builder.finish(profile.profile, "PLY");
     add_profile_remarks(profile, scene);
     if (trailing) scene.info.remarks.push_back(*trailing);
-    if (has_doubles(vertex, layout))
-      scene.info.remarks.push_back({Remark::Kind::coordinates_rounded});
+    if (has_doubles(vertex, layout)) scene.info.remarks.push_back({&remarks::coordinates_rounded});
     return scene;
   }
 

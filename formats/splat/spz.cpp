@@ -14,8 +14,10 @@
 
 #include "base/little_endian.hpp"
 #include "formats/archive/inflater.hpp"
+#include "formats/common/format_remarks.hpp"
 #include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -167,9 +169,11 @@ class SpzReader {
       read_plain();
     Scene scene = unpack();
     if (!ignored_.empty())
-      scene.info.remarks.push_back({.kind = Remark::Kind::splat_extensions_ignored,
-                                    .names = {ignored_.begin(), ignored_.end()}});
-    if (trailing_ > 0) scene.info.remarks.push_back({Remark::Kind::bytes_ignored, {trailing_}});
+      scene.info.remarks.push_back(
+          {&remarks::splat_extensions_ignored,
+           {{"extensions", std::vector<std::string>{ignored_.begin(), ignored_.end()}}}});
+    if (trailing_ > 0)
+      scene.info.remarks.push_back({&remarks::bytes_ignored, {{"bytes", trailing_}}});
     return scene;
   }
 

@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/common/splat_activation.hpp"
+#include "formats/torch/checkpoint_remarks.hpp"
 #include "formats/torch/torch_archive.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_edits.hpp"
@@ -163,7 +165,7 @@ Scene read_diffsoup(TorchArchive& archive, const ReadOptions& options) {
   scene.info.up = colmap ? colmap_up : glm::vec3(0.0f, 0.0f, 1.0f);
   scene.info.background = glm::vec3(colmap ? 0.0f : 1.0f);
   scene.info.remarks.push_back(
-      {colmap ? Remark::Kind::up_of_colmap_scene : Remark::Kind::up_of_synthetic_scene});
+      {colmap ? &remarks::up_of_colmap_scene : &remarks::up_of_synthetic_scene});
   return scene;
 }
 
@@ -225,10 +227,12 @@ Scene scene_of_windows(TorchArchive& archive, const TorchTensor& origin, const R
     sort_in_morton_order(splats);
   }
   Scene scene = scene_of(std::move(splats));
-  if (kept < all) scene.info.remarks.push_back({Remark::Kind::splats_dropped, {all - kept, all}});
+  if (kept < all)
+    scene.info.remarks.push_back(
+        {&remarks::splats_dropped, {{"dropped", all - kept}, {"all", all}}});
   scene.info.up = colmap_up;
   scene.info.up_is_assumed = true;
-  scene.info.remarks.push_back({Remark::Kind::up_unknown_to_checkpoint});
+  scene.info.remarks.push_back({&remarks::up_unknown_to_checkpoint});
   return scene;
 }
 

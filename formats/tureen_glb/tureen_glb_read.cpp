@@ -16,10 +16,12 @@
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
+#include "formats/tureen_glb/tureen_glb_remarks.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
 #include "image/png.hpp"
 #include "scene/edit/splat_limit.hpp"
 #include "scene/lattice.hpp"
+#include "scene/scene_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -59,7 +61,7 @@ class Reader {
     if (auto* edited_soup = std::get_if<TriangleSoup>(&layer.primitives))
       *edited_soup = with_edits(std::move(*edited_soup), edits, scene.info.remarks);
     else
-      scene.info.remarks.push_back({Remark::Kind::preset_dropped});
+      scene.info.remarks.push_back({&remarks::preset_dropped});
   }
 
   /// Versions 4 and 5: each layer is a node with an extension.
@@ -92,7 +94,8 @@ class Reader {
       scene.layers.push_back(layer(node(i)));
     }
     if (kept_splats_ < all_splats_)
-      scene.info.remarks.push_back({Remark::Kind::splats_limited, {kept_splats_, all_splats_}});
+      scene.info.remarks.push_back(
+          {&remarks::splats_limited, {{"kept", kept_splats_}, {"all", all_splats_}}});
   }
 
   Layer layer(const JsonView& node) {
@@ -182,8 +185,7 @@ class Reader {
           *view, "keeps_face", soup.triangles.size(), glb_formats::scalar_u8);
     if (const auto reason = defect(preset.edits, soup)) view->fail(*reason);
     if (!preset.ignored.empty())
-      scene.info.remarks.push_back(
-          {.kind = Remark::Kind::preset_keys_ignored, .names = preset.ignored});
+      scene.info.remarks.push_back({&remarks::preset_keys_ignored, {{"keys", preset.ignored}}});
     return std::move(preset.edits);
   }
 
@@ -209,7 +211,7 @@ class Reader {
       input_.take_memory(texels_at_most(*texture, edits.lattice_level),
                          LatticeTexture::channels * (texture->is_float() ? 4 : 1),
                          "the texels after the edits of the file's preset");
-    remarks.push_back({.kind = Remark::Kind::preset_applied, .names = names_of(edits)});
+    remarks.push_back({&remarks::preset_applied, {{"edits", names_of(edits)}}});
     return edited(std::move(soup), edits);
   }
 

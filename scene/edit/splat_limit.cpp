@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/edit/splat_edits.hpp"
+#include "scene/scene_remarks.hpp"
 
 namespace tureen {
 
@@ -67,7 +68,7 @@ void limit_splats(Scene& scene, std::uint64_t max) {
     before += number;
     kept += count(*splats);
   }
-  scene.info.remarks.push_back({Remark::Kind::splats_limited, {kept, all}});
+  scene.info.remarks.push_back({&remarks::splats_limited, {{"kept", kept}, {"all", all}}});
 }
 
 }  // namespace tureen

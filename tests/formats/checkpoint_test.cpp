@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <random>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/torch/checkpoint_remarks.hpp"
 #include "scene/lattice.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/truncation.hpp"
@@ -269,8 +271,7 @@ TEST(Checkpoint, TriangleSplattingIsActivated) {
   EXPECT_EQ(color.coefficients[17].z, 7 + 0.001f * (45 + 23));
   EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
   EXPECT_TRUE(scene.info.up_is_assumed);
-  EXPECT_THAT(scene.info.remarks,
-              ::testing::Contains(Remark{Remark::Kind::up_unknown_to_checkpoint}));
+  EXPECT_THAT(scene.info.remarks, ::testing::Contains(Remark{&remarks::up_unknown_to_checkpoint}));
 
   EXPECT_EQ(std::get<Splats>(only_layer(read(triangle_splatting(0, 15))).primitives)
                 .color.coefficients.size(),
@@ -329,7 +330,7 @@ TEST(Checkpoint, ConnectedTrianglesHaveColoursOfCorners) {
   EXPECT_EQ(splats.color.coefficients[3 * 4 + 1].x, 1 + 0.001f * 90);
   EXPECT_EQ(scene.info.source, "Triangle Splatting+ checkpoint");
   EXPECT_THAT(scene.info.remarks,
-              ::testing::ElementsAre(Remark{Remark::Kind::up_unknown_to_checkpoint}));
+              ::testing::ElementsAre(Remark{&remarks::up_unknown_to_checkpoint}));
 
   const Scene mesh = read(torch.add("pixel_count", 1));
   EXPECT_EQ(mesh.info.source, "MeshSplatting checkpoint");
@@ -372,8 +373,8 @@ TEST(Checkpoint, WindowsWithoutFiniteValuesAreDropped) {
     EXPECT_EQ(count(only_splats(scene)), 1u);
     EXPECT_EQ(std::get<TriangleWindows>(only_splats(scene).kernel).corners[1],
               glm::vec3(0.001f * 3, 0.001f * 4, 0.001f * 5));
-    EXPECT_THAT(scene.info.remarks,
-                ::testing::Contains(Remark{Remark::Kind::splats_dropped, {1, 2}}));
+    EXPECT_THAT(scene.info.remarks, ::testing::Contains(Remark{&remarks::splats_dropped,
+                                                               {{"dropped", 1}, {"all", 2}}}));
   };
   Connected connected;
   set(connected.points, 10, INFINITY);
@@ -397,7 +398,7 @@ TEST(Checkpoint, WindowsWithoutFiniteValuesAreDropped) {
   EXPECT_EQ(windows.corners[0].x, 0.001f * 18);
   EXPECT_EQ(only_splats(scene).color.coefficients[0].x, 0.001f * 6);
   EXPECT_THAT(scene.info.remarks,
-              ::testing::Contains(Remark{Remark::Kind::splats_dropped, {3, 4}}));
+              ::testing::Contains(Remark{&remarks::splats_dropped, {{"dropped", 3}, {"all", 4}}}));
 }
 
 /// Vector `i` of a parameter by data/write_checkpoints.py.

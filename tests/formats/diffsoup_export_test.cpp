@@ -10,6 +10,7 @@
 
 #include "base/output.hpp"
 #include "formats/diffsoup/diffsoup_mesh.hpp"
+#include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "image/png.hpp"
 #include "scene/lattice.hpp"
 #include "tests/formats/format_testing.hpp"
@@ -226,7 +227,8 @@ TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
   // The published exporter writes the same file without our key.
   replace_in(folder / "a/meta.json", "\"tureen\"", "\"another\"");
   Scene copy = read_diffsoup_export(folder / "a");
-  EXPECT_THAT(copy.info.remarks, Contains(Remark{Remark::Kind::alpha_half_restored, {20, 90}}));
+  EXPECT_THAT(copy.info.remarks,
+              Contains(Remark{&remarks::alpha_half_restored, {{"texels", 20}, {"all", 90}}}));
   for (std::size_t i = 0; i < 20; ++i) bytes[8 * i + 7] = 128;
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(copy).texels), bytes);
   // Without a peak at 127, the distribution is smooth and stays unchanged.
@@ -431,7 +433,7 @@ TEST(DiffSoupExport, WithoutMetaTheViewersDefaultsHold) {
   EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
   EXPECT_EQ(scene.info.background, glm::vec3(0));
   EXPECT_TRUE(scene.info.up_is_assumed);
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::meta_missing}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::meta_missing}));
 }
 
 TEST(DiffSoupExport, AnImageOfAnotherLevelThanWasAssumedIsRefusedByThat) {

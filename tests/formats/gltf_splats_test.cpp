@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output.hpp"
+#include "formats/common/format_remarks.hpp"
+#include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf_file.hpp"
 #include "formats/scene_file.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -152,13 +154,14 @@ TEST(GltfSplats, ThatCannotBeDrawnAreDropped) {
   EXPECT_THAT(gaussians_of(scene).centers, ElementsAre(glm::vec3(0), glm::vec3(5, 0, 0)));
   EXPECT_EQ(gaussians_of(scene).rotations[0], glm::quat(1, 0, 0, 0));
   EXPECT_FALSE(defect(splats_of(scene)));
-  EXPECT_THAT(scene.info.remarks, ElementsAre(Remark{Remark::Kind::splats_dropped, {4, 6}}));
+  EXPECT_THAT(scene.info.remarks,
+              ElementsAre(Remark{&remarks::splats_dropped, {{"dropped", 4}, {"all", 6}}}));
 }
 
 TEST(GltfSplats, InLinearLightHaveARemark) {
   GlbBuilder b;
   add_splats(b, 1)["extensions"][khr]["colorSpace"] = "lin_rec709_display";
-  EXPECT_THAT(read(b).info.remarks, ElementsAre(Remark{Remark::Kind::splat_colors_linear}));
+  EXPECT_THAT(read(b).info.remarks, ElementsAre(Remark{&remarks::splat_colors_linear}));
 }
 
 TEST(GltfSplats, OfOtherMethodsAreRefusedWithTheirPlace) {

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output.hpp"
+#include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
@@ -223,18 +224,18 @@ TEST_F(Gltf, TakesVertexColoursAsLinearUnlessAPythonToolWroteThem) {
   const Scene linear = read(make("Some exporter"));
   EXPECT_NEAR(vertex_colors(linear)[0].x, srgb_from_linear(0.2), 1e-6);
   EXPECT_EQ(vertex_colors(linear)[0].w, 1.0f);  // the alpha mode is OPAQUE
-  EXPECT_THAT(linear.info.remarks, Contains(Remark{Remark::Kind::vertex_colors_linear_by_gltf}));
+  EXPECT_THAT(linear.info.remarks, Contains(Remark{&remarks::vertex_colors_linear_by_gltf}));
   for (const char* tool : {"https://github.com/mikedh/trimesh", "Open3D 0.17"}) {
     const Scene srgb = read(make(tool));
     EXPECT_EQ(vertex_colors(srgb)[0], glm::vec4(51 / 255.0f, 128 / 255.0f, 1.0f, 1.0f));
-    EXPECT_THAT(srgb.info.remarks, Contains(Remark{Remark::Kind::vertex_colors_srgb_by_generator}));
+    EXPECT_THAT(srgb.info.remarks, Contains(Remark{&remarks::vertex_colors_srgb_by_generator}));
   }
   EXPECT_EQ(read(make("trimesh")).info.up, glm::vec3(0, 0, 1));
   EXPECT_EQ(read(make("Open3D")).info.up, glm::vec3(0, 1, 0));
   const Scene asked =
       read(make("trimesh"), {.vertex_colors = VertexColorSpace::linear, .progress = {}});
   EXPECT_NEAR(vertex_colors(asked)[0].x, srgb_from_linear(0.2), 1e-6);
-  EXPECT_THAT(asked.info.remarks, Contains(Remark{Remark::Kind::vertex_colors_linear}));
+  EXPECT_THAT(asked.info.remarks, Contains(Remark{&remarks::vertex_colors_linear}));
 }
 
 TEST_F(Gltf, MultipliesTheFactorInLinearLightAndMovesTheCutoffToAHalf) {
@@ -250,7 +251,7 @@ TEST_F(Gltf, MultipliesTheFactorInLinearLightAndMovesTheCutoffToAHalf) {
   EXPECT_LT(vertex_colors(scene)[0].w, 0.5f);
   EXPECT_EQ(vertex_colors(scene)[1].w, 0.5f);
   EXPECT_GT(vertex_colors(scene)[2].w, 0.5f);
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::materials_unlit}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::materials_unlit}));
 }
 
 TEST_F(Gltf, ClampsFloatColoursBeforeTheFactor) {
@@ -337,8 +338,8 @@ TEST_F(Gltf, ReadsTexturesWithSamplerTransformMaskAndBlend) {
   // A quarter turn maps u to -v and v to u.
   EXPECT_LT(glm::length(t.uv[1] - glm::vec2(0.25f, 0.5f - 2.0f)), 1e-5f);
   EXPECT_LT(glm::length(t.uv[2] - glm::vec2(0.25f + 3.0f, 0.5f)), 1e-5f);
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::blending_cut_out}));
-  EXPECT_THAT(scene.info.remarks, ::testing::Not(Contains(Remark{Remark::Kind::materials_unlit})));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::blending_cut_out}));
+  EXPECT_THAT(scene.info.remarks, ::testing::Not(Contains(Remark{&remarks::materials_unlit})));
 }
 
 TEST_F(Gltf, ReadsCameras) {
@@ -553,8 +554,8 @@ TEST_F(Gltf, ReadsTheFicus) {
   EXPECT_FLOAT_EQ(box.low.y, -0.857197105884552f);
   EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
   EXPECT_TRUE(scene.info.up_is_assumed);
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::up_unknown_to_trimesh}));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::vertex_colors_srgb_by_generator}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::up_unknown_to_trimesh}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::vertex_colors_srgb_by_generator}));
 }
 
 }  // namespace gltf_test

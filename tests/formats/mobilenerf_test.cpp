@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "formats/mesh/mesh_remarks.hpp"
 #include "formats/mesh/obj.hpp"
 #include "formats/scene_file.hpp"
 #include "image/png.hpp"
@@ -181,8 +182,12 @@ TEST(MobileNerf, MissingShapesAreNamedAndTheRestIsDrawn) {
   write_text(folder / "mlp.json", random_network(1, 5).dump());
   fs::remove(folder / "shape0.pngfeat1.png");
   const Scene scene = read_mobilenerf(folder / "mlp.json");
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_missing, {2, 3, 4, 5}}));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_untextured, {0, 5}}));
+  EXPECT_THAT(scene.info.remarks,
+              Contains(Remark{&remarks::shapes_missing,
+                              {{"shapes", std::vector<std::uint64_t>{2, 3, 4}}, {"all", 5}}}));
+  EXPECT_THAT(scene.info.remarks,
+              Contains(Remark{&remarks::shapes_untextured,
+                              {{"shapes", std::vector<std::uint64_t>{0}}, {"all", 5}}}));
   EXPECT_EQ(only_soup(scene).triangles.size(), 4u);
   fs::remove(folder / "shape1.pngfeat0.png");
   EXPECT_THAT(error_of([&] { read_mobilenerf(folder / ""); }), ErrorAt("", 5));
@@ -262,7 +267,9 @@ TEST(MobileNerf, TheDrums) {
   EXPECT_EQ(defect(soup), std::nullopt);
   EXPECT_EQ(soup.triangles.size(), 11026u);
   EXPECT_EQ(scene.info.name, "mobilenerf_drums");
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_missing, {0, 1, 3}}));
+  EXPECT_THAT(scene.info.remarks,
+              Contains(Remark{&remarks::shapes_missing,
+                              {{"shapes", std::vector<std::uint64_t>{0, 1}}, {"all", 3}}}));
   const Image8& image = std::get<UvTextures>(soup.appearance).images[0];
   EXPECT_EQ(image.width, 4096);
   std::size_t holes = 0;

@@ -8,6 +8,8 @@
 #include <random>
 #include <string>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/mesh/mesh_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
@@ -44,7 +46,7 @@ TEST(Off, ReadsTriangleSplattingsCoff) {
   EXPECT_EQ(scene.info.name, "plant");
   EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
   EXPECT_THAT(scene.info.remarks,
-              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}));
+              ElementsAre(Remark{&remarks::up_unknown_to_format, {{"format", "OFF"}}}));
 }
 
 TEST(Off, ReadsHeadersOfAllKinds) {
@@ -63,19 +65,20 @@ TEST(Off, FansPolygonsAndCopiesTheirColour) {
                           glm::uvec3(4, 2, 1), glm::uvec3(4, 1, 0)));
   const glm::vec4 a(0.25f, 0.5f, 0.75f, 1.0f), b(1, 0, 0, 0.5f);
   EXPECT_THAT(face_rgba(scene), ElementsAre(a, a, b, b, b));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::polygons_split, {2}}));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::small_faces_dropped, {1}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::polygons_split, {{"polygons", 2}}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::small_faces_dropped, {{"faces", 1}}}));
 }
 
 TEST(Off, DrawsUncolouredFacesGrey) {
   const Scene some = read_text("OFF 3 3 0\n" + triangle + "3 0 1 2\n3 0 1 2 255 0 0\n3 2 1 0 7\n");
   const glm::vec4 grey(0.8f, 0.8f, 0.8f, 1.0f);
   EXPECT_THAT(face_rgba(some), ElementsAre(grey, glm::vec4(1, 0, 0, 1), grey));
-  EXPECT_THAT(some.info.remarks, Contains(Remark{Remark::Kind::face_colors_missing, {2}}));
-  EXPECT_THAT(some.info.remarks, Contains(Remark{Remark::Kind::face_colors_mapped, {1}}));
+  EXPECT_THAT(some.info.remarks,
+              Contains(Remark{&remarks::face_colors_missing, {{"triangles", 2}}}));
+  EXPECT_THAT(some.info.remarks, Contains(Remark{&remarks::face_colors_mapped, {{"faces", 1}}}));
   const Scene none = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n");
   EXPECT_THAT(face_rgba(none), ElementsAre(grey));
-  EXPECT_THAT(none.info.remarks, Contains(Remark{Remark::Kind::colors_missing}));
+  EXPECT_THAT(none.info.remarks, Contains(Remark{&remarks::colors_missing}));
 }
 
 TEST(Off, ReadsVertexColours) {
@@ -83,7 +86,7 @@ TEST(Off, ReadsVertexColours) {
       read_text("COFF 3 1 0\n0 0 0 255 0 51 255\n1 0 0 0 0 0 0\n0 1 0 1 1 1 1\n3 0 1 2 1 2 3\n");
   EXPECT_THAT(vertex_rgba(bytes),
               ElementsAre(glm::vec4(1, 0, 51 / 255.0f, 1), glm::vec4(0), glm::vec4(1 / 255.0f)));
-  EXPECT_THAT(bytes.info.remarks, Contains(Remark{Remark::Kind::face_colors_dropped}));
+  EXPECT_THAT(bytes.info.remarks, Contains(Remark{&remarks::face_colors_dropped}));
   const Scene floats = read_text("OFF 3 1 0\n0 0 0 1 0 0\n1 0 0 0.5 0 0\n0 1 0 1 1 1\n3 0 1 2\n");
   EXPECT_THAT(vertex_rgba(floats),
               ElementsAre(glm::vec4(1, 0, 0, 1), glm::vec4(0.5f, 0, 0, 1), glm::vec4(1)));
@@ -104,7 +107,8 @@ TEST(Off, TellsBytesFromFloatsOverTheWholeFile) {
 TEST(Off, ClampsFloatColoursWithARemark) {
   const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2 1.5 -0.5 nan");
   EXPECT_THAT(face_rgba(scene), ElementsAre(glm::vec4(1, 0, 0, 1)));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::color_components_clamped, {3}}));
+  EXPECT_THAT(scene.info.remarks,
+              Contains(Remark{&remarks::color_components_clamped, {{"components", 3}}}));
 }
 
 TEST(Off, KeepsPositionsThatAreNotFinite) {
@@ -146,7 +150,7 @@ TEST(Off, X5_CommentsMissingAlphaAndColoursFromZeroToOneAreRead) {
 
 TEST(Off, RemarksOnTrailingText) {
   const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n# fine\n\nmore\n");
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::text_ignored, {8}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::text_ignored, {{"line", 8}}}));
 }
 
 TEST(Off, RefusesByNameAndPlace) {
@@ -322,7 +326,7 @@ TEST(Off, ReadsTheRealFicus) {
   EXPECT_EQ(only_soup(scene).positions.size(), 100251u);
   EXPECT_EQ(face_rgba(scene).front(), glm::vec4(162 / 255.0f, 155 / 255.0f, 127 / 255.0f, 1));
   EXPECT_THAT(scene.info.remarks,
-              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}));
+              ElementsAre(Remark{&remarks::up_unknown_to_format, {{"format", "OFF"}}}));
 }
 
 TEST(Off, HostileFilesEndWell) {

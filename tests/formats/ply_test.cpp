@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/mesh/mesh_remarks.hpp"
 #include "formats/ply_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
@@ -111,7 +113,8 @@ TEST(Ply, ReadsAnyOrderTypeAndEncoding) {
       EXPECT_THAT(face_rgba(scene), ElementsAre(a, a, c));
       EXPECT_EQ(scene.info.name, "plant");
       EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
-      EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::polygons_split, {1}}));
+      EXPECT_THAT(scene.info.remarks,
+                  Contains(Remark{&remarks::polygons_split, {{"polygons", 1}}}));
     }
 }
 
@@ -133,13 +136,14 @@ TEST(Ply, ReadsVertexColours) {
               ElementsAre(glm::vec4(1, 0, 51 / 255.0f, 0),
                           glm::vec4(1 / 255.0f, 2 / 255.0f, 3 / 255.0f, 4 / 255.0f),
                           glm::vec4(0, 0, 0, 1)));
-  EXPECT_THAT(bytes.info.remarks, Contains(Remark{Remark::Kind::face_colors_dropped}));
+  EXPECT_THAT(bytes.info.remarks, Contains(Remark{&remarks::face_colors_dropped}));
   const Scene floats = read_bytes(
       ascii + vertices3 + "property float red\nproperty double green\nproperty float blue\n" +
       faces1 + "end_header\n0 0 0 1 0.5 0\n1 0 0 2 nan 3\n0 1 0 0 0 0\n3 0 1 2\n");
   EXPECT_THAT(vertex_rgba(floats),
               ElementsAre(glm::vec4(1, 0.5f, 0, 1), glm::vec4(1, 0, 1, 1), glm::vec4(0, 0, 0, 1)));
-  EXPECT_THAT(floats.info.remarks, Contains(Remark{Remark::Kind::color_components_clamped, {3}}));
+  EXPECT_THAT(floats.info.remarks,
+              Contains(Remark{&remarks::color_components_clamped, {{"components", 3}}}));
 }
 
 TEST(Ply, ReadsTriangleStrips) {
@@ -162,12 +166,12 @@ TEST(Ply, KeepsPositionsThatAreNotFinite) {
 TEST(Ply, RemarksOnTrailingBytes) {
   const std::string text = ascii + vertices3 + faces1 + "end_header\n" + body3 + "3 0 1 2\n";
   EXPECT_THAT(read_bytes(text + "\n \nxyz").info.remarks,
-              Contains(Remark{Remark::Kind::bytes_ignored, {3}}));
+              Contains(Remark{&remarks::bytes_ignored, {{"bytes", 3}}}));
   EXPECT_THAT(read_bytes(text + "\n \n").info.remarks,
-              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"PLY"}},
-                          Remark{Remark::Kind::colors_missing}));
+              ElementsAre(Remark{&remarks::up_unknown_to_format, {{"format", "PLY"}}},
+                          Remark{&remarks::colors_missing}));
   EXPECT_THAT(read_bytes(rich_file("binary_big_endian", "\n") + "xyz\n").info.remarks,
-              Contains(Remark{Remark::Kind::bytes_ignored, {4}}));
+              Contains(Remark{&remarks::bytes_ignored, {{"bytes", 4}}}));
 }
 
 TEST(Ply, RefusesWhatIsNotTriangles) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "formats/common/format_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 
 namespace tureen {
@@ -27,7 +28,7 @@ TEST(SceneFile, TellsFormatsByContentBeforeName) {
   write_text(folder / "a.off", off_text);
   write_text(folder / "b.ply", off_text);
   write_text(folder / "c", off_text);
-  const Remark misnaming{.kind = Remark::Kind::content_misnamed, .names = {".ply", "OFF"}};
+  const Remark misnaming{&remarks::content_misnamed, {{"extension", ".ply"}, {"format", "OFF"}}};
   EXPECT_THAT(read_scene(folder / "a.off").info.remarks, Not(Contains(misnaming)));
   const Scene misnamed = read_scene(folder / "b.ply");
   EXPECT_EQ(only_soup(misnamed).triangles.size(), 1u);

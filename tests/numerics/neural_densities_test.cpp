@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/ply_file.hpp"
 #include "runtime/passes/shader_source.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
@@ -402,7 +403,8 @@ TEST(Numerics, N11_QuaternionsOfAnyLength) {
   // Without a direction there is no rotation: such a splat is dropped, and counted.
   const Scene scene = densities_in_file({0, 0, 0, 0});
   EXPECT_EQ(count(std::get<Splats>(scene.layers[0].primitives)), 1u);
-  EXPECT_EQ(scene.info.remarks.back(), (Remark{Remark::Kind::splats_dropped, {1, 2}}));
+  EXPECT_EQ(scene.info.remarks.back(),
+            (Remark{&remarks::splats_dropped, {{"dropped", 1}, {"all", 2}}}));
 }
 
 }  // namespace neural_densities_test

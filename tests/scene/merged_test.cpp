@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
+#include "formats/mesh/mesh_remarks.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_remarks.hpp"
 
 namespace tureen {
 namespace merged_test {
@@ -73,8 +75,9 @@ TEST(Merged, SettingsAreThoseOfTheFirstScene) {
   EXPECT_TRUE(result.info.compressed);
   ASSERT_EQ(result.info.remarks.size(), 1u);
   EXPECT_EQ(result.info.remarks[0],
-            (Remark{.kind = Remark::Kind::settings_dropped,
-                    .names = {"cameras", "up axis", "background", "quality"},
+            (Remark{.kind = &remarks::settings_dropped,
+                    .fields = {{"settings", std::vector<std::string>{"cameras", "up axis",
+                                                                     "background", "quality"}}},
                     .scene = "second"}));
   EXPECT_EQ(describe(result.info.remarks[0]),
             "second: these settings differ from those of the first scene and are ignored: cameras, "
@@ -85,14 +88,14 @@ TEST(Merged, SettingsAreThoseOfTheFirstScene) {
 
 TEST(Merged, RemarksAndNotesNameTheirScene) {
   Scene one = scene_named("one"), two = scene_named("two");
-  one.info.remarks = {{Remark::Kind::colors_missing}};
-  two.info.remarks = {{Remark::Kind::polygons_split, {3}}};
+  one.info.remarks = {{&remarks::colors_missing}};
+  two.info.remarks = {{&remarks::polygons_split, {{"polygons", 3}}}};
   two.info.notes = {"a note"};
   const Scene result = merged({one, two});
-  EXPECT_EQ(
-      result.info.remarks,
-      (std::vector<Remark>{{.kind = Remark::Kind::colors_missing, .scene = "one"},
-                           {.kind = Remark::Kind::polygons_split, .counts = {3}, .scene = "two"}}));
+  EXPECT_EQ(result.info.remarks,
+            (std::vector<Remark>{
+                {.kind = &remarks::colors_missing, .scene = "one"},
+                {.kind = &remarks::polygons_split, .fields = {{"polygons", 3}}, .scene = "two"}}));
   EXPECT_THAT(result.info.notes, ElementsAre("two: a note"));
   // A scene that was merged before keeps the names.
   EXPECT_EQ(merged({result, two}).info.remarks.front().scene, "one");

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "formats/diffsoup/diffsoup_remarks.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "scene/opaque_windows.hpp"
 
 namespace tureen {
@@ -39,13 +41,13 @@ TEST(Scene, AChosenProfileAppliesToEveryLayerOfSplats) {
   Gaussians flat;
   flat.flat = true;
   scene.layers.push_back({.primitives = Splats{.kernel = flat}});
-  scene.info.remarks = {{.kind = Remark::Kind::profile_assumed, .names = {"2dgs"}},
-                        {.kind = Remark::Kind::level_missing}};
+  scene.info.remarks = {{&remarks::profile_assumed, {{"profile", "2dgs"}}},
+                        {&remarks::level_missing}};
   choose_profile(scene, "mip");
   for (const std::size_t i : {0, 2})
     EXPECT_EQ(std::get<Splats>(scene.layers[i].primitives).profile, *profile_named("mip"));
   ASSERT_EQ(scene.info.remarks.size(), 1u);
-  EXPECT_EQ(scene.info.remarks[0].kind, Remark::Kind::level_missing);
+  EXPECT_EQ(scene.info.remarks[0].kind, &remarks::level_missing);
 
   EXPECT_THROW(choose_profile(scene, "2dgs"), UsageError);  // the first layer is not flat
   scene.layers = {{.primitives = triangle()}};
@@ -55,7 +57,7 @@ TEST(Scene, AChosenProfileAppliesToEveryLayerOfSplats) {
 TEST(Scene, AChosenUpAxisRemovesTheRemarkThatItWasAssumed) {
   SceneInfo info;
   info.up_is_assumed = true;
-  info.remarks = {{.kind = Remark::Kind::up_unknown_to_splats, .names = {"PLY"}}};
+  info.remarks = {{&remarks::up_unknown_to_splats, {{"format", "PLY"}}}};
   choose_up(info, {0, 0, 1});
   EXPECT_FALSE(info.up_is_assumed);
   EXPECT_TRUE(info.remarks.empty());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/scene_remarks.hpp"
 #include "tests/support/random_splats.hpp"
 
 namespace tureen {
@@ -47,7 +48,7 @@ TEST(SplatLimit, SharesTheNumberAmongLayers) {
   EXPECT_EQ(count(std::get<Splats>(scene.layers[0].primitives)), 4u);
   EXPECT_EQ(count(std::get<Splats>(scene.layers[1].primitives)), 2u);
   ASSERT_EQ(scene.info.remarks.size(), 1u);
-  EXPECT_EQ(scene.info.remarks[0], (Remark{Remark::Kind::splats_limited, {6, 9}}));
+  EXPECT_EQ(scene.info.remarks[0], (Remark{&remarks::splats_limited, {{"kept", 6}, {"all", 9}}}));
   limit_splats(scene, 1);
   EXPECT_EQ(count(std::get<Splats>(scene.layers[1].primitives)), 1u) << "a layer is never empty";
 }

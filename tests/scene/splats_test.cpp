@@ -10,6 +10,7 @@
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_edits.hpp"
 #include "scene/opaque_windows.hpp"
+#include "scene/scene_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -106,8 +107,7 @@ TEST(Splats, OpaqueWindowsKeepTheColoursOfTheirCorners) {
   const auto& harmonics = std::get<Harmonics>(result.soup.appearance);
   EXPECT_EQ(harmonics.domain, Harmonics::Domain::vertex);
   EXPECT_EQ(harmonics.coefficients[0], glm::vec3(3, 0, 0));  // the first window has opacity 0
-  EXPECT_THAT(result.remarks,
-              testing::Contains(Remark{Remark::Kind::screen_interpolation_dropped}));
+  EXPECT_THAT(result.remarks, testing::Contains(Remark{&remarks::screen_interpolation_dropped}));
 }
 
 TEST(Splats, OfEveryKernelHaveNoDefect) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "formats/common/format_remarks.hpp"
 #include "formats/scene_file.hpp"
 #include "scene/lattice.hpp"
 
@@ -145,7 +146,7 @@ TEST_F(Stages, SmallMissingAndOtherFilesHaveNoPreview) {
 TEST(WindowNotes, NameTheControlsOfTheWindow) {
   SceneInfo info;
   info.notes = {"a note"};
-  info.remarks = {{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}};
+  info.remarks = {{&remarks::up_unknown_to_format, {{"format", "OFF"}}}};
   EXPECT_THAT(window_notes(info),
               ElementsAre("a note", testing::AllOf(testing::HasSubstr("Up in the panel View"),
                                                    testing::Not(testing::HasSubstr("--up")))));

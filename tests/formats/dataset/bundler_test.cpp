@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "formats/dataset/dataset.hpp"
+#include "formats/dataset/dataset_remarks.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
@@ -105,7 +106,7 @@ TEST(Bundler, UpIsYIfItsCamerasDisagree) {
   const Dataset dataset = read_dataset(folder / "");
   EXPECT_EQ(dataset.up, glm::vec3(0, 1, 0));
   EXPECT_THAT(dataset.remarks,
-              ::testing::Contains(Remark{.kind = Remark::Kind::up_of_no_camera, .names = {"y"}}));
+              ::testing::Contains(Remark{&remarks::up_of_no_camera, {{"axis", "y"}}}));
 }
 
 TEST(Bundler, IsADataset) {

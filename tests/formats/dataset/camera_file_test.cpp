@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <random>
 
+#include "formats/dataset/dataset_remarks.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
@@ -102,14 +103,15 @@ TEST(CameraFile, AnAngleAloneMeansSquarePixelsAndTheUsualSize) {
   EXPECT_NEAR(file.cameras[0].fx, 1111.1110, 1e-3);
   EXPECT_EQ(file.cameras[0].fx, file.cameras[0].fy);
   EXPECT_EQ(file.cameras[0].cx, 400);
-  EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::image_size_missing, {800, 800}}));
+  EXPECT_THAT(file.remarks,
+              ElementsAre(Remark{&remarks::image_size_missing, {{"width", 800}, {"height", 800}}}));
 }
 
 TEST(CameraFile, RemarksThatDistortionIsIgnored) {
   const CameraFile file =
       read(std::string("{\"fl_x\": 9, \"w\": 8, \"h\": 8, \"k1\": 0.05, \"frames\": [{") +
            identity + "}]}");
-  EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::lens_dropped}));
+  EXPECT_THAT(file.remarks, ElementsAre(Remark{&remarks::lens_dropped}));
 }
 
 TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
@@ -234,7 +236,7 @@ TEST(CameraFile, ReadsAModelByColmapInBothForms) {
       EXPECT_EQ(camera.view_from_world * glm::dvec4(0, 0, 0, 1),
                 glm::dvec4(0.25 * double(i), -0.5, -3, 1));
     }
-    EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::lens_dropped}));
+    EXPECT_THAT(file.remarks, ElementsAre(Remark{&remarks::lens_dropped}));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "formats/dataset/dataset_remarks.hpp"
 #include "image/box_scale.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
@@ -189,7 +190,7 @@ TEST(Dataset, ReadsColmap) {
   EXPECT_EQ(dataset.points[0].position, glm::dvec3(1, 2, 3));
   // All cameras are upright, with COLMAP's y down.
   EXPECT_EQ(dataset.up, glm::vec3(0, -1, 0));
-  EXPECT_THAT(dataset.remarks, ElementsAre(Remark{Remark::Kind::up_of_cameras}));
+  EXPECT_THAT(dataset.remarks, ElementsAre(Remark{&remarks::up_of_cameras}));
 }
 
 TEST(Dataset, ReadsNoImageOfTheOtherPart) {
@@ -275,7 +276,7 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
   const Photograph& photograph = whole.train[0];
   EXPECT_FALSE(whole.has_alpha);
   EXPECT_THAT(whole.remarks,
-              ::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone)));
+              ::testing::Contains(::testing::Field(&Remark::kind, &remarks::lens_undone)));
   for (const glm::u8vec4& pixel : photograph.image.pixels)
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
   // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing. At the
@@ -320,8 +321,8 @@ TEST(Dataset, FisheyesBecomePinholes) {
     }
     const double degrees = glm::degrees(2 * std::atan(40 / focal));
     ASSERT_EQ(dataset.remarks.size(), 2u);
-    EXPECT_EQ(dataset.remarks[1].kind, Remark::Kind::fisheye_undone);
-    EXPECT_NEAR(dataset.remarks[1].values[0], degrees, 1e-3);
+    EXPECT_EQ(dataset.remarks[1].kind, &remarks::fisheye_undone);
+    EXPECT_NEAR(dataset.remarks[1].number("degrees"), degrees, 1e-3);
   }
   std::filesystem::remove(folder / "transforms.json");
   ColmapFixture model = upright_colmap(2);
@@ -329,7 +330,7 @@ TEST(Dataset, FisheyesBecomePinholes) {
   write_text(folder / "sparse/0", model);
   for (const auto& image : model.images)
     write_image(folder / ("images/" + image.name), an_image(8, 6));
-  EXPECT_EQ(read_dataset(folder / "").remarks.back().kind, Remark::Kind::fisheye_undone);
+  EXPECT_EQ(read_dataset(folder / "").remarks.back().kind, &remarks::fisheye_undone);
 }
 
 // ---- Nerfstudio -----------------------------------------------------------------------------
@@ -349,13 +350,13 @@ TEST(Dataset, ReadsThePointsOfNerfstudio) {
   ASSERT_EQ(dataset.points.size(), 2u);
   EXPECT_EQ(dataset.points[0].position, glm::dvec3(0.5, -1, 2));
   EXPECT_EQ(dataset.points[0].color, glm::u8vec3(255, 128, 0));
-  EXPECT_THAT(dataset.remarks, ElementsAre(Remark{Remark::Kind::up_of_transforms}));
+  EXPECT_THAT(dataset.remarks, ElementsAre(Remark{&remarks::up_of_transforms}));
 
   std::filesystem::remove(folder / "sparse_pc.ply");
   dataset = read_dataset(folder / "");
   EXPECT_TRUE(dataset.points.empty());
-  EXPECT_THAT(dataset.remarks, ::testing::Contains(Remark{.kind = Remark::Kind::points_missing,
-                                                          .names = {"sparse_pc.ply"}}));
+  EXPECT_THAT(dataset.remarks,
+              ::testing::Contains(Remark{&remarks::points_missing, {{"file", "sparse_pc.ply"}}}));
   // COLMAP's points (1, 2, 3) are in its own coordinates.
   write_transforms(folder, 2, applied);
   write_binary(folder / "colmap/sparse/0", upright_colmap(2));
@@ -420,7 +421,8 @@ TEST(Dataset, MasksExcludePixels) {
   for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(dataset.train[0].ignored[i], i % 8 == 3) << i;
   EXPECT_FALSE(dataset.has_alpha);
   EXPECT_EQ(dataset.train[0].image.pixels, an_image(8, 6, 1).pixels);
-  EXPECT_THAT(dataset.remarks, ::testing::Contains(Remark{Remark::Kind::pixels_masked, {1, 2}}));
+  EXPECT_THAT(dataset.remarks,
+              ::testing::Contains(Remark{&remarks::pixels_masked, {{"masked", 1}, {"all", 2}}}));
   // Half the size: the second column of four has an excluded pixel.
   dataset = read_dataset(folder / "", {.scale = 0.5});
   ASSERT_EQ(dataset.train[0].ignored.size(), 12u);
@@ -699,7 +701,7 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
   EXPECT_EQ(dataset.test.size(), 13u);
   ASSERT_EQ(dataset.points.size(), 6885u);
   EXPECT_THAT(dataset.remarks,
-              Not(::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone))));
+              Not(::testing::Contains(::testing::Field(&Remark::kind, &remarks::lens_undone))));
   // Structure from motion took the colours of the points from these images. Some points are hidden
   // in some views. So the pixel at a point is only closer to its colour than to the colours of
   // other points.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/ply_file.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/truncation.hpp"
@@ -78,7 +79,7 @@ TEST(CompressedPly, ReportsAnUnknownRenderMode) {
                            .text());
   EXPECT_THAT(scene.info.remarks,
               ::testing::Contains(
-                  Remark{.kind = Remark::Kind::render_mode_unknown, .names = {"other", "3dgs"}}));
+                  Remark{&remarks::render_mode_unknown, {{"mode", "other"}, {"profile", "3dgs"}}}));
 }
 
 TEST(CompressedPly, UnpacksRotationsForEachLargestPart) {

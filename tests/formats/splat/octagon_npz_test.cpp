@@ -6,6 +6,8 @@
 #include <fstream>
 #include <glm/matrix.hpp>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/octagon_fixture.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
@@ -62,8 +64,7 @@ TEST(OctagonNpz, HasKnownValues) {
   EXPECT_EQ(only_splats(scene).profile, *profile_named("redisplats"));
   EXPECT_EQ(only_splats(scene).color.degree, 0);
   EXPECT_EQ(scene.info.name, "a");
-  EXPECT_THAT(scene.info.remarks,
-              Contains(Remark{.kind = Remark::Kind::octagon_q_assumed, .values = {4}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::octagon_q_assumed, {{"q", 4.0}}}));
 }
 
 TEST(OctagonNpz, OfRandomDiscsGivesThemBack) {
@@ -92,8 +93,8 @@ TEST(OctagonNpz, OfRandomDiscsGivesThemBack) {
       // The side of the disc from which the corners turn left.
       const glm::dvec3 normal(glm::mat3_cast(g.rotations[0])[2]);
       EXPECT_NEAR(glm::dot(normal, glm::normalize(glm::cross(x, y))), 1, 1e-6);
-      EXPECT_THAT(scene.info.remarks, ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_splats,
-                                                         .names = {"octagon mesh"}}));
+      EXPECT_THAT(scene.info.remarks, ElementsAre(Remark{&remarks::up_unknown_to_splats,
+                                                         {{"format", "octagon mesh"}}}));
     }
   }
 }
@@ -190,7 +191,8 @@ TEST(OctagonNpz, DropsOctagonsWithoutAnArea) {
       .add({0, 0, 0}, {1, 0, 0}, {0, 1e-9, 0}, grey);
   const Scene scene = read(mesh.bytes());
   EXPECT_EQ(only_gaussians(scene).centers.size(), 3u);
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::splats_dropped, {7, 10}}));
+  EXPECT_THAT(scene.info.remarks,
+              Contains(Remark{&remarks::splats_dropped, {{"dropped", 7}, {"all", 10}}}));
   EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
 }
 

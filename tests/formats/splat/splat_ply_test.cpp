@@ -4,8 +4,10 @@
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/ply_file.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/truncation.hpp"
@@ -70,8 +72,8 @@ TEST(SplatPly, ReadsKnownValuesInEveryEncodingAndDegree) {
       EXPECT_EQ(scene.info.name, "guitar");
       EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
       EXPECT_TRUE(scene.info.up_is_assumed);
-      EXPECT_THAT(scene.info.remarks, ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_splats,
-                                                         .names = {"PLY"}}));
+      EXPECT_THAT(scene.info.remarks,
+                  ElementsAre(Remark{&remarks::up_unknown_to_splats, {{"format", "PLY"}}}));
       EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
     }
 }
@@ -93,8 +95,8 @@ TEST(SplatPly, FindsPropertiesByNameInAnyOrderAndType) {
   EXPECT_LT(glm::length(g.rotations[0] - glm::normalize(glm::quat(1, 2, 3, 4))), 1e-6f);
   EXPECT_FLOAT_EQ(g.scales[0].z, std::exp(0.3f));
   EXPECT_EQ(only_splats(scene).color.coefficients[0], glm::vec3(5, 6, 7));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::bytes_ignored, {4}}));
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::coordinates_rounded}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::bytes_ignored, {{"bytes", 4}}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::coordinates_rounded}));
 }
 
 TEST(SplatPly, X6_ScalesAndHarmonicsAreFoundByName) {
@@ -147,8 +149,8 @@ TEST(SplatPly, AnUnknownRenderModeIsRemarked) {
                                     .comment("SplatRenderMode: other")
                                     .element("vertex", splat_columns(0, 3), {splat_row(1, 0, 3)})
                                     .text());
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{.kind = Remark::Kind::render_mode_unknown,
-                                                  .names = {"other", "3dgs"}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::render_mode_unknown,
+                                                  {{"mode", "other"}, {"profile", "3dgs"}}}));
 }
 
 TEST(SplatPly, TheProfileOfFlatGaussiansSelectsTheirAxes) {
@@ -158,7 +160,7 @@ TEST(SplatPly, TheProfileOfFlatGaussiansSelectsTheirAxes) {
               row.end() - 4);
   const Scene as_2dgs = read_text(gaussian_file({row}, 0, 2));
   EXPECT_THAT(as_2dgs.info.remarks,
-              Contains(Remark{.kind = Remark::Kind::profile_assumed, .names = {"2dgs"}}));
+              Contains(Remark{&remarks::profile_assumed, {{"profile", "2dgs"}}}));
   EXPECT_EQ(only_gaussians(as_2dgs).rotations[0], stored);
   EXPECT_EQ(only_gaussians(as_2dgs).scales[0].z, 0.0f);
   const Scene as_games = read_text(gaussian_file({row}, 0, 2, "SplatRenderMode: default"));
@@ -194,7 +196,7 @@ TEST(SplatPly, DropsInvalidSplatsAndCountsThem) {
   const Scene scene = read_text(gaussian_file(rows, 9));
   EXPECT_THAT(only_gaussians(scene).centers, ElementsAre(glm::vec3(1, 2, 3), glm::vec3(5, 2, 3)));
   EXPECT_THAT(scene.info.remarks,
-              Contains(Remark{Remark::Kind::splats_dropped, {10, rows.size()}}));
+              Contains(Remark{&remarks::splats_dropped, {{"dropped", 10}, {"all", rows.size()}}}));
   EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
 }
 
@@ -233,7 +235,8 @@ TEST(SplatPly, ReadsNeuralDensities) {
   for (std::size_t k = 24; k < 41; ++k) EXPECT_EQ(densities.networks[k], float(100 + k));
   EXPECT_EQ(only_splats(scene).color.degree, 3);
   // The second one has a semi-axis of e^-200, which is 0 in single precision.
-  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::splats_dropped, {1, 2}}));
+  EXPECT_THAT(scene.info.remarks,
+              Contains(Remark{&remarks::splats_dropped, {{"dropped", 1}, {"all", 2}}}));
   EXPECT_EQ(only_splats(scene).profile, *profile_named("splatnet"));
 }
 
@@ -304,7 +307,7 @@ TEST(SplatPly, RealScenes) {
   const Scene trailing = read_scene(folder + "sh3_trailing_bytes.ply");
   EXPECT_EQ(count(only_splats(trailing)), 100u);
   EXPECT_EQ(only_splats(trailing).color.degree, 3);
-  EXPECT_EQ(trailing.info.remarks.back().kind, Remark::Kind::bytes_ignored);
+  EXPECT_EQ(trailing.info.remarks.back().kind, &remarks::bytes_ignored);
 }
 
 TEST(SplatPly, ASceneWithoutValidSplatsIsRejected) {

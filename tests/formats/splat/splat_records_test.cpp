@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "formats/common/format_remarks.hpp"
 #include "formats/scene_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
@@ -48,7 +49,8 @@ TEST(SplatRecords, DropsInvalidSplats) {
   Input input = input_of(text);
   const Scene scene = read_splat_records(input);
   EXPECT_EQ(only_gaussians(scene).centers.size(), 2u);
-  EXPECT_EQ(scene.info.remarks.back(), (Remark{Remark::Kind::splats_dropped, {2, 4}}));
+  EXPECT_EQ(scene.info.remarks.back(),
+            (Remark{&remarks::splats_dropped, {{"dropped", 2}, {"all", 4}}}));
   EXPECT_EQ(defect(only_splats(scene)), std::nullopt);
 }
 

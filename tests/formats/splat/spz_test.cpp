@@ -10,6 +10,8 @@
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "formats/common/format_remarks.hpp"
+#include "formats/splat/splat_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/splat/spz_fixture.hpp"
@@ -67,7 +69,7 @@ TEST_P(Spz, HasKnownValues) {
   EXPECT_EQ(only_splats(scene).profile, *profile_named("3dgs"));
   EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
   EXPECT_THAT(scene.info.remarks,
-              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_splats, .names = {"SPZ"}}));
+              ElementsAre(Remark{&remarks::up_unknown_to_splats, {{"format", "SPZ"}}}));
   spz.flags = 1;
   EXPECT_EQ(only_splats(read(spz.bytes())).profile, *profile_named("mip"));
   spz.fractional_bits = 10;
@@ -186,8 +188,9 @@ TEST(Spz, IsRecognisedByItsContent) {
   std::ofstream(folder / "a.bin", std::ios::binary) << packed;
   EXPECT_EQ(count(only_splats(read_scene(folder / "a.bin"))), 1u);
   std::ofstream(folder / "b.ply", std::ios::binary) << plain;
-  EXPECT_THAT(read_scene(folder / "b.ply").info.remarks,
-              Contains(Remark{.kind = Remark::Kind::content_misnamed, .names = {".ply", "SPZ"}}));
+  EXPECT_THAT(
+      read_scene(folder / "b.ply").info.remarks,
+      Contains(Remark{&remarks::content_misnamed, {{"extension", ".ply"}, {"format", "SPZ"}}}));
   SpzFixture none = spz_splat(4, 0);
   none.splats = 0;
   none.arrays = {};
@@ -247,7 +250,7 @@ TEST(Spz, RejectsDamagedGzip) {
   spz = spz_splat(3, 1);
   spz.trailing = std::string(65536, '\0');
   EXPECT_THAT(read(spz.bytes()).info.remarks,
-              Contains(Remark{Remark::Kind::bytes_ignored, {65536}}));
+              Contains(Remark{&remarks::bytes_ignored, {{"bytes", 65536}}}));
   spz.trailing += '\0';
   EXPECT_THAT(refusal(spz.bytes()), ErrorIn("a.spz", 65536));
 }
@@ -264,9 +267,10 @@ TEST_P(Spz, ReportsOrRejectsExtensions) {
   // A limit for cameras, and the axes that SPZ has.
   SpzFixture spz = with(0xADBE0002, std::string(12, 'x'));
   spz.extension(0xADBE0003, number(4)).extension(0x00010002, "").extension(0x00010002, "abc");
-  EXPECT_THAT(read(spz.bytes()).info.remarks,
-              Contains(Remark{.kind = Remark::Kind::splat_extensions_ignored,
-                              .names = {"0x00010002", "0xADBE0002"}}));
+  EXPECT_THAT(
+      read(spz.bytes()).info.remarks,
+      Contains(Remark{&remarks::splat_extensions_ignored,
+                      {{"extensions", std::vector<std::string>{"0x00010002", "0xADBE0002"}}}}));
   EXPECT_EQ(refusal(with(0xADBE0003, number(0)).bytes()), std::nullopt);
   EXPECT_THAT(refusal(with(0xADBE0003, number(6)).bytes()), ErrorIn("a.spz", "0xADBE0003", 6, 4));
   EXPECT_THAT(refusal(with(0xADBE0003, "").bytes()), ErrorIn("a.spz", "0xADBE0003", 4));
@@ -281,7 +285,8 @@ TEST_P(Spz, ReportsOrRejectsExtensions) {
 TEST_P(Spz, ReportsTrailingBytes) {
   SpzFixture spz = spz_splat(GetParam(), 0);
   spz.trailing = "abc";
-  EXPECT_THAT(read(spz.bytes()).info.remarks, Contains(Remark{Remark::Kind::bytes_ignored, {3}}));
+  EXPECT_THAT(read(spz.bytes()).info.remarks,
+              Contains(Remark{&remarks::bytes_ignored, {{"bytes", 3}}}));
 }
 
 TEST_P(Spz, StaysWithinTheBudget) {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/memory_budget.hpp"
+#include "formats/tureen_glb/tureen_glb_remarks.hpp"
 #include "image/srgb.hpp"
 #include "scene/edit/edits.hpp"
 #include "scene/edit/mean_color.hpp"
@@ -338,8 +339,10 @@ TEST(TureenGlbEarlierPreset, IsReadAsAnEdit) {
   EXPECT_FALSE(texture.mlp);
   EXPECT_EQ(back.quality, (Quality{.supersampling = 2}));
   ASSERT_EQ(back.info.remarks.size(), 1u);
-  EXPECT_EQ(back.info.remarks[0], (Remark{.kind = Remark::Kind::preset_applied,
-                                          .names = {"keeps_face", "lattice_level", "color"}}));
+  EXPECT_EQ(
+      back.info.remarks[0],
+      (Remark{&remarks::preset_applied,
+              {{"edits", std::vector<std::string>{"keeps_face", "lattice_level", "color"}}}}));
 }
 
 TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {
@@ -353,8 +356,8 @@ TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {
                                                    {"supersampling", 3}}));
   EXPECT_EQ(back.quality, (Quality{.supersampling = 3}));
   ASSERT_EQ(back.info.remarks.size(), 1u);
-  EXPECT_EQ(back.info.remarks[0].kind, Remark::Kind::preset_keys_ignored);
-  EXPECT_EQ(back.info.remarks[0].names,
+  EXPECT_EQ(back.info.remarks[0].kind, &remarks::preset_keys_ignored);
+  EXPECT_EQ(std::get<std::vector<std::string>>(back.info.remarks[0]["keys"]),
             (std::vector<std::string>{"texel_bits", "color", "feature_storage", "site",
                                       "alpha_to_coverage", "promised_psnr_db"}));
   EXPECT_EQ(std::get<LatticeTexture>(only_soup(back).appearance).texels,
