@@ -29,9 +29,9 @@ set(limits
 
   "code base 2200: fundamentals that no library has, and the code for POSIX"
   "code image 1980: images, metrics, video files"
-  "code scene 4330: the model and its edits"
+  "code scene 4150: the model and its edits"
   "code camera 1500: navigation"
-  "code formats 12550: a reader per format, checked against hostile files"
+  "code formats 12850: a reader per format with its remarks, checked against hostile files"
   "code oracle 1700: the reference stays readable"
   "code splatting 3250: loops in vectors, per kernel"
   "code shaders 1850: GLSL"
