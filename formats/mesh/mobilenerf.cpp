@@ -235,9 +235,9 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   for (const auto& [kind, shapes_of_kind] : {std::pair(&remarks::shapes_missing, &missing),
                                              std::pair(&remarks::shapes_untextured, &untextured)}) {
     if (shapes_of_kind->empty()) continue;
-    std::vector<std::uint64_t> shapes(shapes_of_kind->begin(), shapes_of_kind->end());
+    std::vector<std::uint64_t> indices(shapes_of_kind->begin(), shapes_of_kind->end());
     scene.info.remarks.push_back(
-        {kind, {{"shapes", std::move(shapes)}, {"all", std::uint64_t(network.shapes)}}});
+        {kind, {{"shapes", std::move(indices)}, {"all", std::uint64_t(network.shapes)}}});
   }
   if (textures.materials.empty())
     throw InputError({folder.string(), {}, {}},

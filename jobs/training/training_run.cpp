@@ -92,23 +92,24 @@ TrainingOutcome TrainingRun::train(Dataset& dataset, const Scene* start,
       events.failed_aid(std::string("Could not make a video of the previews: ") + error.what());
     }
   };
-  trainer::RunRequest run{.name = files_.scene.stem().string(),
-                          .threads = job_.threads,
-                          .session = {.checkpoint = files_.checkpoint,
-                                      .log = files_.log,
-                                      .previews = files_.previews,
-                                      .checkpoint_every = job_.checkpoint_every,
-                                      .preview_every = job_.preview_every,
-                                      .control = &*control_,
-                                      .progress = events.progress,
-                                      .interrupted = events.interrupted},
-                          .preparing = events.preparing,
-                          .snapshot = events.snapshot,
-                          .finished = store,
-                          .measuring = events.measuring,
-                          .evaluate = [&](const Scene& scene) {
-                            evaluate(result, scene, dataset.test, events.evaluating);
-                          }};
+  trainer::RunRequest run;
+  run.name = files_.scene.stem().string();
+  run.threads = job_.threads;
+  run.session.checkpoint = files_.checkpoint;
+  run.session.log = files_.log;
+  run.session.previews = files_.previews;
+  run.session.checkpoint_every = job_.checkpoint_every;
+  run.session.preview_every = job_.preview_every;
+  run.session.control = &*control_;
+  run.session.progress = events.progress;
+  run.session.interrupted = events.interrupted;
+  run.preparing = events.preparing;
+  run.snapshot = events.snapshot;
+  run.finished = store;
+  run.measuring = events.measuring;
+  run.evaluate = [&](const Scene& scene) {
+    evaluate(result, scene, dataset.test, events.evaluating);
+  };
   result.training = method_->train(dataset, start, std::move(run), events.begun);
   return result;
 }

@@ -80,7 +80,7 @@ void sort_in_morton_order(Splats& splats) {
 }
 
 std::size_t morton_order_bytes(const Splats& splats) {
-  std::size_t largest = 0;
+  std::size_t largest = 3 * sizeof(glm::vec3);  // corners: one bound for all kernels without more
   for_each_array(splats, [&](const auto& values, std::size_t each) {
     largest = std::max(largest, each * sizeof values[0]);
   });

@@ -16,6 +16,7 @@
 #include "base/output.hpp"
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf_file.hpp"
+#include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
 #include "image/srgb.hpp"

@@ -15,6 +15,7 @@
 #include "formats/common/format_remarks.hpp"
 #include "formats/mesh/mesh_remarks.hpp"
 #include "formats/ply_file.hpp"
+#include "formats/scene_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 
