@@ -6,12 +6,9 @@
 #include <fstream>
 #include <glm/matrix.hpp>
 
-<<<<<<< ours
 #include "formats/common/format_remarks.hpp"
-#include "formats/splat/splat_remarks.hpp"
-=======
 #include "formats/scene_file.hpp"
->>>>>>> theirs
+#include "formats/splat/splat_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/octagon_fixture.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"

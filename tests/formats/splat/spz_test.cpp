@@ -10,12 +10,9 @@
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 
-<<<<<<< ours
 #include "formats/common/format_remarks.hpp"
-#include "formats/splat/splat_remarks.hpp"
-=======
 #include "formats/scene_file.hpp"
->>>>>>> theirs
+#include "formats/splat/splat_remarks.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/splat/spz_fixture.hpp"
