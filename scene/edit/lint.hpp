@@ -67,11 +67,11 @@ struct LintFinding {
   static constexpr std::size_t shown = 5;
 
   Id id{};
-  std::size_t count = 0;                  // number of faces, vertices, .. found
-  std::size_t of = 0;                     // number in the soup or the splats
+  std::size_t count = 0;  // number of faces, vertices, .. found
+  std::size_t of = 0;     // number in the soup or the splats
   /// The lowest indices found, at most `shown`; of splats with Splats::rows, the lowest rows.
   std::vector<std::uint32_t> first = {};
-  double extent_over_offset = 0;          // for far_from_origin
+  double extent_over_offset = 0;  // for far_from_origin
 };
 
 /// The id's name in JSON: "duplicate_faces".

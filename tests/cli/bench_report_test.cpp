@@ -17,7 +17,6 @@
 namespace tureen::cli {
 namespace bench_report_test {
 
-using Json;
 using test::Names;
 using ::testing::AllOf;
 using ::testing::ElementsAre;

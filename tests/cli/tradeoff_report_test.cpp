@@ -12,7 +12,6 @@
 namespace tureen::cli {
 namespace tradeoff_report_test {
 
-using Json;
 using test::Names;
 using testing::ElementsAre;
 

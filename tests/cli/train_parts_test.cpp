@@ -39,7 +39,8 @@ TEST(TrainingRun, TriesItsFilesAndLeavesNothing) {
   fs::remove_all(folder);
   fs::create_directories(folder / "full");
   std::ofstream(folder / "full" / "letter.txt") << "dear";
-  TrainingJob job{.output = folder / "a.glb"};
+  TrainingJob job;
+  job.output = folder / "a.glb";
   const auto make = [&] { const TrainingRun run(job); };
   EXPECT_NO_THROW(make());
   job.log = folder / "full";
@@ -48,7 +49,9 @@ TEST(TrainingRun, TriesItsFilesAndLeavesNothing) {
   EXPECT_THROW(make(), UsageError);
   job.log = folder / "a.lock";
   EXPECT_THROW(make(), UsageError);
-  EXPECT_THROW(TrainingRun(TrainingJob{.output = folder / "none" / "a.glb"}), OutputError);
+  job = {};
+  job.output = folder / "none" / "a.glb";
+  EXPECT_THROW(make(), OutputError);
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder)) ++entries;
   EXPECT_EQ(entries, 2u);
