@@ -13,8 +13,8 @@ StageSource source() {
   StageSource result;
   for (const char* path : {"/scenes/a.glb", "/scenes/b.ply"})
     result.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  result.layers = {{.primitives = std::make_shared<const Primitives>(TriangleSoup()), .file = 0},
-                   {.primitives = std::make_shared<const Primitives>(Splats()), .file = 1}};
+  result.layers = {{{}, std::make_shared<const Primitives>(TriangleSoup()), 0},
+                   {{}, std::make_shared<const Primitives>(Splats()), 1}};
   result.scene = std::make_shared<const Scene>();
   result.subject.up = {0, 0, 1};
   return result;
@@ -38,7 +38,7 @@ TEST(PageCommand, HasWhatTheWindowShowsOtherwiseThanTheFiles) {
 /// The profile that the user wants stays when another scene opens.
 TEST(PageCommand, OfASoupHasNoOptionsForSplats) {
   StageSource soup = source();
-  soup.layers = {{.primitives = std::make_shared<const Primitives>(TriangleSoup()), .file = 0}};
+  soup.layers = {{{}, std::make_shared<const Primitives>(TriangleSoup()), 0}};
   DrawingChoice choice;
   choice.plan.splat_profile = profile_named("2dgs");
   choice.quality = Quality{.splat_order = Quality::SplatOrder::exact};

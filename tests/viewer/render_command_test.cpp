@@ -42,7 +42,7 @@ glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string
 StageSource source(const std::string& path) {
   StageSource result;
   result.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  result.layers = {{.primitives = std::make_shared<const Primitives>(Splats())}};
+  result.layers = {{{}, std::make_shared<const Primitives>(Splats())}};
   result.scene = std::make_shared<const Scene>();
   return result;
 }
@@ -51,7 +51,7 @@ TEST(RenderCommand, NamesAllFilesWithLayers) {
   StageSource scene = source("a.glb");
   for (const char* path : {"removed.glb", "b c.glb"})
     scene.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  scene.layers = {{.file = 0}, {.file = 2}};
+  scene.layers = {{{}, {}, 0}, {{}, {}, 2}};
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   EXPECT_THAT(render_command(scene, {}, {}, camera, ""),
               testing::StartsWith("tureen render a.glb 'b c.glb' --eye"));
@@ -121,7 +121,7 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
               AllOf(HasSubstr("--as-published --blend raster"),
                     HasSubstr("--profile mip --supersample 1")));
-  fine.layers = {{.primitives = std::make_shared<const Primitives>(TriangleSoup())}};
+  fine.layers = {{{}, std::make_shared<const Primitives>(TriangleSoup())}};
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
               AllOf(HasSubstr("--supersample 1"), Not(HasSubstr("--profile"))));
 }
