@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/vec4.hpp>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -82,8 +83,10 @@ using RowValues = std::array<float, splatting::neural_row::harmonics>;
 
 void write_rows(const SplatKernel& kernel, std::size_t i, RowValues& out) {
   float* next = out.data();
-  for_each_column(
-      kernel, [&](const auto& column) { next = std::ranges::copy(column.of_splat(i), next).out; });
+  for_each_column(kernel, [&](const auto& column) {
+    const std::span<const float> values = column.of_splat(i);
+    next = std::copy(values.begin(), values.end(), next);
+  });
   if (const auto* gaussians = std::get_if<Gaussians>(&kernel); gaussians && gaussians->flat)
     out[splatting::gaussian_row::scale_z] = 0;
   if (const auto* densities = std::get_if<NeuralDensities>(&kernel))
