@@ -47,9 +47,9 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
 
   ASSERT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);  // one line
   const auto json = nlohmann::ordered_json::parse(result.out);
-  EXPECT_THAT(keys(json),
-              ElementsAre("done", "steps", "seconds", "triangles", "visible_at_start", "test",
-                          "trainer_psnr_db", "opacity_binary_fraction", "non_finite", "output"));
+  EXPECT_THAT(keys(json), ElementsAre("done", "steps", "seconds", "triangles", "visible_at_start",
+                                      "opacity_binary_fraction", "test", "trainer_psnr_db",
+                                      "non_finite", "output"));
   EXPECT_EQ(json["done"], true);
   EXPECT_EQ(json["steps"], 40);
   EXPECT_EQ(json["triangles"], 100);
