@@ -11,8 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tureen::trainer::HWY_NAMESPACE {
 namespace gaussians {
 
-/// Through the projection of splatting/gaussian_kernels.cpp. With the covariance S of the image and
-/// the moments about the centre, dL/d(centre) = S^-1 (x, y) and dL/dS = S^-1 M S^-1 / 2.
+/// Through the projection of splatting/gaussians/gaussian_kernels.cpp. With the covariance S of the
+/// image and the moments about the centre, dL/d(centre) = S^-1 (x, y) and dL/dS = S^-1 M S^-1 / 2.
 HWY_INLINE Gradient gradient_of(const BackwardInput<GaussianMoments>& input,
                                 const GaussianParameters& parameters, std::size_t i) {
   Gradient gradient;
