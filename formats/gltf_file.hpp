@@ -16,7 +16,7 @@ namespace tureen {
 /// Throws InputError.
 Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The same for bytes from any source; files that they name lie in `folder`.
+/// Reads bytes from any source. Files that they name lie in `folder`. Throws InputError.
 Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
                        const ReadOptions& options = {});
 

@@ -54,11 +54,11 @@ struct BlendedSample {
   bool ended = false;  // no further splat is blended
 };
 
-/// Of layers of splats without a defect(), hidden ones too. All samples, row by row from the top; a
-/// row has width * supersampling samples. Only splats in front of the opaque surface count:
-/// `opaque_depth` has its depth for each sample, infinity without one. Memory is that of the result
-/// and a few numbers a splat; for SplatOrder::exact also the splats at the samples of a band of
-/// rows.
+/// Blends the splats of `layers`, which have no defect() and may include hidden layers. Returns all
+/// samples, row by row from the top; a row has width * supersampling samples. Only splats in front
+/// of the opaque surface count: `opaque_depth` is its depth for each sample, or infinity. Needs
+/// memory for the result and a few numbers per splat; SplatOrder::exact also for the splats at the
+/// samples of a band of rows.
 std::vector<BlendedSample> blend(std::span<const PlacedLayer> layers, const Camera& camera,
                                  std::span<const double> opaque_depth,
                                  const SplatBlending& options);

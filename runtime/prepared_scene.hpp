@@ -54,12 +54,12 @@ struct PreparedScene {
 /// does not fit.
 PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& device,
                             const RenderOptions& options = {});
-/// The same for a scene, and for a single soup.
+/// Prepares all layers of a scene, or a single soup.
 PreparedScene prepare_scene(const Scene& scene, const DeviceLimits& device,
                             const RenderOptions& options = {});
 PreparedScene prepare_scene(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,
                             const RenderOptions& options = {});
-/// The same with a plan from make_plan for these layers and limits.
+/// Prepares with a plan that make_plan made for these layers and limits.
 PreparedScene prepare_scene(std::span<const PlacedLayer> layers, const DeviceLimits& limits,
                             RenderPlan plan);
 

@@ -93,7 +93,7 @@ class Renderer {
   void set_passes(Passes passes);
   /// The soups on the device, for passes that draw them; they live as long as their layer.
   std::vector<DeviceSoup*> soups() const;
-  /// The same for the splats.
+  /// The splats on the device, for passes that draw them; they live as long as their layer.
   std::vector<DeviceSplats*> splats() const;
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device

@@ -24,7 +24,7 @@ struct RemarkKind {
   };
   const char* code;  // in JSON: "polygons_split"
   Severity severity;
-  std::string (*text)(const Remark& remark);  // a sentence in English
+  std::string (*text)(const Remark& remark);  // an English sentence
   /// The setting that the reader assumed, such as "up"; "": none.
   const char* setting = "";
 };

@@ -33,7 +33,7 @@ class DepthOrder {
     ends_.clear();
   }
   /// `depth(i)` is the view depth of splat i in the unit of all layers, as a float. Splats whose
-  /// depth is not finite are left out.
+  /// depth is not finite are omitted.
   template <class Depth>
   void add_layer(std::size_t count, const Depth& depth) {
     const std::uint32_t first = ends_.empty() ? 0 : ends_.back();

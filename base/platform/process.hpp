@@ -12,10 +12,10 @@
 
 namespace tureen {
 
-/// A program that was started. It goes on when this object is destroyed.
+/// A program that was started. It continues when this object is destroyed.
 class Process {
  public:
-  /// Its standard input: that of this program, empty, or the bytes from send().
+  /// Its standard input: that of this program, none, or the bytes from send().
   enum class Input { inherited, none, sent };
   struct Options {
     Input input = Input::inherited;

@@ -69,7 +69,7 @@ class TrainingMethod {
                                 const std::function<void(const std::string&)>& say) = 0;
 };
 
-/// What a program knows of a method before a run.
+/// A method of training, for programs that offer it.
 struct TrainingMethodInfo {
   const char* name;     // as --method takes it
   const char* summary;  // "opaque triangles with textures"

@@ -20,7 +20,7 @@ namespace tureen {
 
 namespace {
 
-/// The kernel whose rows a layer has.
+/// Kernels, by the rows of their layers.
 enum class RowsOf { windows, gaussians, densities };
 
 RowsOf rows_of(SplatShaders shaders) {

@@ -15,7 +15,7 @@ struct NeuralDensities {
   std::vector<glm::vec3> centers;
   std::vector<glm::vec3> semi_axes;  // along the local axes, in layer units, > 0
   std::vector<glm::quat> rotations;  // of unit length: layer from local coordinates
-  /// `parameters` values a splat: w_0.xyz, w_1.xyz, .. w_7.xyz, b1_0 .. b1_7, a_0 .. a_7, b2.
+  /// `parameters` values per splat: w_0.xyz, w_1.xyz, .. w_7.xyz, b1_0 .. b1_7, a_0 .. a_7, b2.
   std::vector<float> networks;
   float omega = 30;
 };
