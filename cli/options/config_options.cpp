@@ -50,10 +50,9 @@ void add_config_options(Command& command, TrainingOptions& options) {
   command.add_option("--config", options.file, "JSON file with constants; --list-config lists them")
       .value_name("FILE");
   command
-      .add_option(
-          "--steps", options.steps,
-          "number of optimiser steps; by default 10,000, for gaussians and triangles 5,000; "
-          "replaces the minutes of --config")
+      .add_option("--steps", options.steps,
+                  "number of optimiser steps; --list-config has the default of each method; "
+                  "replaces the minutes of --config")
       .value_name("N");
   command.add_option("--seed", options.seed, "seed of the random numbers; 0 by default")
       .value_name("N")

@@ -88,12 +88,8 @@ class CheckpointReader {
   std::uint32_t sum_ = 0;
 };
 
+/// The first bytes of a checkpoint; each method of training has its own.
 using CheckpointMagic = std::array<char, 8>;
-
-/// The first bytes of the checkpoints of each method of `tureen train`.
-inline constexpr CheckpointMagic diffsoup_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
-inline constexpr CheckpointMagic gaussians_magic{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'};
-inline constexpr CheckpointMagic triangles_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'W'};
 
 struct CheckpointKind {
   CheckpointMagic magic;

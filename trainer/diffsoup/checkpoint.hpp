@@ -2,6 +2,7 @@
 // views. trainer/common/checkpoint_file.hpp has the format.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,8 @@
 
 namespace tureen::trainer {
 
+/// The first bytes of a checkpoint, and its version.
+inline constexpr std::array<char, 8> diffsoup_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
 inline constexpr std::uint32_t checkpoint_version = 2;
 
 struct Checkpoint {

@@ -12,6 +12,9 @@
 
 namespace tureen::trainer {
 
+/// The first bytes of a checkpoint of Gaussians or discs.
+inline constexpr std::array<char, 8> gaussians_magic{'T', 'U', 'R', 'E', 'E', 'N', 'G', 'S'};
+
 /// The table, for harmonics of the highest degree. Rates are for runs of a few thousand steps,
 /// chosen on photographs that were held back from training. They begin above those of 3DGS (arXiv
 /// 2308.04079), whose code takes 30,000 steps: log scale 5e-3, rotation 1e-3, opacity logit 5e-2,

@@ -12,6 +12,9 @@
 
 namespace tureen::trainer {
 
+/// The first bytes of a checkpoint of triangle windows.
+inline constexpr std::array<char, 8> triangles_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'W'};
+
 /// The table, for harmonics of the highest degree. Activations are those of the paper's code. Rates
 /// are for about 5,000 steps; those of the code are for 30,000.
 extern const std::array<ParameterKind, 5> window_parameter_kinds;
