@@ -2,11 +2,11 @@
 
 namespace tureen {
 
-std::string to_string(const Place& place) {
-  std::string text = place.file;
-  if (place.line) text += ":" + std::to_string(*place.line);
+std::string to_string(const FilePosition& position) {
+  std::string text = position.file;
+  if (position.line) text += ":" + std::to_string(*position.line);
   if (!text.empty()) text += ": ";
-  if (place.byte) text += "byte " + std::to_string(*place.byte) + ": ";
+  if (position.byte) text += "byte " + std::to_string(*position.byte) + ": ";
   return text;
 }
 

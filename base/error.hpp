@@ -11,33 +11,33 @@ namespace tureen {
 
 /// Where an input failed. `byte` counts from 0, `line` from 1; either may be absent. Without a
 /// file, the machine or the request caused the error.
-struct Place {
+struct FilePosition {
   std::string file;
   std::optional<std::uint64_t> byte;
   std::optional<std::uint64_t> line;
 };
 
 /// "file:line: " or "file: byte N: " or "".
-std::string to_string(const Place& place);
+std::string to_string(const FilePosition& position);
 
 /// what() joins the place, the reason and the hint. The reason is valid in every program. The hint
 /// names a remedy on the command line: an option, another name, a command. It may be empty. The web
 /// page does not show it.
 class Error : public std::runtime_error {
  public:
-  Error(Place place, std::string reason, std::string hint = {})
-      : std::runtime_error(to_string(place) + reason + (hint.empty() ? "" : "; " + hint)),
-        place_(std::move(place)),
+  Error(FilePosition position, std::string reason, std::string hint = {})
+      : std::runtime_error(to_string(position) + reason + (hint.empty() ? "" : "; " + hint)),
+        position_(std::move(position)),
         reason_(std::move(reason)),
         hint_(std::move(hint)) {}
 
-  const Place& place() const noexcept { return place_; }
+  const FilePosition& position() const noexcept { return position_; }
   const std::string& reason() const noexcept { return reason_; }
   const std::string& hint() const noexcept { return hint_; }
-  std::string without_hint() const { return to_string(place_) + reason_; }
+  std::string without_hint() const { return to_string(position_) + reason_; }
 
  private:
-  Place place_;
+  FilePosition position_;
   std::string reason_;
   std::string hint_;
 };

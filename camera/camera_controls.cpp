@@ -149,19 +149,19 @@ void CameraControls::set_subject(const Subject& subject) {
 void CameraControls::set_box(const glm::dvec3& low, const glm::dvec3& high) {
   low_ = low;
   high_ = high;
-  const glm::dvec3 centre = 0.5 * low + 0.5 * high;
+  const glm::dvec3 center = 0.5 * low + 0.5 * high;
   radius_ = 0.5 * glm::length(high - low);
-  if (std::isfinite(radius_) && radius_ > 0 && is_finite(centre)) return;
+  if (std::isfinite(radius_) && radius_ > 0 && is_finite(center)) return;
   radius_ = 1;
-  low_ = (is_finite(centre) ? centre : glm::dvec3(0)) - glm::dvec3(std::sqrt(1.0 / 3.0));
+  low_ = (is_finite(center) ? center : glm::dvec3(0)) - glm::dvec3(std::sqrt(1.0 / 3.0));
   high_ = low_ + glm::dvec3(2 * std::sqrt(1.0 / 3.0));
 }
 
 bool CameraControls::usable(const ViewState& next) const {
   if (!is_finite(next.target) || !is_finite(eye_of(next)) || !(next.distance > 0)) return false;
-  const glm::dvec3 centre = 0.5 * low_ + 0.5 * high_;
-  const double far = glm::length(next.target - centre);
-  return far <= farthest_target_radii * radius_ || far <= glm::length(goal_.target - centre);
+  const glm::dvec3 center = 0.5 * low_ + 0.5 * high_;
+  const double far = glm::length(next.target - center);
+  return far <= farthest_target_radii * radius_ || far <= glm::length(goal_.target - center);
 }
 
 void CameraControls::move_to(const ViewState& next) {
@@ -366,8 +366,8 @@ void CameraControls::set_up(const glm::dvec3& up) {
 
 void CameraControls::adopt(const Camera& camera) {
   if (!is_sound(camera)) return;
-  const glm::dvec3 centre = 0.5 * low_ + 0.5 * high_;
-  const double depth = -glm::dot(centre - camera.eye(), camera.world_from_view_rotation()[2]);
+  const glm::dvec3 center = 0.5 * low_ + 0.5 * high_;
+  const double depth = -glm::dot(center - camera.eye(), camera.world_from_view_rotation()[2]);
   ViewState next = state_of(camera, goal_.up, std::max(depth, 0.1 * radius_));
   // Rejects invalid axes and lengths whose squares overflow. The distance is not limited, since a
   // recorded camera is shown as it is.

@@ -232,7 +232,7 @@ CameraPathData turntable(const Subject& subject, const Bearing& start, const Len
   const double length = glm::length(subject.up);
   const glm::dvec3 up = length > 0 ? subject.up / length : glm::dvec3(0, 1, 0);
   const ViewState first{.up = up,
-                        .target = subject.centre(),
+                        .target = subject.center(),
                         .distance = distance,
                         .bearing = start,
                         .lens = lens_of_angle(lens.fov_y)};

@@ -34,9 +34,9 @@ glm::dvec3 up_of(const Subject& subject) {
   return glm::length(subject.up) > 0 ? glm::normalize(subject.up) : glm::dvec3(0, 1, 0);
 }
 
-Camera looking_at_centre(const Subject& subject, const Bearing& bearing, const Lens& lens,
+Camera looking_at_center(const Subject& subject, const Bearing& bearing, const Lens& lens,
                          double distance) {
-  return look_at(subject.centre() + distance * direction_of(subject.up, bearing), subject.centre(),
+  return look_at(subject.center() + distance * direction_of(subject.up, bearing), subject.center(),
                  up_of(subject), lens.fov_y, lens.width, lens.height);
 }
 
@@ -93,13 +93,13 @@ double cells_of(const Corners& world, const Camera& camera) {
   }
   const double area = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
   if (std::abs(area) >= 1) return covered_cells(p, area);
-  const glm::dvec2 centre = (p[0] + p[1] + p[2]) / 3.0;
-  const bool inside = centre.x >= 0 && centre.x < columns && centre.y >= 0 && centre.y < rows;
+  const glm::dvec2 center = (p[0] + p[1] + p[2]) / 3.0;
+  const bool inside = center.x >= 0 && center.x < columns && center.y >= 0 && center.y < rows;
   return inside ? std::abs(area) : 0;
 }
 
 /// The centre of mass of all faces, or the centre of the box if they have no area.
-glm::dvec3 centre_of_mass(const TriangleSoup& soup, const glm::dvec3& origin,
+glm::dvec3 center_of_mass(const TriangleSoup& soup, const glm::dvec3& origin,
                           const Subject& subject) {
   glm::dvec3 sum(0);
   double weight = 0;
@@ -108,10 +108,10 @@ glm::dvec3 centre_of_mass(const TriangleSoup& soup, const glm::dvec3& origin,
     if (!is_finite(p)) continue;
     const double area = glm::length(area_vector(p));
     // Relative to the box's centre, since the sum would lose digits far from the world's origin.
-    sum += area * ((p[0] + p[1] + p[2]) / 3.0 - subject.centre());
+    sum += area * ((p[0] + p[1] + p[2]) / 3.0 - subject.center());
     weight += area;
   }
-  return weight > 0 ? subject.centre() + sum / weight : subject.centre();
+  return weight > 0 ? subject.center() + sum / weight : subject.center();
 }
 
 /// The camera with the highest score; the first among equals.
@@ -132,7 +132,7 @@ std::vector<Camera> around(const Subject& subject, const std::vector<Bearing>& b
   std::vector<Camera> cameras;
   for (const Bearing& bearing : bearings)
     for (const double distance : distances)
-      cameras.push_back(looking_at_centre(subject, bearing, lens,
+      cameras.push_back(looking_at_center(subject, bearing, lens,
                                           distance * framing_distance(subject, bearing, lens)));
   return cameras;
 }
@@ -177,7 +177,7 @@ std::vector<Camera> hemisphere(const Subject& subject, int count, const Lens& le
     distance = std::max(distance, framing_distance(subject, bearing, lens));
   std::vector<Camera> cameras;
   for (const Bearing& bearing : bearings) {
-    cameras.push_back(looking_at_centre(subject, bearing, lens, distance));
+    cameras.push_back(looking_at_center(subject, bearing, lens, distance));
     cameras.back().name = "hemisphere " + std::to_string(cameras.size() - 1);
   }
   return cameras;
@@ -215,7 +215,7 @@ std::vector<Camera> adversarial_views(const TriangleSoup& soup, glm::dvec3 origi
   const std::vector<Bearing> many = fibonacci_bearings(64, -1, 1);
   const std::vector<Bearing> few = fibonacci_bearings(24, -1, 1);
   return {
-      named(best_of(from_inside(centre_of_mass(soup, origin, subject), subject, lens), overdraw),
+      named(best_of(from_inside(center_of_mass(soup, origin, subject), subject, lens), overdraw),
             "inside"),
       named(around(subject, {three_quarter_view}, lens, {20}).front(), "far"),
       named(best_of(around(subject, many, lens, {1}), edge_on), "grazing"),

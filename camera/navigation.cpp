@@ -33,8 +33,8 @@ glm::dvec3 front_of(const glm::dvec3& up) {
 
 Camera camera_at(const Subject& subject, const Bearing& bearing, const Lens& lens,
                  double distance) {
-  const glm::dvec3 eye = subject.centre() + distance * direction_of(subject.up, bearing);
-  return look_at(eye, subject.centre(), unit_up(subject.up), lens.fov_y, lens.width, lens.height);
+  const glm::dvec3 eye = subject.center() + distance * direction_of(subject.up, bearing);
+  return look_at(eye, subject.center(), unit_up(subject.up), lens.fov_y, lens.width, lens.height);
 }
 
 struct Box {
@@ -67,8 +67,8 @@ Box without_surroundings(const Box& box, std::span<const Camera> cameras) {
   if (2 * std::size_t(inside) <= cameras.size()) return box;
   const std::optional<Region> region = region_of_cameras(cameras);
   if (!region) return box;
-  const Box part{glm::max(box.low, region->centre - region->half_side),
-                 glm::min(box.high, region->centre + region->half_side)};
+  const Box part{glm::max(box.low, region->center - region->half_side),
+                 glm::min(box.high, region->center + region->half_side)};
   return glm::all(glm::lessThan(part.low, part.high)) ? part : box;
 }
 

@@ -19,7 +19,7 @@ struct Subject {
   glm::dvec3 high{1.0};
   glm::dvec3 up{0.0, 1.0, 0.0};  // of any length; (0, 0, 0) means y
 
-  glm::dvec3 centre() const { return 0.5 * (low + high); }
+  glm::dvec3 center() const { return 0.5 * (low + high); }
 };
 
 /// The framed_bounds() of all layers, also of invisible ones.

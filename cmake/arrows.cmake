@@ -58,7 +58,7 @@ set(arrows
   "trainer/splats/windows: base scene splatting/* trainer/common trainer/splats"
   # A state and its trainer know all kernels; the methods of training derive from the trainer.
   "trainer/splats/splat_state.* trainer/splats/splat_start.hpp trainer/splats/splat_initialise.hpp trainer/splats/splat_trainer.*: base scene splatting/* trainer/common trainer/splats/*"
-  "trainer/splats/gaussians/gaussian_method.* trainer/splats/windows/window_method.*: base scene splatting/* trainer/common trainer/splats/*"
+  "trainer/splats/gaussians/gaussian_training.* trainer/splats/windows/window_training.*: base scene splatting/* trainer/common trainer/splats/*"
   "trainer/splats/splat_initialise.cpp trainer/splats/splat_forecast.* trainer/splats/splat_training.*: base scene splatting/* trainer/common trainer/splats/*"
   # To go: the first Gaussians of a soup.
   "trainer/diffsoup: base image scene trainer/common trainer/splats/*"

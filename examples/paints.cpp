@@ -51,15 +51,15 @@ Paint lace(glm::dvec2 uv, Turned measure) {
   const double x = wrapped(uv.x * scallops) * each;
   const double y = (uv.y - 1) * measure.length;  // 0 at the outermost line, negative inwards
   // The border: a row of discs above a straight band.
-  const double centre = -0.085;
-  const double scallop = 0.085 - 0.012 - std::hypot(x, y - centre);
-  double outside = std::max(scallop, centre - y);
+  const double center = -0.085;
+  const double scallop = 0.085 - 0.012 - std::hypot(x, y - center);
+  double outside = std::max(scallop, center - y);
   // Holes: one in each scallop, three smaller ones below, a row of slits further in.
-  outside = std::min(outside, std::hypot(x, y - centre) - 0.034);
+  outside = std::min(outside, std::hypot(x, y - center) - 0.034);
   const double x2 = wrapped(uv.x * scallops + 0.5) * each;
-  outside = std::min(outside, std::hypot(x2, y - centre + 0.062) - 0.027);
-  outside = std::min(outside, std::hypot(x, y - centre + 0.125) - 0.036);
-  outside = std::min(outside, std::hypot(x2, (y - centre + 0.195) * 0.75) - 0.030);
+  outside = std::min(outside, std::hypot(x2, y - center + 0.062) - 0.027);
+  outside = std::min(outside, std::hypot(x, y - center + 0.125) - 0.036);
+  outside = std::min(outside, std::hypot(x2, (y - center + 0.195) * 0.75) - 0.030);
   return {.albedo = {0.79, 0.765, 0.71}, .gloss = 0, .hole = outside < 0};
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t faces_per_leaf = 3;
 
-glm::dvec3 centre(const Face& face) {
+glm::dvec3 center(const Face& face) {
   return (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
 }
 
@@ -56,7 +56,7 @@ void RayCaster::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end
   const std::uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(faces_.begin() + begin, faces_.begin() + middle, faces_.begin() + end,
                    [&](std::uint32_t a, std::uint32_t b) {
-                     return centre(model_.faces[a])[axis] < centre(model_.faces[b])[axis];
+                     return center(model_.faces[a])[axis] < center(model_.faces[b])[axis];
                    });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);

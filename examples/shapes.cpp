@@ -18,12 +18,12 @@ glm::dvec3 around(double u, double radius, double y) {
 Shape turned(Curve profile, Placement placement) {
   return [profile = std::move(profile), placement](glm::dvec2 uv) {
     const glm::dvec3 p = profile.at(uv.y);
-    return placement.centre + placement.frame * around(uv.x, p.x, p.y);
+    return placement.center + placement.frame * around(uv.x, p.x, p.y);
   };
 }
 
-Shape tube(Curve centre_line, std::function<double(double)> radius) {
-  return [line = std::move(centre_line), radius = std::move(radius)](glm::dvec2 uv) {
+Shape tube(Curve center_line, std::function<double(double)> radius) {
+  return [line = std::move(center_line), radius = std::move(radius)](glm::dvec2 uv) {
     const glm::dvec3 t = line.tangent(uv.y);
     // No curve of the still life is parallel to this axis.
     const glm::dvec3 n = glm::normalize(glm::cross(t, glm::dvec3(0.12, 0.31, 0.943)));
@@ -53,7 +53,7 @@ Shape disc(double radius, Placement placement) {
       r = b;
       angle = pi / 2 - pi / 4 * a / b;
     }
-    return placement.centre +
+    return placement.center +
            placement.frame * (radius * glm::dvec3(r * std::cos(angle), 0, r * std::sin(angle)));
   };
 }
@@ -61,7 +61,7 @@ Shape disc(double radius, Placement placement) {
 Shape ring(double inner, double outer, Placement placement) {
   return [inner, outer, placement](glm::dvec2 uv) {
     // u has the opposite direction of turned(), so that the outside is up.
-    return placement.centre + placement.frame * around(-uv.x, inner + (outer - inner) * uv.y, 0);
+    return placement.center + placement.frame * around(-uv.x, inner + (outer - inner) * uv.y, 0);
   };
 }
 

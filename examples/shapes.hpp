@@ -15,7 +15,7 @@ using Shape = std::function<glm::dvec3(glm::dvec2)>;
 
 /// The position and orientation of a shape: world = centre + frame * local.
 struct Placement {
-  glm::dvec3 centre{0.0};
+  glm::dvec3 center{0.0};
   glm::dmat3 frame{1.0};
 };
 
@@ -25,7 +25,7 @@ struct Placement {
 Shape turned(Curve profile, Placement placement);
 
 /// A tube along a curve; v runs along it. Closed in u.
-Shape tube(Curve centre_line, std::function<double(double v)> radius);
+Shape tube(Curve center_line, std::function<double(double v)> radius);
 
 /// A strip of `width` along a curve that faces +y. Its sides are folded up by `fold` times the
 /// distance from the middle. u runs across.

@@ -32,7 +32,7 @@ struct Vessel {
 void add_porcelain(Model& model, const Curve& curve, Vessel vessel,
                    Paint (*paint)(glm::dvec2, Turned)) {
   const Turned measure{curve.length(), 2 * pi * vessel.widest * 1.07};
-  model.add({.position = turned(curve, {.centre = {0, 0, 0}, .frame = oval}),
+  model.add({.position = turned(curve, {.center = {0, 0, 0}, .frame = oval}),
              .paint = [=](const SurfacePoint& at) { return paint(at.uv, measure); },
              .columns = vessel.columns,
              .rows = vessel.rows,
@@ -74,7 +74,7 @@ void add_doily(Model& model) {
   const double inner = 1.15, outer = 1.66;
   const Turned measure{outer - inner, 2 * pi * outer * 1.07};
   // The height above the wood is sufficient for a depth buffer, but not visible.
-  model.add({.position = ring(inner, outer, {.centre = {0, 0.012, 0}, .frame = oval}),
+  model.add({.position = ring(inner, outer, {.center = {0, 0.012, 0}, .frame = oval}),
              .paint = [=](const SurfacePoint& at) { return lace(at.uv, measure); },
              .columns = 48,
              .rows = 2,
@@ -146,7 +146,7 @@ void add_tureen(Model& model) {
   }
 }
 
-void add_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
+void add_lemon(Model& model, glm::dvec3 center, glm::dvec3 axis) {
   const Curve skin = profile({{0.0, -0.375},
                               {0.052, -0.36},
                               {0.085, -0.315},
@@ -158,7 +158,7 @@ void add_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
                               {0.072, 0.32},
                               {0.045, 0.362},
                               {0.0, 0.375}});
-  model.add({.position = turned(skin, {centre, frame_along(axis)}),
+  model.add({.position = turned(skin, {center, frame_along(axis)}),
              .paint = [](const SurfacePoint& at) { return lemon_skin(at.uv); },
              .columns = 18,
              .rows = 11,
@@ -166,8 +166,8 @@ void add_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
 }
 
 /// `axis` is the normal of the cut, pointing outwards.
-void add_half_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
-  const Placement placement{centre, frame_along(axis)};
+void add_half_lemon(Model& model, glm::dvec3 center, glm::dvec3 axis) {
+  const Placement placement{center, frame_along(axis)};
   constexpr double radius = 0.262;
   model.add({.position = turned(profile({{0.0, -0.355},
                                          {0.05, -0.34},
@@ -209,13 +209,13 @@ void add_leaf(Model& model, glm::dvec3 root, glm::dvec3 direction, double length
              .translucency = 0.35});
 }
 
-void add_blossom(Model& model, glm::dvec3 centre, double radius, double turn) {
+void add_blossom(Model& model, glm::dvec3 center, double radius, double turn) {
   for (int i = 0; i < 5; ++i) {
     const double angle = turn + 2 * pi * i / 5;
     const glm::dvec3 out(std::cos(angle), 0, std::sin(angle));
     const glm::dvec2 size(0.78 * radius, radius);
     // Petals overlap: each is slightly higher than its neighbour.
-    const glm::dvec3 root = centre + out * 0.008 + glm::dvec3(0, 0.004 * i, 0);
+    const glm::dvec3 root = center + out * 0.008 + glm::dvec3(0, 0.004 * i, 0);
     const Curve middle({root, root + out * (0.45 * radius) + glm::dvec3(0, 0.30 * radius, 0),
                         root + out * radius + glm::dvec3(0, 0.34 * radius, 0)});
     model.add({.position = strip(middle, size.x, 0.25),
@@ -226,7 +226,7 @@ void add_blossom(Model& model, glm::dvec3 centre, double radius, double turn) {
                .translucency = 0.5});
   }
   model.add({.position = turned(profile({{0.035, 0.0}, {0.036, 0.035}, {0.022, 0.062}, {0, 0.07}}),
-                                {.centre = centre}),
+                                {.center = center}),
              .paint = [](const SurfacePoint&) { return blossom_heart(); },
              .columns = 8,
              .rows = 3,

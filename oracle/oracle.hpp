@@ -25,7 +25,7 @@ struct OracleOptions {
   /// Rays per pixel along each axis, default 1: the pixel is the mean of supersampling^2 rays on a
   /// regular grid.
   int supersampling = 1;
-  oracle::SplatOrder splat_order = oracle::SplatOrder::centre;
+  oracle::SplatOrder splat_order = oracle::SplatOrder::center;
   /// Whether a splat that would lower the transmittance below its profile's stop_transmittance ends
   /// the pixel. If false, every splat is blended.
   bool splat_stop = true;

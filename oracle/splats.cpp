@@ -49,12 +49,12 @@ class Blender {
     for (const PlacedLayer& layer : layers)
       views_.emplace_back(layer.place.world_from_layer, camera, options.near, options.culls,
                           options.whole);
-    sort_centres();
+    sort_centers();
   }
 
   std::vector<BlendedSample> blended() && {
-    if (options_.order == SplatOrder::centre)
-      blend_by_centre();
+    if (options_.order == SplatOrder::center)
+      blend_by_center();
     else
       blend_exactly();
     return std::move(samples_);
@@ -63,7 +63,7 @@ class Blender {
  private:
   const Splats& splats_of(const SplatKey& key) const { return *layers_[key.layer].splats; }
 
-  void sort_centres() {
+  void sort_centers() {
     for (std::uint32_t layer = 0; layer < layers_.size(); ++layer) {
       const Splats& splats = *layers_[layer].splats;
       const double nearest = double(splats.profile.min_center_depth) * views_[layer].scale();
@@ -106,7 +106,7 @@ class Blender {
     to.ended = next == 0;
   }
 
-  void blend_by_centre() {
+  void blend_by_center() {
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       report(k, keys_.size());
       const SplatKey& key = keys_[k];

@@ -25,7 +25,7 @@ namespace tureen::oracle {
 enum class SplatOrder {
   /// By the view depth of the centres, over all layers: the order of the authors' renderers, and
   /// ours.
-  centre,
+  center,
   /// At each sample by depth along its ray: of a window or disc, the depth of its plane; of a
   /// Gaussian by EWA, the depth of its largest density; of a neural density, the middle of its
   /// chord.
@@ -33,7 +33,7 @@ enum class SplatOrder {
 };
 
 struct SplatBlending {
-  SplatOrder order = SplatOrder::centre;
+  SplatOrder order = SplatOrder::center;
   bool stop = true;  // false: stop_transmittance is ignored
   /// Samples per pixel along each axis. Low passes are in pixels, whatever the number of samples.
   int supersampling = 1;

@@ -29,7 +29,7 @@ void copy_rows(const Image8& tile, int column, Image8& band) {
 
 }  // namespace
 
-Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
+Camera crop(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
   Camera part = camera;
   part.width = size.x;
   part.height = size.y;
@@ -50,7 +50,7 @@ void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandS
     for (int column = 0; column < camera.width; column += width) {
       const glm::ivec2 size(std::min(width, camera.width - column), rows);
       const Image8 tile = tiles.draw(
-          {.camera = cut_out_of(camera, {column, row}, size), .time = input.time, .whole = camera});
+          {.camera = crop(camera, {column, row}, size), .time = input.time, .whole = camera});
       assert(tile.width == size.x && tile.height == size.y);
       copy_rows(tile, column, band);
       if (tiles.progress)

@@ -30,7 +30,7 @@ struct ImageTiles {
 using BandSink = std::function<void(const Image8& rows)>;
 
 /// The camera of the part of an image that begins at `corner` (column and row, from the top left).
-Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size);
+Camera crop(const Camera& camera, glm::ivec2 corner, glm::ivec2 size);
 
 /// Holds one band and one tile in memory. Exceptions from `draw`, `sink` and `progress` end it.
 void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandSink& sink);

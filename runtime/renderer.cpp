@@ -363,8 +363,8 @@ double Renderer::State::splat_depth_at(glm::ivec2 sample, float stored) {
   const Camera& whole = frame.input.camera;
   one.input.whole = frame.input.whole.value_or(whole);
   const glm::ivec2 corner(sample.x, whole.height - 1 - sample.y);
-  one.input.camera = cut_out_of(whole, corner, glm::ivec2(1));
-  for (FrameCamera& layer : one.layers) layer.camera = cut_out_of(layer.camera, corner, {1, 1});
+  one.input.camera = crop(whole, corner, glm::ivec2(1));
+  for (FrameCamera& layer : one.layers) layer.camera = crop(layer.camera, corner, {1, 1});
   FrameTarget pixel({.reversed_depth = plan.reversed_depth});
   pixel.resize({1, 1});
   upload_tiled_splats();

@@ -37,17 +37,17 @@ struct Sphere {
 /// is only translated, the products with 1 and 0 are exact.
 Sphere sphere_of(const LayerPlace& layer, const Camera& camera) {
   const glm::dmat4& place = layer.world_from_layer;
-  const glm::dvec3 centre =
-      glm::dmat3(place) * layer.bounds.centre() + (glm::dvec3(place[3]) - camera.eye());
+  const glm::dvec3 center =
+      glm::dmat3(place) * layer.bounds.center() + (glm::dvec3(place[3]) - camera.eye());
   const double scale = glm::length(glm::dvec3(place[0]));
-  return {glm::dot(centre, forward_of(camera)), scale * layer.bounds.radius()};
+  return {glm::dot(center, forward_of(camera)), scale * layer.bounds.radius()};
 }
 
 }  // namespace
 
 ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
                      DepthStorage storage) {
-  return range_of_sphere(glm::dot(bounds.centre() - eye, forward), bounds.radius(), storage);
+  return range_of_sphere(glm::dot(bounds.center() - eye, forward), bounds.radius(), storage);
 }
 
 ClipRange clip_range(std::span<const LayerPlace> layers, const Camera& camera,

@@ -37,7 +37,7 @@ std::optional<std::string> defect(const Quality& quality) {
     return "supersampling is " + std::to_string(quality.supersampling) + ", not 1 to 8";
   if (quality.resolution_scale < 1 && quality.supersampling > 1)
     return "a resolution scale below 1 and supersampling cannot be combined";
-  if (quality.splat_order < Quality::SplatOrder::centre ||
+  if (quality.splat_order < Quality::SplatOrder::center ||
       quality.splat_order > Quality::SplatOrder::stochastic)
     return "the splat order is neither centre, exact nor stochastic";
   return std::nullopt;

@@ -17,12 +17,12 @@ struct Quality {
   int supersampling = 1;
   /// Which of two splats at a pixel is in front.
   enum class SplatOrder {
-    centre,  // by the view depth of the centres: the order of the authors' renderers
+    center,  // by the view depth of the centres: the order of the authors' renderers
     exact,   // at each pixel by the depth along its ray (oracle/splats.hpp), on the processor
     /// As centre, but without blending and without an order: a splat of alpha a is drawn opaque
     /// with probability a. One sample is noisy; the mean of many is the image of centre.
     stochastic,
-  } splat_order = SplatOrder::centre;
+  } splat_order = SplatOrder::center;
 
   bool operator==(const Quality&) const = default;
 };

@@ -55,15 +55,15 @@ double half_tangent(const Camera& camera) {
 }
 
 /// The region around a centre that most cameras look at; nothing if it is behind most cameras.
-std::optional<Region> looked_at(std::span<const Camera> views, glm::dvec3 centre) {
+std::optional<Region> looked_at(std::span<const Camera> views, glm::dvec3 center) {
   std::vector<double> half_sides;
   for (const Camera& camera : views) {
-    const double depth = glm::dot(centre - camera.eye(), forward(camera));
+    const double depth = glm::dot(center - camera.eye(), forward(camera));
     if (depth > rounding * glm::length(camera.eye()))
       half_sides.push_back(depth * half_tangent(camera));
   }
   if (2 * half_sides.size() <= views.size()) return std::nullopt;
-  return Region{centre, median(half_sides)};
+  return Region{center, median(half_sides)};
 }
 
 Region of_points(const std::vector<DatasetPoint>& points) {
@@ -71,11 +71,11 @@ Region of_points(const std::vector<DatasetPoint>& points) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const DatasetPoint& point : points) values.push_back(point.position[axis]);
-    region.centre[axis] = median(std::move(values));
+    region.center[axis] = median(std::move(values));
   }
   std::vector<double> distances;
   for (const DatasetPoint& point : points)
-    distances.push_back(glm::distance(point.position, region.centre));
+    distances.push_back(glm::distance(point.position, region.center));
   region.half_side = median(std::move(distances));
   return region;
 }
@@ -103,9 +103,9 @@ Region of_eyes(std::span<const Camera> views, bool outwards) {
 
 std::optional<Region> region_of_cameras(std::span<const Camera> cameras) {
   if (cameras.empty()) return std::nullopt;
-  const std::optional<glm::dvec3> centre = nearest_to_axes(cameras);
-  std::optional<Region> region = centre ? looked_at(cameras, *centre) : std::nullopt;
-  if (!region) region = of_eyes(cameras, centre.has_value());
+  const std::optional<glm::dvec3> center = nearest_to_axes(cameras);
+  std::optional<Region> region = center ? looked_at(cameras, *center) : std::nullopt;
+  if (!region) region = of_eyes(cameras, center.has_value());
   return region->half_side > 0 && std::isfinite(region->half_side) ? region : std::nullopt;
 }
 
@@ -113,13 +113,13 @@ Region region_of_interest(const Dataset& dataset) {
   if (dataset.train.empty()) throw InputError({}, "the dataset has no training views");
   std::vector<Camera> cameras;
   for (const Photograph& view : dataset.train) cameras.push_back(view.camera);
-  const std::optional<glm::dvec3> centre = nearest_to_axes(cameras);
-  if (centre)
-    if (const std::optional<Region> region = looked_at(cameras, *centre)) return *region;
+  const std::optional<glm::dvec3> center = nearest_to_axes(cameras);
+  if (center)
+    if (const std::optional<Region> region = looked_at(cameras, *center)) return *region;
   Region region;
   region.half_side = 0;
   if (!dataset.points.empty()) region = of_points(dataset.points);
-  if (!(region.half_side > 0)) region = of_eyes(cameras, centre.has_value());
+  if (!(region.half_side > 0)) region = of_eyes(cameras, center.has_value());
   // Squares of the coordinates may overflow.
   if (!(region.half_side > 0) || !std::isfinite(region.half_side))
     throw InputError({}, "the positions of the cameras give no finite size of the scene");

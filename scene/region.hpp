@@ -13,7 +13,7 @@ namespace tureen {
 
 /// An axis-parallel cube in world coordinates.
 struct Region {
-  glm::dvec3 centre{0.0};
+  glm::dvec3 center{0.0};
   double half_side = 1.0;
 };
 

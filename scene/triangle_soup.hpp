@@ -112,7 +112,7 @@ struct TriangleSoup {
 struct Bounds {
   glm::vec3 low{0.0f};
   glm::vec3 high{0.0f};
-  glm::dvec3 centre() const { return 0.5 * (glm::dvec3(low) + glm::dvec3(high)); }
+  glm::dvec3 center() const { return 0.5 * (glm::dvec3(low) + glm::dvec3(high)); }
   /// Half the diagonal.
   double radius() const;
 };

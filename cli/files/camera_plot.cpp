@@ -40,7 +40,7 @@ class CameraPlot {
         low = glm::min(low, place);
         high = glm::max(high, place);
       }
-    centre_ = 0.5 * (low + high);
+    center_ = 0.5 * (low + high);
     const glm::dvec3 size = high - low;
     // A margin for the lines; a single camera has a panel of two units.
     const double largest = std::max({size.x, size.y, size.z});
@@ -66,7 +66,7 @@ class CameraPlot {
 
   /// In user units within a panel, y down.
   glm::dvec2 placed(glm::dvec3 axes_position, int vertical) const {
-    const glm::dvec3 relative = (axes_position - centre_) / half_;
+    const glm::dvec3 relative = (axes_position - center_) / half_;
     return {0.5 * panel_side * (1 + relative.x), 0.5 * panel_side * (1 - relative[vertical])};
   }
 
@@ -124,7 +124,7 @@ class CameraPlot {
 
   const DatasetSummary& dataset_;
   PlotAxes axes_;
-  glm::dvec3 centre_{};
+  glm::dvec3 center_{};
   double half_ = 1;  // of a panel's side, in world units
   std::string svg_;
 };

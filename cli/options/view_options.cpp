@@ -204,7 +204,7 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
   if (!options.eye.empty()) {
     const glm::dvec3 eye = parse_vector(options.eye);
     const glm::dvec3 target =
-        options.target.empty() ? subject.centre() : parse_vector(options.target);
+        options.target.empty() ? subject.center() : parse_vector(options.target);
     if (!(glm::length(eye - target) > 0)) throw UsageError("--eye and --target are the same point");
     views.cameras = {look_at(eye, target, subject.up, lens.fov_y, lens.width, lens.height)};
     if (options.turntable > 0)

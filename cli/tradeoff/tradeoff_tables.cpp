@@ -33,7 +33,7 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
   Table table({"", "<configuration", "ms", "generic ms", "PSNR dB", "exact dB", "max", "99.9 %",
                "coverage", "MiB"});
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].method != tradeoff::Method::generic) add_row(table, report, panel, i);
+    if (panel.outcomes[i].factor != tradeoff::Factor::generic) add_row(table, report, panel, i);
   say(title);
   for (const std::string& line : table.lines()) say(line);
   say(
@@ -46,7 +46,7 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
   for (const tradeoff::Outcome& outcome : panel.outcomes)
     for (const std::string& warning : tradeoff::warnings_about(outcome))
       lines.push_back(outcome.name +
-                      (outcome.method == tradeoff::Method::generic ? " (generic)" : "") + ": " +
+                      (outcome.factor == tradeoff::Factor::generic ? " (generic)" : "") + ": " +
                       warning);
   say_list("Skipped configurations and warnings:", lines);
 }

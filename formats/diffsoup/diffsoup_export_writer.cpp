@@ -204,7 +204,7 @@ class NewFolder {
 
   /// The same error with the file's final path in place of the temporary one.
   OutputError in_place(const OutputError& error) const {
-    return {{(path_ / fs::path(error.place().file).filename()).string(), {}, {}},
+    return {{(path_ / fs::path(error.position().file).filename()).string(), {}, {}},
             error.reason(),
             error.hint()};
   }

@@ -174,7 +174,7 @@ std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
   } catch (const InputError& error) {
     // An error in the scene's own file is complete; an error in a referenced file needs the place
     // of the reference.
-    if (error.place().file == input_.name()) throw;
+    if (error.position().file == input_.name()) throw;
     uri.fail(error.without_hint(), error.hint());
   }
 }

@@ -191,7 +191,7 @@ class Walk {
     }
   }
 
-  struct Place {
+  struct TexelPosition {
     const Patch& patch;
     Activity& activity;
     int level;
@@ -200,8 +200,9 @@ class Walk {
 
   /// `parents`: residuals of the two neighbours; `before`: weighted residuals of the preceding
   /// texels on this level, with more weight on recent ones.
-  void texel(const Place& place, const Values& predictions, const Values& parents, Values& before) {
-    Activity& activity = place.activity;
+  void texel(const TexelPosition& at, const Values& predictions, const Values& parents,
+             Values& before) {
+    Activity& activity = at.activity;
     int others = 0, sign = 0;
     // Alpha first: it determines the visibility of the features.
     for (int k = 0; k < channels; ++k) {
@@ -209,20 +210,20 @@ class Walk {
       const auto i = std::size_t(c);
       const int nearby =
           2 * before[i] + 2 * parents[i] + 8 * activity.missed[i] / std::max(activity.texels, 1);
-      const Context context{models_.miss[c][place.level], twelve_kinds(nearby), four_kinds(others),
+      const Context context{models_.miss[c][at.level], twelve_kinds(nearby), four_kinds(others),
                             c == alpha ? 0 : sign};
-      const int step = step_of(place.patch, c);
+      const int step = step_of(at.patch, c);
       const auto price = [&](int steps) {
         BitPrice bits;
         code(bits, context, steps);
         return bits.bits();
       };
-      const int finer = place.patch.level - place.level;
+      const int finer = at.patch.level - at.level;
       const int miss =
-          code(coder_, context, choose_({place.texel, c, finer, predictions[i], step}, price));
-      values_[place.texel * channels + i] = moved(c, predictions[i], miss * step);
+          code(coder_, context, choose_({at.texel, c, finer, predictions[i], step}, price));
+      values_[at.texel * channels + i] = moved(c, predictions[i], miss * step);
       const int size = std::min(std::abs(miss), 255);
-      missed_[place.texel * channels + i] = std::uint8_t(size);
+      missed_[at.texel * channels + i] = std::uint8_t(size);
       activity.missed[i] += std::min(size, 16);
       before[i] = (before[i] + 1) / 2 + std::min(size, 8);
       if (c == alpha) continue;

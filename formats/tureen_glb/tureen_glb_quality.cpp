@@ -45,7 +45,7 @@ nlohmann::json quality_json(const Quality& quality) {
   nlohmann::json json = nlohmann::json::object();
   if (quality.resolution_scale != 1) json["resolution_scale"] = quality.resolution_scale;
   if (quality.supersampling != 1) json["supersampling"] = quality.supersampling;
-  if (quality.splat_order != Quality::SplatOrder::centre)
+  if (quality.splat_order != Quality::SplatOrder::center)
     json["splat_order"] = name_of(quality.splat_order);
   return json;
 }

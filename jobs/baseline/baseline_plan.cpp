@@ -63,7 +63,7 @@ RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& prefe
   if (preferences.as_published) throw UsageError("the baseline does not support --as-published");
   RenderPlan plan;
   plan.quality = preferences.quality;
-  plan.quality.splat_order = Quality::SplatOrder::centre;  // its own
+  plan.quality.splat_order = Quality::SplatOrder::center;  // its own
   plan.specialise = preferences.specialise;
   plan.description = {
       "baseline: an instanced quad a splat (" + layer.kernel +

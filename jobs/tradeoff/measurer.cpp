@@ -29,7 +29,7 @@ Job job_of(const std::vector<QualitySetting>& settings, const Configuration& con
   job.outcome.configuration = configuration;
   job.outcome.name = describe(settings, configuration);
   job.outcome.applied = applied_by(settings, configuration);
-  job.outcome.method = specialised ? Method::specialised : Method::generic;
+  job.outcome.factor = specialised ? Factor::specialised : Factor::generic;
   job.plan.specialise = specialised;
   job.plan.quality = job.outcome.applied.quality;
   return job;
@@ -53,7 +53,7 @@ void Measurer::report_share(double fraction) const {
 std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {
   const RenderOptions options{.plan = job.plan, .background = {options_.background, 0.0f}};
   const PipelineKind pipeline =
-      job.outcome.method == Method::baseline ? PipelineKind::baseline : PipelineKind::tureen;
+      job.outcome.factor == Factor::baseline ? PipelineKind::baseline : PipelineKind::tureen;
   const auto renderer_of = [&](const Scene& scene) {
     return std::make_unique<Renderer>(make_renderer(scene_.context, scene, pipeline, options));
   };

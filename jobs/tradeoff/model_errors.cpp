@@ -13,7 +13,7 @@ ModelError drawn_error(const Outcome& outcome, const Scene& scene,
                        const Share& progress) {
   EvaluationOptions evaluation;
   evaluation.backend = options.backend;
-  if (outcome.method == Method::baseline) evaluation.pipeline = PipelineKind::baseline;
+  if (outcome.factor == Factor::baseline) evaluation.pipeline = PipelineKind::baseline;
   evaluation.plan.quality = outcome.applied.quality;
   evaluation.background = options.background;
   evaluation.metrics.with_flip = options.with_flip;
@@ -45,7 +45,7 @@ std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Sc
     const Share progress = [&](double fraction) {
       if (options.progress) options.progress((double(i) + fraction) / double(errors.size()));
     };
-    if (outcome.method != Method::generic)
+    if (outcome.factor != Factor::generic)
       errors[i] = drawn_error(outcome, scene, photographs, options, progress);
   }
   return errors;

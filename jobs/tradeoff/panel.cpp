@@ -9,7 +9,7 @@
 
 namespace tureen::tradeoff {
 
-const char* name_of(Method method) { return method_names[std::size_t(method)]; }
+const char* name_of(Factor factor) { return factor_names[std::size_t(factor)]; }
 
 bool is_judged(const Outcome& outcome) {
   return outcome.applied.quality.supersampling != antialiased_samples;
@@ -19,7 +19,7 @@ Candidates candidates(const Panel& panel) {
   Candidates result;
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     const Outcome& outcome = panel.outcomes[i];
-    if (outcome.method != Method::specialised || !is_judged(outcome)) continue;
+    if (outcome.factor != Factor::specialised || !is_judged(outcome)) continue;
     const double ms = outcome.ms.min_of_medians;
     // Only the A/A spread is used; there are too few rounds for a spread between rounds.
     result.points.push_back({.ms = ms,
@@ -43,9 +43,9 @@ bool is_on_front(const Panel& panel, std::size_t outcome) {
 }
 
 const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
-  if (outcome.method == Method::baseline) return nullptr;
+  if (outcome.factor == Factor::baseline) return nullptr;
   for (const Outcome& other : panel.outcomes)
-    if (other.method == Method::generic && other.configuration == outcome.configuration)
+    if (other.factor == Factor::generic && other.configuration == outcome.configuration)
       return &other;
   return nullptr;
 }

@@ -22,19 +22,19 @@ struct ExactError {
 
 /// The method of drawing: our plan, our plan without specialisations (--no-specialise), or the
 /// baseline.
-enum class Method { specialised, generic, baseline };
+enum class Factor { specialised, generic, baseline };
 
 /// Names of the methods in output files, in the order of the enumeration.
-inline constexpr std::array<const char*, 3> method_names{"tureen", "tureen --no-specialise",
+inline constexpr std::array<const char*, 3> factor_names{"tureen", "tureen --no-specialise",
                                                          "published"};
-const char* name_of(Method method);
+const char* name_of(Factor factor);
 
 /// One measured configuration.
 struct Outcome {
   Configuration configuration;  // values of the panel's settings
   std::string name;             // description: "lattice level 2"
   Applied applied;
-  Method method = Method::specialised;
+  Factor factor = Factor::specialised;
   /// In milliseconds, except the spread, a fraction (FrameStatistics::spread).
   FrameStatistics ms;
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view

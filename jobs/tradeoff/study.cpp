@@ -43,7 +43,7 @@ void find_ranges(Panel& panel) {
   std::vector<Configuration> configurations;
   std::vector<Measured> measured;
   for (const Outcome& outcome : panel.outcomes) {
-    if (outcome.method == Method::generic || outcome.method == Method::baseline) continue;
+    if (outcome.factor == Factor::generic || outcome.factor == Factor::baseline) continue;
     configurations.push_back(outcome.configuration);
     measured.push_back(
         {outcome.ms.min_of_medians, is_judged(outcome) ? outcome.error.psnr_db : std::nan("")});
@@ -103,14 +103,14 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   // The baseline follows the defaults, so that both are in the same group.
   Job baseline = job_of(panel.settings, star.configurations.front(), true);
   baseline.outcome.name = "baseline";
-  baseline.outcome.method = Method::baseline;
+  baseline.outcome.factor = Factor::baseline;
   baseline.plan = {};
   jobs.insert(jobs.begin() + 1, std::move(baseline));
   std::vector<Job> generic = jobs_of(panel.settings, star.configurations, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
   measurer.measure(std::move(jobs), StudyStage::settings);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].method == Method::baseline) study.baseline = i;
+    if (panel.outcomes[i].factor == Factor::baseline) study.baseline = i;
   finish(options, StudyStage::combined_settings, measurer, panel);
 }
 

@@ -52,7 +52,7 @@ Json configuration_json(const TradeoffReport& report, const tradeoff::Panel& pan
   const tradeoff::Outcome& outcome = panel.outcomes[i];
   return {{"name", outcome.name},
           {"scene", report.scene.name},
-          {"method", name_of(outcome.method)},
+          {"method", name_of(outcome.factor)},
           {"knobs", settings_json(panel, outcome)},
           {"commit", report.program.commit},
           {"machine", report.machine.cpu},

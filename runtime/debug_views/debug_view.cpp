@@ -192,7 +192,7 @@ double DepthScale::position(double depth) const {
 DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye) {
   // A soup of a single point also needs a range.
   const double radius = std::max(bounds.radius(), 1e-6);
-  const double distance = glm::length(bounds.centre() - eye);
+  const double distance = glm::length(bounds.center() - eye);
   const double far = distance + radius;
   return {std::max(distance - radius, far / 50), far};
 }

@@ -64,11 +64,11 @@ class ValuePass final : public Pass {
         subjects_(subjects),
         shown_(shown),
         surface_(surface),
-        program_(shown_program(soup, subjects[soup.place().layer], shown.what, surface)) {}
+        program_(shown_program(soup, subjects[soup.slots().layer], shown.what, surface)) {}
 
   const char* name() const override { return "debug view"; }
   void draw(const Frame& frame, FrameTarget& target) override {
-    const std::size_t layer = soup_.place().layer;
+    const std::size_t layer = soup_.slots().layer;
     const FrameCamera& view = frame.layers[layer];
     const DebugViewSubject& subject = subjects_[layer];
     const DepthScale scale = shown_.scale = depth_scale_of(frame, subjects_);
@@ -116,7 +116,7 @@ class EdgePass final : public Pass {
       : soup_(soup), program_(face_program(soup, "wireframe.frag")) {}
   const char* name() const override { return "edges"; }
   void draw(const Frame& frame, FrameTarget& target) override {
-    const FrameCamera& view = frame.layers[soup_.place().layer];
+    const FrameCamera& view = frame.layers[soup_.slots().layer];
     if (!view.visible) return;
     target.draw_color();
     glDepthMask(GL_FALSE);
@@ -267,7 +267,7 @@ void FragmentCountPass::draw(const Frame& frame, FrameTarget& target) {
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
   for (const auto& [soup, program] : drawings_) {
-    const FrameCamera& view = frame.layers[soup.place().layer];
+    const FrameCamera& view = frame.layers[soup.slots().layer];
     if (view.visible) soup.draw_faces(program, program, view, target);
   }
 }
@@ -287,7 +287,7 @@ DebugViewPasses debug_view_passes(std::span<DeviceSoup* const> soups,
     add(std::move(counts));
     if (!measures) {
       const DeviceSoup& soup = *soups.front();
-      add(std::make_unique<OverdrawPass>(soup, subjects[soup.place().layer], *result.counts));
+      add(std::make_unique<OverdrawPass>(soup, subjects[soup.slots().layer], *result.counts));
       return result;
     }
   }

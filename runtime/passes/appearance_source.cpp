@@ -125,14 +125,14 @@ class Preparation {
                                                               std::span<std::byte> out) {
       for (std::size_t i = 0; i < out.size() / 12; ++i) {
         const glm::vec3 point =
-            per_vertex ? soup.positions[vertex_of(first + i)] : centre(soup, faces[first + i]);
+            per_vertex ? soup.positions[vertex_of(first + i)] : center(soup, faces[first + i]);
         std::memcpy(&out[12 * i], &point, 12);
       }
     };
     add("anchors", {texel_formats::rgb32f, elements, "harmonics anchors", fill_anchors});
   }
 
-  static glm::vec3 centre(const TriangleSoup& soup, std::uint32_t face) {
+  static glm::vec3 center(const TriangleSoup& soup, std::uint32_t face) {
     glm::dvec3 sum(0.0);
     for (int k = 0; k < 3; ++k) sum += glm::dvec3(soup.positions[soup.triangles[face][k]]);
     return glm::vec3(sum / 3.0);

@@ -24,7 +24,7 @@ std::string DeviceSoup::source(const char* file, const Constants& constants,
                       .constants = appearance_.constants,
                       .generated = {{"appearance.glsl", appearance_.glsl}}};
   source.constants.insert(constants.begin(), constants.end());
-  if (place_.layered) source.constants["LAYERED"] = "1";
+  if (slots_.layered) source.constants["LAYERED"] = "1";
   source.generated.insert(generated.begin(), generated.end());
   return assemble(source, device_.api);
 }
@@ -34,7 +34,7 @@ gl::Program DeviceSoup::face_program(const char* fragment, const Constants& cons
 }
 
 void DeviceSoup::set_first_slot(const gl::Program& program) const {
-  program.set("first_slot", static_cast<int>(place_.first_slot));
+  program.set("first_slot", static_cast<int>(slots_.first_slot));
 }
 
 void DeviceSoup::draw_faces(const gl::Program& opaque, const gl::Program& cut_out,

@@ -27,7 +27,7 @@ class DeviceSoup {
              const GeometrySource& geometry, const SoupPlan& plan);
 
   /// The soup's place among the layers of a frame.
-  struct Place {
+  struct Slots {
     std::size_t layer = 0;
     /// The visibility texture numbers the slots of all layers consecutively. This is the number of
     /// this layer's first slot.
@@ -35,8 +35,8 @@ class DeviceSoup {
     bool layered = false;  // the frame has several layers
   };
   /// Programs made for another value of `layered` are invalid afterwards.
-  void set_place(const Place& place) { place_ = place; }
-  const Place& place() const { return place_; }
+  void set_slots(const Slots& slots) { slots_ = slots; }
+  const Slots& slots() const { return slots_; }
   /// Sets the first slot of `program`, which is in use and was made by this object.
   void set_first_slot(const gl::Program& program) const;
 
@@ -66,7 +66,7 @@ class DeviceSoup {
   void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count);
 
   const SoupPlan& plan_;
-  Place place_;
+  Slots slots_;
   gl::Capabilities device_;
   DeviceAppearance appearance_;
   Geometry geometry_;

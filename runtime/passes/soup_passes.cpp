@@ -20,7 +20,7 @@ class FaceDrawing {
       cut_out_ = soup.face_program(fragment, {{"ALPHA_TEST", tested}});
   }
   void draw(const Frame& frame, const FrameTarget& target) {
-    const FrameCamera& camera = frame.layers[soup_.place().layer];
+    const FrameCamera& camera = frame.layers[soup_.slots().layer];
     if (camera.visible) soup_.draw_faces(opaque_, cut_out_, camera, target);
   }
 
@@ -35,7 +35,7 @@ class VisibilityPass final : public Pass {
       : soup_(soup), faces_(soup, "visibility.frag", test) {}
   const char* name() const override { return "visibility"; }
   void draw(const Frame& frame, FrameTarget& target) override {
-    target.draw_visibility(soup_.place().layer);
+    target.draw_visibility(soup_.slots().layer);
     faces_.draw(frame, target);
   }
 
@@ -88,7 +88,7 @@ class ShadingPass final : public Pass {
       compute(frame, target);
       return;
     }
-    const std::size_t layer = soup_.place().layer;
+    const std::size_t layer = soup_.slots().layer;
     if (depth_rejects_background_) {
       target.draw_samples_of(layer);
     } else {
@@ -121,7 +121,7 @@ class ShadingPass final : public Pass {
   }
 
   void set_uniforms(const Frame& frame, const FrameTarget& target) const {
-    const FrameCamera& camera = frame.layers[soup_.place().layer];
+    const FrameCamera& camera = frame.layers[soup_.slots().layer];
     const DeviceAppearance& appearance = soup_.appearance();
     program_.use();
     appearance.bind(program_);

@@ -96,7 +96,7 @@ void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> fa
 void FrontToBack::sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward) {
   keys_.resize(clusters.size());
   for (std::uint32_t i = 0; i < clusters.size(); ++i) {
-    const float depth = glm::dot(clusters[i].centre - eye, forward);
+    const float depth = glm::dot(clusters[i].center - eye, forward);
     // Coordinates near the limit of float can give NaN, which has no order.
     keys_[i] = {std::isnan(depth) ? 0.0f : depth, i};
   }

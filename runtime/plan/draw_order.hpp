@@ -17,7 +17,7 @@ namespace tureen {
 struct Cluster {
   std::uint32_t first_slot = 0;
   std::uint32_t slot_count = 0;
-  glm::vec3 centre{0.0f};
+  glm::vec3 center{0.0f};
 };
 
 /// Faces per cluster in a soup with `faces` faces. Sizes from 1 to 256 made little difference. The

@@ -97,7 +97,7 @@ std::string describe(const AppliedSpecialisation& applied) {
 std::vector<std::string> describe_sampling(const Quality& quality) {
   std::vector<std::string> sentences;
   Quality sampling = quality;
-  sampling.splat_order = Quality::SplatOrder::centre;
+  sampling.splat_order = Quality::SplatOrder::center;
   if (quality.resolution_scale < 1)
     sentences.push_back("draws " + describe(sampling) + " and enlarges the image bilinearly");
   if (quality.supersampling > 1) sentences.push_back("draws " + describe(sampling));

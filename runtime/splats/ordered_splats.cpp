@@ -29,7 +29,7 @@ void find_chunks_to_skip(std::span<const Bounds> chunks, const FrameCamera& came
   const double cosine = cosine_of_image(camera.camera) * glm::length(view.axis);
   for (const Bounds& box : chunks) {
     const glm::dvec3 low(box.low), high(box.high);
-    const double farthest = glm::dot(view.axis, box.centre() - camera.eye) +
+    const double farthest = glm::dot(view.axis, box.center() - camera.eye) +
                             glm::dot(glm::abs(view.axis), 0.5 * (high - low));
     const double distance = glm::distance(camera.eye, glm::clamp(camera.eye, low, high));
     view.behind.push_back(farthest < 0);  // of the eye, and so of the near plane

@@ -26,7 +26,7 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
                    Quality::SplatOrder order)
     : layers_(std::move(layers)),
       order_(order == Quality::SplatOrder::exact ? splatting::BlendOrder::along_rays
-                                                 : splatting::BlendOrder::centres),
+                                                 : splatting::BlendOrder::centers),
       renderer_([this](std::size_t count, const std::function<void(std::size_t)>& body) {
         pool_.run(count, body);
       }),

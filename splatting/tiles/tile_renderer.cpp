@@ -11,10 +11,10 @@ namespace tureen::splatting {
 namespace {
 
 /// Column and row of a pixel in its tile, by its index in TilePixels.
-struct Place {
+struct TilePosition {
   int column, row;
 };
-Place place_of(int pixel) {
+TilePosition position_in_tile(int pixel) {
   constexpr int blocks_a_side = tile_side / block_side;
   const int block = pixel / block_pixels, inside = pixel % block_pixels;
   return {block_side * (block % blocks_a_side) + inside % block_side,
@@ -104,7 +104,7 @@ void TileRenderer::draw_tile(std::span<const LayerInView> layers, std::span<cons
   pixels.y = row * tile_side;
   const auto for_each_pixel = [&](const auto& act) {
     for (int i = 0; i < tile_pixels; ++i) {
-      const auto [x, y] = place_of(i);
+      const auto [x, y] = position_in_tile(i);
       if (pixels.x + x < image.width && pixels.y + y < image.height)
         act(i, std::size_t(pixels.y + y) * std::size_t(image.width) + std::size_t(pixels.x + x));
     }
@@ -160,7 +160,7 @@ void TileRenderer::add_weights(const LayerInView& layer, std::span<double> weigh
       pixels.y = row * tile_side;
       layer.layer->collect(layer.view, lists_.tile(column, row), pixels, *hits);
       for (int i = 0; i < tile_pixels; ++i) {
-        const Place at = place_of(i);
+        const TilePosition at = position_in_tile(i);
         if (pixels.x + at.column >= layer.view.width || pixels.y + at.row >= layer.view.height)
           continue;
         float transmittance = 1;

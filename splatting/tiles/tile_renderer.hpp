@@ -20,8 +20,8 @@ using Parallel =
 /// Which of two splats at a pixel is in front.
 enum class BlendOrder {
   /// By the view depth of the centres; at equal depths the earlier layer, then the lower index.
-  centres,
-  /// By the depth along the pixel's ray (SplatHit); at equal depths as `centres`.
+  centers,
+  /// By the depth along the pixel's ray (SplatHit); at equal depths as `centers`.
   along_rays,
 };
 
@@ -45,7 +45,7 @@ class TileRenderer {
   /// a pixel, infinity where there is none; row 0 on top; or empty. Gives each row to `sink` once,
   /// in any order. The result does not depend on the number of threads.
   void draw(std::span<const LayerInView> layers, std::span<const float> depths, const RowSink& sink,
-            BlendOrder order = BlendOrder::centres);
+            BlendOrder order = BlendOrder::centers);
 
   /// Adds to weights[i] what splat i of the layer contributes to the image: the sum over the pixels
   /// of its alpha times the transmittance of the splats in front. Nothing opaque is behind. Uses

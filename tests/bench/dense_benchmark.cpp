@@ -31,7 +31,7 @@ std::vector<Camera> views_around(const TriangleSoup& soup, glm::dvec3 up, int wi
     const double angle = i * std::acos(-1.0) / 4;
     const glm::dvec3 direction =
         0.94 * (std::cos(angle) * side + std::sin(angle) * front) + 0.34 * up;
-    cameras.push_back(look_at(box.centre() + distance * direction, box.centre(), up, field_of_view,
+    cameras.push_back(look_at(box.center() + distance * direction, box.center(), up, field_of_view,
                               width, height));
   }
   return cameras;

@@ -99,8 +99,8 @@ Camera camera_at(const Subject& subject, double fraction, const char* name) {
   const double height = glm::dot(glm::abs(up), subject.high - subject.low);
   const double distance = height / (2 * fraction * std::tan(0.5 * lens.fov_y));
   const glm::dvec3 eye =
-      subject.centre() + distance * direction_of(up, {.azimuth = 0.6, .elevation = 0});
-  Camera camera = look_at(eye, subject.centre(), up, lens.fov_y, lens.width, lens.height);
+      subject.center() + distance * direction_of(up, {.azimuth = 0.6, .elevation = 0});
+  Camera camera = look_at(eye, subject.center(), up, lens.fov_y, lens.width, lens.height);
   camera.name = name;
   return camera;
 }

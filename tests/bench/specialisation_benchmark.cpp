@@ -132,8 +132,8 @@ void measure_scene(const gl::Context& context, const Settings& settings,
         side = std::abs(up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 a = glm::normalize(glm::cross(up, side)), b = glm::cross(up, a);
     const glm::dvec3 away = std::cos(angle) * a + std::sin(angle) * b + 0.4 * up;
-    cameras.push_back(look_at(box.centre() + 2.2 * box.radius() * glm::normalize(away),
-                              box.centre(), up, 0.7, settings.width, settings.height));
+    cameras.push_back(look_at(box.center() + 2.2 * box.radius() * glm::normalize(away),
+                              box.center(), up, 0.7, settings.width, settings.height));
   }
   const std::string name = path.stem().string();
   const RenderPlan plan = make_plan(soup, device_limits(context.capabilities()));

@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "formats/dataset/dataset.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/splat_config.hpp"
-#include "trainer/splats/windows/window_method.hpp"
+#include "trainer/splats/windows/window_training.hpp"
 
 namespace tureen::test {
 namespace {
@@ -43,10 +43,10 @@ void print_stages(Trainer& trainer) {
   std::fflush(stdout);
 }
 
-template <class Method>
-void train(const typename Method::Config& config, const Dataset& dataset,
+template <class Training>
+void train(const typename Training::Config& config, const Dataset& dataset,
            std::span<const TrainingView> views) {
-  SplatTrainer<Method> trainer(config, views, region_of_interest(dataset), 1);
+  SplatTrainer<Training> trainer(config, views, region_of_interest(dataset), 1);
   while (!trainer.done()) {
     const int tenth = trainer.steps_done() * 10 / config.steps;
     trainer.step();

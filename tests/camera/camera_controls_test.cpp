@@ -70,10 +70,10 @@ CameraControls stiff(const Subject& subject = {}) {
 }
 
 Subject random_subject(Random& random, double size) {
-  const glm::dvec3 centre = size * 3.0 * random.direction();
+  const glm::dvec3 center = size * 3.0 * random.direction();
   const glm::dvec3 half =
       size * glm::dvec3(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1));
-  return {centre - half, centre + half, random.direction()};
+  return {center - half, center + half, random.direction()};
 }
 
 /// A camera like a recorded one, with any rotation and intrinsics.
@@ -674,7 +674,7 @@ TEST(CameraControls, KeyframesOfAnOrbitMakeAPathAroundItsTarget) {
                 controls.distance(), 1e-9);
 }
 
-TEST(CameraControls, FocusBringsAPointToTheCentreAsLargeAsItWas) {
+TEST(CameraControls, FocusBringsAPointToTheCenterAsLargeAsItWas) {
   CameraControls controls = stiff();
   const glm::dvec3 point = controls.target() + glm::dvec3(0.2, 0.1, -0.3);
   const double depth = pixel_of(shown(controls), point).z;

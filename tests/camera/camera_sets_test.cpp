@@ -26,10 +26,10 @@ TriangleSoup flat_ball(unsigned seed, int count) {
   std::normal_distribution<float> normal;
   TriangleSoup soup;
   for (int t = 0; t < count; ++t) {
-    const glm::vec3 centre(normal(random), normal(random), 0.2f * normal(random));
+    const glm::vec3 center(normal(random), normal(random), 0.2f * normal(random));
     for (int k = 0; k < 3; ++k)
       soup.positions.push_back(
-          centre + 0.2f * glm::vec3(normal(random), normal(random), 0.05f * normal(random)));
+          center + 0.2f * glm::vec3(normal(random), normal(random), 0.05f * normal(random)));
     const auto first = std::uint32_t(3 * t);
     soup.triangles.push_back({first, first + 1, first + 2});
   }
@@ -43,7 +43,7 @@ Subject subject_of_soup(const TriangleSoup& soup) {
 }
 
 glm::dvec3 towards_eye(const Subject& subject, const Camera& camera) {
-  return glm::normalize(camera.eye() - subject.centre());
+  return glm::normalize(camera.eye() - subject.center());
 }
 
 /// Fragments a pixel by the oracle: every face on every pixel's ray.
@@ -70,8 +70,8 @@ TEST(Hemisphere, IsEvenAboveTheHorizonAndShowsTheWholeBox) {
     for (const Camera& other : cameras)
       if (&other != &camera)
         nearest = std::min(nearest, glm::distance(direction, towards_eye(subject, other)));
-    EXPECT_NEAR(glm::distance(camera.eye(), subject.centre()),
-                glm::distance(cameras[0].eye(), subject.centre()), 1e-9);
+    EXPECT_NEAR(glm::distance(camera.eye(), subject.center()),
+                glm::distance(cameras[0].eye(), subject.center()), 1e-9);
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec3 p(corner & 1 ? subject.low.x : subject.high.x,
                          corner & 2 ? subject.low.y : subject.high.y,

@@ -38,8 +38,8 @@ TEST(Navigation, FramesRandomBoxesTightlyFromEverySide) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
   for (int i = 0; i < 200; ++i) {
-    const glm::dvec3 centre = 10.0 * vector(), half = glm::abs(vector());
-    const Subject subject{centre - half, centre + half, vector()};
+    const glm::dvec3 center = 10.0 * vector(), half = glm::abs(vector());
+    const Subject subject{center - half, center + half, vector()};
     const Lens lens{100 + int(500 * (1 + uniform(random))), 300, 0.7 + 0.5 * uniform(random)};
     const Bearing bearing{pi * uniform(random), 1.4 * uniform(random)};
     // The tightest side has a margin of exactly 5 %.
@@ -79,10 +79,10 @@ TEST(Navigation, AnOrbitKeepsItsDistanceAndShowsEverythingEverywhere) {
   const Subject subject{{-3, -1, -0.5}, {3, 1, 0.5}, {0, 0, 1}};
   const std::vector<Camera> cameras = orbit(subject, 12, {0, orbit_elevation}, Lens{});
   ASSERT_EQ(cameras.size(), 12u);
-  const double distance = glm::length(cameras[0].eye() - subject.centre());
+  const double distance = glm::length(cameras[0].eye() - subject.center());
   double tightest = 0;
   for (const Camera& camera : cameras) {
-    EXPECT_NEAR(glm::length(camera.eye() - subject.centre()), distance, 1e-9);
+    EXPECT_NEAR(glm::length(camera.eye() - subject.center()), distance, 1e-9);
     EXPECT_NEAR(camera.eye().z, distance * std::sin(orbit_elevation), 1e-9);
     tightest = std::max(tightest, largest_ndc(camera, subject));
   }
@@ -145,8 +145,8 @@ TEST(Navigation, TheSubjectEndsAroundWhatTheCamerasInsideLookAt) {
     return subject_of(boxes, {0, 0, 1}, cameras);
   };
   const Subject near = subject({around}, ring(8));
-  EXPECT_NEAR(near.centre().x, 1, 1e-6);
-  EXPECT_NEAR(near.centre().y, 2, 1e-6);
+  EXPECT_NEAR(near.center().x, 1, 1e-6);
+  EXPECT_NEAR(near.center().y, 2, 1e-6);
   EXPECT_GT(near.high.x, 2);
   EXPECT_LT(near.high.x, 6);
   EXPECT_EQ(near.high.z, 0.5);  // not larger than the box

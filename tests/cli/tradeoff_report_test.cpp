@@ -44,7 +44,7 @@ tradeoff::Panel panel() {
   result.outcomes = {outcome({0, 0}, "defaults", 10, 60), outcome({0, 0}, "defaults", 20, 60),
                      outcome({1, 0}, "level 2", 8, 40), outcome({0, 1}, "4 bits", 9, 50),
                      outcome({1, 1}, "level 2, \"4 bits\"", 7, 39)};
-  result.outcomes[1].method = tradeoff::Method::generic;
+  result.outcomes[1].factor = tradeoff::Factor::generic;
   result.ranges = {{0, 1.25, 20}, {1, 1.1, 10}};
   result.front = {4, 2, 3, 0};
   result.ideal.psnr_db = 61;
@@ -70,7 +70,7 @@ TradeoffReport report() {
   result.samples = "device";
   result.study.drawing = panel();
   tradeoff::Outcome published = outcome({0, 0}, "baseline", 90, 55);
-  published.method = tradeoff::Method::baseline;
+  published.factor = tradeoff::Factor::baseline;
   result.study.drawing.outcomes.push_back(published);
   for (tradeoff::Outcome& each : result.study.drawing.outcomes)
     each.exact = tradeoff::ExactError{each.error.psnr_db - 10, 0.25};
@@ -124,7 +124,7 @@ TEST(TradeoffReport, WarnsOfOutcomesThatMeanLess) {
 
 TEST(TradeoffCandidates, AreWhatCanBeChosen) {
   TradeoffReport made = report();
-  made.study.drawing.outcomes[4].method = tradeoff::Method::baseline;
+  made.study.drawing.outcomes[4].factor = tradeoff::Factor::baseline;
   made.study.drawing.aa_spread = 0.01;
   const tradeoff::Candidates all = tradeoff::candidates(made.study.drawing);
   EXPECT_THAT(all.index, ElementsAre(0, 2, 3));

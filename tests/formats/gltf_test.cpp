@@ -533,7 +533,7 @@ TEST_F(Gltf, HostileFilesEndInAResultOrASentence) {
                   only_soup(scene).triangles.size());
       ++read_count;
     } catch (const InputError& error) {
-      EXPECT_FALSE(error.place().file.empty());
+      EXPECT_FALSE(error.position().file.empty());
       EXPECT_GT(error.reason().size(), 10u) << error.reason();
       std::printf("  refused  %s: %s\n", entry.path().filename().c_str(), error.reason().c_str());
       ++refused;

@@ -65,7 +65,7 @@ bool is_read(const fuzz::Fixture& fixture, const fuzz::Target& target, std::uint
     return true;
   } catch (const InputError& error) {
     EXPECT_EQ(error.hint().rfind(max_memory_hint, 0), 0u) << fixture.name << " at " << limit;
-    EXPECT_FALSE(error.place().file.empty()) << fixture.name;
+    EXPECT_FALSE(error.position().file.empty()) << fixture.name;
     return false;
   }
 }

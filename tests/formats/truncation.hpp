@@ -34,7 +34,7 @@ void expect_survival(std::span<const std::byte> bytes, Read&& read, const std::s
   } catch (const InputError& error) {
     ++survival.refused;
     EXPECT_FALSE(error.reason().empty()) << damage;
-    EXPECT_FALSE(error.place().file.empty()) << damage << ": " << error.what();
+    EXPECT_FALSE(error.position().file.empty()) << damage << ": " << error.what();
   } catch (const std::exception& error) {
     ADD_FAILURE() << damage << " threw something other than an InputError: " << error.what();
   }

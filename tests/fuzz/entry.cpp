@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     tureen::fuzz::TUREEN_FUZZ_TARGET(std::as_bytes(std::span(data, size)));
   } catch (const tureen::InputError& error) {
-    if (error.reason().empty() || error.place().file.empty()) {
+    if (error.reason().empty() || error.position().file.empty()) {
       std::fprintf(stderr, "an error without a place or a reason: '%s'\n", error.what());
       std::abort();
     }

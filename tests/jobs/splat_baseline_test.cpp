@@ -143,7 +143,7 @@ TEST_P(SplatBaseline, AgreesWithTheOracle) {
   EXPECT_GE(psnr, min_psnr());
 }
 
-TEST_P(SplatBaseline, SkipsCentresNearTheEye) {
+TEST_P(SplatBaseline, SkipsCentersNearTheEye) {
   Splats splats = splats_of(kind);
   splats.profile.min_center_depth = 2.9f;
   const Scene scene = scene_of(splats);

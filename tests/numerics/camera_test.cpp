@@ -116,7 +116,7 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
       const double in_oracle = shown_pixels(faces_of_oracle(soup, camera));
       // The scene is the plate alone, so only a near plane that is too far away clips anything.
       const Bounds box = bounds(soup);
-      const double by_distance = 0.95 * (glm::length(box.centre()) - box.radius());
+      const double by_distance = 0.95 * (glm::length(box.center()) - box.radius());
       const double clipped = shown_pixels(faces_of_trainer(soup, camera, by_distance, 1e5));
       // Corners are floats near `off`, and the principal point is as far away. Their roundings move
       // the plate's four borders of 32 pixels.

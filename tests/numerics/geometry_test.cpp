@@ -115,7 +115,7 @@ TEST(Numerics, G1_FacesWithoutAreaShowNothing) {
 
 // -- G2 -----------------------------------------------------------------------------------------
 
-TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
+TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCenterOnce) {
   Recorder recorder({.stressed =
                          "a fan of needles that share edges through pixel centres: oracle and "
                          "device",

@@ -122,10 +122,10 @@ double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera) {
       return glm::dvec2(camera.cx - camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z);
     };
     const glm::dvec2 c = pixel(2), a = pixel(0) - c, b = pixel(1) - c;
-    const glm::dvec2 centre = glm::dvec2(column, row) + 0.5 - c;
+    const glm::dvec2 center = glm::dvec2(column, row) + 0.5 - c;
     const double area = a.x * b.y - a.y * b.x;
-    const double b0 = (centre.x * b.y - centre.y * b.x) / area;
-    const double b1 = (a.x * centre.y - a.y * centre.x) / area;
+    const double b0 = (center.x * b.y - center.y * b.x) / area;
+    const double b1 = (a.x * center.y - a.y * center.x) / area;
     const std::size_t first = 3 * std::size_t(hit.face);
     const double feature = b0 * double(texture.value(first, 0)) +
                            b1 * double(texture.value(first + 1, 0)) +

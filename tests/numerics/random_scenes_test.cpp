@@ -78,9 +78,9 @@ double differing_away_from_outlines(const HazardousScene& scene,
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t i = std::size_t(y) * width + std::size_t(x);
-      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      const glm::dvec2 center(x + 0.5, y + 0.5);
       if (drawn[i] != expected[i] &&
-          (at_outline(scene, expected[i], centre) || at_outline(scene, drawn[i], centre)))
+          (at_outline(scene, expected[i], center) || at_outline(scene, drawn[i], center)))
         drawn[i] = expected[i];
     }
   return differing_away_from_edges(expected, drawn, width, height);

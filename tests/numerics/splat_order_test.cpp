@@ -228,12 +228,12 @@ TEST(Numerics, Z7_InterpenetratingDiscs) {
     const auto by_oracle = [&](oracle::SplatOrder order) {
       return render_oracle(scene, {camera}, {.splat_order = order});
     };
-    const OracleImage centre = by_oracle(oracle::SplatOrder::centre),
+    const OracleImage center = by_oracle(oracle::SplatOrder::center),
                       exact = by_oracle(oracle::SplatOrder::exact);
     const std::vector<glm::vec4> blended = blended_by_device(scene, camera);
     double naive = 0, ours = 0;
     for (std::size_t i = 0; i < blended.size(); ++i) {
-      const double expected = centre.color.pixels[i].r;
+      const double expected = center.color.pixels[i].r;
       naive = worse(naive, std::abs(expected - double(exact.color.pixels[i].r)));
       ours = worse(ours, std::abs(expected - double(blended[i].r)));
     }

@@ -54,7 +54,7 @@ double error_of_covariance(const Camera& camera, const glm::vec3& center, float 
   return error;
 }
 
-TEST(Numerics, E2_CentresBesideTheEyeKeepTheirAlpha) {
+TEST(Numerics, E2_CentersBesideTheEyeKeepTheirAlpha) {
   Recorder recorder({.stressed = "a Gaussian beside the eye, x / z up to 1e8, device and tiles",
                      .parameter = "depth of the centre / units",
                      .unit = "alpha",

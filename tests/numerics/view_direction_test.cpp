@@ -158,12 +158,12 @@ TEST(Numerics, V1d_DirectionsKnowThePrincipalPoint) {
                      .naive_fails_from = 0.1});
   for (const double widths : {0.0, 0.1, 0.6, 1.0, 3.0, 10.0}) {
     Camera camera = look_at({1, 2, 0.5}, {0, 0, 0}, {0, 0, 1}, 0.9, 1280, 720);
-    const Camera centred = camera;
+    const Camera centerd = camera;
     camera.cx += widths * camera.width;
     camera.cy -= widths * camera.height;
     const DirectionErrors errors = direction_errors(camera, 0.5, 100);
     const std::vector<glm::vec4> windows = window_positions(camera),
-                                 taken = of_shader("direction_to_eye", centred, windows);
+                                 taken = of_shader("direction_to_eye", centerd, windows);
     const TriangleSoup nothing = soup_of({});
     const oracle::Rays rays(nothing, glm::dmat4(1.0), camera);
     double naive = 0;

@@ -58,7 +58,7 @@ std::vector<int> hit_counts(const TriangleSoup& soup, const Camera& camera, Cove
   return counts;
 }
 
-TEST(OracleRays, OneTriangleCoversExactlyThePixelsWhoseCentresLieInIt) {
+TEST(OracleRays, OneTriangleCoversExactlyThePixelsWhoseCentersLieInIt) {
   const Camera camera = straight_camera(8, 8);
   // The legs are on the lines x = 1 and y = 1. The hypotenuse x + y = 7 runs through pixel centres,
   // but it faces right and down, so the face owns none of them. Both windings.
@@ -80,7 +80,7 @@ int owner_shift(Coverage coverage) {
   return coverage == Coverage::snapped && !oracle::snapped_upper_edge_owns ? 1 : 0;
 }
 
-TEST(OracleRays, ACentreOnAnEdgeBelongsToTheRightAndToOneOfUpperAndLower) {
+TEST(OracleRays, ACenterOnAnEdgeBelongsToTheRightAndToOneOfUpperAndLower) {
   const Camera camera = straight_camera(8, 8);
   // The square between the centres of pixels (2, 2) and (5, 5).
   const glm::vec3 a = at_pixel(camera, 2.5, 2.5), b = at_pixel(camera, 5.5, 2.5),
@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(Seed, OracleRaysOnSoup, testing::Range<std::uint64_t>(1
                          testing::PrintToStringParamName());
 
 // [G2] A strip of 1000 slivers whose edges pass through pixel centres.
-TEST(OracleRays, SliversThatShareEdgesCoverEveryCentreOnce) {
+TEST(OracleRays, SliversThatShareEdgesCoverEveryCenterOnce) {
   const Camera camera = straight_camera();
   std::vector<glm::vec3> corners;
   const auto top = [&](int i) { return at_pixel(camera, 2 + 60.0 * i / 500, 2.5); };
@@ -240,7 +240,7 @@ TEST(OracleRays, SliversThatShareEdgesCoverEveryCentreOnce) {
 }
 
 // [G2] Needles of aspect 10 to 10^7 that share their long edges.
-TEST(OracleRays, AFanOfNeedlesCoversEveryCentreOnce) {
+TEST(OracleRays, AFanOfNeedlesCoversEveryCenterOnce) {
   const Camera camera = straight_camera();
   std::vector<glm::vec3> corners;
   double x = 3;

@@ -50,7 +50,7 @@ TEST(OracleSplats, ExactOrderFollowsTheRayWhereDiscsCross) {
       discs_of({{{0, 0, -5}, red, 0.5f, -M_PI / 4}, {{0, 0, -5.2f}, blue, 0.5f, M_PI / 4}}));
   const Camera camera = straight_camera(41, 5, 41);
   OracleOptions options{.background = std::nullopt};
-  const ImageF by_centre = render_oracle(scene, {camera}, options).color;
+  const ImageF by_center = render_oracle(scene, {camera}, options).color;
   options.splat_order = oracle::SplatOrder::exact;
   const ImageF exact = render_oracle(scene, {camera}, options).color;
   int turned = 0;
@@ -61,7 +61,7 @@ TEST(OracleSplats, ExactOrderFollowsTheRayWhereDiscsCross) {
     turned += !red_first;
     // Alpha is 1 - 0.5^2; the colour is that of the covered part.
     const glm::dvec4 first(2 / 3.0, 0, 1 / 3.0, 0.75), second(1 / 3.0, 0, 2 / 3.0, 0.75);
-    expect_color(by_centre.at(x, 2), first, "by centre");
+    expect_color(by_center.at(x, 2), first, "by centre");
     expect_color(exact.at(x, 2), red_first ? first : second, "exact");
   }
   EXPECT_GT(turned, 15);
@@ -152,7 +152,7 @@ TEST(OracleSplats, ValuesAtTheirLimitsGiveFiniteImages) {
     const Splats splats = hostile_splats(kind);
     ASSERT_EQ(defect(splats), std::nullopt) << kind.name;
     const Scene scene = scene_of(splats);
-    for (const oracle::SplatOrder order : {oracle::SplatOrder::centre, oracle::SplatOrder::exact})
+    for (const oracle::SplatOrder order : {oracle::SplatOrder::center, oracle::SplatOrder::exact})
       for (const double distance : {3.0, 0.1}) {
         const OracleImage image =
             render_oracle(scene, {camera_of_ball(distance, 24, 18)}, {.splat_order = order});

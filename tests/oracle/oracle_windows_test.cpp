@@ -276,7 +276,7 @@ TEST_F(OracleWindows, ColoursOfCornersAreAffineInTheImage) {
                 *profile_named("mesh-splatting")};
   splats.color.per_corner = true;
   ASSERT_EQ(defect(splats), std::nullopt);
-  for (const auto order : {oracle::SplatOrder::centre, oracle::SplatOrder::exact}) {
+  for (const auto order : {oracle::SplatOrder::center, oracle::SplatOrder::exact}) {
     const OracleImage image = render_oracle(scene_of(splats), {camera}, {.splat_order = order});
     // From the middle of the first edge, 7 of 26 rows towards the third corner.
     const glm::vec4 pixel = image.color.at(16, 11);

@@ -70,11 +70,11 @@ Found search(const TriangleSoup& soup, std::size_t face, const FrameCamera& fram
   const double sign = cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
   for (int y = y_begin; y < y_end; ++y)
     for (int x = x_begin; x < x_end; ++x) {
-      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      const glm::dvec2 center(x + 0.5, y + 0.5);
       double inside = INFINITY, near = INFINITY;
       for (int k = 0; k < 3; ++k) {
         const glm::dvec2 edge = p[(k + 1) % 3] - p[k];
-        const double e = sign * cross(edge, centre - p[k]);
+        const double e = sign * cross(edge, center - p[k]);
         inside = std::min(inside, e);
         near = std::min(near, e + 0.05 * (std::abs(edge.x) + std::abs(edge.y)));
       }

@@ -572,10 +572,10 @@ TEST(DepthScales, FollowTheMiddleOfTheScene) {
   soup.positions[soup.triangles[0].x] = glm::vec3(1e6f);  // one stray corner
   const Bounds after = middle_bounds(soup);
   EXPECT_LT(after.radius(), 1.1 * before.radius());
-  const DepthScale outside = depth_scale(after, after.centre() + glm::dvec3(10, 0, 0));
+  const DepthScale outside = depth_scale(after, after.center() + glm::dvec3(10, 0, 0));
   EXPECT_NEAR(outside.near, 10 - after.radius(), 1e-9);
   EXPECT_NEAR(outside.far, 10 + after.radius(), 1e-9);
-  const DepthScale inside = depth_scale(after, after.centre());
+  const DepthScale inside = depth_scale(after, after.center());
   EXPECT_NEAR(inside.far / inside.near, 50, 1e-9);
   EXPECT_EQ(inside.position(inside.near), 0);
   EXPECT_EQ(inside.position(2 * inside.far), 1);

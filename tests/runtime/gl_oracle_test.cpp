@@ -198,7 +198,7 @@ TEST(GlOracleSingle, FromWithinTheSoupBothClipAlike) {
 }
 
 // Edges through pixel centres: the owner of a centre must be the same.
-TEST(GlOracleSingle, CentresOnEdgesHaveTheSameOwner) {
+TEST(GlOracleSingle, CentersOnEdgesHaveTheSameOwner) {
   Camera camera;
   camera.width = camera.height = 64;
   camera.fx = camera.fy = 64;

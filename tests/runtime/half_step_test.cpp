@@ -50,11 +50,11 @@ DenseLayer layer_of_sums(Random& random, int inputs, const std::vector<double>& 
 
 /// All first-layer neurons have these weights for the features and the encoded direction. No neuron
 /// is ever inactive. After the first layer, all weights of an output have the same sign, so nothing
-/// cancels, and row sums differ from column sums. At the features `centre` the sigmoid is steepest.
+/// cancels, and row sums differ from column sums. At the features `center` the sigmoid is steepest.
 /// Output 0 changes by `amplification`, output 1 by as much in the other direction, output 2 by
 /// half of it.
 ColorMlp amplifier(Random& random, const Features& weights, const std::vector<double>& direction,
-                   const Features& centre) {
+                   const Features& center) {
   ColorMlp mlp;
   mlp.encoding = direction.size() == 3 ? DirectionEncoding::xyz : DirectionEncoding::harmonics2;
   mlp.blend_channel = 3;
@@ -65,7 +65,7 @@ ColorMlp amplifier(Random& random, const Features& weights, const std::vector<do
     first.weights.insert(first.weights.end(), direction.begin(), direction.end());
     first.biases.push_back(bias);
   }
-  double sum = std::inner_product(weights.begin(), weights.end(), centre.begin(), double(bias));
+  double sum = std::inner_product(weights.begin(), weights.end(), center.begin(), double(bias));
   if (mlp.encoding == DirectionEncoding::harmonics2) sum += harmonics::y00 * direction[0];
   const std::vector<double> last = {6, -6, 3};
   mlp.layers = {first, layer_of_sums(random, 4, {4, 4, 4, 4}), layer_of_sums(random, 4, last)};
@@ -96,8 +96,8 @@ TriangleSoup soup_of(std::uint64_t seed, const ColorMlp& mlp, const Texel& texel
 }
 
 /// In [0, 1], and near enough to the centre that the sigmoid's slope is almost the same.
-Features around(Random& random, const Features& centre, double spread) {
-  Features features = centre;
+Features around(Random& random, const Features& center, double spread) {
+  Features features = center;
   for (double& feature : features)
     feature = std::clamp(feature + random.uniform(-spread, spread), 0.0, 1.0);
   return features;
@@ -115,13 +115,13 @@ std::vector<double> visible_direction(Random& random) {
 EdgeSoup almost_unblended(std::uint64_t seed, double fraction) {
   Random random(seed);
   const double most = fraction * half_step;
-  const Features centre = {0.99, 0.01, 0.5, 0, 0.5, 0.5, 0.5};
+  const Features center = {0.99, 0.01, 0.5, 0, 0.5, 0.5, 0.5};
   const Features weights = {0.3, 0.3, 0.3, 0, 0.3, 0.3, 0.3};
-  ColorMlp mlp = amplifier(random, weights, visible_direction(random), centre);
+  ColorMlp mlp = amplifier(random, weights, visible_direction(random), center);
   mlp.layers.back().biases[0] -= 7;
   mlp.layers.back().biases[1] += 7;
   TriangleSoup soup = soup_of(seed, mlp, [&](std::size_t, int x, int y) {
-    Features features = around(random, centre, 0.03);
+    Features features = around(random, center, 0.03);
     features[3] = x == 1 && y == 1 ? most : random.uniform(0, most);
     return features;
   });
@@ -144,10 +144,10 @@ EdgeSoup hardly_directed(std::uint64_t seed, double fraction, DirectionEncoding 
   const double scale = fraction * half_step / (amplification * reach * blend);
   for (double& weight : direction) weight *= scale;
   if (encoding == DirectionEncoding::harmonics2) direction[0] = 0.3;
-  const Features centre = {0.5, 0.5, 0.5, blend, 0.5, 0.5, 0.5};
-  const ColorMlp mlp = amplifier(random, {0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3}, direction, centre);
+  const Features center = {0.5, 0.5, 0.5, blend, 0.5, 0.5, 0.5};
+  const ColorMlp mlp = amplifier(random, {0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3}, direction, center);
   TriangleSoup soup = soup_of(seed, mlp, [&](std::size_t, int x, int y) {
-    Features features = around(random, centre, 0.02);
+    Features features = around(random, center, 0.02);
     features[3] = blend * (x == 1 && y == 1 ? 1.0 : random.uniform(0.98, 1.0));
     return features;
   });
@@ -168,18 +168,18 @@ EdgeSoup hardly_directed_and_blended(std::uint64_t seed, double fraction) {
 /// of its possible effect, and the base colour contributes a part in 100: 24.2 of 25.
 EdgeSoup almost_affine(std::uint64_t seed, double fraction) {
   Random random(seed);
-  const Features centre = {0.01, 0.99, 0.5, 0.99, 0.5, 0.5, 0.5};
+  const Features center = {0.01, 0.99, 0.5, 0.99, 0.5, 0.5, 0.5};
   Features signs, weights;
   for (double& sign : signs) sign = random.chance(0.5) ? 1 : -1;
   signs[3] = 1;  // the blend has the network's sign
   for (std::size_t c = 0; c < weights.size(); ++c) weights[c] = 4.0 / 7 * signs[c];
-  const ColorMlp mlp = amplifier(random, weights, visible_direction(random), centre);
+  const ColorMlp mlp = amplifier(random, weights, visible_direction(random), center);
   const double residual = fraction * half_step / (4 * amplification + 1);
   const int n = lattice::resolution(3);
   std::array<Features, 3> corners;
   TriangleSoup soup = soup_of(seed, mlp, [&](std::size_t, int x, int y) {
     if (x == 0 && y == 0)
-      for (Features& corner : corners) corner = around(random, centre, 0.003);
+      for (Features& corner : corners) corner = around(random, center, 0.003);
     const double b0 = double(x) / n, b1 = double(y) / n, b2 = 1 - b0 - b1;
     const bool is_corner = b0 == 1 || b1 == 1 || b2 == 1;
     const double pull = is_corner ? 0.0 : x == 1 && y == 1 ? 1.0 : random.uniform(-1, 1);

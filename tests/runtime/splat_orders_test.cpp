@@ -67,12 +67,12 @@ TEST_P(SplatOrders, ExactAgreesWithTheOracle) {
   };
   // The requirement; rounding to 8 bits alone gives 58.9 dB.
   EXPECT_GE(psnr(Order::exact), 55);
-  EXPECT_LE(psnr(Order::centre), 45) << "the order must matter here";
+  EXPECT_LE(psnr(Order::center), 45) << "the order must matter here";
 }
 
 /// With K independent frames, the squared error of their mean is the variance of one frame over K,
 /// if the mean is right: both sums over the pixels agree up to their own noise.
-TEST_P(SplatOrders, StochasticHasTheMeanOfTheCentresOrder) {
+TEST_P(SplatOrders, StochasticHasTheMeanOfTheCentersOrder) {
   const Scene scene = this->scene();
   const Camera camera = camera_of_ball(2.5, 48, 36);
   OracleOptions options{.splat_stop = false};
@@ -126,7 +126,7 @@ TEST_P(SplatOrders, SupersampledAgreeWithTheOracle) {
   const OracleImage& expected = made_once(
       std::string(kind.name), [&] { return render_oracle(scene, {camera}, {.supersampling = 4}); });
   for (const SplatBlending blending : {SplatBlending::raster, SplatBlending::tiles}) {
-    Renderer renderer = renderer_of(context, scene, Order::centre, blending, 4);
+    Renderer renderer = renderer_of(context, scene, Order::center, blending, 4);
     renderer.draw({camera});
     EXPECT_GE(psnr_of(renderer.read_color(), expected), 50);
   }
@@ -142,7 +142,7 @@ TEST_P(SplatOrders, OfAddedLayersIsThatOfTheScene) {
     return renderer.read_color();
   };
   const DeviceLimits limits = device_limits(context.capabilities());
-  for (const Order order : {Order::centre, Order::stochastic}) {
+  for (const Order order : {Order::center, Order::stochastic}) {
     Renderer expected = renderer_of(context, both, order);
     Renderer renderer = renderer_of(context, first, order);
     // Prepared for another order, as a page does with a file of other quality.

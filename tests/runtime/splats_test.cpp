@@ -107,7 +107,7 @@ class SplatsOfKind : public testing::TestWithParam<InContext<SplatKind>> {
 };
 
 /// In a layer of half the size, so that depths in the world are half of those in the layer.
-TEST_P(SplatsOfKind, WithCentresNearTheEyeAreSkippedAsByTheOracle) {
+TEST_P(SplatsOfKind, WithCentersNearTheEyeAreSkippedAsByTheOracle) {
   Splats splats = random_splats(kind, 2000, 0.1, 8);
   splats.profile.min_center_depth = 0.3f;
   const Camera camera = camera_of_ball(0.05, 120, 90);
@@ -472,7 +472,7 @@ TEST_P(SplatsIn, EnormousSplatsFillTheImage) {
   }
 }
 
-TEST_P(SplatsIn, TheDepthOfACentreIsInUnitsOfTheLayer) {
+TEST_P(SplatsIn, TheDepthOfACenterIsInUnitsOfTheLayer) {
   for (const char* profile : {"3dgs", "redisplats"})
     for (const double depth : {0.19, 0.21}) {
       Scene scene = one_gaussian(0.5f, glm::vec3(1));

@@ -16,7 +16,7 @@ glm::dvec2 pixel_of(const Camera& camera, glm::dvec3 world) {
   return {(clip.x / clip.w + 1) * 0.5 * camera.width, (1 - clip.y / clip.w) * 0.5 * camera.height};
 }
 
-TEST(Camera, ProjectsByThePinholeEquationWithAnOffCentrePrincipalPoint) {
+TEST(Camera, ProjectsByThePinholeEquationWithAnOffCenterPrincipalPoint) {
   Camera camera;
   camera.width = 640;
   camera.height = 360;
@@ -47,7 +47,7 @@ TEST(Camera, ResizedAndResampledKeepTheirOffsets) {
   EXPECT_DOUBLE_EQ(stretched.cy, 40);
 }
 
-TEST(Camera, LookAtPutsTheTargetAtTheCentre) {
+TEST(Camera, LookAtPutsTheTargetAtTheCenter) {
   const Camera camera = look_at({3, -2, 1}, {0.5, 0.25, 0}, {0, 0, 1}, 0.7, 800, 600);
   const glm::dvec2 pixel = pixel_of(camera, {0.5, 0.25, 0});
   EXPECT_NEAR(pixel.x, 400, 1e-9);

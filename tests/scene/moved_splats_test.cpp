@@ -51,7 +51,7 @@ bool same_splat(const Splats& a, std::size_t i, const Splats& b, std::size_t j) 
          same(densities.networks, i, others.networks, j, NeuralDensities::parameters);
 }
 
-TEST_P(SplatsOfEachKernel, HaveMovedCentres) {
+TEST_P(SplatsOfEachKernel, HaveMovedCenters) {
   const Splats before = random_splats(GetParam(), 50, 0.1, 1);
   Splats after = before;
   glm::dmat4 place = glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 2, 3));

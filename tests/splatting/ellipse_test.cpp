@@ -62,7 +62,7 @@ int expect_tiles(const splatting::Ellipse& e, int number) {
   return listed;
 }
 
-TEST(Ellipse, IsInEachTileWithAPixelCentreInside) {
+TEST(Ellipse, IsInEachTileWithAPixelCenterInside) {
   Random random(1);
   for (int number = 0; number < 3000; ++number) {
     const double larger = std::exp(random.uniform(0, 7));  // from 1 to 1,100 px

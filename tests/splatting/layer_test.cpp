@@ -79,7 +79,7 @@ TEST_P(LayersOfKind, OmitSplatsWithANaN) {
   }
 }
 
-TEST_P(LayersOfKind, ProjectTheDepthOfEachCentre) {
+TEST_P(LayersOfKind, ProjectTheDepthOfEachCenter) {
   const Splats splats = random_splats(GetParam(), 200, 0.05, 2);
   const Camera camera = camera_of_ball(0.5, 80, 60);
   const std::unique_ptr<splatting::Layer> all = layer(splats, indices(splats));

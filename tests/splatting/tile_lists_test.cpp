@@ -39,7 +39,7 @@ TEST(TileLists, CoverTheImage) {
 }
 
 /// Tile 1 has its pixel centres from 8.5 to 15.5.
-TEST(TileLists, HaveTheTilesWithPixelCentresInTheRange) {
+TEST(TileLists, HaveTheTilesWithPixelCentersInTheRange) {
   const TileLists lists = lists_of_six();
   EXPECT_EQ(lists.columns_between(8.5f, 15.5f), Range(1, 2));
   EXPECT_EQ(lists.columns_between(7.4f, 8.5f), Range(0, 2));

@@ -39,7 +39,7 @@ std::unique_ptr<splatting::Layer> layer_of(const Splats& splats) {
 std::vector<float> drawn(const Scene& scene, const Camera& camera,
                          const splatting::Parallel& parallel = in_order,
                          std::span<const float> depths = {},
-                         splatting::BlendOrder order = splatting::BlendOrder::centres) {
+                         splatting::BlendOrder order = splatting::BlendOrder::centers) {
   std::vector<std::unique_ptr<splatting::Layer>> layers;
   std::vector<splatting::LayerInView> views;
   for (const Layer& layer : scene.layers) {
@@ -99,7 +99,7 @@ TEST_P(TilesOfKind, AgreeWithTheOracle) {
 }
 
 /// Near the middle of the ball, where the eye's plane cuts a tenth of the splats.
-TEST_P(TilesOfKind, WithCentresAnywhereAgreeWithTheOracle) {
+TEST_P(TilesOfKind, WithCentersAnywhereAgreeWithTheOracle) {
   Scene scene = over_black(scene_of(random_splats(GetParam(), 20000, 0.07, 1)));
   std::get<Splats>(scene.layers[0].primitives).profile.min_center_depth = 0;
   const Camera camera = camera_of_ball(0.1, 123, 93);

@@ -53,7 +53,7 @@ int expect_tiles(const splatting::WindowOutline& outline, int number) {
   return listed;
 }
 
-TEST(WindowEntries, AreInEachTileWithAPixelCentreInside) {
+TEST(WindowEntries, AreInEachTileWithAPixelCenterInside) {
   Random random(1);
   for (int number = 0; number < 3000; ++number) {
     const double size = std::exp(random.uniform(0, 9));  // from 1 to 8,000 px

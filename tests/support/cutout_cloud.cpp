@@ -65,11 +65,11 @@ Scene cutout_cloud(const CutoutCloudOptions& options) {
                  LatticeTexture::channels);
   for (int t = 0; t < options.triangles; ++t) {
     const double radius = std::cbrt(random.uniform(0.2, 1.0));
-    const glm::dvec3 centre = radius * random.direction();
+    const glm::dvec3 center = radius * random.direction();
     for (int k = 0; k < 3; ++k) {
       glm::dvec3 offset;
       for (int c = 0; c < 3; ++c) offset[c] = recipe(options.coverage).deviation * random.normal();
-      soup.positions.emplace_back(centre + offset);
+      soup.positions.emplace_back(center + offset);
     }
     soup.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
     texture.patches.push_back(

@@ -37,9 +37,9 @@ inline std::ostream& operator<<(std::ostream& stream, const Refusal& refusal) {
 
 inline Refusal refusal_of(const Error& error) {
   const std::string what = error.what();
-  Refusal refusal{error.place().file, "", what.substr(to_string(error.place()).size())};
-  if (error.place().line) refusal.position += ":" + std::to_string(*error.place().line);
-  if (error.place().byte) refusal.position += "@" + std::to_string(*error.place().byte);
+  Refusal refusal{error.position().file, "", what.substr(to_string(error.position()).size())};
+  if (error.position().line) refusal.position += ":" + std::to_string(*error.position().line);
+  if (error.position().byte) refusal.position += "@" + std::to_string(*error.position().byte);
   return refusal;
 }
 

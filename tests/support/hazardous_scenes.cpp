@@ -33,10 +33,10 @@ void mix_in(Random& random, const Camera& camera, std::span<glm::vec3> positions
         break;
       case Hazard::below_a_pixel: {
         // About half a pixel large: some faces cover a pixel centre, most do not.
-        const glm::dvec3 centre(corners[0]);
-        const double pixel = std::abs(glm::dot(centre - eye, forward)) / camera.fx;
+        const glm::dvec3 center(corners[0]);
+        const double pixel = std::abs(glm::dot(center - eye, forward)) / camera.fx;
         for (glm::vec3& p : corners)
-          p = glm::vec3(centre +
+          p = glm::vec3(center +
                         0.5 * pixel * (random.normal() * axes[0] + random.normal() * axes[1]));
         break;
       }

@@ -10,8 +10,8 @@ namespace tureen::test {
 
 namespace {
 
-glm::vec3 random_point(Random& random, glm::dvec3 centre, double size) {
-  return glm::vec3(centre + size * glm::dvec3(random.normal(), random.normal(), random.normal()));
+glm::vec3 random_point(Random& random, glm::dvec3 center, double size) {
+  return glm::vec3(center + size * glm::dvec3(random.normal(), random.normal(), random.normal()));
 }
 
 glm::vec3 random_rgb(Random& random) {
@@ -19,11 +19,11 @@ glm::vec3 random_rgb(Random& random) {
 }
 
 void add_geometry(Random& random, const SoupOptions& options, TriangleSoup& soup) {
-  const auto centre = [&] { return std::cbrt(random.uniform()) * random.direction(); };
+  const auto center = [&] { return std::cbrt(random.uniform()) * random.direction(); };
   const int pool = std::max(3, options.faces / 2 + 2);
   if (options.shared_vertices)
     for (int v = 0; v < pool; ++v)
-      soup.positions.push_back(random_point(random, centre(), options.size));
+      soup.positions.push_back(random_point(random, center(), options.size));
   for (int t = 0; t < options.faces; ++t) {
     glm::uvec3 triangle;
     if (options.shared_vertices) {
@@ -31,7 +31,7 @@ void add_geometry(Random& random, const SoupOptions& options, TriangleSoup& soup
       for (int k = 0; k < 3; ++k) triangle[k] = std::uint32_t((t / 2 + k) % pool);
       if (t % 2) std::swap(triangle[0], triangle[2]), triangle[1] = (triangle[1] + 2) % pool;
     } else {
-      const glm::dvec3 c = centre();
+      const glm::dvec3 c = center();
       for (int k = 0; k < 3; ++k) {
         triangle[k] = std::uint32_t(soup.positions.size());
         soup.positions.push_back(random_point(random, c, options.size));

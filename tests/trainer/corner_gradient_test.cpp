@@ -76,9 +76,9 @@ TEST(CornerGradient, IsTheSumOfTheEdges) {
   Random random(seed);
   std::vector<glm::vec3> positions;
   for (int face = 0; face < 60; ++face) {
-    const glm::vec3 centre(random.normal(), random.normal(), -4.0 + 0.3 * random.normal());
+    const glm::vec3 center(random.normal(), random.normal(), -4.0 + 0.3 * random.normal());
     for (int k = 0; k < 3; ++k)
-      positions.push_back(centre +
+      positions.push_back(center +
                           0.5f * glm::vec3(random.normal(), random.normal(), random.normal()));
   }
   const test::Faces faces(positions);

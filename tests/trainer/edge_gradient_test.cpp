@@ -121,7 +121,7 @@ struct Motion {
   std::function<Corners(const Corners&)> velocity;
 };
 
-glm::dvec3 centre(const Corners& c) { return (c[0] + c[1] + c[2]) / 3.0; }
+glm::dvec3 center(const Corners& c) { return (c[0] + c[1] + c[2]) / 3.0; }
 
 std::vector<Motion> motions() {
   const auto by_corner = [](auto&& f) {
@@ -131,9 +131,9 @@ std::vector<Motion> motions() {
       {"ToTheRight", by_corner([](glm::dvec3, const Corners&) { return glm::dvec3(1, 0, 0); })},
       {"Up", by_corner([](glm::dvec3, const Corners&) { return glm::dvec3(0, 1, 0); })},
       {"Closer", by_corner([](glm::dvec3, const Corners&) { return glm::dvec3(0, 0, 1); })},
-      {"Growing", by_corner([](glm::dvec3 p, const Corners& c) { return p - centre(c); })},
+      {"Growing", by_corner([](glm::dvec3 p, const Corners& c) { return p - center(c); })},
       {"Turning", by_corner([](glm::dvec3 p, const Corners& c) {
-         return glm::cross(glm::dvec3(0.3, 0.2, 1), p - centre(c));
+         return glm::cross(glm::dvec3(0.3, 0.2, 1), p - center(c));
        })},
       {"OneCorner",
        [](const Corners&) {

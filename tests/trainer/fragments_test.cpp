@@ -130,7 +130,7 @@ TEST(Fragments, LieBetweenTheNearAndTheFarPlane) {
   }
 }
 
-TEST(Fragments, CentresOnEdgesBelong) {
+TEST(Fragments, CentersOnEdgesBelong) {
   // An edge runs exactly through pixel centres: edge values are exactly 0 there.
   kernels::View view = test::plain_view(64, 64);
   view.fx = view.fy = 32;

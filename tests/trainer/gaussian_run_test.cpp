@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_initialise.hpp"
 #include "trainer/splats/splat_training.hpp"
@@ -23,12 +23,12 @@ namespace row = splatting::gaussian_row;
 constexpr int size = 24;
 
 /// A bright disc on black, from around a centre far from the origin: 5 training views, a test view.
-Dataset disc_dataset(glm::dvec3 centre = {1000, -2000, 500}) {
+Dataset disc_dataset(glm::dvec3 center = {1000, -2000, 500}) {
   Dataset dataset;
   for (int k = 0; k < 6; ++k) {
     const double turn = k * 1.05;
     Photograph view;
-    view.camera = look_at(centre + glm::dvec3(4 * std::cos(turn), 4 * std::sin(turn), 1), centre,
+    view.camera = look_at(center + glm::dvec3(4 * std::cos(turn), 4 * std::sin(turn), 1), center,
                           {0, 0, 1}, 0.6, size, size);
     view.camera.name = "r_" + std::to_string(k);
     view.image = Image8(size, size, glm::u8vec4(0, 0, 0, 255));
@@ -79,7 +79,7 @@ TEST(FirstGaussians, AreAtPointsHoweverFew) {
     for (int axis = 0; axis < 3; ++axis)
       // Relative to the region's centre, in single precision.
       EXPECT_NEAR(splats.drawn.row(row::x + std::size_t(axis))[0],
-                  dataset.points[0].position[axis] - region.centre[axis], 1e-5);
+                  dataset.points[0].position[axis] - region.center[axis], 1e-5);
     // The colour max(0, 1/2 + Y0 c), with Y0 in single precision.
     const double y0 = 0.28209479;
     EXPECT_NEAR(0.5 + y0 * splats.drawn.row(row::harmonics)[0], 1.0, 1e-6);
@@ -122,8 +122,8 @@ TEST(FirstGaussians, LieOnTheTrianglesOfAScene) {
   const Region region = region_of_interest(dataset);
   std::size_t large = 0;
   for (std::size_t i = 0; i < splats.count(); ++i) {
-    EXPECT_NEAR(splats.drawn.row(row::z)[i] + region.centre.z, 0.5, 1e-6);
-    const bool left = splats.drawn.row(row::x)[i] + region.centre.x < 0;
+    EXPECT_NEAR(splats.drawn.row(row::z)[i] + region.center.z, 0.5, 1e-6);
+    const bool left = splats.drawn.row(row::x)[i] + region.center.x < 0;
     const bool green = splats.drawn.row(row::harmonics + 1)[i] > 0;
     EXPECT_EQ(left, green);
     large += left;
@@ -142,7 +142,7 @@ TEST(FirstGaussians, OfASceneAreTakenAsTheyAre) {
   const GaussianParameters splats = first(dataset, config, &scene);
   ASSERT_EQ(splats.count(), 12u);
   EXPECT_EQ(splats.degree, 2);
-  const glm::dvec3 shift = glm::dvec3(1000, -2000, 500) - region_of_interest(dataset).centre;
+  const glm::dvec3 shift = glm::dvec3(1000, -2000, 500) - region_of_interest(dataset).center;
   for (std::size_t i = 0; i < 12; ++i) {
     // Rounding of single precision.
     EXPECT_NEAR(splats.drawn.row(row::x)[i], made.drawn.row(row::x)[i] + shift.x, 1e-5);

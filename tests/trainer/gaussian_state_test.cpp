@@ -10,7 +10,7 @@
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/trainer/splat_runs.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/splat_state.hpp"
 
 namespace tureen::trainer {
@@ -19,7 +19,7 @@ namespace gaussian_state_test {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
-constexpr Region region{.centre = {0, 0, 0}, .half_side = 1};
+constexpr Region region{.center = {0, 0, 0}, .half_side = 1};
 
 GaussianConfig short_run() {
   return {{.steps = 60,

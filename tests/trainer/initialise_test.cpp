@@ -29,21 +29,21 @@ Photograph view_from(glm::dvec3 eye, glm::dvec3 target, int width = 100, int hei
 }
 
 /// Cameras at a distance from a centre, looking at it to within a tenth of a degree.
-Dataset ring(std::uint64_t seed, glm::dvec3 centre, double distance, int count = 40) {
+Dataset ring(std::uint64_t seed, glm::dvec3 center, double distance, int count = 40) {
   test::Random random(seed);
   Dataset dataset;
   for (int i = 0; i < count; ++i)
-    dataset.train.push_back(view_from(centre + distance * random.direction(),
-                                      centre + 1.7e-3 * distance * random.direction()));
+    dataset.train.push_back(view_from(center + distance * random.direction(),
+                                      center + 1.7e-3 * distance * random.direction()));
   return dataset;
 }
 
-std::vector<DatasetPoint> ball(std::uint64_t seed, std::size_t count, glm::dvec3 centre,
+std::vector<DatasetPoint> ball(std::uint64_t seed, std::size_t count, glm::dvec3 center,
                                double radius) {
   Random random(seed);
   std::vector<DatasetPoint> points;
   for (std::size_t i = 0; i < count; ++i)
-    points.push_back({.position = centre + radius * random.in_ball(), .color = {}});
+    points.push_back({.position = center + radius * random.in_ball(), .color = {}});
   return points;
 }
 
@@ -145,7 +145,7 @@ TEST(Neighbours, FarthestPointsOfTwinsAreAllDifferent) {
 
 TEST(Region, IsWhatTheCamerasLookAt) {
   const Region region = region_of_interest(ring(75, {5, -3, 2}, 4.0));
-  EXPECT_LT(glm::distance(region.centre, {5, -3, 2}), 0.01);  // axes miss the centre by 0.0017 x 4
+  EXPECT_LT(glm::distance(region.center, {5, -3, 2}), 0.01);  // axes miss the centre by 0.0017 x 4
   // The vertical field of view is 40 degrees, the horizontal one is larger.
   EXPECT_NEAR(region.half_side, 4 * std::tan(glm::radians(20.0)), 0.02);
 }
@@ -157,7 +157,7 @@ TEST(Region, OfLegoIsWhereItStands) {
   options.scale = 1.0 / 16;  // only the cameras matter
   options.part = DatasetPart::train;
   const Region region = region_of_interest(read_dataset(lego, options));
-  EXPECT_LT(glm::length(region.centre), 1e-3);
+  EXPECT_LT(glm::length(region.center), 1e-3);
   // Cameras of 39.6 degrees at a distance of 4.03.
   EXPECT_NEAR(region.half_side, 4.03 * std::tan(glm::radians(19.8)), 0.01);
 }
@@ -170,7 +170,7 @@ TEST(Region, OfCamerasThatLookOutwardsHoldsThem) {
     dataset.train.push_back(view_from(0.5 * direction, 3.0 * direction));
   }
   const Region region = region_of_interest(dataset);
-  EXPECT_LT(glm::length(region.centre), 0.3);
+  EXPECT_LT(glm::length(region.center), 0.3);
   EXPECT_NEAR(region.half_side, 1.0, 0.6);
   dataset.points = ball(77, 200, {1, 1, 1}, 10);
   // Points are more precise: half of a ball lies within 10 / cbrt(2) = 7.9 of its centre.
@@ -181,8 +181,8 @@ TEST(Region, OfParallelCamerasLiesBeforeThem) {
   Dataset dataset;
   for (int i = 0; i < 10; ++i) dataset.train.push_back(view_from({0.1 * i, 0, 0}, {0.1 * i, 5, 0}));
   const Region region = region_of_interest(dataset);
-  EXPECT_NEAR(region.centre.x, 0.45, 1e-9);
-  EXPECT_NEAR(region.centre.y, 8 * 0.45, 1e-9);
+  EXPECT_NEAR(region.center.x, 0.45, 1e-9);
+  EXPECT_NEAR(region.center.y, 8 * 0.45, 1e-9);
   EXPECT_GT(region.half_side, 0.5);
 }
 
@@ -194,25 +194,25 @@ TEST(Region, OfCamerasAtOnePositionHasHalfSide1) {
   const Camera& camera = dataset.train[0].camera;
   Region region = region_of_interest(dataset);
   EXPECT_DOUBLE_EQ(region.half_side, 1);
-  const double depth = 1 - region.centre.x;
+  const double depth = 1 - region.center.x;
   EXPECT_NEAR(depth * std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy), 1,
               1e-12);
-  EXPECT_NEAR(glm::length(glm::dvec2(region.centre.y, region.centre.z)), 0, 1e-12);
+  EXPECT_NEAR(glm::length(glm::dvec2(region.center.y, region.center.z)), 0, 1e-12);
   // Twice the same camera, and the second photograph of a burst.
   dataset.train.push_back(dataset.train[0]);
-  EXPECT_NEAR(glm::distance(region_of_interest(dataset).centre, region.centre), 0, 1e-12);
+  EXPECT_NEAR(glm::distance(region_of_interest(dataset).center, region.center), 0, 1e-12);
   // A panorama: around the cameras.
   dataset.train = {view_from({1, 0, 0}, {0, 0, 0}), view_from({1, 0, 0}, {0, 0, 1})};
   region = region_of_interest(dataset);
   // The positions of the cameras are computed from their matrices, with rounding.
-  EXPECT_NEAR(glm::distance(region.centre, glm::dvec3(1, 0, 0)), 0, 1e-12);
+  EXPECT_NEAR(glm::distance(region.center, glm::dvec3(1, 0, 0)), 0, 1e-12);
   EXPECT_DOUBLE_EQ(region.half_side, 1);
   // Back to back, at one position and at two.
   dataset.train = {view_from({1, 0, 0}, {0, 0, 0}), view_from({1, 0, 0}, {2, 0, 0})};
   EXPECT_DOUBLE_EQ(region_of_interest(dataset).half_side, 1);
   dataset.train = {view_from({-3, 0, 0}, {-4, 0, 0}), view_from({5, 0, 0}, {6, 0, 0})};
   region = region_of_interest(dataset);
-  EXPECT_NEAR(glm::distance(region.centre, glm::dvec3(1, 0, 0)), 0, 1e-12);
+  EXPECT_NEAR(glm::distance(region.center, glm::dvec3(1, 0, 0)), 0, 1e-12);
   EXPECT_NEAR(region.half_side, 8, 1e-12);
   // Points are more precise.
   dataset.train = {view_from({1, 0, 0}, {0, 0, 0})};
@@ -222,11 +222,11 @@ TEST(Region, OfCamerasAtOnePositionHasHalfSide1) {
 
 // --- Triangles
 
-TEST(EquilateralTriangles, HaveTheirCentresAndRadii) {
+TEST(EquilateralTriangles, HaveTheirCentersAndRadii) {
   Random random(78);
   Seeds seeds;
   for (int i = 0; i < 100; ++i) {
-    seeds.centres.push_back(glm::dvec3(1000, 2000, 3000) + random.in_ball());
+    seeds.centers.push_back(glm::dvec3(1000, 2000, 3000) + random.in_ball());
     seeds.radii.push_back(random.uniform(0.01, 1));
   }
   const std::vector<glm::vec3> corners = equilateral_triangles(seeds, {1000, 2000, 3000}, random);
@@ -238,8 +238,8 @@ TEST(EquilateralTriangles, HaveTheirCentresAndRadii) {
     EXPECT_NEAR(glm::distance(a, b), side, rounding);
     EXPECT_NEAR(glm::distance(b, c), side, rounding);
     EXPECT_NEAR(glm::distance(c, a), side, rounding);
-    const glm::dvec3 centre = glm::dvec3(1000, 2000, 3000) + (a + b + c) / 3.0;
-    EXPECT_LT(glm::distance(centre, seeds.centres[i]), rounding);
+    const glm::dvec3 center = glm::dvec3(1000, 2000, 3000) + (a + b + c) / 3.0;
+    EXPECT_LT(glm::distance(center, seeds.centers[i]), rounding);
   }
 }
 
@@ -249,14 +249,14 @@ TEST(SeedsAtPoints, AreTwoThirdsSpreadAndOneThirdUniform) {
   for (const DatasetPoint& point : ball(80, 300, {4, 0, 0}, 1)) points.push_back(point);
   Random random(81);
   const Seeds seeds = seeds_at_points(points, {.count = 300, .radius = 0.25}, random);
-  ASSERT_THAT(seeds.centres, SizeIs(300));
-  const auto in_thin = [](std::span<const glm::dvec3> centres) {
-    return double(std::ranges::count_if(centres, [](glm::dvec3 p) { return p.x > 2; })) /
-           double(centres.size());
+  ASSERT_THAT(seeds.centers, SizeIs(300));
+  const auto in_thin = [](std::span<const glm::dvec3> centers) {
+    return double(std::ranges::count_if(centers, [](glm::dvec3 p) { return p.x > 2; })) /
+           double(centers.size());
   };
-  EXPECT_GT(in_thin(std::span(seeds.centres).first(200)), 0.3);
-  EXPECT_LT(in_thin(std::span(seeds.centres).last(100)), 0.2);  // 1 in 11 of all points
-  const std::vector<double> distances = nearest_distances(seeds.centres);
+  EXPECT_GT(in_thin(std::span(seeds.centers).first(200)), 0.3);
+  EXPECT_LT(in_thin(std::span(seeds.centers).last(100)), 0.2);  // 1 in 11 of all points
+  const std::vector<double> distances = nearest_distances(seeds.centers);
   double mean = 0;
   for (const double distance : distances) mean += distance / 300;
   const double rounding = 1e-13;  // of the mean, which is summed in another order here
@@ -265,7 +265,7 @@ TEST(SeedsAtPoints, AreTwoThirdsSpreadAndOneThirdUniform) {
 
   const Seeds local =
       seeds_at_points(points, {.count = 300, .radius = 0.25, .local = true}, random);
-  const std::vector<double> local_distances = nearest_distances(local.centres);
+  const std::vector<double> local_distances = nearest_distances(local.centers);
   double local_mean = 0;
   for (const double distance : local_distances) local_mean += distance / 300;
   for (std::size_t i = 0; i < 300; ++i)
@@ -276,17 +276,17 @@ TEST(SeedsAtPoints, OfTooFewPointsLieBesideThem) {
   const std::vector<DatasetPoint> points = ball(82, 50, {7, 0, 0}, 1);
   Random random(83);
   const Seeds seeds = seeds_at_points(points, {.count = 400, .radius = 0.25}, random);
-  ASSERT_THAT(seeds.centres, SizeIs(400));
+  ASSERT_THAT(seeds.centers, SizeIs(400));
   std::vector<glm::dvec3> positions;
   for (std::size_t i = 0; i < 50; ++i) {
     positions.push_back(points[i].position);
-    EXPECT_EQ(seeds.centres[i], points[i].position);
+    EXPECT_EQ(seeds.centers[i], points[i].position);
   }
   const std::vector<double> reach = nearest_distances(positions);
-  for (const glm::dvec3 centre : seeds.centres) {
+  for (const glm::dvec3 center : seeds.centers) {
     bool beside = false;
     for (std::size_t i = 0; i < 50; ++i)
-      beside |= glm::distance(centre, positions[i]) <= reach[i] * (1 + 1e-12);
+      beside |= glm::distance(center, positions[i]) <= reach[i] * (1 + 1e-12);
     EXPECT_TRUE(beside);
   }
 }
@@ -297,8 +297,8 @@ TEST(SeedsAtPoints, SkipMistakesButNotWhatIsFar) {
   points.push_back({.position = {0, 1e6, 0}, .color = {}});
   Random random(86);
   const Seeds seeds = seeds_at_points(points, {.count = 100, .radius = 0.25}, random);
-  EXPECT_TRUE(std::ranges::none_of(seeds.centres, [](glm::dvec3 p) { return p.y > 100; }));
-  EXPECT_TRUE(std::ranges::any_of(seeds.centres, [](glm::dvec3 p) { return p.x > 45; }));
+  EXPECT_TRUE(std::ranges::none_of(seeds.centers, [](glm::dvec3 p) { return p.y > 100; }));
+  EXPECT_TRUE(std::ranges::any_of(seeds.centers, [](glm::dvec3 p) { return p.x > 45; }));
 }
 
 TEST(SeedsAtPoints, ThatCoincideAreTakenOnce) {
@@ -310,8 +310,8 @@ TEST(SeedsAtPoints, ThatCoincideAreTakenOnce) {
       Random random(98);
       const Seeds seeds =
           seeds_at_points(points, {.count = count, .radius = 0.25, .local = local}, random);
-      ASSERT_THAT(seeds.centres, SizeIs(count));
-      const std::vector<double> distances = nearest_distances(seeds.centres);
+      ASSERT_THAT(seeds.centers, SizeIs(count));
+      const std::vector<double> distances = nearest_distances(seeds.centers);
       EXPECT_GT(*std::ranges::min_element(distances), 0) << count;
       EXPECT_GT(*std::ranges::min_element(seeds.radii), 0) << count;
     }
@@ -323,10 +323,10 @@ TEST(SeedsAtPoints, OfOnePointLieAboutIt) {
     Random random(99);
     const Seeds seeds =
         seeds_at_points(points, {.count = count, .radius = 0.25, .lone_spacing = 2}, random);
-    ASSERT_THAT(seeds.centres, SizeIs(count));
-    EXPECT_EQ(seeds.centres[0], glm::dvec3(3, 2, 1));
-    for (const glm::dvec3 centre : seeds.centres)
-      EXPECT_LE(glm::distance(centre, seeds.centres[0]), 2);
+    ASSERT_THAT(seeds.centers, SizeIs(count));
+    EXPECT_EQ(seeds.centers[0], glm::dvec3(3, 2, 1));
+    for (const glm::dvec3 center : seeds.centers)
+      EXPECT_LE(glm::distance(center, seeds.centers[0]), 2);
     EXPECT_GT(*std::ranges::min_element(seeds.radii), 0);
     if (count == 1) {
       EXPECT_EQ(seeds.radii[0], 0.5);
@@ -340,8 +340,8 @@ TEST(RandomSeeds, FillTheCube) {
   Random random(88);
   const Seeds seeds = random_seeds(region, dataset.train, {.count = 4000, .radius = 0.25}, random);
   glm::dvec3 mean(0.0), squares(0.0);
-  for (const glm::dvec3 centre : seeds.centres) {
-    const glm::dvec3 p = (centre - region.centre) / 1.5;
+  for (const glm::dvec3 center : seeds.centers) {
+    const glm::dvec3 p = (center - region.center) / 1.5;
     for (int axis = 0; axis < 3; ++axis) ASSERT_LE(std::abs(p[axis]), 1);
     mean += p / 4000.0;
     squares += p * p / 4000.0;
@@ -361,10 +361,10 @@ TEST(RandomSeeds, LieAroundTheCubeWhereAsked) {
   Random random(90);
   const Seeds seeds = random_seeds(
       region, dataset.train, {.count = 3000, .radius = 0.25, .far = 0.4, .far_extent = 8}, random);
-  ASSERT_THAT(seeds.centres, SizeIs(3000));
+  ASSERT_THAT(seeds.centers, SizeIs(3000));
   int beyond_two = 0;
   for (std::size_t i = 0; i < 3000; ++i) {
-    const glm::dvec3 size = glm::abs(seeds.centres[i]) / 0.5;
+    const glm::dvec3 size = glm::abs(seeds.centers[i]) / 0.5;
     const double largest = std::max({size.x, size.y, size.z});
     const bool is_near = i < 1800;
     ASSERT_EQ(largest < 1, is_near) << i;
@@ -383,12 +383,12 @@ TEST(RandomSeeds, AreInSomeImage) {
   Random random(91);
   const Seeds seeds =
       random_seeds({{0, 0, 0}, 1.0}, dataset.train, {.count = 500, .radius = 0.25}, random);
-  for (const glm::dvec3 centre : seeds.centres) {
+  for (const glm::dvec3 center : seeds.centers) {
     bool seen = false;
     for (const Photograph& view : dataset.train) {
       const Camera& camera = view.camera;
       const glm::dvec4 clip =
-          clip_from_view(camera, 0.01, 100) * camera.view_from_world * glm::dvec4(centre, 1);
+          clip_from_view(camera, 0.01, 100) * camera.view_from_world * glm::dvec4(center, 1);
       seen |= clip.w > 0 && std::abs(clip.x) <= clip.w * (1 + 1e-9) &&
               std::abs(clip.y) <= clip.w * (1 + 1e-9);
     }
@@ -504,13 +504,13 @@ TEST(NearestPoints, AreThoseOfASearchThroughAll) {
 }
 
 TEST(InitialModel, BeginsOnGaussiansInTheirPlanes) {
-  const glm::dvec3 centre(100, -50, 20);
-  const Dataset dataset = ring(99, centre, 4.0);
+  const glm::dvec3 center(100, -50, 20);
+  const Dataset dataset = ring(99, center, 4.0);
   Config config = preset(Preset::object);
   for (const float opacity : {0.9f, 0.1f})  // if none is opaque, all count
     for (const int triangles : {100, 1000}) {
       config.initial_triangles = triangles;
-      const Scene scene = gaussians_on_two_planes(300, opacity, centre);
+      const Scene scene = gaussians_on_two_planes(300, opacity, center);
       const Model model = initial_model(dataset, config, &scene);
       ASSERT_EQ(model.faces(), std::size_t(triangles));
       int on_the_planes = 0;
@@ -518,7 +518,7 @@ TEST(InitialModel, BeginsOnGaussiansInTheirPlanes) {
         const glm::dvec3 a = model.positions[3 * face], b = model.positions[3 * face + 1],
                          c = model.positions[3 * face + 2];
         const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
-        const glm::dvec3 middle = model.origin + (a + b + c) / 3.0 - centre;
+        const glm::dvec3 middle = model.origin + (a + b + c) / 3.0 - center;
         // Corners near 2 are rounded by 1e-7, and triangles are at least 0.003 wide: a tenth of the
         // mean distance between 300 points on two half discs.
         EXPECT_NEAR(std::abs(middle.y > middle.z ? normal.y : normal.z), 1, 1e-4);

@@ -46,7 +46,7 @@ double loss_ratio_with_any_threads(const typename Trainer::Config& config,
   std::vector<float> images[3];
   const int threads[] = {1, 2, 5};
   for (int run = 0; run < 3; ++run) {
-    Trainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, threads[run]);
+    Trainer trainer(config, views, {.center = {0, 0, 0}, .half_side = 1}, threads[run]);
     double first = 0, last = 0;
     std::size_t quarantined = 0;
     while (!trainer.done()) {
@@ -70,7 +70,7 @@ template <class Trainer>
 auto expect_same_bits_after_checkpoint(const typename Trainer::Config& config,
                                        const std::vector<TrainingView>& views, int steps) {
   using Checkpoint = SplatCheckpoint<typename Trainer::Config, typename Trainer::Parameters>;
-  const Region region{.centre = {0, 0, 0}, .half_side = 1};
+  const Region region{.center = {0, 0, 0}, .half_side = 1};
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
   const auto path = std::filesystem::path(testing::TempDir()) /
                     (std::string("tureen_") + info->name() + ".checkpoint");

@@ -13,7 +13,7 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/gaussian_reference.hpp"
 #include "tests/trainer/gradient_views.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 
 namespace tureen::trainer {
 namespace splats_gradient_test {
@@ -35,9 +35,9 @@ GaussianParameters random_parameters(std::uint64_t seed, std::size_t count, int 
   GaussianParameters result(count, degree);
   for (std::size_t i = 0; i < count; ++i) {
     const auto set = [&](std::size_t r, double value) { result.trained(r)[i] = float(value); };
-    const glm::dvec3 centre = random.uniform(0, 1) * random.direction();
+    const glm::dvec3 center = random.uniform(0, 1) * random.direction();
     for (int axis = 0; axis < 3; ++axis) {
-      set(row::x + std::size_t(axis), centre[axis]);
+      set(row::x + std::size_t(axis), center[axis]);
       set(row::scale_x + std::size_t(axis), mean_log_scale + 0.6 * random.normal());
     }
     for (std::size_t k = 0; k < 4; ++k) set(row::rotation_x + k, 1.7 * random.normal());
@@ -51,8 +51,8 @@ GaussianParameters random_parameters(std::uint64_t seed, std::size_t count, int 
 struct GaussianKernel {
   template <class Real>
   using Reference = test::ReferenceGaussian<Real>;
-  using Method = GaussianTraining;
-  using Raster = TileRaster<Method>;
+  using Training = GaussianTraining;
+  using Raster = TileRaster<Training>;
   using Moments = GaussianMoments;
   static float& red(Moments& moments) { return moments.red; }
   static constexpr bool flat = false;
@@ -62,8 +62,8 @@ struct GaussianKernel {
 struct DiscKernel {
   template <class Real>
   using Reference = test::ReferenceDisc<Real>;
-  using Method = DiscTraining;
-  using Raster = TileRaster<Method>;
+  using Training = DiscTraining;
+  using Raster = TileRaster<Training>;
   using Moments = DiscMoments;
   static float& red(Moments& moments) { return moments.one.color; }
   static constexpr bool flat = true;
@@ -115,7 +115,7 @@ std::vector<float> kernel_gradient(const GaussianParameters& parameters, int deg
   raster.forward(parameters, camera(), degree, background, planes);
   const auto input = raster.backward(planes, gradient);
   splatting::ParameterRows rows(parameters.rows(), parameters.count());
-  Kernel::Method::step_functions().gradients(input, {}, parameters, 0, parameters.count(), rows);
+  Kernel::Training::step_functions().gradients(input, {}, parameters, 0, parameters.count(), rows);
   std::vector<float> result;
   for (std::size_t i = 0; i < parameters.count(); ++i)
     for (std::size_t r = 0; r < parameters.rows(); ++r) result.push_back(rows.row(r)[i]);
@@ -341,7 +341,8 @@ TYPED_TEST(SplatsGradient, ThatIsNotFiniteIsQuarantined) {
                           .min_log_scale = -20,
                           .max_log_scale = 20};
   const decltype(raster.backward({}, {})) damaged{input.view, input.degree, input.pairs, moments};
-  EXPECT_EQ(TypeParam::Method::step_functions().step(damaged, step, 0, 20, parameters, memory), 1u);
+  EXPECT_EQ(TypeParam::Training::step_functions().step(damaged, step, 0, 20, parameters, memory),
+            1u);
   for (std::size_t i = 0; i < 20; ++i) {
     if (input.pairs[i].begin == input.pairs[i].end) continue;
     EXPECT_EQ(parameters.trained(row::opacity)[i] == before.trained(row::opacity)[i], i == 7) << i;
@@ -369,8 +370,8 @@ TYPED_TEST(SplatsGradient, HoldsBesideAnInfiniteColor) {
                           .min_log_scale = -20,
                           .max_log_scale = 20};
   const GaussianParameters before = parameters;
-  EXPECT_EQ(TypeParam::Method::step_functions().step(raster.backward(planes, random_gradient(31)),
-                                                     step, 0, 20, parameters, memory),
+  EXPECT_EQ(TypeParam::Training::step_functions().step(raster.backward(planes, random_gradient(31)),
+                                                       step, 0, 20, parameters, memory),
             0u);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < 20; ++i) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "image/metrics.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 
 namespace tureen::trainer {
 namespace splats_robust_test {
@@ -13,7 +13,7 @@ namespace splats_robust_test {
 namespace row = splatting::gaussian_row;
 
 constexpr int width = 40, height = 33;
-constexpr Region region{.centre = {0, 0, 0}, .half_side = 1};
+constexpr Region region{.center = {0, 0, 0}, .half_side = 1};
 
 /// Views from around, or outwards from the centre. `color(x, y)`: of a channel, from 0 to 255.
 template <class ColorOf>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/trainer/splat_runs.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 
 namespace tureen::trainer {
 namespace splats_training_test {
@@ -88,7 +88,7 @@ TEST(SplatsDensify, NeighboursAreTogetherInMemory) {
     line.memory.moments[2 * line.parameters.rows() * (i / 16) + 5].values[i % 16] =
         float(i * 7 % 40);
   }
-  sort_in_memory({.centre = {0, 0, 0}, .half_side = 64}, line.parameters, line.memory);
+  sort_in_memory({.center = {0, 0, 0}, .half_side = 64}, line.parameters, line.memory);
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_EQ(line.parameters.trained(row::x)[i], float(i));
     EXPECT_EQ(line.parameters.trained(row::opacity)[i], float(i));

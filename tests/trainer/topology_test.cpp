@@ -274,13 +274,13 @@ TEST(Split, ResamplingSurvivesSaturatedLogits) {
 
 /// The sum of distances from each face's centre to the next one's.
 double length_of_tour(const Model& model) {
-  const auto centre = [&](std::size_t face) {
+  const auto center = [&](std::size_t face) {
     const glm::vec3* p = &model.positions[3 * face];
     return (glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2])) / 3.0;
   };
   double length = 0;
   for (std::size_t face = 1; face < model.faces(); ++face)
-    length += glm::distance(centre(face - 1), centre(face));
+    length += glm::distance(center(face - 1), center(face));
   return length;
 }
 

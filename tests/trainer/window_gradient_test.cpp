@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/gradient_views.hpp"
 #include "tests/trainer/window_reference.hpp"
-#include "trainer/splats/windows/window_method.hpp"
+#include "trainer/splats/windows/window_training.hpp"
 
 namespace tureen::trainer {
 namespace window_gradient_test {
@@ -34,9 +34,9 @@ WindowParameters random_parameters(std::uint64_t seed, std::size_t count, int de
   WindowParameters result(count, degree);
   for (std::size_t i = 0; i < count; ++i) {
     const auto set = [&](std::size_t r, double value) { result.trained(r)[i] = float(value); };
-    const glm::dvec3 centre = random.uniform(0, 1) * random.direction();
+    const glm::dvec3 center = random.uniform(0, 1) * random.direction();
     for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 corner = centre + random.uniform(0.2, 0.7) * random.direction();
+      const glm::dvec3 corner = center + random.uniform(0.2, 0.7) * random.direction();
       for (int axis = 0; axis < 3; ++axis)
         set(row::corners + std::size_t(3 * k + axis), corner[axis]);
     }

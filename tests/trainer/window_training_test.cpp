@@ -1,4 +1,6 @@
 // Densification of triangle windows, and whole runs of their trainer, soft and opaque.
+#include "trainer/splats/windows/window_training.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include "oracle/oracle.hpp"
 #include "tests/trainer/splat_runs.hpp"
-#include "trainer/splats/windows/window_method.hpp"
 
 namespace tureen::trainer {
 namespace window_training_test {
@@ -112,7 +113,7 @@ TEST(WindowOrder, KeepsEachWindowWithItsMemory) {
   for (std::size_t i = 0; i < 40; ++i) centers.push_back({std::fmod(7.3f * float(i), 2.0f), 0, 0});
   centers[11].y = std::nanf("");
   const std::vector<std::uint32_t> order =
-      morton_order(centers, {.centre = {1, 0, 0}, .half_side = 1});
+      morton_order(centers, {.center = {1, 0, 0}, .half_side = 1});
   line.parameters.reorder(order);
   line.memory.reorder(order);
   EXPECT_EQ(order.back(), 11u);
@@ -182,7 +183,7 @@ TEST(WindowTraining, EndsWithOpaqueTriangles) {
   const std::vector<TrainingView> views = views_of_a_square();
   WindowConfig config = small_run(800);
   config.opaque = true;
-  WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+  WindowTrainer trainer(config, views, {.center = {0, 0, 0}, .half_side = 1}, 1);
   while (!trainer.done()) trainer.step();
   const WindowParameters& parameters = trainer.parameters();
   for (std::size_t i = 0; i < parameters.count(); ++i) {
@@ -217,7 +218,7 @@ TEST(WindowTraining, ShortRunsEndWithOpaqueTriangles) {
     WindowConfig config = small_run(steps);
     config.opaque = true;
     config.densify_until = 1;
-    WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+    WindowTrainer trainer(config, views, {.center = {0, 0, 0}, .half_side = 1}, 1);
     while (!trainer.done()) trainer.step();
     const Primitives primitives = trainer.primitives();
     ASSERT_TRUE(std::holds_alternative<TriangleSoup>(primitives)) << steps;
@@ -230,7 +231,7 @@ TEST(WindowTraining, OmitsOpaqueTrianglesThatNoViewShows) {
   const std::vector<TrainingView> views = views_of_a_square();
   WindowConfig config = small_run(40);
   config.opaque = true;
-  WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+  WindowTrainer trainer(config, views, {.center = {0, 0, 0}, .half_side = 1}, 1);
   while (!trainer.done()) trainer.step();
   WindowState state = trainer.state();
   for (std::size_t k = 0; k < 9; ++k)  // far beside all images
@@ -238,7 +239,7 @@ TEST(WindowTraining, OmitsOpaqueTrianglesThatNoViewShows) {
   state.step -= 16;  // two epochs of the eight views
   std::fill_n(state.memory.statistics.row(splat_statistic::evident), state.parameters.count(),
               0.0f);
-  WindowTrainer again(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1, state);
+  WindowTrainer again(config, views, {.center = {0, 0, 0}, .half_side = 1}, 1, state);
   while (!again.done()) again.step();
   const TriangleSoup soup = std::get<TriangleSoup>(again.primitives());
   EXPECT_GT(soup.triangles.size(), again.parameters().count() / 2);
@@ -250,7 +251,7 @@ TEST(WindowTraining, EndsEarlyWithSoftOrOpaqueTriangles) {
   const std::vector<TrainingView> views = views_of_a_square();
   WindowConfig config = small_run(100);
   config.opaque = true;
-  WindowTrainer trainer(config, views, {.centre = {0, 0, 0}, .half_side = 1}, 1);
+  WindowTrainer trainer(config, views, {.center = {0, 0, 0}, .half_side = 1}, 1);
   while (!trainer.done()) {
     trainer.step();
     const bool solid = trainer.parameters().solidity >= WindowTraining::solidity_of_triangles;
@@ -271,7 +272,7 @@ TEST(WindowTraining, BeginsAtPoints) {
     config.first_splats = count;
     Random random(1);
     const WindowParameters parameters = initial_splats<WindowTraining>(
-        dataset, config, {.centre = {0, 0, 0}, .half_side = 1}, nullptr, random);
+        dataset, config, {.center = {0, 0, 0}, .half_side = 1}, nullptr, random);
     ASSERT_EQ(parameters.count(), count);
     const Splats splats = parameters.splats();
     EXPECT_FALSE(defect(splats)) << *defect(splats);
@@ -298,7 +299,7 @@ TEST(WindowTraining, BeginsWithTheTrianglesOfAScene) {
   config.initialisation = Initialisation::mesh;
   Random random(1);
   const WindowParameters parameters = initial_splats<WindowTraining>(
-      {}, config, {.centre = {9, 0, 0}, .half_side = 1}, &scene, random);
+      {}, config, {.center = {9, 0, 0}, .half_side = 1}, &scene, random);
   ASSERT_EQ(parameters.count(), 2u);
   EXPECT_EQ(parameters.corner(1, 2), glm::vec3(1, 0, 3));
   EXPECT_NEAR(0.5 + 0.28209479 * double(parameters.trained(row::harmonics)[0]), 0.78209479, 1e-5);

@@ -6,7 +6,7 @@
 namespace tureen::viewer {
 namespace photograph_place_test {
 
-Camera off_centre() {
+Camera off_center() {
   Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   camera.cx = 190.5;
   camera.cy = 160;
@@ -15,7 +15,7 @@ Camera off_centre() {
 }
 
 TEST(PhotographPlace, OfItsOwnCameraItFillsTheImage) {
-  const Camera camera = off_centre();
+  const Camera camera = off_center();
   const PlacedPhotograph placed = place(camera, camera, 1);
   EXPECT_NEAR(placed.low.x, 0, 1e-9);
   EXPECT_NEAR(placed.low.y, 0, 1e-9);
@@ -24,7 +24,7 @@ TEST(PhotographPlace, OfItsOwnCameraItFillsTheImage) {
 }
 
 TEST(PhotographPlace, InAWiderImageItKeepsItsRays) {
-  const Camera camera = off_centre(), view = resized(camera, 1000, 600);
+  const Camera camera = off_center(), view = resized(camera, 1000, 600);
   const PlacedPhotograph placed = place(camera, view, 0.5);
   // The ray through any pixel is the same in both; these are the corners.
   EXPECT_NEAR((placed.low.x / 0.5 - view.cx) / view.fx, (0 - camera.cx) / camera.fx, 1e-12);

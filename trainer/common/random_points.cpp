@@ -14,12 +14,12 @@ glm::dvec3 far_point(const Region& region, double far_extent, Random& random) {
   const glm::dvec3 size = glm::abs(direction);
   const double border = 1 / std::max({size.x, size.y, size.z});  // where it leaves the cube
   const double distance = border * std::pow(std::max(far_extent / border, 1.0), random.uniform());
-  return region.centre + region.half_side * distance * direction;
+  return region.center + region.half_side * distance * direction;
 }
 
 glm::dvec3 near_point(const Region& region, Random& random) {
   const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-  return region.centre + region.half_side * glm::dvec3(x, y, z);
+  return region.center + region.half_side * glm::dvec3(x, y, z);
 }
 
 }  // namespace tureen::trainer

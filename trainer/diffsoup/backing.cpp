@@ -56,7 +56,7 @@ constexpr double outlier = 4;
 double farthest_camera(const Dataset& dataset, const Region& region) {
   std::vector<double> distances;
   for (const Photograph& view : dataset.train)
-    distances.push_back(glm::distance(view.camera.eye(), region.centre));
+    distances.push_back(glm::distance(view.camera.eye(), region.center));
   if (distances.empty()) return 0;
   std::ranges::sort(distances);
   const double most = outlier * distances[distances.size() * 9 / 10];
@@ -94,10 +94,10 @@ Config with_visible_backing(const Config& config, const Dataset& dataset, const 
 }
 
 double backing_radius(const Config& config, const Dataset& dataset, const Region& region,
-                      std::span<const glm::dvec3> centres) {
+                      std::span<const glm::dvec3> centers) {
   double radius = min_backing_radius(config, dataset, region);
-  for (const glm::dvec3& centre : centres)
-    radius = std::max(radius, clearance * glm::distance(centre, region.centre));
+  for (const glm::dvec3& center : centers)
+    radius = std::max(radius, clearance * glm::distance(center, region.center));
   return std::min(radius, config.far / 1.01 - farthest_camera(dataset, region));
 }
 

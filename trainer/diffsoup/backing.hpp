@@ -29,7 +29,7 @@ Config with_visible_backing(const Config& config, const Dataset& dataset, const 
 /// The radius for first triangles at these centres (both in world units): beyond all of them, as
 /// far as the far plane allows.
 double backing_radius(const Config& config, const Dataset& dataset, const Region& region,
-                      std::span<const glm::dvec3> centres);
+                      std::span<const glm::dvec3> centers);
 
 /// Three corners for each of `faces` triangles (a value of backing_faces()): a subdivided
 /// icosahedron around the origin.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trainer/common/training_views.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 
 namespace tureen::trainer {
 
@@ -32,7 +32,7 @@ TrainingView small_view(const Photograph& photograph, const Config& config, cons
   while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
          std::min(view.camera.width, view.camera.height) >= 2 * min_side)
     view = halved(view);
-  view.camera = relative_to(view.camera, region.centre);
+  view.camera = relative_to(view.camera, region.center);
   return view;
 }
 
@@ -63,13 +63,13 @@ Scene first_gaussians(const Dataset& dataset, const Config& config, Region regio
     views.push_back(small_view(photograph, config, region));
   }
   const GaussianConfig settings = constants(config);
-  GaussianTrainer trainer(settings, views, {.centre = glm::dvec3(0), .half_side = region.half_side},
+  GaussianTrainer trainer(settings, views, {.center = glm::dvec3(0), .half_side = region.half_side},
                           threads, first_splats<GaussianTraining>(dataset, settings, region));
   while (!trainer.done()) {
     if (progress) progress(double(trainer.steps_done()) / settings.steps);
     trainer.step();
   }
-  return scene_of(trainer.primitives(), region.centre);
+  return scene_of(trainer.primitives(), region.center);
 }
 
 }  // namespace tureen::trainer

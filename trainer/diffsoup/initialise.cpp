@@ -55,7 +55,7 @@ std::vector<glm::dvec3> once_each(const std::vector<glm::dvec3>& points) {
 
 /// The positions without likely outliers: see seeds_at_points.
 std::vector<glm::dvec3> plausible(std::span<const DatasetPoint> points) {
-  glm::dvec3 centre;
+  glm::dvec3 center;
   std::vector<double> values(points.size());
   const auto quantile = [&values](double fraction) {
     const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
@@ -65,15 +65,15 @@ std::vector<glm::dvec3> plausible(std::span<const DatasetPoint> points) {
   for (int axis = 0; axis < 3; ++axis) {
     std::ranges::transform(points, values.begin(),
                            [axis](const DatasetPoint& point) { return point.position[axis]; });
-    centre[axis] = quantile(0.5);
+    center[axis] = quantile(0.5);
   }
-  std::ranges::transform(points, values.begin(), [&centre](const DatasetPoint& point) {
-    return glm::distance(point.position, centre);
+  std::ranges::transform(points, values.begin(), [&center](const DatasetPoint& point) {
+    return glm::distance(point.position, center);
   });
   const double farthest = 2 * quantile(0.995);
   std::vector<glm::dvec3> kept;
   for (const DatasetPoint& point : points)
-    if (glm::distance(point.position, centre) <= farthest) kept.push_back(point.position);
+    if (glm::distance(point.position, center) <= farthest) kept.push_back(point.position);
   return once_each(kept);
 }
 
@@ -155,7 +155,7 @@ const Gaussians* gaussians_of(const Scene* scene) {
 void put_at_points(const Dataset& dataset, const Region& region, std::size_t count,
                    const Config& config, double far, Seeds& seeds, Random& random) {
   const std::size_t at = count - std::size_t(std::llround(far * double(count)));
-  seeds.centres.resize(count);
+  seeds.centers.resize(count);
   seeds.radii.resize(count);
   if (at == 0) return;
   const Seeds points = seeds_at_points(dataset.points,
@@ -164,7 +164,7 @@ void put_at_points(const Dataset& dataset, const Region& region, std::size_t cou
                                         .local = config.local_radius,
                                         .lone_spacing = region.half_side},
                                        random);
-  std::ranges::copy(points.centres, seeds.centres.begin());
+  std::ranges::copy(points.centers, seeds.centers.begin());
   std::ranges::copy(points.radii, seeds.radii.begin());
 }
 
@@ -175,10 +175,10 @@ Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& op
   assert(!points.empty());
   const std::vector<glm::dvec3> kept = plausible(points);
   Seeds seeds;
-  seeds.centres = kept.size() < options.count
+  seeds.centers = kept.size() < options.count
                       ? extended(kept, options.count, options.lone_spacing, random)
                       : thinned(kept, options.count, random);
-  seeds.radii = nearest_distances(seeds.centres);
+  seeds.radii = nearest_distances(seeds.centers);
   double mean_distance = mean(seeds.radii);
   if (!(mean_distance > 0)) mean_distance = options.lone_spacing;
   for (double& radius : seeds.radii)
@@ -190,13 +190,13 @@ Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& op
 Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const PointSeeds& options,
                          Random& random) {
   std::vector<DatasetPoint> points;
-  std::vector<glm::dvec3> centres, normals;
+  std::vector<glm::dvec3> centers, normals;
   for (const float needed : {0.5f, 0.0f}) {
     for (std::size_t i = 0; i < gaussians.centers.size(); ++i) {
       if (gaussians.opacity[i] < needed) continue;
-      centres.push_back(origin + glm::dvec3(gaussians.centers[i]));
+      centers.push_back(origin + glm::dvec3(gaussians.centers[i]));
       normals.push_back(shortest_axis(gaussians, i));
-      points.push_back({.position = centres.back(), .color = {}});
+      points.push_back({.position = centers.back(), .color = {}});
     }
     if (!points.empty()) break;
   }
@@ -208,7 +208,7 @@ Seeds seeds_at_gaussians(const Gaussians& gaussians, glm::dvec3 origin, const Po
     points = std::move(drawn);
   }
   Seeds seeds = seeds_at_points(points, options, random);
-  for (const std::uint32_t nearest : nearest_points(centres, seeds.centres))
+  for (const std::uint32_t nearest : nearest_points(centers, seeds.centers))
     seeds.normals.push_back(normals[nearest]);
   return seeds;
 }
@@ -222,20 +222,20 @@ Seeds random_seeds(const Region& region, std::span<const Photograph> views,
         views, [&](const Photograph& view) { return in_image(view.camera, point); });
   };
   Seeds seeds;
-  while (seeds.centres.size() < options.count) {
-    const bool is_near = seeds.centres.size() < near_count;
+  while (seeds.centers.size() < options.count) {
+    const bool is_near = seeds.centers.size() < near_count;
     glm::dvec3 point;
     for (int attempt = 0; attempt < 100; ++attempt) {
       point = is_near ? near_point(region, random) : far_point(region, options.far_extent, random);
       if (seen(point)) break;
     }
-    seeds.centres.push_back(point);
+    seeds.centers.push_back(point);
   }
-  const std::span<const glm::dvec3> all = seeds.centres;
+  const std::span<const glm::dvec3> all = seeds.centers;
   double spacing = mean(nearest_distances(all.first(near_count)));
   if (!(spacing > 0)) spacing = region.half_side;  // one point, or none
-  for (const glm::dvec3 centre : seeds.centres) {
-    const double distance = glm::distance(centre, region.centre) / region.half_side;
+  for (const glm::dvec3 center : seeds.centers) {
+    const double distance = glm::distance(center, region.center) / region.half_side;
     const bool is_near = seeds.radii.size() < near_count;
     seeds.radii.push_back(options.radius * spacing * (is_near ? 1.0 : distance));
   }
@@ -244,17 +244,17 @@ Seeds random_seeds(const Region& region, std::span<const Photograph> views,
 
 std::vector<glm::vec3> equilateral_triangles(const Seeds& seeds, glm::dvec3 origin,
                                              Random& random) {
-  assert(seeds.centres.size() == seeds.radii.size());
-  assert(seeds.normals.empty() || seeds.normals.size() == seeds.centres.size());
+  assert(seeds.centers.size() == seeds.radii.size());
+  assert(seeds.normals.empty() || seeds.normals.size() == seeds.centers.size());
   const double sine = std::sqrt(0.75);  // of 120 degrees
   const glm::dvec3 corners[] = {{1, 0, 0}, {-0.5, sine, 0}, {-0.5, -sine, 0}};
   std::vector<glm::vec3> positions;
-  positions.reserve(3 * seeds.centres.size());
-  for (std::size_t i = 0; i < seeds.centres.size(); ++i) {
+  positions.reserve(3 * seeds.centers.size());
+  for (std::size_t i = 0; i < seeds.centers.size(); ++i) {
     glm::dmat3 rotation = random.rotation();
     if (!seeds.normals.empty()) rotation = in_plane(seeds.normals[i], rotation);
     for (const glm::dvec3 corner : corners)
-      positions.emplace_back(seeds.centres[i] - origin + seeds.radii[i] * (rotation * corner));
+      positions.emplace_back(seeds.centers[i] - origin + seeds.radii[i] * (rotation * corner));
   }
   return positions;
 }
@@ -293,10 +293,10 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* s
                          random);
   if (at_points) put_at_points(dataset, region, count, config, far, seeds, random);
   std::vector<glm::vec3> positions =
-      backing_sphere(backing, backing_radius(config, dataset, region, seeds.centres));
-  const std::vector<glm::vec3> others = equilateral_triangles(seeds, region.centre, random);
+      backing_sphere(backing, backing_radius(config, dataset, region, seeds.centers));
+  const std::vector<glm::vec3> others = equilateral_triangles(seeds, region.center, random);
   positions.insert(positions.end(), others.begin(), others.end());
-  Model model = grey_model(config, region.centre, std::move(positions));
+  Model model = grey_model(config, region.center, std::move(positions));
   for (std::size_t texel = 0; texel < backing * model.texels(); ++texel)
     model.logits[texel * channels + alpha_channel] = backing_logit;
   return model;

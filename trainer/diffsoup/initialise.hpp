@@ -30,7 +30,7 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* s
 
 /// Positions, sizes and orientations of triangles.
 struct Seeds {
-  std::vector<glm::dvec3> centres;  // in world coordinates
+  std::vector<glm::dvec3> centers;  // in world coordinates
   std::vector<double> radii;        // circumradii
   /// Unit normals, one for each, or none: then orientations are random.
   std::vector<glm::dvec3> normals = {};

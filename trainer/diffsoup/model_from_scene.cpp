@@ -105,8 +105,8 @@ Model from_scene(Scene scene, const FromScene& options) {
               .origin = origin_of(only_layer(scene))};
 
   const Bounds box = bounds(soup);
-  const glm::dvec3 centre = box.centre();
-  const glm::dvec3 shift = glm::length(centre) > 2 * box.radius() ? centre : glm::dvec3(0.0);
+  const glm::dvec3 center = box.center();
+  const glm::dvec3 shift = glm::length(center) > 2 * box.radius() ? center : glm::dvec3(0.0);
   model.origin += shift;
   model.positions.reserve(3 * soup.triangles.size());
   for (const glm::uvec3 triangle : soup.triangles)

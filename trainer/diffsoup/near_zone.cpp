@@ -75,7 +75,7 @@ double nearest_surface(const Dataset& dataset, const Region& region) {
   // Some points from structure from motion are errors, often right in front of a camera.
   if (!depths.empty()) return quantile(depths, 0.01);
   for (const Photograph& view : dataset.train)
-    if (const double d = depth(view.camera, region.centre); d > 0) depths.push_back(d);
+    if (const double d = depth(view.camera, region.center); d > 0) depths.push_back(d);
   return 2 * depths.size() > dataset.train.size() ? quantile(depths, 0.5) : 0;
 }
 

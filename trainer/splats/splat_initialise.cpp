@@ -8,9 +8,9 @@
 #include "scene/edit/mean_color.hpp"
 #include "scene/edit/moved_splats.hpp"
 #include "trainer/common/neighbours.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/splat_start.hpp"
-#include "trainer/splats/windows/window_method.hpp"
+#include "trainer/splats/windows/window_training.hpp"
 
 namespace tureen::trainer {
 
@@ -18,39 +18,40 @@ namespace {
 
 /// Puts splats at the points into the first places of `parameters`. `spacing`: the distance of a
 /// single point to others.
-template <class Method>
-void put_all(typename Method::Parameters& parameters, const std::vector<ColoredPoint>& points,
-             const typename Method::Config& config, double half_side, double spacing,
+template <class Training>
+void put_all(typename Training::Parameters& parameters, const std::vector<ColoredPoint>& points,
+             const typename Training::Config& config, double half_side, double spacing,
              Random& random) {
   std::vector<glm::dvec3> positions;
   for (const ColoredPoint& point : points) positions.push_back(point.position);
-  const std::vector<double> distances = nearest_distances(positions, Method::neighbours);
+  const std::vector<double> distances = nearest_distances(positions, Training::neighbours);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double distance = points.size() > 1 ? distances[i] : spacing;
-    Method::put(config, points[i], Method::size_at_point(config, distance, spacing, half_side),
-                random, i, parameters);
+    Training::put(config, points[i], Training::size_at_point(config, distance, spacing, half_side),
+                  random, i, parameters);
   }
 }
 
-template <class Method>
-typename Method::Parameters at_points(const Dataset& dataset, const typename Method::Config& config,
-                                      const Region& region, Random& random) {
+template <class Training>
+typename Training::Parameters at_points(const Dataset& dataset,
+                                        const typename Training::Config& config,
+                                        const Region& region, Random& random) {
   std::vector<std::uint32_t> chosen =
       draw(random, std::size_t(config.max_splats), dataset.points.size());
   std::sort(chosen.begin(), chosen.end());
   std::vector<ColoredPoint> points;
   for (const std::uint32_t i : chosen) {
     const DatasetPoint& point = dataset.points[i];
-    points.push_back({point.position - region.centre, glm::vec3(point.color) / 255.0f});
+    points.push_back({point.position - region.center, glm::vec3(point.color) / 255.0f});
   }
-  typename Method::Config filled = config;
+  typename Training::Config filled = config;
   filled.first_splats =
       std::max<std::uint64_t>(std::min(config.first_splats, config.max_splats), points.size());
   // The points replace the first of the random ones.
-  auto result = random_splats<Method>(
-      filled, {.centre = glm::dvec3(0), .half_side = region.half_side}, random);
-  put_all<Method>(result, points, config, region.half_side,
-                  region.half_side / std::cbrt(double(filled.first_splats)), random);
+  auto result = random_splats<Training>(
+      filled, {.center = glm::dvec3(0), .half_side = region.half_side}, random);
+  put_all<Training>(result, points, config, region.half_side,
+                    region.half_side / std::cbrt(double(filled.first_splats)), random);
   return result;
 }
 
@@ -75,7 +76,7 @@ WindowParameters on_triangles(const Scene& scene, const WindowConfig& config, co
   const TriangleSoup& soup = only_soup(scene);
   if (soup.triangles.size() > config.max_splats)
     refuse_more(soup.triangles.size(), config, "triangles");
-  const glm::dmat4 place = at_origin(-region.centre) * only_layer(scene).world_from_layer;
+  const glm::dmat4 place = at_origin(-region.center) * only_layer(scene).world_from_layer;
   const std::vector<glm::vec3> colors = mean_colors(soup);
   WindowParameters result(soup.triangles.size(), config.degree);
   for (std::size_t i = 0; i < result.count(); ++i) {
@@ -88,9 +89,10 @@ WindowParameters on_triangles(const Scene& scene, const WindowConfig& config, co
   return result;
 }
 
-template <class Method>
-typename Method::Parameters from_scene(const Scene& scene, const typename Method::Config& config,
-                                       const Region& region, Random& random) {
+template <class Training>
+typename Training::Parameters from_scene(const Scene& scene,
+                                         const typename Training::Config& config,
+                                         const Region& region, Random& random) {
   const Layer& layer = only_layer(scene);
   if (std::holds_alternative<TriangleSoup>(layer.primitives)) {
     if (only_soup(scene).triangles.empty())
@@ -98,7 +100,7 @@ typename Method::Parameters from_scene(const Scene& scene, const typename Method
     return on_triangles(scene, config, region, random);
   }
   Splats splats = std::get<Splats>(layer.primitives);
-  move_splats(splats, at_origin(-region.centre) * layer.world_from_layer);
+  move_splats(splats, at_origin(-region.center) * layer.world_from_layer);
   const auto* own = own_kernel(splats, config);
   if (!can_begin_with(splats, config))
     throw InputError({}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
@@ -138,25 +140,25 @@ std::vector<ColoredPoint> points_on_triangles(const Scene& scene, const Region& 
     const double u = std::sqrt(random.uniform()), v = random.uniform();
     const glm::dvec3 position =
         (1 - u) * corner(t, 0) + u * (1 - v) * corner(t, 1) + u * v * corner(t, 2);
-    points.push_back({position - region.centre, colors[t]});
+    points.push_back({position - region.center, colors[t]});
   }
   return points;
 }
 
-template <class Method>
-typename Method::Parameters initial_splats(const Dataset& dataset,
-                                           const typename Method::Config& config,
-                                           const Region& region, const Scene* start,
-                                           Random& random) {
+template <class Training>
+typename Training::Parameters initial_splats(const Dataset& dataset,
+                                             const typename Training::Config& config,
+                                             const Region& region, const Scene* start,
+                                             Random& random) {
   assert((start != nullptr) == (config.initialisation == Initialisation::mesh));
-  if (start) return from_scene<Method>(*start, config, region, random);
+  if (start) return from_scene<Training>(*start, config, region, random);
   if (config.initialisation == Initialisation::points && dataset.points.empty())
     throw InputError({}, "the dataset has no points for the first splats",
                      "use random initialisation");
   if (!dataset.points.empty() && config.initialisation != Initialisation::random)
-    return at_points<Method>(dataset, config, region, random);
-  return random_splats<Method>(config, {.centre = glm::dvec3(0), .half_side = region.half_side},
-                               random);
+    return at_points<Training>(dataset, config, region, random);
+  return random_splats<Training>(config, {.center = glm::dvec3(0), .half_side = region.half_side},
+                                 random);
 }
 
 template GaussianParameters initial_splats<GaussianTraining>(const Dataset&, const GaussianConfig&,

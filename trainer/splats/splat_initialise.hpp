@@ -26,50 +26,51 @@ struct ColoredPoint {
 /// Each has a size in proportion to the side of a cube that is its share of the volume. The last
 /// ones are around the region, as SplatConfig::far_splats says, and larger in proportion to their
 /// distance.
-template <class Method>
-typename Method::Parameters random_splats(const typename Method::Config& config,
-                                          const Region& region, Random& random) {
+template <class Training>
+typename Training::Parameters random_splats(const typename Training::Config& config,
+                                            const Region& region, Random& random) {
   const auto count = std::size_t(std::min(config.first_splats, config.max_splats));
-  typename Method::Parameters result(count, config.degree);
+  typename Training::Parameters result(count, config.degree);
   const double side = 2 * region.half_side / std::cbrt(double(std::max<std::size_t>(count, 1)));
   const auto near = count - std::size_t(config.far_splats * double(count));
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 point =
         i < near ? near_point(region, random) : far_point(region, config.far_extent, random);
-    const double distance = glm::distance(point, region.centre) / region.half_side;
-    Method::put(config, {.position = point},
-                Method::size_of_share(config, side) * (i < near ? 1 : distance), random, i, result);
+    const double distance = glm::distance(point, region.center) / region.half_side;
+    Training::put(config, {.position = point},
+                  Training::size_of_share(config, side) * (i < near ? 1 : distance), random, i,
+                  result);
   }
   return result;
 }
 
 /// The first splats, with positions relative to the centre of `region`, of the size that
-/// Method::size_at_point gives, and with config.first_opacity.
+/// Training::size_at_point gives, and with config.first_opacity.
 ///
 /// Points: at most config.max_splats of them, with their colours. Further random ones in the region
 /// make up config.first_splats.
 ///
 /// `start`: the scene for Initialisation::mesh, null for all others; it has one layer. Splats of
 /// the method's kernel are taken as they are, in world coordinates. For triangles, see
-/// Method::on_triangles.
+/// Training::on_triangles.
 ///
 /// Throws InputError if points are required and the dataset has none, for a scene without triangles
 /// or splats of the kernel, and for one with more splats than config.max_splats; UsageError for a
 /// scene with several layers.
-template <class Method>
-typename Method::Parameters initial_splats(const Dataset& dataset,
-                                           const typename Method::Config& config,
-                                           const Region& region, const Scene* start,
-                                           Random& random);
+template <class Training>
+typename Training::Parameters initial_splats(const Dataset& dataset,
+                                             const typename Training::Config& config,
+                                             const Region& region, const Scene* start,
+                                             Random& random);
 
 /// The state before the first step, with initial_splats().
-template <class Method>
-SplatState<typename Method::Parameters> first_splats(const Dataset& dataset,
-                                                     const typename Method::Config& config,
-                                                     const Region& region,
-                                                     const Scene* start = nullptr) {
-  SplatState<typename Method::Parameters> state{.random = Random(config.seed)};
-  state.parameters = initial_splats<Method>(dataset, config, region, start, state.random);
+template <class Training>
+SplatState<typename Training::Parameters> first_splats(const Dataset& dataset,
+                                                       const typename Training::Config& config,
+                                                       const Region& region,
+                                                       const Scene* start = nullptr) {
+  SplatState<typename Training::Parameters> state{.random = Random(config.seed)};
+  state.parameters = initial_splats<Training>(dataset, config, region, start, state.random);
   state.memory = SplatMemory(state.parameters.rows(), state.parameters.count());
   return state;
 }

@@ -26,7 +26,7 @@ inline std::vector<std::uint32_t> morton_order(std::span<const glm::vec3> points
     bool finite = true;
     for (int axis = 0; axis < 3; ++axis) {
       const double place =
-          512 * (1 + (double(points[i][axis]) - region.centre[axis]) / region.half_side);
+          512 * (1 + (double(points[i][axis]) - region.center[axis]) / region.half_side);
       finite = finite && std::isfinite(place);
       const auto cell = finite ? std::uint32_t(std::clamp(place, 0.0, 1023.0)) : 0u;
       for (int bit = 0; bit < 10; ++bit) key |= (cell >> bit & 1u) << (3 * bit + axis);

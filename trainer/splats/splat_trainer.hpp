@@ -35,12 +35,12 @@ struct SplatStepReport {
 /// clamping. `planes`: red, green and blue.
 double mean_squared_error(std::span<const float> planes, const TrainingView& view);
 
-/// `Method`: a kernel, as GaussianTraining and WindowTraining.
-template <class Method>
+/// `Training`: as GaussianTraining and WindowTraining.
+template <class Training>
 class SplatTrainer {
  public:
-  using Config = typename Method::Config;
-  using Parameters = typename Method::Parameters;
+  using Config = typename Training::Config;
+  using Parameters = typename Training::Parameters;
   using State = SplatState<Parameters>;
 
   /// Begins with random splats. `views` must outlive the trainer. `threads`: 0 for all cores.
@@ -84,8 +84,8 @@ class SplatTrainer {
     planes_.resize(3 * std::size_t(width) * std::size_t(height));
     gradient_.resize(planes_.size());
     VarianceLoss variance{.ignored = view.ignored};
-    if constexpr (TileRaster<Method>::has_variance)
-      variance.weight = Method::variance_weight(config_, parameters());
+    if constexpr (TileRaster<Training>::has_variance)
+      variance.weight = Training::variance_weight(config_, parameters());
     raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_,
                     variance.weight > 0);
     SplatStepReport report;
@@ -110,15 +110,15 @@ class SplatTrainer {
     ++state_.step;
     if (densifies_after(config_, state_.step)) {
       const DensifyReport densified =
-          Method::densify(config_, state_.step, state_.step / densify_interval(config_),
-                          state_.random, state_.parameters, state_.memory);
+          Training::densify(config_, state_.step, state_.step / densify_interval(config_),
+                            state_.random, state_.parameters, state_.memory);
       // No splat is left to split: the run begins again, at other places.
       if (densified.dead == parameters().count()) begin();
       sort_in_memory(region_, state_.parameters, state_.memory);
       report.dead = densified.dead;
       report.split = densified.split;
     }
-    Method::limit(config_, state_.step, state_.parameters);
+    Training::limit(config_, state_.step, state_.parameters);
     return report;
   }
 
@@ -127,7 +127,7 @@ class SplatTrainer {
     std::span<const float> evident;
     if (knows_evident())
       evident = {state_.memory.statistics.row(splat_statistic::evident), parameters().count()};
-    return Method::primitives(config_, parameters(), evident);
+    return Training::primitives(config_, parameters(), evident);
   }
 
   /// mean_squared_error() of the last step. Needs a step().
@@ -162,7 +162,7 @@ class SplatTrainer {
   }
 
   void begin() {
-    state_.parameters = random_splats<Method>(config_, region_, state_.random);
+    state_.parameters = random_splats<Training>(config_, region_, state_.random);
     state_.memory = SplatMemory(parameters().rows(), parameters().count());
   }
 
@@ -179,19 +179,19 @@ class SplatTrainer {
   }
 
   /// Returns the number of splats that are not finite.
-  std::size_t update(const BackwardInput<typename Method::Moments>& input) {
+  std::size_t update(const BackwardInput<typename Training::Moments>& input) {
     const double done = double(state_.step) / config_.steps;
     const std::size_t count = parameters().count();
-    typename Method::Step step = Method::step_of(config_, region_.half_side, done, count);
-    for (std::size_t k = 0; k < Method::kinds.size(); ++k) {
-      const ParameterKind& kind = Method::kinds[k];
+    typename Training::Step step = Training::step_of(config_, region_.half_side, done, count);
+    for (std::size_t k = 0; k < Training::kinds.size(); ++k) {
+      const ParameterKind& kind = Training::kinds[k];
       step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
     }
-    step.rates[0] *= float(region_.half_side) * Method::position_rate(parameters());
+    step.rates[0] *= float(region_.half_side) * Training::position_rate(parameters());
     std::atomic<std::size_t> quarantined = 0;
     run_in_tasks(pool_, count, [&](std::size_t begin, std::size_t end) {
-      quarantined +=
-          Method::step_functions().step(input, step, begin, end, state_.parameters, state_.memory);
+      quarantined += Training::step_functions().step(input, step, begin, end, state_.parameters,
+                                                     state_.memory);
     });
     return quarantined;
   }
@@ -201,7 +201,7 @@ class SplatTrainer {
   std::vector<TrainingView> half_views_;
   Region region_;  // its half side is the unit of rates and scales
   ThreadPool pool_;
-  TileRaster<Method> raster_;
+  TileRaster<Training> raster_;
   State state_;
   const TrainingView* last_view_ = nullptr;
   std::vector<float> planes_, gradient_;

@@ -8,9 +8,9 @@
 
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/splat_forecast.hpp"
-#include "trainer/splats/windows/window_method.hpp"
+#include "trainer/splats/windows/window_training.hpp"
 
 namespace tureen::trainer {
 
@@ -30,13 +30,13 @@ PrimitiveCount count_of(const Primitives& primitives) {
   return {PrimitiveKind::triangles, std::get<TriangleSoup>(primitives).triangles.size()};
 }
 
-template <class Method>
+template <class Training>
 class SplatRun final : public Trainable {
  public:
-  using Checkpoint = SplatCheckpoint<typename Method::Config, typename Method::Parameters>;
+  using Checkpoint = SplatCheckpoint<typename Training::Config, typename Training::Parameters>;
 
   /// `run`: configuration and views for the checkpoints, and the seconds so far.
-  SplatRun(SplatTrainer<Method>& trainer, glm::dvec3 origin, Checkpoint run)
+  SplatRun(SplatTrainer<Training>& trainer, glm::dvec3 origin, Checkpoint run)
       : trainer_(trainer), origin_(origin), run_(std::move(run)) {
     spent_ = run_.seconds;
     non_finite_ = run_.state.non_finite;
@@ -103,7 +103,7 @@ class SplatRun final : public Trainable {
     recent_ = recent_work_ = 0;
   }
 
-  SplatTrainer<Method>& trainer_;
+  SplatTrainer<Training>& trainer_;
   glm::dvec3 origin_;
   Checkpoint run_;          // without a state
   double spent_ = 0;        // seconds, over all sessions
@@ -115,10 +115,10 @@ class SplatRun final : public Trainable {
 
 /// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
 /// half a second, or two steps if they take longer. `threads`: 0 for all cores.
-template <class Method>
-double measured_step_seconds(typename Method::Config probe, std::span<const TrainingView> views,
+template <class Training>
+double measured_step_seconds(typename Training::Config probe, std::span<const TrainingView> views,
                              const Region& region, int threads,
-                             const SplatState<typename Method::Parameters>& state) {
+                             const SplatState<typename Training::Parameters>& state) {
   constexpr int max_steps = 20;
   constexpr double enough = 0.5;  // seconds
   probe.steps = state.step + max_steps + 1;
@@ -126,7 +126,7 @@ double measured_step_seconds(typename Method::Config probe, std::span<const Trai
   probe.half_size_until = 0;
   // The schedule of the probe would make the windows opaque.
   if constexpr (requires { probe.opaque; }) probe.opaque = false;
-  SplatTrainer<Method> trainer(probe, views, region, threads, state);
+  SplatTrainer<Training> trainer(probe, views, region, threads, state);
   trainer.step();  // allocates
   double seconds = 0;
   int steps = 0;
@@ -137,33 +137,34 @@ double measured_step_seconds(typename Method::Config probe, std::span<const Trai
   return seconds / steps;
 }
 
-template <class Method, class Request>
+template <class Training, class Request>
 SplatResult train_by(Dataset& dataset, Request request) {
-  typename SplatRun<Method>::Checkpoint run{
+  typename SplatRun<Training>::Checkpoint run{
       .config = request.config,
       .views = fingerprint(dataset.train),
       .seconds = request.checkpoint ? request.checkpoint->seconds : 0.0,
       .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
-  run.state = request.checkpoint ? std::move(request.checkpoint->state)
-                                 : first_splats<Method>(dataset, run.config, region, request.start);
+  run.state = request.checkpoint
+                  ? std::move(request.checkpoint->state)
+                  : first_splats<Training>(dataset, run.config, region, request.start);
   SplatForecast forecast{.splats = run.state.parameters.count(),
                          .bytes = splat_memory(run.config, dataset)};
 
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
-  for (TrainingView& view : views) view.camera = relative_to(view.camera, region.centre);
-  const Region local{.centre = glm::dvec3(0), .half_side = region.half_side};
+  for (TrainingView& view : views) view.camera = relative_to(view.camera, region.center);
+  const Region local{.center = glm::dvec3(0), .half_side = region.half_side};
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
   const double step_seconds =
       overhead *
-      measured_step_seconds<Method>(run.config, views, local, request.run.threads, run.state) *
+      measured_step_seconds<Training>(run.config, views, local, request.run.threads, run.state) *
       growth_of_work(run.config, run.state.step, run.state.parameters.count());
   if (!request.checkpoint && run.config.minutes > 0)
     run.config.steps = fitted_steps(run.config, 0, 60 * run.config.minutes, step_seconds);
-  SplatTrainer<Method> trainer(run.config, views, local, request.run.threads, run.state);
+  SplatTrainer<Training> trainer(run.config, views, local, request.run.threads, run.state);
   forecast.steps = run.config.steps;
   forecast.seconds = step_seconds * remaining_work(run.config, run.state.step);
   forecast.threads = trainer.threads();
@@ -171,10 +172,10 @@ SplatResult train_by(Dataset& dataset, Request request) {
 
   request.run.session.seconds_before = run.seconds;
   request.run.session.non_finite_before = run.state.non_finite;
-  SplatRun<Method> splat_run(trainer, region.centre, std::move(run));
+  SplatRun<Training> splat_run(trainer, region.center, std::move(run));
   SplatResult result;
   result.run = run_to_the_end(splat_run, std::move(request.run), dataset,
-                              [&] { return scene_of(trainer.primitives(), region.centre); });
+                              [&] { return scene_of(trainer.primitives(), region.center); });
   result.steps = trainer.steps_done();
   result.primitives = count_of(trainer.primitives());
   result.non_finite = splat_run.non_finite();
@@ -185,8 +186,8 @@ SplatResult train_by(Dataset& dataset, Request request) {
 
 template <class Config, class Parameters>
 SplatResult train_splats(Dataset& dataset, SplatRequest<Config, Parameters> request) {
-  return with_training(request.config, [&]<class Method>() {
-    return train_by<Method>(dataset, std::move(request));
+  return with_training(request.config, [&]<class Training>() {
+    return train_by<Training>(dataset, std::move(request));
   });
 }
 

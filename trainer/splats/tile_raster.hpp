@@ -61,16 +61,16 @@ struct VarianceLoss {
   std::span<const std::uint8_t> ignored = {};  // as in ImageLossView
 };
 
-/// `Method`: a method of SplatTrainer, as GaussianTraining. Of it, the types Kernel, Parameters and
+/// `Training`: as GaussianTraining. The types Kernel, Parameters and
 /// Moments, `profile`, tile_functions() and perhaps has_variance are used.
-template <class Method>
+template <class Training>
 class TileRaster {
  public:
-  using Parameters = typename Method::Parameters;
-  using Moments = typename Method::Moments;
-  static constexpr std::string_view profile = Method::profile;
+  using Parameters = typename Training::Parameters;
+  using Moments = typename Training::Moments;
+  static constexpr std::string_view profile = Training::profile;
   /// Whether the passes of the method sum what a VarianceLoss needs.
-  static constexpr bool has_variance = requires { requires Method::has_variance; };
+  static constexpr bool has_variance = requires { requires Training::has_variance; };
 
   explicit TileRaster(ThreadPool& pool) : pool_(pool) {}
 
@@ -193,8 +193,8 @@ class TileRaster {
       TileRecord& record = kept.records[std::size_t(column)];
       record.blended = blended;
       record.keeps_squares = keeps_squares_;
-      Method::tile_functions().blend_recorded(view_, projected_.entries(), lists_.tile(column, row),
-                                              pixels, record);
+      Training::tile_functions().blend_recorded(view_, projected_.entries(),
+                                                lists_.tile(column, row), pixels, record);
       blended += record.ends[blocks_a_tile - 1];
       for_each_run(pixels.x, pixels.y, view_.width, view_.height,
                    [&](std::size_t at, std::size_t pixel, std::size_t count) {
@@ -247,16 +247,16 @@ class TileRaster {
                        tile.transmittance[at + i] = 1;
                      }
                    });
-      Method::tile_functions().blend_backward(view_, projected_.entries(), lists_.tile(column, row),
-                                              lists_.pair_numbers(column, row), record, tile,
-                                              kept.scratch, moments_);
+      Training::tile_functions().blend_backward(
+          view_, projected_.entries(), lists_.tile(column, row), lists_.pair_numbers(column, row),
+          record, tile, kept.scratch, moments_);
     }
   }
 
   ThreadPool& pool_;
   splatting::ImageView view_{};
   int degree_ = 0;
-  ProjectedSplats<typename Method::Kernel> projected_;  // in their order in memory
+  ProjectedSplats<typename Training::Kernel> projected_;  // in their order in memory
   splatting::DepthOrder order_;
   std::vector<PairSpan> pairs_;        // of each splat
   std::vector<std::uint32_t> shifts_;  // of the numbers of each splat's pairs

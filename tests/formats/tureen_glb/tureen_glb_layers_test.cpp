@@ -69,7 +69,7 @@ TEST(TureenGlbLayers, OfSplatsComeBackToTheBit) {
 }
 
 /// Files from before the rule for centres near the eye are drawn without it, as then.
-TEST(TureenGlbLayers, OfSplatsWithoutADepthOfCentresDrawAll) {
+TEST(TureenGlbLayers, OfSplatsWithoutADepthOfCentersDrawAll) {
   const Scene scene = test::layered_scene(test::glb_kinds_named({"gaussians_3dgs"}), 4, 2);
   const auto bytes = test::glb_bytes(scene, "old_profile");
   auto json = test::glb_json(bytes);

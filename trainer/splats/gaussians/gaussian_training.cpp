@@ -1,4 +1,4 @@
-#include "trainer/splats/gaussians/gaussian_method.hpp"
+#include "trainer/splats/gaussians/gaussian_training.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ Primitives GaussianTraining::primitives(const GaussianConfig& config,
                                         const GaussianParameters& parameters,
                                         std::span<const float>) {
   const float min_alpha = with_training(
-      config, []<class Method>() { return profile_named(Method::profile)->min_alpha; });
+      config, []<class Training>() { return profile_named(Training::profile)->min_alpha; });
   GaussianParameters kept = parameters;
   std::vector<std::uint32_t> drawn;
   for (std::uint32_t i = 0; i < parameters.count(); ++i)

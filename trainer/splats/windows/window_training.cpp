@@ -1,4 +1,4 @@
-#include "trainer/splats/windows/window_method.hpp"
+#include "trainer/splats/windows/window_training.hpp"
 
 #include <algorithm>
 #include <cmath>
