@@ -68,7 +68,7 @@ void say_result(const TrainOptions& options, const Dataset& dataset,
   std::string sentence = fmt::format(
       "{} after {} in {}", counted(training.primitives.count, noun_of(training.primitives.kind)),
       counted(std::uint64_t(training.steps), "step"), duration_text(training.run.seconds));
-  for (const OwnResult& own : training.own)
+  for (const OwnFact& own : training.own)
     if (!own.text.empty()) sentence += "; " + own.text;
   say(sentence);
   if (training.non_finite > 0) say("skipped " + counted(training.non_finite, "non-finite number"));
@@ -177,9 +177,9 @@ ExitCode train(const TrainOptions& options) {
   const TrainingJob& job = options.job;
   if (job.output.empty()) throw UsageError("-o OUT.glb is required");
   // Wrong arguments are reported before the photographs are read.
+  const fs::path diffsoup_export = checked_export(options, files_of(job));
   TrainingRun run(job);
   const trainer::TrainingFiles& files = run.files();
-  const fs::path diffsoup_export = checked_export(options, files);
   const std::optional<Scene> start = before_the_first_step(
       options, [&] { return job.resume ? std::nullopt : read_start(job.training, run.method()); });
   Dataset dataset = read_dataset(options);
@@ -192,12 +192,12 @@ ExitCode train(const TrainOptions& options) {
     progress->update(fraction);
   };
   TrainingWindow window(options, files);
-  std::vector<std::string> notes = first_notes(job, dataset);
+  const std::vector<std::string> notes = first_notes(job, dataset);
   TrainingEvents events;
-  events.begun = [&](const std::string& sentence) {
+  events.begun = [&](const RunPlan& plan) {
     progress.reset();
-    for (const std::string& note : std::exchange(notes, {})) say(note);
-    say(sentence);
+    for (const std::string& note : notes) say(note);
+    for (const std::string& line : describe(plan)) say(line);
   };
   events.preparing = [&](double fraction) {
     before_the_first_step(options, [&] {

@@ -60,8 +60,7 @@ set(arrows
   "trainer/splats/splat_state.* trainer/splats/splat_start.hpp trainer/splats/splat_initialise.hpp trainer/splats/splat_trainer.*: base scene splatting/* trainer/common trainer/splats/*"
   "trainer/splats/gaussians/gaussian_training.* trainer/splats/windows/window_training.*: base scene splatting/* trainer/common trainer/splats/*"
   "trainer/splats/splat_initialise.cpp trainer/splats/splat_forecast.* trainer/splats/splat_training.*: base scene splatting/* trainer/common trainer/splats/*"
-  # To go: the first Gaussians of a soup.
-  "trainer/diffsoup: base image scene trainer/common trainer/splats/*"
+  "trainer/diffsoup: base image scene trainer/common"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
@@ -75,8 +74,8 @@ set(arrows
   "viewer/input: base scene camera"
   "viewer/gui: base image scene runtime/gl runtime/passes viewer/input"
   "viewer/files: base scene formats/* trainer/common viewer/input viewer/gui"
-  "viewer: base image scene camera formats/* runtime/* trainer/common jobs/baseline jobs/timing viewer/*"
-  "viewer/panels: base image scene camera formats/* runtime/plan trainer/common viewer viewer/files viewer/gui viewer/input"
+  "viewer: base image scene camera formats/* runtime/* trainer/common jobs/baseline jobs/timing jobs/training viewer/*"
+  "viewer/panels: base image scene camera formats/* runtime/plan trainer/common jobs/training viewer viewer/files viewer/gui viewer/input"
 
   "web/engine: base image scene splatting/* camera formats/* runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing"
   "web/viewer:"

@@ -17,9 +17,13 @@ void Application::carry_out(const StartTraining& request) {
   std::error_code ignored;
   const fs::path dataset = state_.photographs->path, scene = fs::absolute(request.scene, ignored);
   const FileTime scene_before = time_of(scene);
-  training_program_.emplace(tureen_program(), training_arguments(dataset, scene, request.start));
-  state_.started = StartedTraining{
-      .dataset = dataset, .scene = scene, .start = request.start, .scene_before = scene_before};
+  training_program_.emplace(tureen_program(),
+                            training_arguments(dataset, scene, request.start, request.choice));
+  state_.started = StartedTraining{.dataset = dataset,
+                                   .scene = scene,
+                                   .start = request.start,
+                                   .choice = request.choice,
+                                   .scene_before = scene_before};
   state_.messages.note("The training has started. Another window will show its progress.",
                        state_.now);
 }
@@ -37,10 +41,10 @@ void Application::carry_out(const CopyTrainingCommand&) {
   if (!state_.photographs) return;
   const fs::path& dataset = state_.photographs->path;
   const auto& started = state_.started;
-  window_.set_clipboard(
-      quoted_command(started && started->dataset == dataset
-                         ? training_arguments(dataset, started->scene, started->start)
-                         : training_arguments(dataset, new_trained_scene(dataset))));
+  window_.set_clipboard(quoted_command(
+      started && started->dataset == dataset
+          ? training_arguments(dataset, started->scene, started->start, started->choice)
+          : training_arguments(dataset, new_trained_scene(dataset))));
   state_.messages.note("Copied the training command to the clipboard.", state_.now);
 }
 

@@ -93,6 +93,7 @@ struct CancelJob {
 struct StartTraining {
   std::filesystem::path scene;  // the file to write
   TrainingStart start = TrainingStart::new_run;
+  TrainingChoice choice = {};
 };
 /// Ends this program. Its checkpoint stays.
 struct StopTraining {};
@@ -128,6 +129,7 @@ struct Photographs {
 struct StartedTraining {
   std::filesystem::path dataset, scene;
   TrainingStart start = TrainingStart::new_run;
+  TrainingChoice choice = {};
   /// Of the scene at the start, and of the checkpoint when it was stopped; nullopt: no such file.
   FileTime scene_before = {}, checkpoint_before = {};
   bool is_stopped = false;  // it is about to end
@@ -179,6 +181,7 @@ struct State {
   FileList files;
   bool show_files = false;                    // the window that opens files
   std::optional<std::string> scene_to_train;  // text of the dialog that starts a training
+  TrainingChoice training_choice;             // of that dialog
   bool asks_before_quitting = false;          // the dialog about a training in progress
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;

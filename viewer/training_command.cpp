@@ -54,10 +54,29 @@ TypedScene check_typed_scene(const fs::path& scene) {
 }
 
 std::vector<std::string> training_arguments(const fs::path& dataset, const fs::path& scene,
-                                            TrainingStart start) {
+                                            TrainingStart start, const TrainingChoice& choice) {
   std::vector<std::string> arguments{"train", folder_of(dataset).string(), "-o", scene.string(),
                                      "--watch"};
-  if (start == TrainingStart::from_checkpoint) arguments.emplace_back("--resume");
+  const auto add = [&](const std::string& option, const std::string& value) {
+    if (!value.empty()) arguments.insert(arguments.end(), {"--" + option, value});
+  };
+  const bool resumes = start == TrainingStart::from_checkpoint;
+  const TrainingMethodInfo* method =
+      resumes ? method_of_checkpoint(checkpoint_of(scene)) : choice.method;
+  if (method && method != training_methods().front()) add("method", method->name);
+  if (resumes) {
+    arguments.emplace_back("--resume");
+    return arguments;
+  }
+  add("steps", choice.steps);
+  for (const MethodOption* option : method->options) {
+    const auto typed = choice.values.find(option->name);
+    if (typed == choice.values.end() || typed->second.empty()) continue;
+    if (option->type == MethodOption::Type::flag)
+      arguments.push_back(std::string("--") + option->name);
+    else
+      add(option->name, typed->second);
+  }
   return arguments;
 }
 

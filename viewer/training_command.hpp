@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "jobs/training/training_method.hpp"
 
 namespace tureen::viewer {
 
@@ -29,10 +32,19 @@ TypedScene check_typed_scene(const std::filesystem::path& scene);
 
 enum class TrainingStart { new_run, from_checkpoint };
 
-/// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it.
+/// A method with its options as typed; an empty text is the default. `tureen train` checks them.
+struct TrainingChoice {
+  const TrainingMethodInfo* method = training_methods().front();
+  std::string steps = {};
+  std::map<std::string, std::string> values = {};  // by MethodOption::name; of a flag, any text
+};
+
+/// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it. From
+/// a checkpoint, its method and constants continue, whatever the choice.
 std::vector<std::string> training_arguments(const std::filesystem::path& dataset,
                                             const std::filesystem::path& scene,
-                                            TrainingStart start = TrainingStart::new_run);
+                                            TrainingStart start = TrainingStart::new_run,
+                                            const TrainingChoice& choice = {});
 
 /// The command that continues this training from its checkpoint; empty if there is none.
 std::string command_that_continues(const std::filesystem::path& dataset,

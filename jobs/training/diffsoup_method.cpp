@@ -7,12 +7,12 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "jobs/training/diffsoup_options.hpp"
+#include "jobs/training/first_gaussians.hpp"
 #include "jobs/training/methods.hpp"
 #include "trainer/common/plain_background.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
 #include "trainer/diffsoup/device.hpp"
-#include "trainer/diffsoup/texture_level.hpp"
 #include "trainer/diffsoup/training.hpp"
 
 namespace tureen {
@@ -143,31 +143,37 @@ class DiffsoupMethod final : public TrainingMethod {
   std::string constants() const override { return trainer::config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
-                        const std::function<void(const std::string&)>& say) override {
-    const bool preset_by_alpha = !checkpoint_ && !preset_of(options_) && options_.file.empty();
+                        const std::function<void(const RunPlan&)>& begun) override {
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
-    const int level = trainer::with_fitting_level(config_, dataset).max_level;
-    trainer::TrainingResult result = trainer::train(
-        dataset,
-        {.config = config_,
-         .start = start,
-         .checkpoint = std::move(checkpoint_),
-         .device = device_,
-         .run = std::move(run),
-         .begun = [&](const trainer::Backend& backend, bool visible) {
-           if (preset_by_alpha)
-             say(dataset.has_alpha ? "The images have alpha: --preset object"
-                 : background_     ? "The images have no alpha, but borders of one colour, their "
-                                     "background: --preset object"
-                                   : "The images have no alpha: --preset scene");
-           say(fmt::format("{}; {} to {} with textures of level {}; {}", describe_views(dataset),
-                           counted(std::uint64_t(config_.steps), "step"),
-                           counted(std::uint64_t(config_.triangles), "triangle"), level,
-                           backend.description()));
-           if (!visible)
-             say("No training image shows a triangle yet: check the cameras of the "
-                 "dataset.");
-         }});
+    RunPlan plan = plan_for(dataset);
+    plan.steps = config_.steps;
+    plan.last = std::uint64_t(config_.triangles);
+    if (!checkpoint_ && !preset_of(options_) && options_.file.empty())
+      plan.notes.push_back(preset_note(dataset));
+    const auto preparing = run.preparing;
+    const int threads = run.threads;
+    trainer::TrainingRequest request{.config = config_,
+                                     .start = start,
+                                     .checkpoint = std::move(checkpoint_),
+                                     .device = device_,
+                                     .run = std::move(run)};
+    request.first_scene = [&](const Config& settled, const Region& region) {
+      return begins_with_gaussians(settled, dataset)
+                 ? std::optional(first_gaussians(dataset, settled, region, threads, preparing))
+                 : std::nullopt;
+    };
+    request.begun = [&](const trainer::SoupStart& made) {
+      plan.first = made.triangles;
+      plan.details.push_back({"level", double(made.settled.max_level),
+                              fmt::format("textures of level {}", made.settled.max_level)});
+      plan.device = made.backend.description();
+      if (!made.is_visible)
+        plan.notes.push_back(
+            {"nothing_visible", true,
+             "No training image shows a triangle yet: check the cameras of the dataset."});
+      begun(plan);
+    };
+    trainer::TrainingResult result = trainer::train(dataset, std::move(request));
     return {.run = result.run,
             .primitives = {trainer::PrimitiveKind::triangles, result.state.model.faces()},
             .steps = result.state.step,
@@ -179,6 +185,14 @@ class DiffsoupMethod final : public TrainingMethod {
   }
 
  private:
+  OwnFact preset_note(const Dataset& dataset) const {
+    return {"preset", std::string(config_.preset == Preset::object ? "object" : "scene"),
+            dataset.has_alpha ? "The images have alpha: --preset object"
+            : background_     ? "The images have no alpha, but borders of one colour, their "
+                                "background: --preset object"
+                              : "The images have no alpha: --preset scene"};
+  }
+
   const TrainingOptions& options_;
   Device device_;
   std::optional<Checkpoint> checkpoint_;

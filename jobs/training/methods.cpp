@@ -1,11 +1,8 @@
 #include "jobs/training/methods.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/decimal_text.hpp"
 #include "base/json/json_file.hpp"
 
 namespace tureen {
@@ -19,12 +16,6 @@ std::span<const TrainingMethodInfo* const> training_methods() {
   return methods;
 }
 
-std::string describe_views(const Dataset& dataset) {
-  const Camera& first = dataset.train.front().camera;
-  return fmt::format("{} and {}, the first {} x {}", counted(dataset.train.size(), "training view"),
-                     counted(dataset.test.size(), "test view"), first.width, first.height);
-}
-
 void require_scene(trainer::Initialisation initialisation, const TrainingOptions& options) {
   if (initialisation == trainer::Initialisation::mesh && options.mesh().empty())
     throw UsageError("initialisation \"mesh\" needs a scene", "name its file with --init FILE");
@@ -36,15 +27,25 @@ void require_same_views(const Dataset& dataset,
     throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
 }
 
-void require_checkpoint_of(const TrainingMethodInfo& method, const std::filesystem::path& file) {
-  Input input = Input::open(file);
+const TrainingMethodInfo* method_of_checkpoint(const std::filesystem::path& file) {
   trainer::CheckpointMagic magic{};
-  if (input.read_some(std::as_writable_bytes(std::span(magic))) < magic.size()) return;
-  for (const TrainingMethodInfo* other : training_methods())
-    if (other != &method && magic == other->magic)
-      throw InputError({input.name(), {}, {}},
-                       std::string("this is a checkpoint of --method ") + other->name,
-                       std::string("continue it with --method ") + other->name);
+  try {
+    Input input = Input::open(file);
+    input.read_some(std::as_writable_bytes(std::span(magic)));
+  } catch (const InputError&) {
+    return nullptr;
+  }
+  for (const TrainingMethodInfo* method : training_methods())
+    if (magic == method->magic) return method;
+  return nullptr;
+}
+
+void require_checkpoint_of(const TrainingMethodInfo& method, const std::filesystem::path& file) {
+  const TrainingMethodInfo* other = method_of_checkpoint(file);
+  if (other && other != &method)
+    throw InputError({file.string(), {}, {}},
+                     std::string("this is a checkpoint of --method ") + other->name,
+                     std::string("continue it with --method ") + other->name);
 }
 
 void refuse_constants_of_others(const TrainingOptions& options) {

@@ -19,9 +19,6 @@ namespace tureen {
 
 extern const TrainingMethodInfo diffsoup_method, gaussians_method, triangles_method;
 
-/// "100 training views and 25 test views, the first 400 x 400". Needs a training view.
-std::string describe_views(const Dataset& dataset);
-
 /// Throws UsageError if the first primitives should be those of a scene, but the options name none.
 void require_scene(trainer::Initialisation initialisation, const TrainingOptions& options);
 

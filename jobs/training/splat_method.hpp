@@ -89,23 +89,29 @@ class SplatMethod : public TrainingMethod {
   std::string constants() const override { return trainer::splat_config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
-                        const std::function<void(const std::string&)>& say) override {
+                        const std::function<void(const RunPlan&)>& begun) override {
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
-    const std::string views = describe_views(dataset);
+    RunPlan plan = plan_for(dataset);
+    plan.steps = config_.steps;
+    plan.minutes = config_.minutes;
+    plan.kind = trainer::PrimitiveKind::splats;
+    plan.last = config_.max_splats;
+    plan.bytes = trainer::splat_memory(config_, dataset);
+    if (is_limited_)
+      plan.notes.push_back({"max_memory", double(config_.max_splats),
+                            "--max-memory allows at most " + counted(config_.max_splats, "splat")});
+    if (replaced_minutes_ > 0)
+      plan.notes.push_back(
+          {"replaced_minutes", replaced_minutes_,
+           fmt::format("--steps replaces the {} min of the constants", replaced_minutes_)});
     trainer::SplatRequest<Config, Parameters> request{.config = config_,
                                                       .start = start,
                                                       .checkpoint = std::move(checkpoint_),
                                                       .run = std::move(run)};
-    request.begun = [&](const trainer::SplatForecast& forecast) {
-      if (is_limited_) say("--max-memory allows at most " + counted(config_.max_splats, "splat"));
-      if (replaced_minutes_ > 0)
-        say(fmt::format("--steps replaces the {} min of the constants", replaced_minutes_));
-      say(fmt::format("{}; {}, from {} to at most {}; CPU, {}", views,
-                      counted(std::uint64_t(forecast.steps), "step"), counted(forecast.splats),
-                      counted(config_.max_splats, "splat"),
-                      counted(std::uint64_t(forecast.threads), "thread")));
-      say(fmt::format("forecast: {} of training, {} of memory", duration_text(forecast.seconds),
-                      memory_size_text(forecast.bytes)));
+    request.begun = [&](const trainer::SplatStart& made) {
+      plan.first = made.splats;
+      plan.device = "CPU, " + counted(std::uint64_t(made.threads), "thread");
+      begun(plan);
     };
     const trainer::SplatResult result = trainer::train_splats(dataset, std::move(request));
     return {.run = result.run,

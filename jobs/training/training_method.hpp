@@ -10,9 +10,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "jobs/training/run_plan.hpp"
 #include "jobs/training/training_options.hpp"
 #include "scene/photographs.hpp"
 #include "scene/scene.hpp"
@@ -22,19 +22,12 @@
 
 namespace tureen {
 
-/// A result that only some methods have.
-struct OwnResult {
-  const char* name;  // its key in JSON
-  std::variant<bool, double> value;
-  std::string text = {};  // for people; empty: nothing to report
-};
-
 struct TrainingSummary {
   trainer::RunResult run;
   trainer::PrimitiveCount primitives;
   int steps = 0;
   std::uint64_t non_finite = 0;  // numbers that were skipped
-  std::vector<OwnResult> own = {};
+  std::vector<OwnFact> own = {};
 };
 
 /// Why a method cannot begin with a scene, and a hint.
@@ -62,11 +55,11 @@ class TrainingMethod {
   virtual std::string constants() const = 0;
 
   /// After settle() with this dataset. `start`: the scene of TrainingOptions::mesh(), or null.
-  /// `say`: receives sentences about the run before its first step, after all checks of the input;
-  /// no file is replaced before. Throws UsageError if the checkpoint has other views, and the
-  /// errors of the method's run.
+  /// `begun`: called before the first step, after all checks of the input; no file is replaced
+  /// before. Throws UsageError if the checkpoint has other views, and the errors of the method's
+  /// run.
   virtual TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
-                                const std::function<void(const std::string&)>& say) = 0;
+                                const std::function<void(const RunPlan&)>& begun) = 0;
 };
 
 /// A method of training, for programs that offer it.
@@ -83,6 +76,9 @@ struct TrainingMethodInfo {
 
 /// All methods; the first one is the default.
 std::span<const TrainingMethodInfo* const> training_methods();
+
+/// The method whose checkpoint this file begins as; null if it is none, or cannot be read.
+const TrainingMethodInfo* method_of_checkpoint(const std::filesystem::path& file);
 
 /// A run by options.method. Throws UsageError for options of another method, or that exclude each
 /// other, and ContextError if the device is missing. `options` must outlive the result.

@@ -33,8 +33,8 @@ Json to_json(const TrainingOutcome& outcome, std::size_t views) {
             {"steps", training.steps},
             {"seconds", training.run.seconds},
             {name_of(training.primitives.kind), training.primitives.count}};
-  for (const OwnResult& result : training.own)
-    std::visit([&](auto value) { json[result.name] = value; }, result.value);
+  for (const OwnFact& result : training.own)
+    std::visit([&](const auto& value) { json[result.name] = value; }, result.value);
   json["test"] = test;
   if (training.run.test_psnr_db) json["trainer_psnr_db"] = *training.run.test_psnr_db;
   json["non_finite"] = training.non_finite;

@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 using trainer::SessionStatus;
 using trainer::TrainingFiles;
 
-TrainingFiles files_of(const TrainingJob& job) {
-  TrainingFiles files = trainer::training_files(job.output);
-  if (!job.log.empty()) files.log = job.log;
-  return files;
-}
-
 /// Throws UsageError if the log is another file of the run, or a file of another kind: the user may
 /// not have named it, and training would replace it.
 void check_log(const TrainingFiles& files) {
@@ -60,6 +54,12 @@ void check_existing(const TrainingJob& job, const TrainingFiles& files) {
 }
 
 }  // namespace
+
+TrainingFiles files_of(const TrainingJob& job) {
+  TrainingFiles files = trainer::training_files(job.output);
+  if (!job.log.empty()) files.log = job.log;
+  return files;
+}
 
 TrainingRun::TrainingRun(const TrainingJob& job)
     : job_(job), method_(make_training_method(job.training)), files_(files_of(job)) {
@@ -110,7 +110,15 @@ TrainingOutcome TrainingRun::train(Dataset& dataset, const Scene* start,
   run.evaluate = [&](const Scene& scene) {
     evaluate(result, scene, dataset.test, events.evaluating);
   };
-  result.training = method_->train(dataset, start, std::move(run), events.begun);
+  std::string plan_json;
+  run.session.plan = [&] { return plan_json; };
+  result.training = method_->train(dataset, start, std::move(run), [&](const RunPlan& settled) {
+    RunPlan plan = settled;
+    plan.method = job_.training.method->name;
+    plan.constants = method_->constants();
+    plan_json = to_json(plan).dump();
+    events.begun(plan);
+  });
   return result;
 }
 

@@ -29,9 +29,8 @@ struct TrainingJob {
 
 /// What a run reports. All functions are set. Each may throw to end the run.
 struct TrainingEvents {
-  /// Sentences about the run, after all checks of the input and before its first step; no file is
-  /// replaced before.
-  std::function<void(const std::string&)> begun;
+  /// After all checks of the input and before the first step; no file is replaced before.
+  std::function<void(const RunPlan&)> begun;
   std::function<void(double fraction)> preparing;  // before the first step
   std::function<void(const trainer::SessionStatus&)> progress;
   /// After the checkpoint of a run that ends early.
@@ -46,6 +45,9 @@ struct TrainingEvents {
   /// An aid that failed, which does not end the run.
   std::function<void(const std::string&)> failed_aid;
 };
+
+/// The files of the job's output, with its own log.
+trainer::TrainingFiles files_of(const TrainingJob& job);
 
 class TrainingRun {
  public:

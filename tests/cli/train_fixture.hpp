@@ -90,7 +90,7 @@ class Train : public Program {
   std::string bytes(const std::string& name) const { return bytes_of_file(folder / name); }
 
   /// Whether the run of ball.glb has written its first record, which it does within 50 steps.
-  bool has_begun() const { return !bytes("ball.jsonl").empty(); }
+  bool has_begun() const { return bytes("ball.jsonl").find("\"loss\"") != std::string::npos; }
 
   struct Interrupted {
     ChildResult result;

@@ -52,8 +52,14 @@ TEST_F(TrainGaussians, WritesTheSceneAndItsFiles) {
                                     "ball.previews/step_00000250.png"};
   if (have_ffmpeg()) expected.insert(expected.begin(), "ball-previews.mp4");
   EXPECT_EQ(files(), expected);
-  // The forecast, before the first step.
-  EXPECT_THAT(result.err, Names("forecast", "MiB", 400, "splats"));
+  // The plan, before the first step.
+  EXPECT_THAT(result.err, Names("MiB", 250, "steps", 400, "splats"));
+  const std::string log_text = bytes("ball.jsonl");
+  const auto plan = nlohmann::json::parse(log_text.substr(0, log_text.find('\n')))["plan"];
+  EXPECT_EQ(plan["method"], "gaussians");
+  EXPECT_EQ(plan["last"], 400);
+  EXPECT_EQ(plan["constants"]["steps"], 250);
+  EXPECT_THAT(result.err, testing::HasSubstr(plan["text"].back().get<std::string>()));
 
   const auto json = nlohmann::ordered_json::parse(result.out);
   EXPECT_THAT(keys(json), ElementsAre("done", "steps", "seconds", "splats", "test",

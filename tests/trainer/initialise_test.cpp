@@ -15,7 +15,6 @@
 #include "tests/support/random_soups.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/common/neighbours.hpp"
-#include "trainer/diffsoup/first_gaussians.hpp"
 
 namespace tureen::trainer {
 namespace initialise_test {
@@ -543,21 +542,6 @@ TEST(InitialModel, SkipsTransparentGaussians) {
         model.positions[3 * face] + model.positions[3 * face + 1] + model.positions[3 * face + 2];
     EXPECT_GE(sum.x / 3 + model.origin.x, 0) << face;
   }
-}
-
-TEST(FirstGaussians, AreForAutomaticStartsWithoutPoints) {
-  Dataset dataset;
-  Config config = preset(Preset::object);
-  EXPECT_TRUE(begins_with_gaussians(config, dataset));
-  EXPECT_FALSE(begins_with_gaussians(published(Preset::object), dataset));
-  for (const Initialisation other :
-       {Initialisation::random, Initialisation::points, Initialisation::mesh}) {
-    config.initialisation = other;
-    EXPECT_FALSE(begins_with_gaussians(config, dataset));
-  }
-  config.initialisation = Initialisation::automatic;
-  dataset.points = ball(103, 10, {0, 0, 0}, 1);
-  EXPECT_FALSE(begins_with_gaussians(config, dataset));
 }
 
 TEST(InitialModel, BeginsAtRandomIfNoGaussianIsLeft) {

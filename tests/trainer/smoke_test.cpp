@@ -13,10 +13,10 @@
 #include "image/metrics.hpp"
 #include "image/quantise.hpp"
 #include "image/specks.hpp"
+#include "jobs/training/first_gaussians.hpp"
 #include "trainer/common/training_log.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
-#include "trainer/diffsoup/first_gaussians.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/texture_level.hpp"
 #include "trainer/diffsoup/trainer.hpp"
@@ -224,9 +224,14 @@ TEST(SmokeTraining, BeginsBetterOnGaussians) {
     request.run.session.checkpoint = temporary(".checkpoint");
     request.run.session.log = temporary(".jsonl");
     double reached = 0;
-    request.run.preparing = [&reached](double fraction) {
+    const auto progress = [&reached](double fraction) {
       EXPECT_GE(fraction, reached);
       reached = fraction;
+    };
+    request.first_scene = [&](const Config& settled, const Region& region) {
+      return begins_with_gaussians(settled, dataset)
+                 ? std::optional(first_gaussians(dataset, settled, region, 0, progress))
+                 : std::nullopt;
     };
     const TrainingResult result = train(dataset, std::move(request));
     fs::remove(temporary(".jsonl"));
@@ -240,6 +245,21 @@ TEST(SmokeTraining, BeginsBetterOnGaussians) {
               at_random);
   // Three seeds gave 3.0 to 3.8 dB; the margin is half of the smallest.
   EXPECT_GT(on_gaussians, at_random + 1.5);
+}
+
+TEST(SmokeTraining, BeginsOnGaussiansIfItMayAndHasNoPoints) {
+  Dataset dataset;
+  Config config = preset(Preset::object);
+  EXPECT_TRUE(begins_with_gaussians(config, dataset));
+  EXPECT_FALSE(begins_with_gaussians(published(Preset::object), dataset));
+  for (const Initialisation other :
+       {Initialisation::random, Initialisation::points, Initialisation::mesh}) {
+    config.initialisation = other;
+    EXPECT_FALSE(begins_with_gaussians(config, dataset));
+  }
+  config.initialisation = Initialisation::automatic;
+  dataset.points.push_back({});
+  EXPECT_FALSE(begins_with_gaussians(config, dataset));
 }
 
 TEST(SmokeTraining, ChoosesTheLevel) {
@@ -346,7 +366,7 @@ TEST(SmokeTraining, RunsWithoutTheCommandLine) {
   std::vector<std::string> calls;
   int last_step = 0;
   Scene evaluated;
-  request.begun = [&](const Backend&, bool) { calls.push_back("begun"); };
+  request.begun = [&](const SoupStart&) { calls.push_back("begun"); };
   request.run.session.progress = [&](const SessionStatus& now) { last_step = now.step; };
   request.run.finished = [&](const Scene&) { calls.push_back("finished"); };
   request.run.evaluate = [&](const Scene& scene) {

@@ -122,6 +122,29 @@ TEST_F(Log, ResumesAfterAStepAsIfItHadNotGoneOn) {
   EXPECT_EQ(read_training_log(path).size(), 1u);
 }
 
+TEST_F(Log, BeginsWithThePlanOfItsRun) {
+  {
+    TrainingLog log = TrainingLog::create(path);
+    log.append_plan(R"({"steps":300,"text":["300 steps","CPU"]})");
+    log.append(record(100));
+    log.append(record(200));
+  }
+  TrainingLogTail tail(path);
+  EXPECT_TRUE(tail.update());
+  EXPECT_EQ(tail.plan(), (std::vector<std::string>{"300 steps", "CPU"}));
+  EXPECT_EQ(tail.records().size(), 2u);
+  const std::string plan = text().substr(0, text().find('\n') + 1);
+  TrainingLog::resume(path, 150);
+  EXPECT_TRUE(tail.update());
+  EXPECT_EQ(tail.records().size(), 1u);
+  TrainingLog::resume(path, 0);
+  EXPECT_EQ(text(), plan);
+  // The number of a wrong line counts the plan's; a second plan is no record.
+  write(plan + plan);
+  ASSERT_TRUE(refusal());
+  EXPECT_EQ(refusal()->position, ":2");
+}
+
 TEST_F(Log, IsReadAtEveryLengthThatARunMayLeave) {
   {
     TrainingLog log = TrainingLog::create(path);

@@ -21,6 +21,18 @@ TEST(TrainingCommand, NamesASceneBesideTheDatasetThatDoesNotExist) {
   EXPECT_EQ(new_trained_scene(folder / "fox/"), folder / "fox-3.glb");
 }
 
+TEST(TrainingCommand, HasTheMethodAndItsOptions) {
+  const TrainingMethodInfo* gaussians = training_methods()[1];
+  const TrainingChoice choice{
+      .method = gaussians,
+      .steps = "500",
+      .values = {{"flat", "on"}, {"max-splats", "9"}, {"minutes", ""}, {"triangles", "7"}}};
+  // Those of other methods, which were typed before the choice of this one, are left out.
+  EXPECT_THAT(training_arguments("/fox", "/a.glb", TrainingStart::new_run, choice),
+              testing::ElementsAre("train", "/fox", "-o", "/a.glb", "--watch", "--method",
+                                   "gaussians", "--steps", "500", "--max-splats", "9", "--flat"));
+}
+
 TEST(TrainingCommand, ContinuesFromACheckpoint) {
   const fs::path folder = fs::path(testing::TempDir()) / "training_continued";
   fs::remove_all(folder);

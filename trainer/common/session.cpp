@@ -37,7 +37,10 @@ double smoothed(double mean, double value) {
 }
 
 TrainingLog open_log(const SessionOptions& options, int step) {
-  return step > 0 ? TrainingLog::resume(options.log, step) : TrainingLog::create(options.log);
+  if (step > 0) return TrainingLog::resume(options.log, step);
+  TrainingLog log = TrainingLog::create(options.log);
+  if (options.plan) log.append_plan(options.plan());
+  return log;
 }
 
 }  // namespace
@@ -48,7 +51,7 @@ std::string describe(const SessionStatus& now) {
   if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
   if (now.seconds_per_step > 0)
     text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
-                        duration_text(now.seconds_per_step * (now.steps - now.step)));
+                        duration_text(now.seconds_left));
   return text;
 }
 
@@ -98,11 +101,14 @@ void TrainingSession::train_to_the_end() {
     if (options_.progress) options_.progress(status());
     make_snapshot();
     wait_while_paused();
-    const double before = seconds();
+    const double before = seconds(), work = run_.work_of_step();
     in_step_ = true;
     const StepReport report = run_.step();
     in_step_ = false;
-    seconds_per_step_ = smoothed(seconds_per_step_, seconds() - before);
+    // The first step allocates.
+    const double kept = ++steps_here_ > 2 ? 0.98 : 0;
+    pace_ = {1 + kept * pace_.steps, work + kept * pace_.work,
+             seconds() - before + kept * pace_.seconds};
     finishes_ = options_.control && options_.control->command() == RunCommand::finish;
     after_step(report);
   }
@@ -154,6 +160,7 @@ void TrainingSession::record() {
   log_.append({.step = run_.steps_done(),
                .steps = run_.steps(),
                .seconds = now,
+               .seconds_left = status().seconds_left,
                .loss = recent_.loss / n,
                .l1 = recent_.l1 / n,
                .ssim = recent_.ssim / n,
@@ -186,7 +193,8 @@ SessionStatus TrainingSession::status(bool paused) const {
           .steps = run_.steps(),
           .loss = loss_,
           .test_psnr_db = shown_test_psnr_,
-          .seconds_per_step = seconds_per_step_,
+          .seconds_per_step = pace_.steps > 0 ? pace_.seconds / pace_.steps : 0,
+          .seconds_left = pace_.work > 0 ? pace_.seconds / pace_.work * run_.work_left() : 0,
           .paused = paused};
 }
 

@@ -23,6 +23,7 @@ struct SessionStatus {
   double loss = 0;                     // smoothed; 0 before the first step
   std::optional<double> test_psnr_db;  // last measurement on held-out views
   double seconds_per_step = 0;         // smoothed; 0 before the first step
+  double seconds_left = 0;             // a forecast; 0 before the first step
   bool paused = false;                 // by SessionOptions::control
 };
 
@@ -40,6 +41,8 @@ struct SessionOptions {
   double seconds_before = 0;                    // training time of earlier sessions of this run
   std::uint64_t non_finite_before = 0;          // numbers quarantined in earlier sessions
   RunControl* control = nullptr;                // pauses the run, and finishes it early
+  /// Returns a JSON object about the run, for the first line of a new log; may be empty.
+  std::function<std::string()> plan = {};
   /// Called before the first step, and then by SnapshotTimer.
   std::function<void()> snapshot = {};
   /// Called before each step and during a pause; an exception ends the run.
@@ -72,6 +75,11 @@ class TrainingSession {
     double begin = 0;  // seconds() before the first of them
   };
 
+  /// Sums over the last steps with weights that fall by 2 % per step.
+  struct Pace {
+    double steps = 0, work = 0, seconds = 0;
+  };
+
   void train_to_the_end();
   void wait_while_paused();
   void make_snapshot();
@@ -97,8 +105,9 @@ class TrainingSession {
   bool finishes_ = false;  // early
   bool in_step_ = false;   // the state may be between two steps: no checkpoint then
   std::uint64_t non_finite_ = 0;
-  double loss_ = 0;  // smoothed, as shown
-  double seconds_per_step_ = 0;
+  double loss_ = 0;     // smoothed, as shown
+  int steps_here_ = 0;  // in this session
+  Pace pace_;
   std::optional<double> fresh_test_psnr_, shown_test_psnr_;
 };
 

@@ -26,6 +26,10 @@ class Trainable {
   /// Steps of the whole run. It may change between two steps.
   virtual int steps() const = 0;
   virtual int steps_done() const = 0;
+  /// The work of the next step and of all remaining steps, in the same unit: a forecast of the time
+  /// that is left is the time per work so far, times work_left().
+  virtual double work_of_step() const { return 1; }
+  virtual double work_left() const { return steps() - steps_done(); }
   virtual StepReport step() = 0;
   virtual PrimitiveCount primitives() const = 0;
 

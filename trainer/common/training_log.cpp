@@ -28,6 +28,8 @@ TrainingRecord record_of(const JsonView& line) {
   if (const auto value = line.find("steps"))
     record.steps = int(value->natural(std::numeric_limits<int>::max()));
   record.seconds = line["seconds"].number();
+  if (const auto value = line.find("seconds_left"); value && !value->value().is_null())
+    record.seconds_left = value->number();
   record.loss = number_or_nan(line["loss"]);
   record.l1 = number_or_nan(line["l1"]);
   record.ssim = number_or_nan(line["ssim"]);
@@ -43,22 +45,43 @@ TrainingRecord record_of(const JsonView& line) {
   return record;
 }
 
-/// Appends the records of the complete lines after the last of `ends`, and the ends of these lines.
-/// On an error, those of the lines before the wrong one.
-void read_lines(const std::filesystem::path& path, std::vector<TrainingRecord>& records,
-                std::vector<std::uint64_t>& ends) {
+/// The lines about the run, if this is the line of a plan.
+std::optional<std::vector<std::string>> plan_of(const JsonView& line) {
+  const auto plan = line.find("plan");
+  if (!plan) return std::nullopt;
+  std::vector<std::string> lines;
+  if (const auto text = plan->find("text"))
+    for (std::size_t i = 0; i < text->size(); ++i) lines.push_back(text->at(i).text());
+  return lines;
+}
+
+std::uint64_t end_of(const ReadTrainingLog& log) {
+  return log.ends.empty() ? log.begin : log.ends.back();
+}
+
+/// Appends the complete lines after end_of(log). On an error, those before the wrong one.
+void read_lines(const std::filesystem::path& path, ReadTrainingLog& log) {
+  std::vector<TrainingRecord>& records = log.records;
   Input input = Input::open(path);
-  const std::uint64_t first = ends.empty() ? 0 : ends.back();
+  const std::uint64_t first = end_of(log);
   input.seek(first);
   const std::vector<std::byte> bytes = input.read_rest();
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin), number = records.size() + 1;
+    const std::size_t end = text.find('\n', begin);
+    const std::size_t number = records.size() + (log.begin > 0 ? 2 : 1);
     if (end == std::string_view::npos) break;
     TrainingRecord record;
     try {
-      const auto line = parse_json(text.substr(begin, end - begin), input.name(), first + begin);
-      record = record_of(JsonView(line, input.name()));
+      const auto json = parse_json(text.substr(begin, end - begin), input.name(), first + begin);
+      const JsonView line(json, input.name());
+      if (auto plan = end_of(log) == 0 ? plan_of(line) : std::nullopt) {
+        log.plan = std::move(*plan);
+        begin = end + 1;
+        log.begin = begin;
+        continue;
+      }
+      record = record_of(line);
     } catch (const InputError& error) {
       throw InputError({input.name(), {}, number}, "not a training record: " + error.reason(),
                        error.hint());
@@ -68,7 +91,7 @@ void read_lines(const std::filesystem::path& path, std::vector<TrainingRecord>& 
                                                        " does not follow the previous step");
     records.push_back(record);
     begin = end + 1;
-    ends.push_back(first + begin);
+    log.ends.push_back(first + begin);
   }
 }
 
@@ -76,8 +99,9 @@ void read_lines(const std::filesystem::path& path, std::vector<TrainingRecord>& 
 Json to_json(const TrainingRecord& record) {
   Json json{{"step", record.step}};
   if (record.steps) json["steps"] = *record.steps;
-  json.update({{"seconds", record.seconds},
-               {"loss", record.loss},
+  json["seconds"] = record.seconds;
+  if (record.seconds_left) json["seconds_left"] = *record.seconds_left;
+  json.update({{"loss", record.loss},
                {"l1", record.l1},
                {"ssim", record.ssim},
                {"train_psnr_db", record.train_psnr_db}});
@@ -104,11 +128,11 @@ TrainingLog TrainingLog::create(const std::filesystem::path& path) {
 TrainingLog TrainingLog::resume(const std::filesystem::path& path, int step) {
   std::error_code error;
   if (std::filesystem::exists(path, error)) {
-    std::vector<TrainingRecord> records;
-    std::vector<std::uint64_t> ends;
-    read_lines(path, records, ends);
-    std::uint64_t keep = 0;
-    for (std::size_t i = 0; i < records.size() && records[i].step <= step; ++i) keep = ends[i];
+    ReadTrainingLog log;
+    read_lines(path, log);
+    std::uint64_t keep = log.begin;
+    for (std::size_t i = 0; i < log.records.size() && log.records[i].step <= step; ++i)
+      keep = log.ends[i];
     std::filesystem::resize_file(path, keep, error);
     if (error)
       throw OutputError({path.string(), {}, {}}, "cannot be shortened: " + error.message());
@@ -116,8 +140,14 @@ TrainingLog TrainingLog::resume(const std::filesystem::path& path, int step) {
   return TrainingLog(path, "ab");
 }
 
-void TrainingLog::append(const TrainingRecord& record) {
-  const std::string line = to_json(record).dump() + "\n";
+void TrainingLog::append_plan(const std::string& plan) {
+  append_line(R"({"step":0,"plan":)" + plan + "}");
+}
+
+void TrainingLog::append(const TrainingRecord& record) { append_line(to_json(record).dump()); }
+
+void TrainingLog::append_line(std::string line) {
+  line += '\n';
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() ||
       std::fflush(file_.get()) != 0)
     throw OutputError({name_, {}, {}}, std::string("cannot be written: ") + std::strerror(errno));
@@ -125,15 +155,9 @@ void TrainingLog::append(const TrainingRecord& record) {
 
 std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path) {
   require_there(path);
-  std::vector<TrainingRecord> records;
-  std::vector<std::uint64_t> ends;
-  read_lines(path, records, ends);
-  return records;
-}
-
-void TrainingLogTail::clear() {
-  records_.clear();
-  ends_.clear();
+  ReadTrainingLog log;
+  read_lines(path, log);
+  return log.records;
 }
 
 bool TrainingLogTail::update() {
@@ -142,17 +166,18 @@ bool TrainingLogTail::update() {
   const std::uint64_t size = missing ? 0 : found;
   if (size == size_) return false;
   size_ = size;
-  if (ends_.empty() || size < ends_.back()) clear();
+  // Until there is a record, another run may have replaced the log unnoticed.
+  if (log_.ends.empty() || size < end_of(log_)) log_ = {};
   if (missing) return true;
-  if (ends_.empty()) {
-    read_lines(path_, records_, ends_);
+  if (log_.ends.empty()) {
+    read_lines(path_, log_);
     return true;
   }
   try {
-    read_lines(path_, records_, ends_);
+    read_lines(path_, log_);
   } catch (const InputError&) {  // another run may have written more than was there
-    clear();
-    read_lines(path_, records_, ends_);
+    log_ = {};
+    read_lines(path_, log_);
   }
   return true;
 }

@@ -46,7 +46,7 @@ struct Config {
   // --- Initialisation
   Initialisation initialisation = Initialisation::automatic;
   /// With automatic initialisation, if the dataset has no points: the steps of a training of
-  /// Gaussians. The first triangles lie on these (trainer/diffsoup/first_gaussians.hpp). 0: no
+  /// Gaussians. The first triangles lie on these (TrainingRequest::first_scene). 0: no
   /// Gaussians. Published: 0.
   int gaussian_steps = 1500;
   int initial_triangles = 15'000;  // published for objects: 100,000

@@ -10,7 +10,6 @@
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/backing.hpp"
-#include "trainer/diffsoup/first_gaussians.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
 #include "trainer/diffsoup/texture_level.hpp"
@@ -88,6 +87,12 @@ bool shows_something(Backend& backend, std::span<const TrainingView> views, std:
 
 }  // namespace
 
+Config settled(const Config& config, const Dataset& dataset, const Region& region) {
+  Config result = scaled_to(with_fitting_level(config, dataset), region.half_side);
+  result = with_empty_near_zone(result, dataset, region);
+  return with_visible_backing(result, dataset, region);
+}
+
 TrainingResult train(Dataset& dataset, TrainingRequest request) {
   const Config& config = request.config;
   assert(request.checkpoint ||
@@ -98,25 +103,25 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
                  .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
-  const Config scaled = with_visible_backing(
-      with_empty_near_zone(scaled_to(with_fitting_level(config, dataset), region.half_side),
-                           dataset, region),
-      dataset, region);
-  std::optional<Scene> gaussians;
-  if (!request.checkpoint && begins_with_gaussians(scaled, dataset)) {
+  const Config constants = settled(config, dataset, region);
+  std::optional<Scene> first;
+  if (!request.checkpoint && request.first_scene &&
+      constants.initialisation == Initialisation::automatic) {
     const Stopwatch watch(run.seconds);
-    gaussians =
-        first_gaussians(dataset, scaled, region, request.run.threads, request.run.preparing);
+    first = request.first_scene(constants, region);
   }
-  run.state = request.checkpoint
-                  ? std::move(request.checkpoint->state)
-                  : first_state(dataset, scaled, gaussians ? &*gaussians : request.start);
-  const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);
-  Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.run.threads),
-                  run.state);
+  run.state = request.checkpoint ? std::move(request.checkpoint->state)
+                                 : first_state(dataset, constants, first ? &*first : request.start);
+  const std::vector<TrainingView> views = take_training_views(dataset.train, constants.background);
+  Trainer trainer(constants, views,
+                  make_backend(views, constants, request.device, request.run.threads), run.state);
   TrainingResult result;
   result.visible_at_start = shows_something(trainer.backend(), views, backing_faces(config));
-  if (request.begun) request.begun(trainer.backend(), result.visible_at_start);
+  if (request.begun)
+    request.begun({.settled = constants,
+                   .backend = trainer.backend(),
+                   .triangles = trainer.faces(),
+                   .is_visible = result.visible_at_start});
 
   request.run.session.seconds_before = run.seconds;
   request.run.session.non_finite_before = run.state.non_finite;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/photographs.hpp"
+#include "scene/region.hpp"
 #include "scene/scene.hpp"
 #include "trainer/common/whole_run.hpp"
 #include "trainer/diffsoup/backend.hpp"
@@ -13,15 +14,29 @@
 
 namespace tureen::trainer {
 
+/// The constants of a run in the units of the dataset, and those that `config` leaves to it: the
+/// lattice level, the near zone without surfaces, and `far` behind the backing layer.
+Config settled(const Config& config, const Dataset& dataset, const Region& region);
+
+/// A run before its first step.
+struct SoupStart {
+  const Config& settled;
+  const Backend& backend;
+  std::size_t triangles = 0;
+  bool is_visible = false;  // some training image shows a triangle
+};
+
 struct TrainingRequest {
   Config config;
   const Scene* start = nullptr;          // triangles or Gaussians, for Initialisation::mesh
   std::optional<Checkpoint> checkpoint;  // to continue from
   Device device = Device::automatic;
   RunRequest run;
-  /// Before the first step; may be empty, and may throw to end the run. `visible`: some training
-  /// image shows a triangle.
-  std::function<void(const Backend&, bool visible)> begun = {};
+  /// Makes the scene on which the first triangles of an automatic start lie; it may return none.
+  /// May be empty. Its time is part of the run's.
+  std::function<std::optional<Scene>(const Config& settled, const Region& region)> first_scene = {};
+  /// Before the first step; may be empty, and may throw to end the run.
+  std::function<void(const SoupStart&)> begun = {};
 };
 
 struct TrainingResult {

@@ -16,10 +16,15 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Fractions of the run at which the number of steps is fitted to the time. Several, because the
-/// number of splats and their sizes change; none late, because a change of the number disturbs the
-/// decay of the rates.
-constexpr std::array<double, 3> fit_at{0.1, 0.3, 0.5};
+/// Fractions of the run at which the number of steps is fitted to the time, first after the first
+/// steps. Several, because the number of splats and their sizes change; none late, because a change
+/// of the number disturbs the decay of the rates.
+constexpr std::array<double, 4> fit_at{0, 0.1, 0.3, 0.5};
+
+/// The first fit: after 20 steps, which the caches and the processor's clock need, but not after
+/// more than a twentieth of the time.
+constexpr int first_fit_steps = 20;
+constexpr double first_fit_share = 0.05;
 
 /// Time of a run, with log, held-out views and previews, over that of its steps. An estimate.
 constexpr double overhead = 1.03;
@@ -46,6 +51,16 @@ class SplatRun final : public Trainable {
 
   int steps() const override { return trainer_.config().steps; }
   int steps_done() const override { return trainer_.steps_done(); }
+  double work_of_step() const override {
+    const double work = remaining_work(trainer_.config(), steps_done());
+    return double(trainer_.parameters().count()) *
+           (work - remaining_work(trainer_.config(), steps_done() + 1));
+  }
+  double work_left() const override {
+    const std::size_t splats = trainer_.parameters().count();
+    return double(splats) * growth_of_work(trainer_.config(), steps_done(), splats) *
+           remaining_work(trainer_.config(), steps_done());
+  }
   PrimitiveCount primitives() const override {
     return {PrimitiveKind::splats, trainer_.parameters().count()};
   }
@@ -60,15 +75,16 @@ class SplatRun final : public Trainable {
     fit();
     double seconds = 0;
     SplatStepReport report;
-    const double work = remaining_work(trainer_.config(), steps_done());
-    const auto splats = double(trainer_.parameters().count());
+    const double work = work_of_step();
     {
       const Stopwatch watch(seconds);
       report = trainer_.step();
     }
     spent_ += overhead * seconds;
-    recent_ += overhead * seconds;
-    recent_work_ += splats * (work - remaining_work(trainer_.config(), steps_done()));
+    if (std::exchange(has_stepped_, true)) {  // the first step allocates
+      recent_ += overhead * seconds;
+      recent_work_ += work;
+    }
     non_finite_ += report.quarantined;
     return {.loss = report.loss,
             .l1 = report.l1,
@@ -92,13 +108,14 @@ class SplatRun final : public Trainable {
  private:
   /// Fits the number of steps to the time that is left, at the fractions of fit_at.
   void fit() {
-    if (!(run_.config.minutes > 0) || fits_ >= int(fit_at.size()) || recent_work_ == 0) return;
+    const double time = 60 * run_.config.minutes;
+    if (!(time > 0) || fits_ >= int(fit_at.size()) || recent_work_ == 0) return;
     if (steps_done() < fit_at[std::size_t(fits_)] * steps()) return;
+    if (fits_ == 0 && steps_done() < first_fit_steps && spent_ < first_fit_share * time) return;
     const std::size_t splats = trainer_.parameters().count();
     const double step_seconds = recent_ / recent_work_ * double(splats) *
                                 growth_of_work(trainer_.config(), steps_done(), splats);
-    trainer_.set_steps(fitted_steps(trainer_.config(), steps_done(),
-                                    60 * run_.config.minutes - spent_, step_seconds));
+    trainer_.set_steps(fitted_steps(trainer_.config(), steps_done(), time - spent_, step_seconds));
     ++fits_;
     recent_ = recent_work_ = 0;
   }
@@ -111,31 +128,8 @@ class SplatRun final : public Trainable {
   double recent_work_ = 0;  // their work, in steps of full size with one splat
   std::uint64_t non_finite_ = 0;
   int fits_ = 0;
+  bool has_stepped_ = false;
 };
-
-/// Seconds of a step of full size from this state: the mean over a few steps of a copy. Takes about
-/// half a second, or two steps if they take longer. `threads`: 0 for all cores.
-template <class Training>
-double measured_step_seconds(typename Training::Config probe, std::span<const TrainingView> views,
-                             const Region& region, int threads,
-                             const SplatState<typename Training::Parameters>& state) {
-  constexpr int max_steps = 20;
-  constexpr double enough = 0.5;  // seconds
-  probe.steps = state.step + max_steps + 1;
-  probe.densify_until = 0;
-  probe.half_size_until = 0;
-  // The schedule of the probe would make the windows opaque.
-  if constexpr (requires { probe.opaque; }) probe.opaque = false;
-  SplatTrainer<Training> trainer(probe, views, region, threads, state);
-  trainer.step();  // allocates
-  double seconds = 0;
-  int steps = 0;
-  for (; steps < max_steps && seconds < enough; ++steps) {
-    const Stopwatch watch(seconds);
-    trainer.step();
-  }
-  return seconds / steps;
-}
 
 template <class Training, class Request>
 SplatResult train_by(Dataset& dataset, Request request) {
@@ -149,26 +143,15 @@ SplatResult train_by(Dataset& dataset, Request request) {
   run.state = request.checkpoint
                   ? std::move(request.checkpoint->state)
                   : first_splats<Training>(dataset, run.config, region, request.start);
-  SplatForecast forecast{.splats = run.state.parameters.count(),
-                         .bytes = splat_memory(run.config, dataset)};
-
+  const std::size_t splats = run.state.parameters.count();
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
   for (TrainingView& view : views) view.camera = relative_to(view.camera, region.center);
   const Region local{.center = glm::dvec3(0), .half_side = region.half_side};
   if (request.checkpoint && run.config.minutes > 0)
     run.config.steps = request.checkpoint->config.steps;
-  const double step_seconds =
-      overhead *
-      measured_step_seconds<Training>(run.config, views, local, request.run.threads, run.state) *
-      growth_of_work(run.config, run.state.step, run.state.parameters.count());
-  if (!request.checkpoint && run.config.minutes > 0)
-    run.config.steps = fitted_steps(run.config, 0, 60 * run.config.minutes, step_seconds);
   SplatTrainer<Training> trainer(run.config, views, local, request.run.threads, run.state);
-  forecast.steps = run.config.steps;
-  forecast.seconds = step_seconds * remaining_work(run.config, run.state.step);
-  forecast.threads = trainer.threads();
-  if (request.begun) request.begun(forecast);
+  if (request.begun) request.begun({.splats = splats, .threads = trainer.threads()});
 
   request.run.session.seconds_before = run.seconds;
   request.run.session.non_finite_before = run.state.non_finite;

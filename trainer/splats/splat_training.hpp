@@ -11,12 +11,9 @@
 
 namespace tureen::trainer {
 
-/// An estimate before the first step.
-struct SplatForecast {
-  std::size_t splats = 0;   // at the start
-  int steps = 0;            // of the whole run; with minutes, a first guess
-  double seconds = 0;       // of the remaining steps
-  std::uint64_t bytes = 0;  // splat_memory()
+/// A run before its first step.
+struct SplatStart {
+  std::size_t splats = 0;
   int threads = 0;
 };
 
@@ -27,7 +24,7 @@ struct SplatRequest {
   std::optional<SplatCheckpoint<Config, Parameters>> checkpoint;  // to continue from
   RunRequest run;
   /// Called before the first step. May be empty, and may throw to end the run.
-  std::function<void(const SplatForecast&)> begun = {};
+  std::function<void(const SplatStart&)> begun = {};
 };
 
 using GaussianRequest = SplatRequest<GaussianConfig, GaussianParameters>;
@@ -43,8 +40,8 @@ struct SplatResult {
 /// Trains on dataset.train and tests on dataset.test; frees the images of dataset.train. The scene
 /// has one layer, at the centre of the region of interest, with the primitives of the method
 /// (GaussianTraining::primitives, WindowTraining::primitives). With config.minutes, the number of
-/// steps is fitted to the time at the start and three times later, last at half the run; after
-/// that, a run that resumes has the same bits. Throws the errors of region_of_interest,
+/// steps is fitted to the time after the first steps and three times later, last at half the run;
+/// after that, a run that resumes has the same bits. Throws the errors of region_of_interest,
 /// initial_splats and run_to_the_end. Asserts that a checkpoint has the views of the dataset; its
 /// configuration must be request.config, except `steps` with minutes.
 template <class Config, class Parameters>

@@ -23,6 +23,8 @@ class FollowedTraining {
   void send(trainer::RunCommand command);
 
   const std::vector<trainer::TrainingRecord>& records() const { return log_.records(); }
+  /// What the run will do, as lines; empty if the log does not say.
+  const std::vector<std::string>& plan() const { return log_.plan(); }
   /// The last command; nullopt while no run is in progress.
   const std::optional<trainer::RunCommand>& command() const { return command_; }
   /// Why the log, or its end, cannot be read; empty if it can.

@@ -16,6 +16,45 @@ namespace tureen::viewer {
 
 namespace {
 
+/// A field for an option; empty: its default.
+void option_field(const MethodOption& option, std::string& value) {
+  if (option.type == MethodOption::Type::flag) {
+    bool on = !value.empty();
+    if (check(option.name, &on)) value = on ? "on" : "";
+    tip(option.help);
+    return;
+  }
+  field(option.name);
+  const std::string id = std::string("##") + option.name;
+  if (option.type != MethodOption::Type::word) {
+    ImGui::InputTextWithHint(id.c_str(), "default", &value);
+  } else if (ImGui::BeginCombo(id.c_str(), value.empty() ? "default" : value.c_str())) {
+    if (ImGui::Selectable("default", value.empty())) value.clear();
+    for (const std::string& word : option.words)
+      if (ImGui::Selectable(word.c_str(), word == value)) value = word;
+    ImGui::EndCombo();
+  }
+  tip(option.help);
+}
+
+void method_fields(TrainingChoice& choice) {
+  field("Method");
+  if (ImGui::BeginCombo("##method", choice.method->name)) {
+    for (const TrainingMethodInfo* method : training_methods())
+      if (ImGui::Selectable((std::string(method->name) + ": " + method->summary).c_str(),
+                            method == choice.method))
+        choice.method = method;
+    ImGui::EndCombo();
+  }
+  tip(choice.method->summary);
+  if (!ImGui::TreeNode("Options")) return;
+  field("steps");
+  ImGui::InputTextWithHint("##steps", "default", &choice.steps);
+  for (const MethodOption* option : choice.method->options)
+    option_field(*option, choice.values[option->name]);
+  ImGui::TreePop();
+}
+
 void start_dialog(State& state) {
   const Dialog dialog("Train a scene", state.scene_to_train.has_value());
   if (!dialog.is_open()) return;
@@ -28,6 +67,7 @@ void start_dialog(State& state) {
   const bool entered = ImGui::InputText("##scene", &scene, ImGuiInputTextFlags_EnterReturnsTrue);
   const TypedScene typed = check_typed_scene(scene);
   if (!typed.remark.empty()) aside(typed.remark);
+  if (!typed.is_unfinished) method_fields(state.training_choice);
   aside("Another window shows the progress, and pauses or ends the training.");
   const bool pressed = [&] {
     const Disabled disabled(!typed.is_possible);
@@ -35,7 +75,8 @@ void start_dialog(State& state) {
   }();
   if ((pressed || entered) && typed.is_possible) {
     state.ask(StartTraining{
-        scene, typed.is_unfinished ? TrainingStart::from_checkpoint : TrainingStart::new_run});
+        scene, typed.is_unfinished ? TrainingStart::from_checkpoint : TrainingStart::new_run,
+        state.training_choice});
     state.scene_to_train.reset();
     return;
   }

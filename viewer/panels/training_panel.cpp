@@ -107,6 +107,7 @@ std::string progress_words(const TrainingRecord& last, const std::optional<RunCo
   if (!command) return "not in progress";
   if (*command == RunCommand::pause) return "paused";
   if (*command == RunCommand::finish) return "ends after this step";
+  if (last.seconds_left) return duration_text(*last.seconds_left) + " left";
   if (!last.steps || !(last.it_per_second > 0)) return "in progress";
   return duration_text((*last.steps - last.step) / last.it_per_second) + " left";
 }
@@ -144,6 +145,7 @@ void training_buttons(State& state) {
 void training_panel(State& state) {
   const FollowedTraining& training = *state.training;
   if (!training.problem().empty()) paragraph(shown_line(training.problem()));
+  for (const std::string& line : training.plan()) aside(shown_line(line));
   if (training.records().empty()) {
     aside(training.command() ? "The log has no record yet." : "No run is in progress.");
   } else {

@@ -1,4 +1,4 @@
-#include "trainer/diffsoup/first_gaussians.hpp"
+#include "jobs/training/first_gaussians.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,9 +8,13 @@
 #include "trainer/common/training_views.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
 
-namespace tureen::trainer {
+namespace tureen {
 
 namespace {
+
+using trainer::Config;
+using trainer::GaussianConfig;
+using trainer::TrainingView;
 
 /// Photographs are halved until they have at most this many pixels: places of surfaces need no
 /// more, and a step takes a few milliseconds.
@@ -28,11 +32,12 @@ constexpr std::uint64_t max_gaussians = 20'000;
 constexpr int max_steps_ratio = 3;
 
 TrainingView small_view(const Photograph& photograph, const Config& config, const Region& region) {
-  TrainingView view = training_view(photograph, std::span<const float, 3>(config.background));
+  TrainingView view =
+      trainer::training_view(photograph, std::span<const float, 3>(config.background));
   while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
          std::min(view.camera.width, view.camera.height) >= 2 * min_side)
-    view = halved(view);
-  view.camera = relative_to(view.camera, region.center);
+    view = trainer::halved(view);
+  view.camera = trainer::relative_to(view.camera, region.center);
   return view;
 }
 
@@ -50,7 +55,7 @@ GaussianConfig constants(const Config& config) {
 }  // namespace
 
 bool begins_with_gaussians(const Config& config, const Dataset& dataset) {
-  return config.initialisation == Initialisation::automatic && config.gaussian_steps > 0 &&
+  return config.initialisation == trainer::Initialisation::automatic && config.gaussian_steps > 0 &&
          dataset.points.empty();
 }
 
@@ -63,8 +68,9 @@ Scene first_gaussians(const Dataset& dataset, const Config& config, Region regio
     views.push_back(small_view(photograph, config, region));
   }
   const GaussianConfig settings = constants(config);
-  GaussianTrainer trainer(settings, views, {.center = glm::dvec3(0), .half_side = region.half_side},
-                          threads, first_splats<GaussianTraining>(dataset, settings, region));
+  trainer::GaussianTrainer trainer(
+      settings, views, {.center = glm::dvec3(0), .half_side = region.half_side}, threads,
+      trainer::first_splats<trainer::GaussianTraining>(dataset, settings, region));
   while (!trainer.done()) {
     if (progress) progress(double(trainer.steps_done()) / settings.steps);
     trainer.step();
@@ -72,4 +78,4 @@ Scene first_gaussians(const Dataset& dataset, const Config& config, Region regio
   return scene_of(trainer.primitives(), region.center);
 }
 
-}  // namespace tureen::trainer
+}  // namespace tureen

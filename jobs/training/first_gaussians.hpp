@@ -10,17 +10,17 @@
 #include "scene/scene.hpp"
 #include "trainer/diffsoup/config.hpp"
 
-namespace tureen::trainer {
+namespace tureen {
 
 /// Whether a run begins with Gaussians: if the configuration has them, and the dataset has no
 /// points from structure from motion.
-bool begins_with_gaussians(const Config& config, const Dataset& dataset);
+bool begins_with_gaussians(const trainer::Config& config, const Dataset& dataset);
 
 /// A scene with one layer of Gaussians, at the centre of `region`, the region of interest; they
 /// begin in it, or in the box of the configuration. None may be left in the end. `progress`:
 /// receives the fraction that is done before each photograph and step; may be empty, and may throw.
 /// The result has the same bits with any number of threads; `threads`: 0 for all cores.
-Scene first_gaussians(const Dataset& dataset, const Config& config, Region region, int threads,
-                      const std::function<void(double fraction)>& progress);
+Scene first_gaussians(const Dataset& dataset, const trainer::Config& config, Region region,
+                      int threads, const std::function<void(double fraction)>& progress);
 
-}  // namespace tureen::trainer
+}  // namespace tureen

@@ -1,0 +1,76 @@
+#include "jobs/training/run_plan.hpp"
+
+#include <fmt/format.h>
+
+#include "base/decimal_text.hpp"
+#include "base/memory_budget.hpp"
+
+namespace tureen {
+
+namespace {
+
+Json to_json(const std::vector<OwnFact>& facts) {
+  Json list = Json::array();
+  for (const OwnFact& fact : facts) {
+    Json& json = list.emplace_back(Json{{"code", fact.name}});
+    std::visit([&](const auto& value) { json["value"] = value; }, fact.value);
+    json["text"] = fact.text;
+  }
+  return list;
+}
+
+std::string steps_text(const RunPlan& plan) {
+  if (plan.minutes > 0) return fmt::format("as many steps as {} min allow", plan.minutes);
+  return counted(std::uint64_t(plan.steps), "step");
+}
+
+std::string primitives_text(const RunPlan& plan) {
+  const std::string last = counted(plan.last, noun_of(plan.kind));
+  return plan.first == plan.last ? last
+                                 : fmt::format("{} to at most {}", counted(plan.first), last);
+}
+
+}  // namespace
+
+RunPlan plan_for(const Dataset& dataset) {
+  const Camera& first = dataset.train.front().camera;
+  return {.train_views = dataset.train.size(),
+          .test_views = dataset.test.size(),
+          .width = first.width,
+          .height = first.height};
+}
+
+std::vector<std::string> describe(const RunPlan& plan) {
+  std::vector<std::string> lines;
+  for (const OwnFact& note : plan.notes) lines.push_back(note.text);
+  std::string line =
+      fmt::format("{} and {}, the first {} x {}; {}, {}",
+                  counted(plan.train_views, "training view"), counted(plan.test_views, "test view"),
+                  plan.width, plan.height, steps_text(plan), primitives_text(plan));
+  for (const OwnFact& detail : plan.details) line += ", " + detail.text;
+  line += "; " + plan.device;
+  if (plan.bytes > 0) line += ", about " + memory_size_text(plan.bytes) + " of memory";
+  lines.push_back(std::move(line));
+  return lines;
+}
+
+Json to_json(const RunPlan& plan) {
+  return {{"method", plan.method},
+          {"train_views", plan.train_views},
+          {"test_views", plan.test_views},
+          {"width", plan.width},
+          {"height", plan.height},
+          {"steps", plan.steps},
+          {"minutes", plan.minutes},
+          {"primitives", name_of(plan.kind)},
+          {"first", plan.first},
+          {"last", plan.last},
+          {"device", plan.device},
+          {"bytes", plan.bytes},
+          {"details", to_json(plan.details)},
+          {"notes", to_json(plan.notes)},
+          {"text", describe(plan)},
+          {"constants", Json::parse(plan.constants)}};
+}
+
+}  // namespace tureen
