@@ -22,16 +22,22 @@
 #include "cli/report.hpp"
 #include "image/video_file.hpp"
 #include "jobs/bench/plan_json.hpp"
+#include "oracle/oracle_images.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
+#include "runtime/splats/tile_images.hpp"
 
 namespace tureen::cli {
 
 namespace {
 
+/// What draws the images. All but gl need no OpenGL.
+enum class RendererKind { gl, oracle, tiles };
+
 struct RenderOptions {
   SceneArguments scene;
+  RendererKind renderer = RendererKind::gl;
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
@@ -52,13 +58,12 @@ struct Drawn {
 };
 
 /// Images, or an animation.
-WrittenImages draw_views(const Drawer& drawer, const gl::Capabilities& device, const Views& views,
-                         const std::string& output) {
+WrittenImages draw_views(const Drawer& drawer, const Views& views, const std::string& output) {
   if (is_video_name(output))
     return draw_video(drawer, views.cameras, views.frames_per_second, output);
   // An animation has hundreds of similar frames, for which a contact sheet is useless.
   const Sheet sheet = views.frames_per_second > 0 ? Sheet::none : Sheet::of_several;
-  return draw_images(drawer, device, views.cameras, {output, sheet});
+  return draw_images(drawer, views.cameras, {output, sheet});
 }
 
 Drawn draw_colors(const gl::Context& context, const Scene& scene, const RenderOptions& options,
@@ -70,8 +75,8 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const RenderOp
   const Drawer drawer = drawer_of(renderer, device);
   // benchmark() rejects images in tiles. It runs first, because drawing may take hours.
   FrameTimes times;
-  if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
-  WrittenImages images = draw_views(drawer, device, views, options.output);
+  if (options.frames > 0) times = benchmark(drawer, views.cameras, options.frames);
+  WrittenImages images = draw_views(drawer, views, options.output);
   if (options.frames > 0) images.times = times;
   const RenderPlan& plan = renderer.plan();
   return {std::move(images), describe(plan), plan.applied(), {}, renderer.device_bytes()};
@@ -85,7 +90,7 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
   Renderer renderer(context, prepare_debug_views(layers, device_limits(device)),
                     {.background = background});
   debug_views.show(renderer, options.show.what, options.show.features);
-  WrittenImages images = draw_views(drawer_of(renderer, device), device, views, options.output);
+  WrittenImages images = draw_views(drawer_of(renderer, device), views, options.output);
   const std::string sentence =
       std::string("debug view: ") + name_of(options.show.what) +
       " with one sample a pixel, without specialisations that can change a colour";
@@ -94,6 +99,33 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
           {},
           legend_lines(debug_views.legend()),
           renderer.device_bytes()};
+}
+
+/// The images by the oracle or by tiles. Throws UsageError for scenes that they cannot draw.
+WrittenImages draw_without_gl(const Scene& scene, const RenderOptions& options,
+                              const glm::vec4& background, const Views& views) {
+  const bool opaque = background.a >= 1;
+  const auto behind = opaque ? std::optional(glm::vec3(background)) : std::nullopt;
+  const Quality quality = preferences_for(scene, options.drawing).quality;
+  const bool along_rays = quality.splat_order == Quality::SplatOrder::exact;
+  if (quality.splat_order == Quality::SplatOrder::stochastic)
+    throw UsageError("only --renderer gl draws splats in stochastic order",
+                     "choose another order with --splat-order");
+  std::function<void(double)> progress;
+  const auto draw = [&](ImageSource&& source) {
+    return draw_views(drawer_of(source, progress, opaque), views, options.output);
+  };
+  if (options.renderer == RendererKind::oracle)
+    return draw(OracleImages(
+        scene, {.supersampling = quality.supersampling,
+                .splat_order = along_rays ? oracle::SplatOrder::exact : oracle::SplatOrder::center,
+                .background = behind,
+                .progress = [&](double done) { progress(done); }}));
+  if (quality.supersampling > 1)
+    throw UsageError("--renderer tiles has one sample per pixel", "draw with --supersample 1");
+  return draw(
+      TileImages(scene, behind,
+                 along_rays ? splatting::BlendOrder::along_rays : splatting::BlendOrder::centers));
 }
 
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.
@@ -158,6 +190,10 @@ Json measured_json(const std::vector<MeasuredImage>& images) {
   return list;
 }
 
+Json frame_times_json(const FrameTimes& times) {
+  return {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}};
+}
+
 /// Prints the written files: all names, or the first and the last frame.
 void say_written(const WrittenImages& images, const Views& views) {
   const std::vector<std::string>& paths = images.paths;
@@ -184,6 +220,27 @@ ExitCode render(RenderOptions options) {
   const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
+  const Camera& first = views.cameras.front();
+  if (options.renderer != RendererKind::gl) {
+    const WrittenImages images = draw_without_gl(scene, options, background, views);
+    const char* name = options.renderer == RendererKind::oracle ? "oracle" : "tiles";
+    say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
+    say_what_is_hidden(scene);
+    say_list("Cameras:", views.notes);
+    say(fmt::format("{}; {} x {} by {}; {} per image",
+                    primitives_text(triangle_count(scene), splat_count(scene)), first.width,
+                    first.height, name, duration_text(images.times.median() / 1000)));
+    say_written(images, views);
+    if (options.json)
+      print_json({{"width", first.width},
+                  {"height", first.height},
+                  {"renderer", name},
+                  {"triangles", triangle_count(scene)},
+                  {"splats", splat_count(scene)},
+                  {"frame_ms", frame_times_json(images.times)},
+                  {"output", images.paths}});
+    return ExitCode::done;
+  }
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
@@ -196,7 +253,6 @@ ExitCode render(RenderOptions options) {
   const WrittenImages& images = drawn.images;
   const FrameTimes& times = images.times;
 
-  const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
   say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
   say_what_is_hidden(scene);
@@ -212,18 +268,17 @@ ExitCode render(RenderOptions options) {
   say_written(images, views);
   say_measured(measured);
   if (options.json) {
-    Json json = {
-        {"width", first.width},
-        {"height", first.height},
-        {"context", context.description()},
-        {"renderer", device.renderer},
-        {"software", device.software},
-        {"triangles", triangle_count(scene)},
-        {"splats", splat_count(scene)},
-        {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
-        {"plan", drawn.plan},
-        {"specialisations", results::specialisations_json(drawn.specialisations)},
-        {"output", images.paths}};
+    Json json = {{"width", first.width},
+                 {"height", first.height},
+                 {"context", context.description()},
+                 {"renderer", device.renderer},
+                 {"software", device.software},
+                 {"triangles", triangle_count(scene)},
+                 {"splats", splat_count(scene)},
+                 {"frame_ms", frame_times_json(times)},
+                 {"plan", drawn.plan},
+                 {"specialisations", results::specialisations_json(drawn.specialisations)},
+                 {"output", images.paths}};
     if (!measured.empty()) json["measured"] = measured_json(measured);
     print_json(json);
   }
@@ -250,6 +305,7 @@ Examples:
                                                           the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
   tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
+  tureen render soup.glb --renderer oracle -o exact.png   in double precision, without OpenGL
   tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
   tureen render soup.glb --depth depth.exr --alpha a.png  also values: 32-bit floats or 16 bits
   tureen render soup.glb --frames 100 --json              milliseconds per frame
@@ -288,6 +344,19 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       .check(between(1, 1000000))
       .excludes(show)
       .value_name("N");
+  Option renderer =
+      add_choice<RendererKind>(command, "--renderer", options->renderer,
+                               {{"gl", RendererKind::gl},
+                                {"oracle", RendererKind::oracle},
+                                {"tiles", RendererKind::tiles}},
+                               "what draws: gl (default, OpenGL); oracle: the reference in double "
+                               "precision, seconds to hours an image; tiles: splats on the "
+                               "processor. The last two need no OpenGL")
+          .value_name("NAME");
+  for (const char* other : {"--debug-view", "--scale", "--pipeline", "--shading", "--no-specialise",
+                            "--keep", "--blend", "--context", "--frames", "--as-published",
+                            "--depth", "--median-depth", "--normals", "--alpha"})
+    renderer.excludes(command.option(other));
   command.add_flag("--json", options->json,
                    "print the images, the plan and the frame times as JSON to standard output");
   command.does([options] { return render(*options); });

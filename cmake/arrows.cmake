@@ -93,7 +93,7 @@ set(arrows
   "cli/measuring: base scene camera runtime/gl jobs/* cli/exit_code.hpp cli/options"
   "cli/bench: base scene jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"
   "cli/tradeoff: base scene camera formats/* runtime/gl jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"
-  "cli: base image scene camera formats/* runtime/* trainer/* jobs/* cli/*")
+  "cli: base image scene camera formats/* oracle splatting/* runtime/* trainer/* jobs/* cli/*")
 
 set(wrong "")
 set(modules "")

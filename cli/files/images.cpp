@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "base/error.hpp"
@@ -20,20 +21,20 @@ namespace tureen::cli {
 
 namespace {
 
-double timed_draw(const Drawer& drawer, const FrameInput& input) {
+double timed_draw(
+    const Drawer& drawer, const FrameInput& input,
+    const std::function<void(double)>& progress = [](double) {}) {
   const auto start = std::chrono::steady_clock::now();
-  drawer.draw(input);
+  drawer.draw(input, progress);
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
 }
 
-/// Whether an image exceeds the limits of the device, or its targets would need more than 1 GiB.
-/// False with a resolution scale, which tiles do not support.
-bool needs_tiles(const Drawer& drawer, const gl::Capabilities& device, const Camera& camera) {
-  if (drawer.resolution_scale < 1) return false;
+bool needs_tiles(const Quality& quality, const gl::Capabilities& device, const Camera& camera) {
+  if (quality.resolution_scale < 1) return false;              // tiles do not support it
   constexpr std::int64_t max_samples = std::int64_t(1) << 26;  // 1 GiB of targets
-  const std::int64_t columns = std::int64_t(camera.width) * drawer.supersampling;
-  const std::int64_t rows = std::int64_t(camera.height) * drawer.supersampling;
+  const std::int64_t columns = std::int64_t(camera.width) * quality.supersampling;
+  const std::int64_t rows = std::int64_t(camera.height) * quality.supersampling;
   return std::max(columns, rows) > device.max_image_side || columns * rows > max_samples;
 }
 
@@ -47,8 +48,8 @@ Camera small_view(const Camera& camera) {
 
 /// Draws an image at once and writes it. Returns its thumbnail.
 Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
-                  FrameTimes& times) {
-  times.ms.push_back(timed_draw(drawer, {camera}));
+                  FrameTimes& times, const std::function<void(double)>& progress) {
+  times.ms.push_back(timed_draw(drawer, {camera}, progress));
   const Image8 image = drawer.read();
   write_image(image, path);
   return thumbnail(image);
@@ -70,7 +71,7 @@ Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesys
   draw_in_bands({camera}, tiles, [&](const Image8& band) { rows.append(band); });
   rows.finish();
   output.commit();
-  drawer.draw({small_view(camera)});
+  timed_draw(drawer, {small_view(camera)});
   return drawer.read();
 }
 
@@ -91,34 +92,52 @@ double FrameTimes::p95() const {
 
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
   return {.draw =
-              [&renderer](const FrameInput& input) {
+              [&renderer](const FrameInput& input, const auto&) {
                 renderer.draw(input);
                 renderer.finish();
               },
           .read = [&renderer] { return renderer.read_color(); },
           .tiles = [&renderer, &device] { return tiles_of(renderer, device); },
-          .supersampling = renderer.plan().quality.supersampling,
-          .resolution_scale = renderer.plan().quality.resolution_scale};
+          .needs_tiles =
+              [&renderer, &device](const Camera& camera) {
+                return needs_tiles(renderer.plan().quality, device, camera);
+              }};
 }
 
-WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
-                          const std::vector<Camera>& cameras, const ImageNames& names) {
+Drawer drawer_of(ImageSource& source, std::function<void(double)>& progress, bool opaque) {
+  auto last = std::make_shared<Image8>();
+  return {.draw =
+              [&source, &progress, opaque, last](const FrameInput& input,
+                                                 const std::function<void(double)>& each) {
+                progress = each;
+                *last = source.image(input);
+                if (opaque)
+                  for (glm::u8vec4& pixel : last->pixels) pixel.a = 255;
+              },
+          .read = [last] { return *last; },
+          .tiles = {},
+          .needs_tiles = [](const Camera&) { return false; },
+          .warms_up = false};
+}
+
+WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& cameras,
+                          const ImageNames& names) {
   const bool with_sheet = cameras.size() > 1 && names.sheet == Sheet::of_several;
   const int count = int(cameras.size());
   WrittenImages result;
   std::vector<Image8> thumbnails;
   Progress progress("drawing");
-  // Not counted: it compiles shaders and, for an image without tiles, creates the targets.
+  // For an image without tiles, this also creates the targets.
   const Camera& first = cameras.front();
-  drawer.draw({needs_tiles(drawer, device, first) ? small_view(first) : first});
+  if (drawer.warms_up) timed_draw(drawer, {drawer.needs_tiles(first) ? small_view(first) : first});
   for (int i = 0; i < count; ++i) {
     const auto update = [&](double done) { progress.update((i + done) / count); };
     update(0);
     const Camera& camera = cameras[std::size_t(i)];
     const std::filesystem::path path = image_name(names.pattern, i, count);
-    Image8 small = needs_tiles(drawer, device, camera)
+    Image8 small = drawer.needs_tiles(camera)
                        ? draw_large(drawer, camera, path, result.times, update)
-                       : draw_whole(drawer, camera, path, result.times);
+                       : draw_whole(drawer, camera, path, result.times, update);
     if (with_sheet) thumbnails.push_back(std::move(small));
     result.paths.push_back(path.string());
   }
@@ -137,20 +156,22 @@ WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& camera
   WrittenImages result{{path}, {}};
   VideoFile video(path, {first.width, first.height, frames_per_second});
   Progress progress("drawing");
-  drawer.draw({first});  // compiles shaders; not counted
+  if (drawer.warms_up) timed_draw(drawer, {first});
   for (const Camera& camera : cameras) {
-    progress.update(double(result.times.ms.size()) / double(cameras.size()));
-    result.times.ms.push_back(timed_draw(drawer, {camera}));
+    const auto update = [&](double done) {
+      progress.update((double(result.times.ms.size()) + done) / double(cameras.size()));
+    };
+    update(0);
+    result.times.ms.push_back(timed_draw(drawer, {camera}, update));
     video.add(drawer.read());
   }
   video.commit();
   return result;
 }
 
-FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
-                     const std::vector<Camera>& cameras, int frames) {
+FrameTimes benchmark(const Drawer& drawer, const std::vector<Camera>& cameras, int frames) {
   for (const Camera& camera : cameras)
-    if (needs_tiles(drawer, device, camera))
+    if (drawer.needs_tiles(camera))
       throw UsageError(
           fmt::format("--frames cannot measure {} x {}: images of this size are drawn in tiles; "
                       "use a smaller --size",

@@ -7,6 +7,7 @@
 
 #include "runtime/image_tiles.hpp"
 #include "runtime/renderer.hpp"
+#include "scene/image_source.hpp"
 
 namespace tureen::cli {
 
@@ -22,15 +23,21 @@ struct FrameTimes {
 
 /// A renderer, and what its images need.
 struct Drawer {
-  std::function<void(const FrameInput& input)> draw;  // waits for the device
+  /// Draws a frame, and waits for the device. Slow renderers call `progress` with the fraction
+  /// done.
+  std::function<void(const FrameInput& input, const std::function<void(double)>& progress)> draw;
   std::function<Image8()> read;
   std::function<ImageTiles()> tiles;
-  int supersampling = 1;
-  double resolution_scale = 1.0;
+  /// Whether an image exceeds the limits of the device, or its targets would need more than 1 GiB.
+  std::function<bool(const Camera& camera)> needs_tiles;
+  bool warms_up = true;  // the first frame compiles shaders; its time does not count
 };
 
 /// `renderer` and `device` must outlive the Drawer.
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device);
+/// Images of any size by a slow renderer, which calls `progress`; all must outlive the Drawer.
+/// `opaque`: alpha becomes 1.
+Drawer drawer_of(ImageSource& source, std::function<void(double)>& progress, bool opaque);
 
 struct WrittenImages {
   std::vector<std::string> paths;
@@ -47,8 +54,8 @@ struct ImageNames {
 /// Writes one image per camera. With Sheet::of_several and more than one camera, also writes
 /// contact_sheet.png beside them. Images beyond the limits of the device are drawn in tiles; their
 /// time is the sum over the tiles. Throws OutputError.
-WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
-                          const std::vector<Camera>& cameras, const ImageNames& names);
+WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& cameras,
+                          const ImageNames& names);
 
 /// Writes the frames as a video (image/video_file.hpp), completely or not at all.
 WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
@@ -56,7 +63,6 @@ WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& camera
 
 /// Times of `frames` frames, with all cameras in turn. The 3 to 10 frames before them compile
 /// shaders and fill caches, and are not counted. Throws UsageError for images that need tiles.
-FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
-                     const std::vector<Camera>& cameras, int frames);
+FrameTimes benchmark(const Drawer& drawer, const std::vector<Camera>& cameras, int frames);
 
 }  // namespace tureen::cli

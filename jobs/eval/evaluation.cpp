@@ -9,7 +9,7 @@
 
 #include "image/specks.hpp"
 #include "runtime/plan/plan_description.hpp"
-#include "runtime/renderer.hpp"
+#include "runtime/renderer_images.hpp"
 
 namespace tureen {
 
@@ -23,18 +23,6 @@ double hole_fraction(const ImageF& photograph, const ImageF& drawn) {
   const auto opaque = std::count_if(photograph.pixels.begin(), photograph.pixels.end(),
                                     [](const glm::vec4& pixel) { return pixel.a >= 1.0f; });
   return mean_of(hole_map(photograph, drawn), std::size_t(opaque));
-}
-
-/// The colours over the opaque background, with coverage as alpha.
-Image8 drawn_view(Renderer& renderer, const Camera& camera, const glm::vec3& background) {
-  renderer.set_background({background, 1.0f});
-  renderer.draw({camera});
-  Image8 image = renderer.read_color();
-  renderer.set_background({background, 0.0f});
-  renderer.draw({camera});
-  const Image8 covered = renderer.read_color();
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i].a = covered.pixels[i].a;
-  return image;
 }
 
 /// The errors of a drawn view. Runs on any thread.
@@ -80,11 +68,21 @@ RenderOptions render_options(const EvaluationOptions& options) {
 
 Evaluation measured(const gl::Context& context, Renderer renderer,
                     std::span<const Photograph> photographs, const EvaluationOptions& options) {
-  assert(!photographs.empty());
-  Evaluation result;
+  RendererImages images(renderer, options.background);
+  Evaluation result = evaluate(images, photographs, options);
   result.context = context.description();
   result.renderer = context.capabilities().renderer;
+  result.plan = describe(renderer.plan());
+  result.specialisations = renderer.plan().applied();
+  return result;
+}
 
+}  // namespace
+
+Evaluation evaluate(ImageSource& source, std::span<const Photograph> photographs,
+                    const EvaluationOptions& options) {
+  assert(!photographs.empty());
+  Evaluation result;
   // At most one view more than cores is in memory. On an exception, the destructor of `running`
   // waits for the remaining views.
   const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
@@ -96,18 +94,13 @@ Evaluation measured(const gl::Context& context, Renderer renderer,
   for (std::size_t i = 0; i < photographs.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(photographs.size()));
     running.push_back(std::async(std::launch::async, measure, i, std::cref(photographs[i]),
-                                 drawn_view(renderer, photographs[i].camera, options.background),
-                                 std::cref(options)));
+                                 source.image({photographs[i].camera}), std::cref(options)));
     if (running.size() == most) take_first();
   }
   while (!running.empty()) take_first();
   result.mean = mean_of(result.views);
-  result.plan = describe(renderer.plan());
-  result.specialisations = renderer.plan().applied();
   return result;
 }
-
-}  // namespace
 
 Evaluation evaluate(const Scene& scene, std::span<const Photograph> photographs,
                     const EvaluationOptions& options) {

@@ -18,15 +18,18 @@
 #include "jobs/baseline/baseline.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/plan/plan.hpp"
+#include "scene/image_source.hpp"
 #include "scene/photographs.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
 
 struct EvaluationOptions {
+  // Of the runtime's images:
   gl::Backend backend = gl::Backend::automatic;
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
+
   /// Colour behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};
@@ -52,16 +55,21 @@ struct ViewMetrics {
 struct Evaluation {
   std::vector<ViewMetrics> views;  // in the order of the photographs
   ViewMetrics mean;                // name is empty
-  std::string context;             // the method of access to the device, and its name
+  // Of the runtime's images:
+  std::string context;  // the method of access to the device, and its name
   std::string renderer;
   std::vector<std::string> plan;                       // describe()
   std::vector<AppliedSpecialisation> specialisations;  // in the plan
 };
 
-/// Measures views on all cores while others are drawn. Needs at least one photograph; the layers
-/// have no defect(). Hidden layers are not drawn. For the baseline, the scene holds one soup.
-/// Throws ContextError, DeviceLimitError, UsageError as make_renderer and if the SSIM window does
-/// not fit in a view, and exceptions from the callbacks.
+/// Measures views on all cores while the caller's thread draws others with `source`, whose images
+/// are over options.background. Needs at least one photograph. Throws UsageError if the SSIM window
+/// does not fit in a view, and exceptions from the source and the callbacks.
+Evaluation evaluate(ImageSource& source, std::span<const Photograph> photographs,
+                    const EvaluationOptions& options);
+/// The same with the runtime's images. The layers have no defect(). Hidden layers are not drawn.
+/// For the baseline, the scene holds one soup. Throws also ContextError, DeviceLimitError and
+/// UsageError as make_renderer.
 Evaluation evaluate(const Scene& scene, std::span<const Photograph> photographs,
                     const EvaluationOptions& options);
 /// The same for one soup.

@@ -39,9 +39,7 @@ struct ReferenceOptions {
   std::function<void(double)> progress = {};
 };
 
-/// The image of the scene over the background; alpha is coverage, the mean of the rays: 1 with a
-/// hit, otherwise the alpha of the splats. Memory in addition to the image: 12 bytes a ray, 88 with
-/// splats, in strips of at most about 4 million rays.
+/// oracle_image() over the background, in strips of at most about 4 million rays.
 ImageF reference_image(const Scene& scene, const Camera& camera, const ReferenceOptions& options);
 
 }  // namespace tureen::tradeoff

@@ -5,7 +5,6 @@
 
 #include "image/heat_map.hpp"
 #include "image/metrics.hpp"
-#include "image/quantise.hpp"
 
 namespace tureen::trainer {
 
@@ -16,18 +15,9 @@ ImageF truth(const Trainable& run, const Photograph& view) {
   return composited(to_float(view.image), {color[0], color[1], color[2]});
 }
 
-}  // namespace
+ImageF drawn(Trainable& run, const Photograph& view) { return to_float(run.image({view.camera})); }
 
-Image8 drawn(Trainable& run, const Camera& camera) {
-  const std::vector<float> planes = run.render(camera);
-  Image8 image(camera.width, camera.height);
-  const std::size_t pixels = image.pixels.size();
-  assert(planes.size() == 3 * pixels);
-  for (std::size_t p = 0; p < pixels; ++p)
-    image.pixels[p] = {quantised_unit(planes[p]), quantised_unit(planes[pixels + p]),
-                       quantised_unit(planes[2 * pixels + p]), 255};
-  return image;
-}
+}  // namespace
 
 double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
                     const std::function<void(double)>& progress) {
@@ -35,7 +25,7 @@ double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
   double sum = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (progress) progress(double(i) / double(views.size()));
-    const ImageF rendering = to_float(drawn(run, views[i].camera));
+    const ImageF rendering = drawn(run, views[i]);
     ImageF target = truth(run, views[i]);
     const double counted = equate_ignored(rendering, views[i].ignored, target);
     sum += psnr_from_mse(counted * mean_squared_error(target, rendering));
@@ -44,7 +34,7 @@ double mean_psnr_db(Trainable& run, std::span<const Photograph> views,
 }
 
 Image8 preview(Trainable& run, const Photograph& view) {
-  Image8 image = side_by_side(truth(run, view), to_float(drawn(run, view.camera)));
+  Image8 image = side_by_side(truth(run, view), drawn(run, view));
   // The photograph is already composited on the background.
   for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
   return image;

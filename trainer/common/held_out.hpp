@@ -13,9 +13,6 @@
 
 namespace tureen::trainer {
 
-/// The camera's image with 8 bits per channel, opaque.
-Image8 drawn(Trainable& run, const Camera& camera);
-
 /// The mean PSNR over the views, against the photograph over the background, as in evaluate().
 /// `progress`: optional function, called with the completed fraction; it may throw.
 double mean_psnr_db(Trainable& run, std::span<const Photograph> views,

@@ -178,7 +178,7 @@ void TrainingSession::write_preview() {
   // Eight digits for every run, so that the names sort after a change of the number of steps, too.
   Output output(options_.previews / fmt::format("step_{:08}.png", run_.steps_done()));
   output.write(encode_png(options_.test_views.empty()
-                              ? drawn(run_, options_.preview_camera)
+                              ? run_.image({options_.preview_camera})
                               : preview(run_, options_.test_views.front())));
   output.commit();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/image_source.hpp"
 #include "trainer/common/primitive_count.hpp"
 
 namespace tureen::trainer {
@@ -19,10 +20,8 @@ struct StepReport {
   std::uint64_t non_finite = 0;  // pixels and parameters quarantined in this step
 };
 
-class Trainable {
+class Trainable : public ImageSource {
  public:
-  virtual ~Trainable() = default;
-
   /// Steps of the whole run. It may change between two steps.
   virtual int steps() const = 0;
   virtual int steps_done() const = 0;
@@ -35,6 +34,9 @@ class Trainable {
 
   /// The image that a viewer would show: three planes of floats, row 0 on top.
   virtual std::vector<float> render(const Camera& camera) = 0;
+  /// That image, opaque.
+  Image8 image(const FrameInput& input) final { return quantised(*exact_image(input)); }
+  std::optional<ImageF> exact_image(const FrameInput& input) final;
   /// Red, green, blue in [0, 1]; behind the photographs, too.
   virtual std::span<const float, 3> background() const = 0;
 
