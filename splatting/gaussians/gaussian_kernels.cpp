@@ -49,8 +49,8 @@ struct ProjectedVector {
       const auto of = [&](std::size_t k) { return values[k][i]; };
       entries[i] = {of(0), of(1), of(2), of(3),  of(4),  of(5), of(6),
                     of(7), of(8), of(9), of(10), of(11), of(12)};
-      depths[i] = of(entry_member::depth);
     }
+    std::copy_n(values[entry_member::depth], depths.size(), depths.data());
   }
 };
 
