@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "scene/splats.hpp"
 #include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
@@ -64,11 +63,6 @@ struct GaussianKernel {
   }
   static void list(const Entry& entry, const Outline&, std::uint32_t splat, TileLists& lists);
 };
-
-/// The rows of gaussian_row, for the splats with these indices and harmonics up to `degree`. The
-/// third scale of flat Gaussians is 0.
-ParameterRows rows_of(const Gaussians& gaussians, const SplatColor& color,
-                      std::span<const std::uint32_t> which, int degree);
 
 /// A Gaussian in view coordinates, for the depth at which a ray meets its largest density: the
 /// unit axes, each times the smallest scale over its own, and the centre, in layer units.

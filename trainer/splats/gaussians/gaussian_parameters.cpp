@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
 
 namespace tureen::trainer {
 
@@ -20,12 +18,8 @@ const std::array<ParameterKind, 6> gaussian_parameter_kinds = {{
      Inheritance::copied},
 }};
 
-GaussianParameters::GaussianParameters(const Gaussians& gaussians, const SplatColor& color,
-                                       int degree_of_harmonics)
-    : SplatParameters(gaussians.centers.size(), degree_of_harmonics) {
-  std::vector<std::uint32_t> all(count());
-  std::iota(all.begin(), all.end(), 0u);
-  set_drawn(splatting::rows_of(gaussians, color, all, std::min(degree, color.degree)));
+GaussianParameters::GaussianParameters(const Splats& splats, int degree_of_harmonics)
+    : SplatParameters(splats, degree_of_harmonics) {
   for (std::size_t i = 0; i < count(); ++i) {
     for (std::size_t r = row::scale_x; r <= row::scale_z; ++r)
       trained(r)[i] = std::log(std::max(drawn.row(r)[i], 1e-30f));

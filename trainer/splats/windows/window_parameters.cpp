@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
 
 namespace tureen::trainer {
 
@@ -21,15 +19,11 @@ const std::array<ParameterKind, 5> window_parameter_kinds = {{
      Inheritance::copied},
 }};
 
-WindowParameters::WindowParameters(const TriangleWindows& windows, const SplatColor& color,
-                                   int degree_of_harmonics)
-    : SplatParameters(windows.sigma.size(), degree_of_harmonics) {
-  std::vector<std::uint32_t> all(count());
-  std::iota(all.begin(), all.end(), 0u);
-  set_drawn(splatting::rows_of(windows, color, all, std::min(degree, color.degree)));
+WindowParameters::WindowParameters(const Splats& splats, int degree_of_harmonics)
+    : SplatParameters(splats, degree_of_harmonics) {
   for (std::size_t i = 0; i < count(); ++i) {
-    trained(window_row::sigma)[i] = log_of_sigma(windows.sigma[i]);
-    trained(window_row::opacity)[i] = logit_of(windows.opacity[i]);
+    trained(window_row::sigma)[i] = log_of_sigma(drawn.row(window_row::sigma)[i]);
+    trained(window_row::opacity)[i] = logit_of(opacity(i));
     activate(i);
   }
 }

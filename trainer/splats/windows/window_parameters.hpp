@@ -37,7 +37,7 @@ struct WindowParameters
 
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and sigmas to at least 1.01 sigma_floor.
-  WindowParameters(const TriangleWindows& windows, const SplatColor& color, int degree);
+  WindowParameters(const Splats& splats, int degree);
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
