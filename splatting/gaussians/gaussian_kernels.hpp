@@ -42,7 +42,7 @@ struct alignas(64) GaussianEntry {
 
 /// Entries, because each row would be a cache miss in the order of blending.
 struct ProjectedGaussians {
-  static constexpr std::size_t bytes_a_splat = sizeof(GaussianEntry);
+  static constexpr std::size_t bytes_a_splat = sizeof(GaussianEntry) + sizeof(float);
 
   std::vector<GaussianEntry> entries;
   std::vector<float> depth;
