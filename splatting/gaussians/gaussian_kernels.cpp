@@ -172,8 +172,6 @@ const KernelFunctions<GaussianKernel>& gaussian_functions() {
   return functions;
 }
 
-const char* target_name() { return hwy::TargetName(HWY_TARGET); }
-
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -181,7 +179,6 @@ HWY_AFTER_NAMESPACE();
 namespace tureen::splatting {
 
 HWY_EXPORT(gaussian_functions);
-HWY_EXPORT(target_name);
 
 const KernelFunctions<GaussianKernel>& GaussianKernel::functions() {
   return HWY_DYNAMIC_DISPATCH(gaussian_functions)();
@@ -224,8 +221,6 @@ GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians
   }
   return peak;
 }
-
-const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 
 }  // namespace tureen::splatting
 #endif

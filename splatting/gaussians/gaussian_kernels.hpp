@@ -72,7 +72,4 @@ struct GaussianPeak {
 /// Of Gaussian `i` in rows of gaussian_row.
 GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians, std::size_t i);
 
-/// The name of the chosen vectors: "AVX3_ZEN4", "AVX2", ..
-const char* vector_target();
-
 }  // namespace tureen::splatting

@@ -22,7 +22,7 @@ namespace tureen::trainer {
 /// to there, trained values differ from drawn ones.
 template <std::size_t FirstRaw, std::size_t Harmonics>
 struct SplatParameters {
-  static constexpr std::size_t first_raw = FirstRaw, raw_rows = Harmonics - FirstRaw;
+  static constexpr std::size_t raw_rows = Harmonics - FirstRaw;
 
   int degree = 0;
   splatting::ParameterRows drawn;  // after activation

@@ -8,14 +8,12 @@ namespace tureen::trainer {
 namespace row = splatting::gaussian_row;
 
 const std::array<ParameterKind, 6> gaussian_parameter_kinds = {{
-    {"centre", row::x, 3, Activation::identity, 3e-3f, 3e-5f, Inheritance::moved_apart},
-    {"log scale", row::scale_x, 3, Activation::exponential, 4e-2f, 8e-3f, Inheritance::shortened},
-    {"rotation", row::rotation_x, 4, Activation::unit_length, 1e-2f, 2e-3f, Inheritance::copied},
-    {"opacity logit", row::opacity, 1, Activation::sigmoid, 1e-1f, 2e-2f, Inheritance::copied},
-    {"harmonics of degree 0", row::harmonics, 3, Activation::identity, 2e-2f, 4e-3f,
-     Inheritance::copied},
-    {"other harmonics", row::harmonics + 3, 45, Activation::identity, 4e-3f, 8e-4f,
-     Inheritance::copied},
+    {"centre", row::x, 3, 3e-3f, 3e-5f},
+    {"log scale", row::scale_x, 3, 4e-2f, 8e-3f},
+    {"rotation", row::rotation_x, 4, 1e-2f, 2e-3f},
+    {"opacity logit", row::opacity, 1, 1e-1f, 2e-2f},
+    {"harmonics of degree 0", row::harmonics, 3, 2e-2f, 4e-3f},
+    {"other harmonics", row::harmonics + 3, 45, 4e-3f, 8e-4f},
 }};
 
 GaussianParameters::GaussianParameters(const Splats& splats, int degree_of_harmonics)

@@ -1,5 +1,4 @@
-// The parameters of Gaussians in training. One table lists their names, sizes, activations, rates,
-// and their values after a split.
+// The parameters of Gaussians in training. One table lists their names, sizes and rates.
 #pragma once
 
 #include <array>
