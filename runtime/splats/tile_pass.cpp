@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 #include "splatting/tiles/composite.hpp"
 
 namespace tureen {
@@ -31,8 +30,7 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
         pool_.run(count, body);
       }),
       blended_(device.api, {target_formats::rgba32f}),
-      depth_bits_(assemble({.file = "full_screen.vert"}, device.api),
-                  assemble({.file = "depth_probe.frag"}, device.api)) {}
+      depth_bits_(full_screen_program({.file = "depth_probe.frag"}, device.api)) {}
 
 void TilePass::resize(const FrameTarget& target) {
   size_ = target.size();
