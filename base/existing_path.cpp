@@ -34,6 +34,11 @@ void require_there(const fs::path& path) {
     fail("cannot be opened: " + error.message());
 }
 
+Input open_existing(const fs::path& path) {
+  require_there(path);
+  return Input::open(path);
+}
+
 bool lies_in(const fs::path& path, const fs::path& folder) {
   std::error_code error;
   const fs::path outer = fs::weakly_canonical(fs::absolute(folder, error), error);

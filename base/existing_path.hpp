@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "base/input.hpp"
+
 namespace tureen {
 
 /// Whether nothing exists at `path`. False if the lookup itself is denied: opening reports the
@@ -13,6 +15,9 @@ bool is_missing(const std::filesystem::path& path);
 /// similar name). Throws InputError too if the lookup is denied or a folder cannot be entered.
 /// Throws UsageError if the path is empty.
 void require_there(const std::filesystem::path& path);
+
+/// Opens the file at `path`. Throws as require_there() and Input::open().
+Input open_existing(const std::filesystem::path& path);
 
 /// Whether `path` is `folder` or lies below it, with links followed. Neither has to exist. False
 /// for a path that cannot be looked up.

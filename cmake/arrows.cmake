@@ -37,7 +37,7 @@ set(arrows
   "splatting/discs: scene splatting splatting/tiles splatting/tiles/tile_lists.* splatting/gaussians"
   "splatting/neural: scene splatting splatting/tiles splatting/tiles/tile_lists.*"
   "splatting/windows: scene splatting splatting/tiles splatting/tiles/tile_lists.*"
-  "splatting/layer.cpp: base scene splatting/*"
+  "splatting/kernel_rows.cpp splatting/layer.cpp: base scene splatting/*"
 
   "shaders:"
   "shaders/splats: shaders"

@@ -106,24 +106,33 @@ class Blender {
     to.ended = next == 0;
   }
 
+  /// visit(sample, splat, colour) for each sample in rows [first_row, end_row) that the splat
+  /// covers, except where blending has ended.
+  template <class Visit>
+  void for_each_sample(const SplatKey& key, int first_row, int end_row, const Visit& visit) const {
+    const auto splat = project(splats_of(key), key.index, views_[key.layer]);
+    if (!splat) return;
+    const SplatColorInView color(splats_of(key), key.index, views_[key.layer].eye());
+    const SampleRange range = range_of(box_of(*splat));
+    for (int row = std::max(first_row, range.first_row); row < std::min(end_row, range.end_row);
+         ++row)
+      for (int column = range.first_column; column < range.end_column; ++column) {
+        const std::size_t i = index(column, row);
+        if (samples_[i].ended) continue;
+        const glm::dvec2 point = pixel(column, row);
+        const SplatSample there = sample(*splat, point, opaque_depth_[i]);
+        if (there.alpha > 0) visit(i, there, color.at(*splat, point));
+      }
+  }
+
   void blend_by_center() {
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       report(k, keys_.size());
-      const SplatKey& key = keys_[k];
-      const Splats& splats = splats_of(key);
-      const SplatView& view = views_[key.layer];
-      const std::optional<SplatInView> splat = project(splats, key.index, view);
-      if (!splat) continue;
-      const SplatColorInView color(splats, key.index, view.eye());
-      const SampleRange range = range_of(box_of(*splat));
-      for (int row = range.first_row; row < range.end_row; ++row)
-        for (int column = range.first_column; column < range.end_column; ++column) {
-          const std::size_t i = index(column, row);
-          if (samples_[i].ended) continue;
-          const glm::dvec2 point = pixel(column, row);
-          const SplatSample there = sample(*splat, point, opaque_depth_[i]);
-          if (there.alpha > 0) add(samples_[i], there, color.at(*splat, point), splats.profile);
-        }
+      const SplatProfile& profile = splats_of(keys_[k]).profile;
+      for_each_sample(keys_[k], 0, rows_,
+                      [&](std::size_t i, const SplatSample& splat, const glm::dvec3& color) {
+                        add(samples_[i], splat, color, profile);
+                      });
     }
   }
 
@@ -154,7 +163,11 @@ class Blender {
       candidates.clear();
       for (std::size_t k = 0; k < keys_.size(); ++k)
         if (rows[k].first < end && rows[k].second > first)
-          collect(keys_[k], first, end, candidates);
+          for_each_sample(keys_[k], first, end,
+                          [&, &key = keys_[k]](std::size_t i, const SplatSample& splat,
+                                               const glm::dvec3& color) {
+                            candidates.push_back({i, splat, key.layer, key.index, color});
+                          });
       std::sort(candidates.begin(), candidates.end());
       for (const Candidate& each : candidates) {
         BlendedSample& to = samples_[each.sample];
@@ -162,23 +175,6 @@ class Blender {
         add(to, each.splat, each.color, layers_[each.layer].splats->profile);
       }
     }
-  }
-
-  void collect(const SplatKey& key, int first_row, int end_row,
-               std::vector<Candidate>& candidates) const {
-    const auto splat = project(splats_of(key), key.index, views_[key.layer]);
-    if (!splat) return;
-    const SplatColorInView color(splats_of(key), key.index, views_[key.layer].eye());
-    const SampleRange range = range_of(box_of(*splat));
-    for (int row = std::max(first_row, range.first_row); row < std::min(end_row, range.end_row);
-         ++row)
-      for (int column = range.first_column; column < range.end_column; ++column) {
-        const std::size_t i = index(column, row);
-        const glm::dvec2 point = pixel(column, row);
-        const SplatSample there = sample(*splat, point, opaque_depth_[i]);
-        if (there.alpha > 0)
-          candidates.push_back({i, there, key.layer, key.index, color.at(*splat, point)});
-      }
   }
 
   /// At most 256 calls a frame.

@@ -83,7 +83,7 @@ void Renderer::State::arrange() {
     if (layer.tiled_splats) layer.tiled_splats->layer = i;
     if (!layer.soup) continue;
     if (layered) make_layered(std::get<SoupPlan>(*layer.plan));
-    layer.soup->set_place({i, first_slot, layered});
+    layer.soup->set_slots({i, first_slot, layered});
     first_slot += static_cast<std::uint32_t>(layer.soup->plan().faces.size());
   }
   drop_splat_pass();
@@ -343,8 +343,8 @@ std::vector<VisibleFace> Renderer::read_faces() const {
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (slots[i] == no_face) continue;
     auto soup = soups.rbegin();
-    while (slots[i] < (*soup)->place().first_slot) ++soup;
-    const auto& [layer, first_slot, layered] = (*soup)->place();
+    while (slots[i] < (*soup)->slots().first_slot) ++soup;
+    const auto& [layer, first_slot, layered] = (*soup)->slots();
     result[i] = {static_cast<std::uint32_t>(layer), (*soup)->plan().faces[slots[i] - first_slot]};
   }
   return result;

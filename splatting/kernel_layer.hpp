@@ -26,7 +26,7 @@ class KernelLayer final : public Layer {
     for (std::size_t place = 0; place < splats.size(); ++place)
       Kernel::read(projected_, splats[place], entries_[place], outlines_[place]);
   }
-  void list(const ImageView&, std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
+  void list(std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
             TileLists& lists) const override {
     for (std::uint32_t place = begin; place < end; ++place)
       Kernel::list(entries_[place], outlines_[place], tag | place, lists);

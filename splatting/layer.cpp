@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "splatting/discs/disc_kernels.hpp"
 #include "splatting/gaussians/gaussian_kernels.hpp"
 #include "splatting/kernel_layer.hpp"
+#include "splatting/kernel_rows.hpp"
 #include "splatting/neural/neural_kernels.hpp"
 #include "splatting/windows/corner_window_kernels.hpp"
 #include "splatting/windows/window_kernels.hpp"
@@ -20,31 +23,17 @@ bool has_layer_for(const Splats& splats) { return count(splats) <= place_mask; }
 
 namespace {
 
-template <class Vector>
-bool any_nan(const Vector& v) {
-  for (int i = 0; i < v.length(); ++i)
-    if (std::isnan(v[i])) return true;
-  return false;
-}
-
 bool has_nan(const Splats& splats, std::size_t i) {
+  bool found = false;
+  for_each_column(splats.kernel, [&](const auto& column) {
+    const std::span<const float> values = column.of_splat(i);
+    found =
+        found || std::any_of(values.begin(), values.end(), [](float v) { return std::isnan(v); });
+  });
   const std::size_t per_splat = coefficients_per_splat(splats.color);
-  for (std::size_t k = 0; k < per_splat; ++k)
-    if (any_nan(splats.color.coefficients[per_splat * i + k])) return true;
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
-    return any_nan(windows->corners[3 * i]) || any_nan(windows->corners[3 * i + 1]) ||
-           any_nan(windows->corners[3 * i + 2]) || std::isnan(windows->sigma[i]) ||
-           std::isnan(windows->opacity[i]);
-  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel)) {
-    const float* network = &densities->networks[NeuralDensities::parameters * i];
-    return any_nan(densities->centers[i]) || any_nan(densities->semi_axes[i]) ||
-           any_nan(densities->rotations[i]) ||
-           std::any_of(network, network + NeuralDensities::parameters,
-                       [](float value) { return std::isnan(value); });
-  }
-  const auto& gaussians = std::get<Gaussians>(splats.kernel);
-  return any_nan(gaussians.centers[i]) || any_nan(gaussians.scales[i]) ||
-         any_nan(gaussians.rotations[i]) || std::isnan(gaussians.opacity[i]);
+  const glm::vec3* coefficients = splats.color.coefficients.data() + per_splat * i;
+  return found || std::any_of(coefficients, coefficients + per_splat,
+                              [](const glm::vec3& each) { return glm::any(glm::isnan(each)); });
 }
 
 LayerKind kind_of(const Splats& splats, const SplatProfile& profile) {
@@ -73,8 +62,7 @@ LayerData layer_data(const Splats& splats, const SplatProfile& profile,
                      std::span<const std::uint32_t> which, int degree) {
   assert(has_layer_for(splats));
   const std::vector<std::uint32_t> kept = without_nan(splats, which);
-  const auto rows = [&](const auto& kernel) { return rows_of(kernel, splats.color, kept, degree); };
-  return {kind_of(splats, profile), degree, std::visit(rows, splats.kernel)};
+  return {kind_of(splats, profile), degree, rows_of(splats, kept, degree)};
 }
 
 std::unique_ptr<Layer> make_layer(LayerData data) {

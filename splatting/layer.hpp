@@ -62,8 +62,8 @@ class Layer {
   /// Sets the order of blending of the next calls: drawn splats, near ones first.
   virtual void set_order(std::span<const std::uint32_t> splats) = 0;
   /// Adds the splats at places [begin, end) of the order, as `tag` | place. `tag` is the layer.
-  virtual void list(const ImageView& view, std::uint32_t begin, std::uint32_t end,
-                    std::uint32_t tag, TileLists& lists) const = 0;
+  virtual void list(std::uint32_t begin, std::uint32_t end, std::uint32_t tag,
+                    TileLists& lists) const = 0;
   /// Blends splats from a tile's list, all of this layer, front to back.
   virtual void blend(const ImageView& view, std::span<const std::uint32_t> splats,
                      TilePixels& pixels) const = 0;

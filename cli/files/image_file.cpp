@@ -45,8 +45,7 @@ std::string expanded(const std::string& pattern, int index, bool& replaced) {
 }  // namespace
 
 Image8 read_image(const std::filesystem::path& path) {
-  require_there(path);
-  Input input = Input::open(path);
+  Input input = open_existing(path);
   return read_image(input);
 }
 

@@ -144,8 +144,7 @@ class NetworkPass final : public Pass {
                          .constants = {{"HARMONICS_DEGREE", "2"}},
                          .generated = {{"baseline_shading_with_network",
                                         "#include \"baseline_shading.frag\"\n" + network_.text}}};
-    program_ = gl::Program(assemble({.file = "full_screen.vert"}, device.api),
-                           assemble(shading, device.api));
+    program_ = full_screen_program(shading, device.api);
     gl::check("NetworkPass");
   }
 

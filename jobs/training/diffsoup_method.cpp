@@ -6,6 +6,7 @@
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
+#include "base/existing_path.hpp"
 #include "jobs/training/diffsoup_options.hpp"
 #include "jobs/training/first_gaussians.hpp"
 #include "jobs/training/methods.hpp"
@@ -93,7 +94,7 @@ Config base_config(const TrainingOptions& options, Preset otherwise) {
   const Preset kind = given.value_or(otherwise);
   if (options.file.empty()) return published ? trainer::published(kind) : trainer::preset(kind);
   const Config config = constants_of_file(options, [&](const std::filesystem::path& file) {
-    return trainer::read_config(file, {.preset = kind, .published = published});
+    return trainer::read_config(open_existing(file), {.preset = kind, .published = published});
   });
   if (given && config.preset != kind)
     throw UsageError("--preset and " + options.file + " name different presets");
@@ -109,7 +110,7 @@ class DiffsoupMethod final : public TrainingMethod {
 
   void resume(const std::filesystem::path& checkpoint) override {
     require_checkpoint_of(diffsoup_method, checkpoint);
-    checkpoint_ = trainer::read_checkpoint(checkpoint);
+    checkpoint_ = trainer::read_checkpoint(open_existing(checkpoint));
   }
 
   void settle(const Dataset* dataset) override {

@@ -7,6 +7,7 @@
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
+#include "base/existing_path.hpp"
 #include "base/memory_budget.hpp"
 #include "jobs/training/methods.hpp"
 #include "trainer/common/plain_background.hpp"
@@ -44,7 +45,7 @@ class SplatMethod : public TrainingMethod {
 
   void resume(const std::filesystem::path& checkpoint) override {
     require_checkpoint_of(*options_.method, checkpoint);
-    checkpoint_ = trainer::read_splat_checkpoint<Checkpoint>(checkpoint);
+    checkpoint_ = trainer::read_splat_checkpoint<Checkpoint>(open_existing(checkpoint));
   }
 
   void settle(const Dataset* dataset) override {
@@ -59,7 +60,7 @@ class SplatMethod : public TrainingMethod {
     }
     if (!options_.file.empty())
       base = constants_of_file(options_, [&](const std::filesystem::path& file) {
-        return trainer::read_splat_config(file, base);
+        return trainer::read_splat_config(open_existing(file), base);
       });
     else if (checkpoint_)
       base = checkpoint_->config;

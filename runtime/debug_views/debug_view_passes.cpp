@@ -135,9 +135,8 @@ class EdgePass final : public Pass {
 class HolePass final : public Pass {
  public:
   explicit HolePass(gl::Api api)
-      : program_(assemble({.file = "full_screen.vert"}, api),
-                 assemble({.file = "holes.frag", .constants = {{"NO_FACE", "0xffffffffu"}}}, api)) {
-  }
+      : program_(full_screen_program(
+            {.file = "holes.frag", .constants = {{"NO_FACE", "0xffffffffu"}}}, api)) {}
   const char* name() const override { return "holes"; }
   void draw(const Frame&, FrameTarget& target) override {
     target.draw_color();

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/targets.hpp"
 
 namespace tureen {
@@ -36,8 +35,7 @@ MeasurePass::MeasurePass(const Inputs& inputs)
   constants["HAS_SOUPS"] = surfaces_.empty() ? "0" : "1";
   constants["VALUES"] = shown_.as_values ? "1" : "0";
   program_ =
-      gl::Program(assemble({.file = "full_screen.vert"}, inputs.device.api),
-                  assemble({.file = "measured.frag", .constants = constants}, inputs.device.api));
+      full_screen_program({.file = "measured.frag", .constants = constants}, inputs.device.api);
 }
 
 void MeasurePass::resize(const FrameTarget& target) {

@@ -75,33 +75,14 @@ bool has_timer_queries(Api api) {
 #endif
 }
 
-bool has_float_targets(Api api) {
+/// Whether the context has what OpenGL has in its core, and ES and WebGL as an extension with this
+/// name, without "GL_".
+bool has_as_extension(Api api, const std::string& name) {
 #ifdef __EMSCRIPTEN__
   (void)api;
-  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
-                                           "EXT_color_buffer_float");
+  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(), name.c_str());
 #else
-  return api == Api::desktop || has_extension("GL_EXT_color_buffer_float");
-#endif
-}
-
-bool has_float_blending(Api api) {
-#ifdef __EMSCRIPTEN__
-  (void)api;
-  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
-                                           "EXT_float_blend");
-#else
-  return api == Api::desktop || has_extension("GL_EXT_float_blend");
-#endif
-}
-
-bool has_norm16_targets(Api api) {
-#ifdef __EMSCRIPTEN__
-  (void)api;
-  return emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
-                                           "EXT_texture_norm16");
-#else
-  return api == Api::desktop || has_extension("GL_EXT_texture_norm16");
+  return api == Api::desktop || has_extension(("GL_" + name).c_str());
 #endif
 }
 
@@ -168,9 +149,9 @@ Capabilities query_capabilities(Api api) {
       {result.max_texture_size, integer_of(GL_MAX_RENDERBUFFER_SIZE), viewport[0], viewport[1]});
   result.max_array_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
   result.compute_shaders = has_compute_shaders(api, version);
-  result.float_targets = has_float_targets(api);
-  result.float_blending = result.float_targets && has_float_blending(api);
-  result.norm16_targets = has_norm16_targets(api);
+  result.float_targets = has_as_extension(api, "EXT_color_buffer_float");
+  result.float_blending = result.float_targets && has_as_extension(api, "EXT_float_blend");
+  result.norm16_targets = has_as_extension(api, "EXT_texture_norm16");
   return result;
 }
 

@@ -34,47 +34,25 @@ class Object {
   GLuint id_ = 0;
 };
 
-struct BufferTraits {
+/// For GL's functions that create and delete any number of names.
+template <auto& generate, auto& remove>
+struct NameTraits {
   static GLuint create() {
     GLuint id;
-    glGenBuffers(1, &id);
+    generate(1, &id);
     return id;
   }
-  static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
-};
-struct TextureTraits {
-  static GLuint create() {
-    GLuint id;
-    glGenTextures(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
-};
-struct FramebufferTraits {
-  static GLuint create() {
-    GLuint id;
-    glGenFramebuffers(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
-};
-struct VertexArrayTraits {
-  static GLuint create() {
-    GLuint id;
-    glGenVertexArrays(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
+  static void destroy(GLuint id) { remove(1, &id); }
 };
 struct ProgramTraits {
   static GLuint create() { return glCreateProgram(); }
   static void destroy(GLuint id) { glDeleteProgram(id); }
 };
 
-using Buffer = Object<BufferTraits>;
-using Texture = Object<TextureTraits>;
-using Framebuffer = Object<FramebufferTraits>;
-using VertexArray = Object<VertexArrayTraits>;
+using Buffer = Object<NameTraits<glGenBuffers, glDeleteBuffers>>;
+using Texture = Object<NameTraits<glGenTextures, glDeleteTextures>>;
+using Framebuffer = Object<NameTraits<glGenFramebuffers, glDeleteFramebuffers>>;
+using VertexArray = Object<NameTraits<glGenVertexArrays, glDeleteVertexArrays>>;
 
 /// A vertex array created by the first bind() in the current context. Contexts that share buffers
 /// and textures do not share vertex arrays.

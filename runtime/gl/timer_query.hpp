@@ -12,15 +12,7 @@
 
 namespace tureen::gl {
 
-struct QueryTraits {
-  static GLuint create() {
-    GLuint id;
-    glGenQueries(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
-};
-using Query = Object<QueryTraits>;
+using Query = Object<NameTraits<glGenQueries, glDeleteQueries>>;
 
 /// The reason why the device's timestamps are misleading, as a sentence, or nullopt. Software
 /// renderers queue triangles and draw them when a tile is flushed, possibly during another pass.

@@ -3,7 +3,6 @@
 #include <cassert>
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/targets.hpp"
 
 namespace tureen {
@@ -36,10 +35,8 @@ glm::dvec2 position_at_rest(int index, int supersampling) {
 }
 
 Accumulation::Accumulation(gl::Api api)
-    : adding_(assemble({.file = "full_screen.vert"}, api),
-              assemble({.file = "accumulate.frag"}, api)),
-      dividing_(assemble({.file = "full_screen.vert"}, api),
-                assemble({.file = "accumulated.frag"}, api)) {}
+    : adding_(full_screen_program({.file = "accumulate.frag"}, api)),
+      dividing_(full_screen_program({.file = "accumulated.frag"}, api)) {}
 
 void Accumulation::begin(glm::ivec2 size, GLuint framebuffer, int frames) {
   assert(frames > 0 && frames % 4 == 0);

@@ -2,10 +2,11 @@
 // pixels. The limit for triangles is the runtime's own pipeline with ShadingSite::nowhere.
 #pragma once
 
-#include <memory>
+#include <glm/vec2.hpp>
 
 #include "image/image.hpp"
 #include "runtime/gl/context.hpp"
+#include "runtime/passes/full_screen.hpp"
 
 namespace tureen {
 
@@ -13,9 +14,6 @@ class CopyCeiling {
  public:
   /// The context must be current for every call, and on destruction.
   explicit CopyCeiling(const gl::Context& context);
-  ~CopyCeiling();
-  CopyCeiling(CopyCeiling&&) noexcept;
-  CopyCeiling& operator=(CopyCeiling&&) noexcept;
 
   /// Copies width x height RGBA8 pixels from one texture to another of that size. Returns before
   /// the device has finished. Throws DeviceLimitError if the device lacks the memory.
@@ -28,8 +26,13 @@ class CopyCeiling {
   Image8 read_copy() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  void resize(glm::ivec2 size);
+
+  gl::Program program_;
+  FullScreen full_screen_;
+  glm::ivec2 size_{0};
+  gl::Texture from_, to_;
+  gl::Framebuffer from_framebuffer_, to_framebuffer_;
 };
 
 }  // namespace tureen

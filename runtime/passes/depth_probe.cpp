@@ -4,14 +4,12 @@
 #include <cstring>
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/targets.hpp"
 
 namespace tureen {
 
 DepthProbe::DepthProbe(gl::Api api)
-    : program_(assemble({.file = "full_screen.vert"}, api),
-               assemble({.file = "depth_probe.frag"}, api)),
+    : program_(full_screen_program({.file = "depth_probe.frag"}, api)),
       bits_(make_target(target_formats::rg32ui, 1, 1)),
       framebuffer_(make_framebuffer({bits_.id()})) {}
 
@@ -22,9 +20,7 @@ float DepthProbe::read(GLuint depth_texture, glm::ivec2 pixel) {
   program_.use();
   program_.set_texture("depth", 0, depth_texture);
   program_.set("pixel", pixel);
-  program_.set("background_depth", 0.0f);
-  glBindVertexArray(nothing_.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  full_screen_.draw(program_);
   std::uint32_t bits[4] = {};
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   gl::use_plain_pixel_transfer();

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include "runtime/gl/context.hpp"
-#include "runtime/gl/program.hpp"
+#include "runtime/passes/full_screen.hpp"
 
 namespace tureen {
 
@@ -18,7 +18,7 @@ class DepthProbe {
 
  private:
   gl::Program program_;
-  gl::VertexArray nothing_ = gl::VertexArray::create();
+  FullScreen full_screen_;
   gl::Texture bits_;
   gl::Framebuffer framebuffer_;
 };

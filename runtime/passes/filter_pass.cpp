@@ -29,7 +29,7 @@ glm::ivec2 sample_size(const Quality& quality, glm::ivec2 size) {
 }
 
 FilterPass::FilterPass(const Quality& quality, gl::Api api)
-    : program_(assemble({.file = "full_screen.vert"}, api), assemble(filter_of(quality), api)) {}
+    : program_(full_screen_program(filter_of(quality), api)) {}
 
 void FilterPass::resize(const FrameTarget&) {
   color_ = make_target(target_formats::rgba8, size_.x, size_.y);

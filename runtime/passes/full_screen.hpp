@@ -3,8 +3,14 @@
 
 #include "runtime/gl/objects.hpp"
 #include "runtime/gl/program.hpp"
+#include "runtime/passes/shader_source.hpp"
 
 namespace tureen {
+
+/// The program that computes every sample with this fragment shader.
+inline gl::Program full_screen_program(const ShaderSource& fragment, gl::Api api) {
+  return gl::Program(assemble({.file = "full_screen.vert"}, api), assemble(fragment, api));
+}
 
 class FullScreen {
  public:

@@ -14,20 +14,14 @@
 
 namespace tureen {
 
-struct TargetFormat {
-  GLenum internal_format, format, type;
-  int bytes;  // a pixel; drivers may take more
-};
+/// Drivers may take more bytes a pixel.
+using TargetFormat = TexelFormat;
 
 namespace target_formats {
-inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+using namespace texel_formats;
 /// Fractions of 16 bits: GL_RGBA16, and in ES GL_RGBA16_EXT, with Capabilities::norm16_targets.
 inline constexpr TargetFormat rgba16{0x805B, GL_RGBA, GL_UNSIGNED_SHORT, 8};
-inline constexpr TargetFormat r8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr TargetFormat rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
-inline constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-inline constexpr TargetFormat r32ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
-inline constexpr TargetFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
 inline constexpr TargetFormat depth24{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4};
 inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
 // With 8 bits of stencil.
@@ -39,8 +33,7 @@ inline constexpr TargetFormat depth32f_stencil{GL_DEPTH32F_STENCIL8, GL_DEPTH_ST
 
 /// Bytes of a target of this size.
 inline std::size_t bytes_of(const TargetFormat& format, glm::ivec2 size) {
-  return static_cast<std::size_t>(format.bytes) * static_cast<std::size_t>(size.x) *
-         static_cast<std::size_t>(size.y);
+  return format.bytes * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
 /// A texture as a render target; nearest sampling.

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
+#include "scene/morton.hpp"
+
 namespace tureen {
 
 namespace {
@@ -13,17 +15,6 @@ namespace {
 std::array<glm::vec3, 3> corners(const TriangleSoup& soup, std::uint32_t face) {
   const glm::uvec3& t = soup.triangles[face];
   return {soup.positions[t.x], soup.positions[t.y], soup.positions[t.z]};
-}
-
-/// Spreads the low 21 bits of `v` to every third bit.
-std::uint64_t spread(std::uint64_t v) {
-  v &= 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffff;
-  v = (v | v << 16) & 0x1f0000ff0000ff;
-  v = (v | v << 8) & 0x100f00f00f00f00f;
-  v = (v | v << 4) & 0x10c30c30c30c30c3;
-  v = (v | v << 2) & 0x1249249249249249;
-  return v;
 }
 
 struct SortKey {
@@ -57,8 +48,8 @@ void sort_spatially(const TriangleSoup& soup, std::vector<std::uint32_t>& faces)
     const glm::dvec3 centroid =
         (glm::dvec3(points[0]) + glm::dvec3(points[1]) + glm::dvec3(points[2])) / 3.0;
     const glm::dvec3 cell = (centroid - glm::dvec3(box.low)) * scale;
-    keys[i] = {spread(std::uint64_t(cell.x)) | spread(std::uint64_t(cell.y)) << 1 |
-                   spread(std::uint64_t(cell.z)) << 2,
+    keys[i] = {spread_bits(std::uint64_t(cell.x)) | spread_bits(std::uint64_t(cell.y)) << 1 |
+                   spread_bits(std::uint64_t(cell.z)) << 2,
                hash_of(points), faces[i]};
   }
   std::sort(keys.begin(), keys.end(), [](const SortKey& a, const SortKey& b) {

@@ -57,7 +57,7 @@ Files files_of(SplatShaders shaders) {
 
 std::size_t projected_bytes(const SplatPlan& plan) {
   return (1 + files_of(plan.shaders).projected.size()) * std::size_t(plan.colors_per_splat) *
-         std::size_t(projected_format.bytes);
+         projected_format.bytes;
 }
 
 std::size_t DeviceSplats::projected_rows() const {
@@ -117,13 +117,12 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
         "splats need textures of floats as targets (EXT_color_buffer_float), which this device "
         "lacks");
   const Files files = files_of(shaders_);
-  projection_ = gl::Program(
-      assemble({.file = "full_screen.vert"}, device.api),
-      assemble({.file = "splat_project.frag",
-                .constants = constants(),
-                .generated = {{"splat_project_kernel.glsl",
-                               "#include \"" + std::string(files.projection) + "\"\n"}}},
-               device.api));
+  projection_ =
+      full_screen_program({.file = "splat_project.frag",
+                           .constants = constants(),
+                           .generated = {{"splat_project_kernel.glsl",
+                                          "#include \"" + std::string(files.projection) + "\"\n"}}},
+                          device.api);
   drawings_[std::size_t(SplatOutput::color)] = make_program(SplatOutput::color);
   const auto rows = static_cast<int>(projected_rows());
   if (rows > device.max_texture_size)
@@ -235,8 +234,7 @@ void DeviceSplats::draw_run(std::uint32_t first, std::uint32_t count) {
 
 std::size_t DeviceSplats::device_bytes() const {
   return kernel_.device_bytes() + coefficients_.device_bytes() +
-         projected_.size() * projected_rows() * projected_columns *
-             std::size_t(projected_format.bytes);
+         projected_.size() * projected_rows() * projected_columns * projected_format.bytes;
 }
 
 void DeviceSplats::leave_context() {

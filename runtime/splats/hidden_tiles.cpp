@@ -1,7 +1,6 @@
 #include "runtime/splats/hidden_tiles.hpp"
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 #include "runtime/passes/targets.hpp"
 
 namespace tureen {
@@ -18,14 +17,13 @@ void read_levels(int first, int last) {
 
 HiddenTiles::HiddenTiles(gl::Api api, float largest_color)
     : min_alpha_(1 - 1 / (510 * largest_color)),
-      from_pixels_(assemble({.file = "full_screen.vert"}, api),
-                   assemble({.file = "splat_hidden_tiles.frag",
-                             .constants = {{"FROM_PIXELS", "1"}, {"SIDE", std::to_string(side)}}},
-                            api)),
-      from_tiles_(assemble({.file = "full_screen.vert"}, api),
-                  assemble({.file = "splat_hidden_tiles.frag",
-                            .constants = {{"FROM_PIXELS", "0"}, {"SIDE", "2"}}},
-                           api)) {}
+      from_pixels_(
+          full_screen_program({.file = "splat_hidden_tiles.frag",
+                               .constants = {{"FROM_PIXELS", "1"}, {"SIDE", std::to_string(side)}}},
+                              api)),
+      from_tiles_(full_screen_program(
+          {.file = "splat_hidden_tiles.frag", .constants = {{"FROM_PIXELS", "0"}, {"SIDE", "2"}}},
+          api)) {}
 
 glm::ivec2 HiddenTiles::size_of(int level) const { return tile_count_ / (1 << level); }
 

@@ -203,8 +203,7 @@ float OrderedSplats::min_alpha() const {
 }
 
 std::size_t OrderedSplats::device_bytes() const {
-  return order_texture_ ? std::size_t(order_rows_) * order_columns * std::size_t(order_format.bytes)
-                        : 0;
+  return order_texture_ ? std::size_t(order_rows_) * order_columns * order_format.bytes : 0;
 }
 
 }  // namespace tureen

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 
 namespace tureen {
 
@@ -20,8 +19,7 @@ SplatMeasures::SplatMeasures(const gl::Capabilities& device, std::span<DeviceSpl
       blended_format_(device.float_blending ? target_formats::rgba32f : target_formats::rgba16f),
       splats_(layers) {
   if (what_ != SplatMeasure::sums)
-    narrow_ = gl::Program(assemble({.file = "full_screen.vert"}, device.api),
-                          assemble({.file = "splat_search.frag"}, device.api));
+    narrow_ = full_screen_program({.file = "splat_search.frag"}, device.api);
 }
 
 void SplatMeasures::resize(const FrameTarget& target) {

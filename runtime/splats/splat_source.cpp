@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "splatting/gaussians/gaussian_kernels.hpp"
-#include "splatting/harmonics_rows.hpp"
+#include "splatting/kernel_rows.hpp"
 #include "splatting/neural/neural_kernels.hpp"
 #include "splatting/windows/window_kernels.hpp"
 
@@ -78,23 +78,6 @@ std::vector<std::size_t> kernel_rows(RowsOf kernel) {
   return rows;
 }
 
-/// The values of a splat's rows. They have the order of the kernel's columns.
-using RowValues = std::array<float, splatting::neural_row::harmonics>;
-
-void write_rows(const SplatKernel& kernel, std::size_t i, RowValues& out) {
-  float* next = out.data();
-  for_each_column(kernel, [&](const auto& column) {
-    const std::span<const float> values = column.of_splat(i);
-    next = std::copy(values.begin(), values.end(), next);
-  });
-  if (const auto* gaussians = std::get_if<Gaussians>(&kernel); gaussians && gaussians->flat)
-    out[splatting::gaussian_row::scale_z] = 0;
-  if (const auto* densities = std::get_if<NeuralDensities>(&kernel))
-    for (std::size_t k = splatting::neural_row::frequencies; k < splatting::neural_row::amplitudes;
-         ++k)
-      out[k] *= densities->omega;
-}
-
 TexelSource kernel_source(const Splats& splats, const SplatPlan& plan) {
   std::vector<std::size_t> rows = kernel_rows(rows_of(plan.shaders));
   const std::uint32_t* drawn = plan.drawn.data();  // stays when the plan is moved
@@ -103,12 +86,12 @@ TexelSource kernel_source(const Splats& splats, const SplatPlan& plan) {
           .what = "splats",
           .fill = [&kernel = splats.kernel, drawn, rows = std::move(rows)](
                       std::uint64_t first, std::span<std::byte> out) {
-            RowValues values{};
+            std::array<float, splatting::neural_row::harmonics> values{};  // the longest
             std::uint64_t written = ~std::uint64_t(0);
             const std::size_t each = rows.size() / 4;
             for (std::size_t at = 0; at < out.size(); at += sizeof(glm::vec4), ++first) {
               const std::uint64_t splat = first / each;
-              if (splat != written) write_rows(kernel, drawn[splat], values);
+              if (splat != written) splatting::write_kernel_rows(kernel, drawn[splat], values);
               written = splat;
               glm::vec4 texel;
               for (int k = 0; k < 4; ++k) {

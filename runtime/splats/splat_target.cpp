@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "runtime/passes/shader_source.hpp"
 
 namespace tureen {
 
@@ -40,10 +39,9 @@ void SplatTarget::composite_over(FrameTarget& target) {
   target.overwrite_color();
   std::optional<gl::Program>& resolve = has_color ? over_colors_ : over_background_;
   if (!resolve)
-    resolve = gl::Program(assemble({.file = "full_screen.vert"}, api_),
-                          assemble({.file = "splat_resolve.frag",
-                                    .constants = {{"OVER_COLORS", has_color ? "1" : "0"}}},
-                                   api_));
+    resolve = full_screen_program(
+        {.file = "splat_resolve.frag", .constants = {{"OVER_COLORS", has_color ? "1" : "0"}}},
+        api_);
   resolve->use();
   resolve->set_texture("splats", 0, blended_.id());
   resolve->set("color_unit", format_.color_unit);

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "runtime/gl/state.hpp"
-#include "runtime/passes/shader_source.hpp"
 #include "splatting/tiles/composite.hpp"
 
 namespace tureen {
@@ -31,8 +30,7 @@ TilePass::TilePass(const gl::Capabilities& device, std::vector<const TiledSplats
         pool_.run(count, body);
       }),
       blended_(device.api, {target_formats::rgba32f}),
-      depth_bits_(assemble({.file = "full_screen.vert"}, device.api),
-                  assemble({.file = "depth_probe.frag"}, device.api)) {}
+      depth_bits_(full_screen_program({.file = "depth_probe.frag"}, device.api)) {}
 
 void TilePass::resize(const FrameTarget& target) {
   size_ = target.size();
@@ -93,21 +91,29 @@ void TilePass::read_depths(const Frame& frame, const FrameTarget& target) {
   });
 }
 
+template <class Act>
+void TilePass::draw_rows(const Act& act) {
+  const auto row_floats = 4 * std::size_t(size_.x);
+  renderer_.draw(
+      views_, depths_,
+      [&](int first_row, std::span<const float> rgba) {
+        for (auto row = std::size_t(first_row); !rgba.empty(); ++row) {
+          act(row, rgba.first(row_floats));
+          rgba = rgba.subspan(row_floats);
+        }
+      },
+      order_);
+}
+
 void TilePass::draw_over_colors(FrameTarget& target) {
   if (!has_texture_) blended_.resize(size_);
   has_texture_ = true;
   const auto row_floats = 4 * std::size_t(size_.x);
   blended_upside_down_.resize(row_floats * std::size_t(size_.y));
-  renderer_.draw(
-      views_, depths_,
-      [&](int first_row, std::span<const float> rgba) {
-        for (std::size_t at = 0, row = std::size_t(first_row); at < rgba.size(); ++row) {
-          std::copy_n(&rgba[at], row_floats,
-                      &blended_upside_down_[(std::size_t(size_.y) - 1 - row) * row_floats]);
-          at += row_floats;
-        }
-      },
-      order_);
+  draw_rows([&](std::size_t row, std::span<const float> rgba) {
+    std::copy(rgba.begin(), rgba.end(),
+              &blended_upside_down_[(std::size_t(size_.y) - 1 - row) * row_floats]);
+  });
   gl::use_plain_pixel_transfer();
   glBindTexture(GL_TEXTURE_2D, blended_.texture());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT,
@@ -119,17 +125,10 @@ void TilePass::draw_over_colors(FrameTarget& target) {
 void TilePass::draw_over_background(FrameTarget& target) {
   const auto width = std::size_t(size_.x), height = std::size_t(size_.y);
   colors_upside_down_.resize(width * height);
-  renderer_.draw(
-      views_, depths_,
-      [&](int first_row, std::span<const float> rgba) {
-        for (std::size_t at = 0, row = std::size_t(first_row); at < rgba.size(); ++row) {
-          splatting::composite(
-              rgba.subspan(at, 4 * width), target.background(),
-              std::span(colors_upside_down_).subspan((height - 1 - row) * width, width));
-          at += 4 * width;
-        }
-      },
-      order_);
+  draw_rows([&](std::size_t row, std::span<const float> rgba) {
+    splatting::composite(rgba, target.background(),
+                         std::span(colors_upside_down_).subspan((height - 1 - row) * width, width));
+  });
   target.overwrite_color();
   gl::use_plain_pixel_transfer();
   glBindTexture(GL_TEXTURE_2D, target.color_texture());
@@ -142,12 +141,9 @@ std::vector<glm::vec4> TilePass::read_blended() {
   const auto width = std::size_t(size_.x);
   std::vector<glm::vec4> result(width * std::size_t(size_.y), glm::vec4(0));
   if (views_.empty()) return result;
-  renderer_.draw(
-      views_, depths_,
-      [&](int first_row, std::span<const float> rgba) {
-        std::memcpy(&result[std::size_t(first_row) * width], rgba.data(), rgba.size_bytes());
-      },
-      order_);
+  draw_rows([&](std::size_t row, std::span<const float> rgba) {
+    std::memcpy(&result[row * width], rgba.data(), rgba.size_bytes());
+  });
   return result;
 }
 

@@ -39,6 +39,9 @@ class TilePass final : public SplatBlendingPass {
 
  private:
   void read_depths(const Frame& frame, const FrameTarget& target);
+  /// act(row, rgba) for each row of blended pixels, row 0 on top; several threads call it.
+  template <class Act>
+  void draw_rows(const Act& act);
   void draw_over_colors(FrameTarget& target);
   void draw_over_background(FrameTarget& target);
 

@@ -7,27 +7,16 @@
 #include <limits>
 
 #include "scene/finite.hpp"
+#include "scene/morton.hpp"
 
 namespace tureen {
 
 namespace {
 
-constexpr int morton_bits = 21;  // an axis; three axes fit in 63 bits
-
 struct MortonKey {
   std::uint64_t code;
   std::uint32_t splat;
 };
-
-/// The 21 low bits of `value`, each moved to three times its position.
-std::uint64_t spread(std::uint64_t value) {
-  value = (value | value << 32) & 0x001f00000000ffffu;
-  value = (value | value << 16) & 0x001f0000ff0000ffu;
-  value = (value | value << 8) & 0x100f00f00f00f00fu;
-  value = (value | value << 4) & 0x10c30c30c30c30c3u;
-  value = (value | value << 2) & 0x1249249249249249u;
-  return value;
-}
 
 std::vector<MortonKey> morton_keys(const Splats& splats) {
   const std::size_t splat_count = count(splats);
@@ -49,7 +38,7 @@ std::vector<MortonKey> morton_keys(const Splats& splats) {
       code = 0;
       for (int axis = 0; axis < 3 && edge > 0; ++axis) {
         const double cell = std::min((p[axis] - low[axis]) / edge * cells, cells - 1);
-        code |= spread(std::uint64_t(cell)) << axis;
+        code |= spread_bits(std::uint64_t(cell)) << axis;
       }
     }
     keys[i] = {code, std::uint32_t(i)};

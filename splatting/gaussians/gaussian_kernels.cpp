@@ -49,8 +49,8 @@ struct ProjectedVector {
       const auto of = [&](std::size_t k) { return values[k][i]; };
       entries[i] = {of(0), of(1), of(2), of(3),  of(4),  of(5), of(6),
                     of(7), of(8), of(9), of(10), of(11), of(12)};
-      depths[i] = of(entry_member::depth);
     }
+    std::copy_n(values[entry_member::depth], depths.size(), depths.data());
   }
 };
 
@@ -172,8 +172,6 @@ const KernelFunctions<GaussianKernel>& gaussian_functions() {
   return functions;
 }
 
-const char* target_name() { return hwy::TargetName(HWY_TARGET); }
-
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -181,7 +179,6 @@ HWY_AFTER_NAMESPACE();
 namespace tureen::splatting {
 
 HWY_EXPORT(gaussian_functions);
-HWY_EXPORT(target_name);
 
 const KernelFunctions<GaussianKernel>& GaussianKernel::functions() {
   return HWY_DYNAMIC_DISPATCH(gaussian_functions)();
@@ -224,8 +221,6 @@ GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians
   }
   return peak;
 }
-
-const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 
 }  // namespace tureen::splatting
 #endif

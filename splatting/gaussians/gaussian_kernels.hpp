@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "scene/splats.hpp"
 #include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
@@ -43,7 +42,7 @@ struct alignas(64) GaussianEntry {
 
 /// Entries, because each row would be a cache miss in the order of blending.
 struct ProjectedGaussians {
-  static constexpr std::size_t bytes_a_splat = sizeof(GaussianEntry);
+  static constexpr std::size_t bytes_a_splat = sizeof(GaussianEntry) + sizeof(float);
 
   std::vector<GaussianEntry> entries;
   std::vector<float> depth;
@@ -65,11 +64,6 @@ struct GaussianKernel {
   static void list(const Entry& entry, const Outline&, std::uint32_t splat, TileLists& lists);
 };
 
-/// The rows of gaussian_row, for the splats with these indices and harmonics up to `degree`. The
-/// third scale of flat Gaussians is 0.
-ParameterRows rows_of(const Gaussians& gaussians, const SplatColor& color,
-                      std::span<const std::uint32_t> which, int degree);
-
 /// A Gaussian in view coordinates, for the depth at which a ray meets its largest density: the
 /// unit axes, each times the smallest scale over its own, and the centre, in layer units.
 struct GaussianPeak {
@@ -77,8 +71,5 @@ struct GaussianPeak {
 };
 /// Of Gaussian `i` in rows of gaussian_row.
 GaussianPeak gaussian_peak(const ImageView& view, const ParameterRows& gaussians, std::size_t i);
-
-/// The name of the chosen vectors: "AVX3_ZEN4", "AVX2", ..
-const char* vector_target();
 
 }  // namespace tureen::splatting

@@ -73,8 +73,4 @@ struct NeuralKernel {
   static void list(const Entry&, const Outline& outline, std::uint32_t splat, TileLists& lists);
 };
 
-/// The rows of neural_row, for the densities with these indices and harmonics up to `degree`.
-ParameterRows rows_of(const NeuralDensities& densities, const SplatColor& color,
-                      std::span<const std::uint32_t> which, int degree);
-
 }  // namespace tureen::splatting

@@ -71,8 +71,7 @@ void TileRenderer::draw(std::span<const LayerInView> layers, std::span<const flo
   sort(layers);
   lists_.begin(image.width, image.height);
   for (const Run& run : runs_)
-    layers[run.layer].layer->list(layers[run.layer].view, run.begin, run.end,
-                                  run.layer << place_bits, lists_);
+    layers[run.layer].layer->list(run.begin, run.end, run.layer << place_bits, lists_);
   parallel_(std::size_t(lists_.rows()), [&](std::size_t row) {
     lists_.finish(int(row));
     std::optional<TileHits> hits;
@@ -150,7 +149,7 @@ void TileRenderer::add_weights(const LayerInView& layer, std::span<double> weigh
   const std::span layers(&layer, 1);
   sort(layers);
   lists_.begin(layer.view.width, layer.view.height);
-  for (const Run& run : runs_) layer.layer->list(layer.view, run.begin, run.end, 0, lists_);
+  for (const Run& run : runs_) layer.layer->list(run.begin, run.end, 0, lists_);
   const auto hits = std::make_unique<TileHits>();
   for (int row = 0; row < lists_.rows(); ++row) {
     lists_.finish(row);

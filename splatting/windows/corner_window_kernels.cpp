@@ -1,6 +1,6 @@
 #include "splatting/windows/corner_window_kernels.hpp"
 
-#include "splatting/harmonics_rows.hpp"
+#include "splatting/kernel_rows.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "splatting/windows/corner_window_kernels.cpp"

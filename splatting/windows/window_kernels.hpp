@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 
-#include "scene/splats.hpp"
 #include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
@@ -73,9 +72,5 @@ struct WindowKernel {
     list_window(outline, splat, lists);
   }
 };
-
-/// The rows of window_row, for the windows with these indices and harmonics up to `degree`.
-ParameterRows rows_of(const TriangleWindows& windows, const SplatColor& color,
-                      std::span<const std::uint32_t> which, int degree);
 
 }  // namespace tureen::splatting

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/existing_path.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/splat_config.hpp"
@@ -56,7 +57,7 @@ void train(const typename Training::Config& config, const Dataset& dataset,
 
 template <class Config>
 Config config_of(int count, char** values) {
-  return count > 4 ? read_splat_config<Config>(std::filesystem::path(values[4])) : Config{};
+  return count > 4 ? read_splat_config<Config>(open_existing(values[4])) : Config{};
 }
 
 void run(int count, char** values) {

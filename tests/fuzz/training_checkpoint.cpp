@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "tests/fuzz/targets.hpp"
@@ -20,11 +21,11 @@ void training_checkpoint(Bytes bytes) {
   Input input = Input::memory("fuzz.checkpoint", whole);
   const auto last = bytes.size() > 7 ? char(bytes[7]) : '\0';  // of the magic bytes
   if (last == trainer::gaussians_magic.back())
-    trainer::read_splat_checkpoint<trainer::GaussianCheckpoint>(input);
+    trainer::read_splat_checkpoint<trainer::GaussianCheckpoint>(std::move(input));
   else if (last == trainer::triangles_magic.back())
-    trainer::read_splat_checkpoint<trainer::WindowCheckpoint>(input);
+    trainer::read_splat_checkpoint<trainer::WindowCheckpoint>(std::move(input));
   else
-    trainer::read_checkpoint(input);
+    trainer::read_checkpoint(std::move(input));
 }
 
 }  // namespace tureen::fuzz

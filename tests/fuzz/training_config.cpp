@@ -5,8 +5,7 @@
 namespace tureen::fuzz {
 
 void training_config(Bytes bytes) {
-  Input input = Input::memory("fuzz.json", bytes);
-  trainer::config_to_json(trainer::read_config(input));
+  trainer::config_to_json(trainer::read_config(Input::memory("fuzz.json", bytes)));
 }
 
 }  // namespace tureen::fuzz

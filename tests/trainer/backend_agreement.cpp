@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/existing_path.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
@@ -384,7 +385,7 @@ void expect_same_end_after_a_break(const MakeBackend& make) {
     write_checkpoint(
         path,
         {.config = config, .views = views, .seconds = 0, .state = trained(fixture.state, step)});
-    const TrainingState resumed = trained(read_checkpoint(path).state, config.steps);
+    const TrainingState resumed = trained(read_checkpoint(open_existing(path)).state, config.steps);
     expect_same_bits(resumed, whole);
     EXPECT_EQ(resumed.model.faces(), whole.model.faces());
   }

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/existing_path.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/trainer/random_model.hpp"
@@ -79,10 +80,7 @@ class CheckpointFile : public ::testing::Test {
     return refusal(written(checkpoint));
   }
   static std::optional<Refusal> refusal(const Bytes& bytes) {
-    return error_of([&] {
-      Input input = Input::memory("run.checkpoint", bytes);
-      read_checkpoint(input);
-    });
+    return error_of([&] { read_checkpoint(Input::memory("run.checkpoint", bytes)); });
   }
 
   fs::path folder_;
@@ -92,7 +90,7 @@ TEST_F(CheckpointFile, HoldsARunBitByBit) {
   const std::uint64_t seed = 11;
   const Checkpoint a = random_checkpoint(seed);
   const Bytes bytes = written(a);
-  const Checkpoint b = read_checkpoint(path());
+  const Checkpoint b = read_checkpoint(open_existing(path()));
   EXPECT_FALSE(difference(a.config, b.config)) << *difference(a.config, b.config);
   EXPECT_FALSE(difference(a.views, b.views));
   EXPECT_EQ(b.views[1].name, "train/\xc3\xa4 1");
@@ -120,10 +118,8 @@ TEST_F(CheckpointFile, HoldsARunBitByBit) {
 
 TEST_F(CheckpointFile, SurvivesTruncation) {
   const Bytes bytes = written(random_checkpoint(12));
-  const auto survival = tureen::test::survive_truncation(bytes, [](std::span<const std::byte> cut) {
-    Input input = Input::memory("cut", cut);
-    read_checkpoint(input);
-  });
+  const auto survival = tureen::test::survive_truncation(
+      bytes, [](std::span<const std::byte> cut) { read_checkpoint(Input::memory("cut", cut)); });
   EXPECT_EQ(survival.read, 0u);
   EXPECT_EQ(survival.refused, bytes.size());
 }
@@ -131,8 +127,7 @@ TEST_F(CheckpointFile, SurvivesTruncation) {
 TEST_F(CheckpointFile, RefusesEveryDamagedByte) {
   const Bytes bytes = written(random_checkpoint(13));
   const auto survival = tureen::test::survive_damage(bytes, [](std::span<const std::byte> damaged) {
-    Input input = Input::memory("damaged", damaged);
-    read_checkpoint(input);
+    read_checkpoint(Input::memory("damaged", damaged));
   });
   EXPECT_EQ(survival.read, 0u);
   EXPECT_GT(survival.refused, 8 * bytes.size());
@@ -151,7 +146,7 @@ TEST_F(CheckpointFile, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(bytes), ErrorIn("run.checkpoint"));
   bytes.resize(100);
   EXPECT_EQ(refusal(written(random_checkpoint(14))), std::nullopt);
-  EXPECT_THROW(read_checkpoint(folder_ / "other.checkpoint"), InputError);
+  EXPECT_THROW(read_checkpoint(open_existing(folder_ / "other.checkpoint")), InputError);
 }
 
 TEST_F(CheckpointFile, RefusesStatesThatBelongToNoRun) {

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/existing_path.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
@@ -28,8 +29,7 @@ using tureen::test::Names;
 using tureen::test::Refusal;
 
 Config read(const std::string& text, const ConfigDefaults& defaults = {}) {
-  Input input = Input::memory("run.json", std::as_bytes(std::span(text)));
-  return read_config(input, defaults);
+  return read_config(Input::memory("run.json", std::as_bytes(std::span(text))), defaults);
 }
 
 std::optional<Refusal> refusal(const std::string& text) {
@@ -219,7 +219,7 @@ TEST(ConfigFile, SaysWhatIsWrong) {
 }
 
 TEST(ConfigFile, AMissingOneIsNamed) {
-  EXPECT_THAT(error_of([] { read_config(std::filesystem::path("nowhere/run.json")); }),
+  EXPECT_THAT(error_of([] { read_config(open_existing("nowhere/run.json")); }),
               ErrorAt("nowhere/run.json", "nowhere"));
 }
 

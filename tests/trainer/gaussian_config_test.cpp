@@ -17,8 +17,8 @@ using tureen::test::error_of;
 using tureen::test::ErrorAt;
 
 GaussianConfig read(const std::string& text, const GaussianConfig& defaults = {}) {
-  Input input = Input::memory("run.json", std::as_bytes(std::span(text)));
-  return read_splat_config<GaussianConfig>(input, defaults);
+  return read_splat_config<GaussianConfig>(
+      Input::memory("run.json", std::as_bytes(std::span(text))), defaults);
 }
 
 /// Converts to any type in an aggregate initialiser.

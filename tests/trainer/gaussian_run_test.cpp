@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
+#include "base/existing_path.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/common/training_log.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
@@ -290,7 +291,7 @@ TEST(GaussianTraining, FitsItsStepsToTheMinutesAndStoresThem) {
   }
   ASSERT_TRUE(stopped);
   GaussianCheckpoint stored =
-      read_splat_checkpoint<GaussianCheckpoint>(files.folder / "disc.checkpoint");
+      read_splat_checkpoint<GaussianCheckpoint>(open_existing(files.folder / "disc.checkpoint"));
   EXPECT_EQ(stored.state.fits, 4);
   EXPECT_GT(stored.state.step, 1);
   const int steps = stored.config.steps;

@@ -44,8 +44,7 @@ Bytes written(const GaussianCheckpoint& checkpoint) {
 }
 
 GaussianCheckpoint read(std::span<const std::byte> bytes) {
-  Input input = Input::memory("run.checkpoint", bytes);
-  return read_splat_checkpoint<GaussianCheckpoint>(input);
+  return read_splat_checkpoint<GaussianCheckpoint>(Input::memory("run.checkpoint", bytes));
 }
 
 TEST(GaussianCheckpoint, AnyStepContinuesWithTheSameBits) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/existing_path.hpp"
 #include "examples/photograph.hpp"
 #include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
@@ -333,7 +334,7 @@ TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
                             .seconds = 1.0,
                             .state = first.trainer.state()});
   }
-  const Checkpoint checkpoint = read_checkpoint(path);
+  const Checkpoint checkpoint = read_checkpoint(open_existing(path));
   fs::remove(path);
   ASSERT_FALSE(difference(config, checkpoint.config)) << *difference(config, checkpoint.config);
   EXPECT_EQ(checkpoint.state.step, stop);
@@ -392,7 +393,7 @@ TEST(SmokeTraining, KeepsACheckpointIfTheSceneCannotBeStored) {
   request.run.finished = [](const Scene&) { throw OutputError({}, "no space"); };
   request.run.evaluate = [](const Scene&) { FAIL() << "there is no stored scene"; };
   EXPECT_THROW(train(dataset, std::move(request)), OutputError);
-  EXPECT_EQ(read_checkpoint(checkpoint).state.step, 20);
+  EXPECT_EQ(read_checkpoint(open_existing(checkpoint)).state.step, 20);
   fs::remove(checkpoint);
   fs::remove(log);
 }

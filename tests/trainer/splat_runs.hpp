@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/existing_path.hpp"
 #include "trainer/splats/splat_trainer.hpp"
 
 namespace tureen::trainer::test {
@@ -80,7 +81,7 @@ auto expect_same_bits_after_checkpoint(const typename Trainer::Config& config,
   write_checkpoint(path,
                    Checkpoint{.config = config, .views = fingerprints, .state = whole.state()});
   while (!whole.done()) whole.step();
-  const auto stored = read_splat_checkpoint<Checkpoint>(path);
+  const auto stored = read_splat_checkpoint<Checkpoint>(open_existing(path));
   std::filesystem::remove(path);
   Trainer second(stored.config, views, region, 1, stored.state);
   while (!second.done()) second.step();

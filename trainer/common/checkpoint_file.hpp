@@ -107,14 +107,12 @@ void write_head(CheckpointWriter& writer, const CheckpointKind& kind, const Chec
 /// Throws InputError for other kinds and versions.
 CheckpointHead read_head(CheckpointReader& reader, const CheckpointKind& kind);
 
-/// The configuration of a head. Requires exactly the text that `write` makes from it, because the
-/// text from an older or newer version has other fields. Throws InputError.
-template <class C>
-C config_from(const CheckpointHead& head, const Input& file, C (*read)(Input&),
-              std::string (*write)(const C&)) {
+/// The configuration of a head, by `read`(Input). Requires exactly the text that `write` makes from
+/// it, because the text from an older or newer version has other fields. Throws InputError.
+template <class C, class Read, class Write>
+C config_from(const CheckpointHead& head, const Input& file, const Read& read, const Write& write) {
   try {
-    Input memory = Input::memory(file.name(), std::as_bytes(std::span(head.config)));
-    const C config = read(memory);
+    const C config = read(Input::memory(file.name(), std::as_bytes(std::span(head.config))));
     if (write(config) == head.config) return config;
   } catch (const InputError& error) {
     throw InputError({file.name(), {}, {}}, "the configuration cannot be used: " + error.reason(),

@@ -34,8 +34,8 @@ struct BasicConfigField {
   const char* name;  // in files, and of the member
   ConfigMember<C, Enumerations...> member;
   Range range = {};                         // for numbers, and for each channel of a colour
+  const char* meaning = "";                 // one line
   std::span<const char* const> words = {};  // for enumerations, in the order of the enumerators
-  const char* meaning;                      // one line
 };
 
 /// The numbers of a field that its range limits.

@@ -21,6 +21,20 @@ struct Range {
   std::string refusal(double value, const std::string& written) const;
 };
 
+/// The ranges of constants that several methods have.
+namespace ranges {
+// Larger whole numbers are probably typing errors.
+inline constexpr Range whole{
+    1, 1e7, {}, "a run needs at least one step", "the run would take weeks"};
+inline constexpr Range fraction{0, 1, {}, "the value is a fraction"};
+inline constexpr Range weight{0, 1000, {}, "a negative weight would increase the error"};
+inline constexpr Range color{0, 1, {}, "the value is a display-referred colour"};
+// 2^64 - 1 is not a double, so the range ends at 2^64; it contains all values of the type.
+inline constexpr Range any_seed{
+    0, 18446744073709551616.0, {}, "the seed is an unsigned number of 64 bits"};
+inline constexpr Range none{};
+}  // namespace ranges
+
 /// The shortest decimal that reads back as the same number.
 std::string double_text(double value);
 

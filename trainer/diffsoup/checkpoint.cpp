@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
-#include "base/existing_path.hpp"
 #include "scene/lattice.hpp"
 #include "trainer/common/checkpoint_file.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
@@ -99,8 +99,6 @@ std::optional<std::string> defect(const Checkpoint& checkpoint) {
   return defect(state.moments, state.model);
 }
 
-Config parsed(Input& text) { return read_config(text); }
-
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
@@ -111,23 +109,18 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   writer.finish();
 }
 
-Checkpoint read_checkpoint(Input& input) {
+Checkpoint read_checkpoint(Input input) {
   CheckpointReader reader(input);
   CheckpointHead head = read_head(reader, kind);
   Checkpoint checkpoint;
   visit_state(reader, checkpoint.state);
   reader.finish();
-  checkpoint.config = config_from(head, input, parsed, config_to_json);
+  checkpoint.config = config_from<Config>(
+      head, input, [](Input text) { return read_config(std::move(text)); }, config_to_json);
   checkpoint.views = std::move(head.views);
   checkpoint.seconds = head.seconds;
   if (const auto reason = defect(checkpoint)) input.fail_at(0, *reason);
   return checkpoint;
-}
-
-Checkpoint read_checkpoint(const std::filesystem::path& path) {
-  require_there(path);
-  Input input = Input::open(path);
-  return read_checkpoint(input);
 }
 
 std::optional<std::string> difference(const Config& now, const Config& checkpoint) {

@@ -33,8 +33,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 /// Checks each count against the remaining bytes before it allocates memory. The result is
 /// consistent: the state's arrays have the sizes that the configuration and the views need, and the
 /// model is finite. Throws InputError.
-Checkpoint read_checkpoint(Input& input);
-Checkpoint read_checkpoint(const std::filesystem::path& path);
+Checkpoint read_checkpoint(Input input);
 
 /// The first field that differs between a resumed run and its checkpoint, for example "steps is
 /// 300, but the checkpoint has 40"; nothing if all are equal.

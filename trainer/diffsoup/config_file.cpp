@@ -1,6 +1,5 @@
 #include "trainer/diffsoup/config_file.hpp"
 
-#include "base/existing_path.hpp"
 #include "base/json/json_file.hpp"
 #include "base/json/json_view.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
@@ -16,7 +15,7 @@ Preset preset_of(const JsonView& root, Preset otherwise) {
 
 }  // namespace
 
-Config read_config(Input& input, const ConfigDefaults& defaults) {
+Config read_config(Input input, const ConfigDefaults& defaults) {
   const nlohmann::json document = read_json(input, RepeatedKeys::refused);
   const JsonView root(document, input.name());
   const Preset kind = preset_of(root, defaults.preset);
@@ -25,12 +24,6 @@ Config read_config(Input& input, const ConfigDefaults& defaults) {
   assign_fields(config, config_fields(), root);
   if (const std::optional<std::string> reason = defect(config)) root.fail(*reason);
   return config;
-}
-
-Config read_config(const std::filesystem::path& path, const ConfigDefaults& defaults) {
-  require_there(path);
-  Input input = Input::open(path);
-  return read_config(input, defaults);
 }
 
 std::string config_to_json(const Config& config) { return fields_to_json(config, config_fields()); }

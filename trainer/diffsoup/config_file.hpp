@@ -5,7 +5,6 @@
 // Constants that a file does not name keep their defaults; config_reference() lists all fields.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "base/input.hpp"
@@ -22,8 +21,7 @@ struct ConfigDefaults {
 /// Throws InputError with the file and the field: for text that is not a JSON object, for an
 /// unknown field (suggests the nearest one), for a value of a wrong type, and for a value that is
 /// out of range or conflicts with another (with the reason).
-Config read_config(Input& input, const ConfigDefaults& defaults = {});
-Config read_config(const std::filesystem::path& path, const ConfigDefaults& defaults = {});
+Config read_config(Input input, const ConfigDefaults& defaults = {});
 
 /// All fields, one per line; read_config returns the same bits from it.
 std::string config_to_json(const Config& config);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "scene/morton.hpp"
 #include "trainer/diffsoup/levels.hpp"
 
 namespace tureen::trainer {
@@ -37,16 +38,6 @@ Resampled gathered(const Model& model, std::vector<std::uint32_t> kept) {
   }
   result.origin = std::move(kept);
   return result;
-}
-
-/// The low 21 bits of a number, each followed by two zeros.
-std::uint64_t spread(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffu;
-  x = (x | x << 16) & 0x1f0000ff0000ffu;
-  x = (x | x << 8) & 0x100f00f00f00f00fu;
-  x = (x | x << 4) & 0x10c30c30c30c30c3u;
-  return (x | x << 2) & 0x1249249249249249u;
 }
 
 /// A face of the new model: the positions of its corners on the old face, in barycentrics.
@@ -182,7 +173,8 @@ Resampled in_space_order(const Model& model, std::size_t first) {
         ((glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2])) / 3.0 - low) * steps;
     std::uint64_t place = 0;
     for (int axis = 0; axis < 3; ++axis)
-      place |= spread(at[axis] >= 0 && at[axis] <= 2097151 ? std::uint64_t(at[axis]) : 0) << axis;
+      place |= spread_bits(at[axis] >= 0 && at[axis] <= 2097151 ? std::uint64_t(at[axis]) : 0)
+               << axis;
     places.push_back(place);
   }
   std::vector<std::uint32_t> order(model.faces());

@@ -45,7 +45,7 @@ class ProjectedSplats {
   }
   /// NaN: not drawn.
   float depth(std::size_t i) const { return projected_.depths()[i]; }
-  void list(const splatting::ImageView&, std::uint32_t splat, splatting::TileLists& lists) const {
+  void list(std::uint32_t splat, splatting::TileLists& lists) const {
     Kernel::list(entries()[splat], outlines_[splat], splat, lists);
   }
   /// The memory that list() reads.

@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 
-#include "base/existing_path.hpp"
 #include "base/input.hpp"
 #include "base/json/json_file.hpp"
 #include "trainer/common/config_table.hpp"
@@ -77,20 +75,13 @@ std::optional<std::string> splat_config_defect(const C& config) {
 /// One flat JSON object. `defaults`: the values of fields that it does not name. Throws InputError
 /// with the file and the field.
 template <class C>
-C read_splat_config(Input& input, const C& defaults = {}) {
+C read_splat_config(Input input, const C& defaults = {}) {
   const nlohmann::json document = read_json(input, RepeatedKeys::refused);
   const JsonView root(document, input.name());
   C config = defaults;
   assign_fields(config, splat_config_fields<C>(), root);
   if (const std::optional<std::string> reason = splat_config_defect(config)) root.fail(*reason);
   return config;
-}
-
-template <class C>
-C read_splat_config(const std::filesystem::path& path, const C& defaults = {}) {
-  require_there(path);
-  Input input = Input::open(path);
-  return read_splat_config<C>(input, defaults);
 }
 
 /// All fields, one per line; read_splat_config() returns the same bits from it.

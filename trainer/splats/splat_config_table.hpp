@@ -10,25 +10,19 @@
 namespace tureen::trainer {
 
 namespace splat_range {
-inline constexpr Range whole{
-    1, 1e7, {}, "a run needs at least one step", "the run would take weeks"};
+using namespace ranges;
 // 10 million Gaussians of degree 3 take about 23 GB by splat_memory().
 inline constexpr Range splats{
     1, 1e7, {}, "a scene needs at least one splat", "the training would need gigabytes"};
-inline constexpr Range fraction{0, 1, {}, "the value is a fraction"};
 inline constexpr Range opacity{0.005, 0.99, {}, "other opacities are not blended, or not trained"};
 inline constexpr Range degrees{0, max_trained_degree, {}, "only these degrees are trained"};
-inline constexpr Range weight{0, 1000, {}, "a negative weight would increase the error"};
 inline constexpr Range length{0, 1e3, Range::Ends::low_open, "the value is a length"};
 inline constexpr Range extent{1, 1e6, {}, "the splats lie outside of the region"};
-inline constexpr Range any_seed{
-    0, 18446744073709551616.0, {}, "the seed is an unsigned number of 64 bits"};
 inline constexpr Range minutes{0,
                                1e5,
                                {},
                                "the value is a time, or 0 for a fixed number of steps",
                                "the run would take months"};
-inline constexpr Range none{};
 }  // namespace splat_range
 
 /// The rows of SplatConfig, then `own`.
@@ -36,69 +30,40 @@ template <class C>
 std::vector<typename C::Field> with_common_fields(std::vector<typename C::Field> own) {
   using namespace splat_range;
   std::vector<typename C::Field> fields = {
-      {"steps", &C::steps, whole, {}, "Optimiser steps; each uses one view"},
-      {"max_splats", &C::max_splats, splats, {}, "Largest number of splats"},
-      {"first_splats",
-       &C::first_splats,
-       splats,
-       {},
+      {"steps", &C::steps, whole, "Optimiser steps; each uses one view"},
+      {"max_splats", &C::max_splats, splats, "Largest number of splats"},
+      {"first_splats", &C::first_splats, splats,
        "Number of random splats, or of samples on a mesh, at the start; if the dataset has fewer "
        "points, random splats are added"},
-      {"first_opacity", &C::first_opacity, opacity, {}, "Opacity of the first splats"},
-      {"far_splats",
-       &C::far_splats,
-       fraction,
-       {},
+      {"first_opacity", &C::first_opacity, opacity, "Opacity of the first splats"},
+      {"far_splats", &C::far_splats, fraction,
        "Fraction of the random splats outside of the region of interest; by default 0 if the "
        "images have alpha, else 0.5"},
-      {"far_extent",
-       &C::far_extent,
-       extent,
-       {},
+      {"far_extent", &C::far_extent, extent,
        "Largest distance of these splats from the centre of the region, in its half sides"},
-      {"degree", &C::degree, degrees, {}, "Degree of the harmonics of the colours"},
-      {"degree_steps",
-       &C::degree_steps,
-       fraction,
-       {},
+      {"degree", &C::degree, degrees, "Degree of the harmonics of the colours"},
+      {"degree_steps", &C::degree_steps, fraction,
        "Fraction of the steps after which the next degree is trained, too"},
-      {"densify_every",
-       &C::densify_every,
-       whole,
-       {},
+      {"densify_every", &C::densify_every, whole,
        "Largest number of steps between densifications; in shorter runs 1/25 of all steps, but at "
        "least 20"},
-      {"densify_until",
-       &C::densify_until,
-       fraction,
-       {},
+      {"densify_until", &C::densify_until, fraction,
        "Fraction of the steps after which densification ends"},
-      {"growth",
-       &C::growth,
-       fraction,
-       {},
+      {"growth", &C::growth, fraction,
        "Largest growth of the number of splats at a densification, as a fraction"},
-      {"half_size_until",
-       &C::half_size_until,
-       fraction,
-       {},
+      {"half_size_until", &C::half_size_until, fraction,
        "Fraction of the steps in which images have half their width and height"},
-      {"background",
-       &C::background,
-       {0, 1, {}, "the value is a display-referred colour"},
-       {},
+      {"background", &C::background, color,
        "Colour behind all splats: red, green, blue; by default white if the images have alpha, "
        "else black"},
-      {"l1_weight", &C::l1_weight, weight, {}, "Weight of the mean absolute error"},
-      {"ssim_weight", &C::ssim_weight, weight, {}, "Weight of (1 - SSIM) / 2"},
-      {"seed", &C::seed, any_seed, {}, "Random seed; equal seeds give equal splats"},
-      {"initialisation", &C::initialisation, none, initialisation_words,
+      {"l1_weight", &C::l1_weight, weight, "Weight of the mean absolute error"},
+      {"ssim_weight", &C::ssim_weight, weight, "Weight of (1 - SSIM) / 2"},
+      {"seed", &C::seed, any_seed, "Random seed; equal seeds give equal splats"},
+      {"initialisation", &C::initialisation, none,
        "Source of the first splats: points of the dataset, random points, or a scene; automatic "
-       "uses points if the dataset has any"},
-      {"minutes",
-       &C::minutes,
-       minutes,
-       {},
+       "uses points if the dataset has any",
+       initialisation_words},
+      {"minutes", &C::minutes, minutes,
        "Training time to which the run fits its steps, whatever steps says; 0 for a fixed number "
        "of steps"},
   };

@@ -28,22 +28,19 @@ std::uint64_t pixels_of(const std::vector<Photograph>& photographs) {
   return pixels;
 }
 
-template <class Training>
-double bytes_a_splat_of(const SplatConfig& config) {
-  using Parameters = typename Training::Parameters;
-  using Moments = typename Training::Moments;
-  const double rows = double(Parameters(0, config.degree).rows());
-  const double trained =
-      sizeof(float) * (3 * rows + double(Parameters::raw_rows + splat_statistic::count));
-  const double drawn = double(ProjectedSplats<typename Training::Kernel>::bytes_a_splat +
-                              2 * sizeof(KeyedIndex) + sizeof(PairSpan) + sizeof(std::uint32_t));
-  return 2 * trained + drawn + pairs_a_splat * double(sizeof(Moments) + 4 * sizeof(std::uint32_t));
-}
-
 template <class Config>
 double bytes_a_splat(const Config& config) {
-  return with_training(config,
-                       [&]<class Training>() { return bytes_a_splat_of<Training>(config); });
+  return with_training(config, [&]<class Training>() {
+    using Parameters = typename Training::Parameters;
+    using Moments = typename Training::Moments;
+    const double rows = double(Parameters(0, config.degree).rows());
+    const double trained =
+        sizeof(float) * (3 * rows + double(Parameters::raw_rows + splat_statistic::count));
+    const double drawn = double(ProjectedSplats<typename Training::Kernel>::bytes_a_splat +
+                                2 * sizeof(KeyedIndex) + sizeof(PairSpan) + sizeof(std::uint32_t));
+    return 2 * trained + drawn +
+           pairs_a_splat * double(sizeof(Moments) + 4 * sizeof(std::uint32_t));
+  });
 }
 
 double bytes_without_splats(const Dataset& dataset) {

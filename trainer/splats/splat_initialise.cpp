@@ -101,15 +101,14 @@ typename Training::Parameters from_scene(const Scene& scene,
   }
   Splats splats = std::get<Splats>(layer.primitives);
   move_splats(splats, at_origin(-region.center) * layer.world_from_layer);
-  const auto* own = own_kernel(splats, config);
   if (!can_begin_with(splats, config))
     throw InputError({}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
-                             (own ? " with colours of corners" : "") + "; the training of " +
-                             kernel_of(config) + " begins with " + kernel_of(config) +
-                             " or opaque triangles");
+                             (has_own_kernel(splats, config) ? " with colours of corners" : "") +
+                             "; the training of " + kernel_of(config) + " begins with " +
+                             kernel_of(config) + " or opaque triangles");
   if (count(splats) == 0) throw InputError({}, "the initial scene has no splat");
   if (count(splats) > config.max_splats) refuse_more(count(splats), config, "splats");
-  return {*own, splats.color, config.degree};
+  return {splats, config.degree};
 }
 
 }  // namespace

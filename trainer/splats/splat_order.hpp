@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/radix_sort.hpp"
+#include "scene/morton.hpp"
 #include "scene/region.hpp"
 #include "splatting/parameter_rows.hpp"
 
@@ -29,7 +30,7 @@ inline std::vector<std::uint32_t> morton_order(std::span<const glm::vec3> points
           512 * (1 + (double(points[i][axis]) - region.center[axis]) / region.half_side);
       finite = finite && std::isfinite(place);
       const auto cell = finite ? std::uint32_t(std::clamp(place, 0.0, 1023.0)) : 0u;
-      for (int bit = 0; bit < 10; ++bit) key |= (cell >> bit & 1u) << (3 * bit + axis);
+      key |= std::uint32_t(spread_bits(cell)) << axis;
     }
     keys.push_back({finite ? key : ~0u, i});
   }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "scene/spherical_harmonics.hpp"
 #include "scene/splats.hpp"
-#include "splatting/harmonics_rows.hpp"
+#include "splatting/kernel_rows.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "trainer/splats/splat_order.hpp"
 
@@ -20,7 +22,7 @@ namespace tureen::trainer {
 /// to there, trained values differ from drawn ones.
 template <std::size_t FirstRaw, std::size_t Harmonics>
 struct SplatParameters {
-  static constexpr std::size_t first_raw = FirstRaw, raw_rows = Harmonics - FirstRaw;
+  static constexpr std::size_t raw_rows = Harmonics - FirstRaw;
 
   int degree = 0;
   splatting::ParameterRows drawn;  // after activation
@@ -31,6 +33,16 @@ struct SplatParameters {
       : degree(degree_of_harmonics),
         drawn(Harmonics + splatting::harmonics_rows(degree_of_harmonics), count),
         raw(raw_rows, count) {}
+  /// Drawn values of splats of the kernel, with one colour each. Other harmonics are 0.
+  SplatParameters(const Splats& splats, int degree_of_harmonics)
+      : SplatParameters(tureen::count(splats), degree_of_harmonics) {
+    std::vector<std::uint32_t> all(count());
+    std::iota(all.begin(), all.end(), 0u);
+    const splatting::ParameterRows values =
+        splatting::rows_of(splats, all, std::min(degree, splats.color.degree));
+    for (std::size_t row = 0; row < values.rows(); ++row)
+      std::copy_n(values.row(row), count(), drawn.row(row));
+  }
 
   std::size_t count() const { return drawn.count(); }
   std::size_t rows() const { return Harmonics + splatting::harmonics_rows(degree); }
@@ -47,12 +59,6 @@ struct SplatParameters {
       if (!std::isfinite(trained(row)[splat]) || !std::isfinite(drawn.row(row)[splat]))
         return false;
     return true;
-  }
-
-  /// The first `values`.rows() drawn values become these; other harmonics stay 0.
-  void set_drawn(const splatting::ParameterRows& values) {
-    for (std::size_t row = 0; row < values.rows(); ++row)
-      std::copy_n(values.row(row), count(), drawn.row(row));
   }
 
   /// The colour from all directions, display-referred, of a splat without other harmonics.

@@ -13,19 +13,19 @@ inline const char* kernel_of(const GaussianConfig& config) {
 }
 inline const char* kernel_of(const WindowConfig&) { return "triangle windows"; }
 
-/// The splats of the kernel that the configuration trains; null if `splats` has another kernel.
-inline const Gaussians* own_kernel(const Splats& splats, const GaussianConfig& config) {
+/// Whether the splats have the kernel that the configuration trains.
+inline bool has_own_kernel(const Splats& splats, const GaussianConfig& config) {
   const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
-  return gaussians && gaussians->flat == config.flat ? gaussians : nullptr;
+  return gaussians && gaussians->flat == config.flat;
 }
-inline const TriangleWindows* own_kernel(const Splats& splats, const WindowConfig&) {
-  return std::get_if<TriangleWindows>(&splats.kernel);
+inline bool has_own_kernel(const Splats& splats, const WindowConfig&) {
+  return std::holds_alternative<TriangleWindows>(splats.kernel);
 }
 
 /// Whether the splats can be the first ones: of the own kernel, with one colour each.
 template <class Config>
 bool can_begin_with(const Splats& splats, const Config& config) {
-  return own_kernel(splats, config) && !splats.color.per_corner;
+  return has_own_kernel(splats, config) && !splats.color.per_corner;
 }
 
 }  // namespace tureen::trainer

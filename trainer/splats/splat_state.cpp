@@ -7,8 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
-
-#include "base/existing_path.hpp"
+#include <utility>
 
 namespace tureen::trainer {
 
@@ -127,11 +126,6 @@ SplatState<Parameters> restored(StoredState&& stored) {
   return state;
 }
 
-template <class Config>
-Config parsed_splat_config(Input& text) {
-  return read_splat_config<Config>(text);
-}
-
 template <class Config, class Parameters>
 void read_into(SplatCheckpoint<Config, Parameters>& checkpoint, Input& input) {
   CheckpointReader reader(input);
@@ -139,8 +133,9 @@ void read_into(SplatCheckpoint<Config, Parameters>& checkpoint, Input& input) {
   StoredState state;
   visit_splat_state(reader, state);
   reader.finish();
-  checkpoint.config =
-      config_from(head, input, parsed_splat_config<Config>, splat_config_to_json<Config>);
+  checkpoint.config = config_from<Config>(
+      head, input, [](Input text) { return read_splat_config<Config>(std::move(text)); },
+      splat_config_to_json<Config>);
   if (!std::isfinite(head.seconds) || head.seconds < 0)
     input.fail_at(0, "the training time is not a number of seconds");
   if (const auto reason = defect(head.views)) input.fail_at(0, *reason);
@@ -165,24 +160,15 @@ void write_checkpoint(const std::filesystem::path& path,
 }
 
 template <class Checkpoint>
-Checkpoint read_splat_checkpoint(Input& input) {
+Checkpoint read_splat_checkpoint(Input input) {
   Checkpoint checkpoint;
   read_into(checkpoint, input);
   return checkpoint;
 }
 
-template <class Checkpoint>
-Checkpoint read_splat_checkpoint(const std::filesystem::path& path) {
-  require_there(path);
-  Input input = Input::open(path);
-  return read_splat_checkpoint<Checkpoint>(input);
-}
-
 template void write_checkpoint(const std::filesystem::path&, const GaussianCheckpoint&);
-template GaussianCheckpoint read_splat_checkpoint(Input&);
-template GaussianCheckpoint read_splat_checkpoint(const std::filesystem::path&);
+template GaussianCheckpoint read_splat_checkpoint(Input);
 template void write_checkpoint(const std::filesystem::path&, const WindowCheckpoint&);
-template WindowCheckpoint read_splat_checkpoint(Input&);
-template WindowCheckpoint read_splat_checkpoint(const std::filesystem::path&);
+template WindowCheckpoint read_splat_checkpoint(Input);
 
 }  // namespace tureen::trainer

@@ -55,8 +55,6 @@ void write_checkpoint(const std::filesystem::path& path,
 /// consistent: its arrays have the sizes that the number of splats and the degree need. Splats may
 /// have numbers that are not finite, as in a run. Throws InputError.
 template <class Checkpoint>
-Checkpoint read_splat_checkpoint(Input& input);
-template <class Checkpoint>
-Checkpoint read_splat_checkpoint(const std::filesystem::path& path);
+Checkpoint read_splat_checkpoint(Input input);
 
 }  // namespace tureen::trainer

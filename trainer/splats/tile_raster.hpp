@@ -142,7 +142,7 @@ class TileRaster {
         hwy::Prefetch(static_cast<const char*>(projected_.listed(order[place + 8].index)));
       const std::uint32_t splat = order[place].index;
       const std::uint32_t begin = lists_.pairs();
-      projected_.list(view_, splat, lists_);
+      projected_.list(splat, lists_);
       pairs_[splat] = {begin, lists_.pairs()};
     }
     // Renumbers the pairs in the order of the splats in memory, in which their moments are read.

@@ -2,30 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
 
 namespace tureen::trainer {
 
 namespace row = splatting::gaussian_row;
 
 const std::array<ParameterKind, 6> gaussian_parameter_kinds = {{
-    {"centre", row::x, 3, Activation::identity, 3e-3f, 3e-5f, Inheritance::moved_apart},
-    {"log scale", row::scale_x, 3, Activation::exponential, 4e-2f, 8e-3f, Inheritance::shortened},
-    {"rotation", row::rotation_x, 4, Activation::unit_length, 1e-2f, 2e-3f, Inheritance::copied},
-    {"opacity logit", row::opacity, 1, Activation::sigmoid, 1e-1f, 2e-2f, Inheritance::copied},
-    {"harmonics of degree 0", row::harmonics, 3, Activation::identity, 2e-2f, 4e-3f,
-     Inheritance::copied},
-    {"other harmonics", row::harmonics + 3, 45, Activation::identity, 4e-3f, 8e-4f,
-     Inheritance::copied},
+    {"centre", row::x, 3, 3e-3f, 3e-5f},
+    {"log scale", row::scale_x, 3, 4e-2f, 8e-3f},
+    {"rotation", row::rotation_x, 4, 1e-2f, 2e-3f},
+    {"opacity logit", row::opacity, 1, 1e-1f, 2e-2f},
+    {"harmonics of degree 0", row::harmonics, 3, 2e-2f, 4e-3f},
+    {"other harmonics", row::harmonics + 3, 45, 4e-3f, 8e-4f},
 }};
 
-GaussianParameters::GaussianParameters(const Gaussians& gaussians, const SplatColor& color,
-                                       int degree_of_harmonics)
-    : SplatParameters(gaussians.centers.size(), degree_of_harmonics) {
-  std::vector<std::uint32_t> all(count());
-  std::iota(all.begin(), all.end(), 0u);
-  set_drawn(splatting::rows_of(gaussians, color, all, std::min(degree, color.degree)));
+GaussianParameters::GaussianParameters(const Splats& splats, int degree_of_harmonics)
+    : SplatParameters(splats, degree_of_harmonics) {
   for (std::size_t i = 0; i < count(); ++i) {
     for (std::size_t r = row::scale_x; r <= row::scale_z; ++r)
       trained(r)[i] = std::log(std::max(drawn.row(r)[i], 1e-30f));

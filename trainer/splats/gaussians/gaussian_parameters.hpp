@@ -1,5 +1,4 @@
-// The parameters of Gaussians in training. One table lists their names, sizes, activations, rates,
-// and their values after a split.
+// The parameters of Gaussians in training. One table lists their names, sizes and rates.
 #pragma once
 
 #include <array>
@@ -27,7 +26,7 @@ struct GaussianParameters
     : SplatParameters<splatting::gaussian_row::scale_x, splatting::gaussian_row::harmonics> {
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and scales to 1e-30 or more.
-  GaussianParameters(const Gaussians& gaussians, const SplatColor& color, int degree);
+  GaussianParameters(const Splats& splats, int degree);
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);

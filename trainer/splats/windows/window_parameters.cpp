@@ -2,34 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
 
 namespace tureen::trainer {
 
 namespace window_row = splatting::window_row;
 
 const std::array<ParameterKind, 5> window_parameter_kinds = {{
-    {"corners", window_row::corners, 9, Activation::identity, 8e-3f, 8e-5f, Inheritance::halved},
-    {"log sigma", window_row::sigma, 1, Activation::floored_exponential, 1e-2f, 2e-3f,
-     Inheritance::copied},
-    {"opacity logit", window_row::opacity, 1, Activation::sigmoid, 3e-2f, 1e-2f,
-     Inheritance::copied},
-    {"harmonics of degree 0", window_row::harmonics, 3, Activation::identity, 5e-3f, 1e-3f,
-     Inheritance::copied},
-    {"other harmonics", window_row::harmonics + 3, 45, Activation::identity, 5e-4f, 1e-4f,
-     Inheritance::copied},
+    {"corners", window_row::corners, 9, 8e-3f, 8e-5f},
+    {"log sigma", window_row::sigma, 1, 1e-2f, 2e-3f},
+    {"opacity logit", window_row::opacity, 1, 3e-2f, 1e-2f},
+    {"harmonics of degree 0", window_row::harmonics, 3, 5e-3f, 1e-3f},
+    {"other harmonics", window_row::harmonics + 3, 45, 5e-4f, 1e-4f},
 }};
 
-WindowParameters::WindowParameters(const TriangleWindows& windows, const SplatColor& color,
-                                   int degree_of_harmonics)
-    : SplatParameters(windows.sigma.size(), degree_of_harmonics) {
-  std::vector<std::uint32_t> all(count());
-  std::iota(all.begin(), all.end(), 0u);
-  set_drawn(splatting::rows_of(windows, color, all, std::min(degree, color.degree)));
+WindowParameters::WindowParameters(const Splats& splats, int degree_of_harmonics)
+    : SplatParameters(splats, degree_of_harmonics) {
   for (std::size_t i = 0; i < count(); ++i) {
-    trained(window_row::sigma)[i] = log_of_sigma(windows.sigma[i]);
-    trained(window_row::opacity)[i] = logit_of(windows.opacity[i]);
+    trained(window_row::sigma)[i] = log_of_sigma(drawn.row(window_row::sigma)[i]);
+    trained(window_row::opacity)[i] = logit_of(opacity(i));
     activate(i);
   }
 }

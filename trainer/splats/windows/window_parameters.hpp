@@ -1,5 +1,5 @@
 // The parameters of triangle windows in training (Triangle Splatting, arXiv 2505.19175). One table
-// lists their names, sizes, activations, rates, and their values after a split.
+// lists their names, sizes and rates.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace tureen::trainer {
 /// The first bytes of a checkpoint of triangle windows.
 inline constexpr std::array<char, 8> triangles_magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'W'};
 
-/// The table, for harmonics of the highest degree. Activations are those of the paper's code. Rates
-/// are for about 5,000 steps; those of the code are for 30,000.
+/// The table, for harmonics of the highest degree. Rates are for about 5,000 steps; those of the
+/// paper's code are for 30,000.
 extern const std::array<ParameterKind, 5> window_parameter_kinds;
 
 /// The lowest sigma, and the range of log(sigma - sigma_floor) in training: from 0.1 % above the
@@ -37,7 +37,7 @@ struct WindowParameters
 
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and sigmas to at least 1.01 sigma_floor.
-  WindowParameters(const TriangleWindows& windows, const SplatColor& color, int degree);
+  WindowParameters(const Splats& splats, int degree);
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
