@@ -404,7 +404,7 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   }
   if (distorted)
     dataset.remarks.push_back(
-        {&remarks::lens_undone,
+        {lost_columns + lost_rows > 0 ? &remarks::lens_undone_cropped : &remarks::lens_undone,
          {{"columns", std::uint64_t(lost_columns)}, {"rows", std::uint64_t(lost_rows)}}});
   if (widest_fisheye > 0)
     dataset.remarks.push_back({&remarks::fisheye_undone, {{"degrees", widest_fisheye}}});
