@@ -160,7 +160,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions
   try {
     figures = write(std::move(scene), options, glb.path());
   } catch (const OutputError& error) {
-    throw OutputError({options.output, {}, {}}, error.reason(), error.hint());
+    throw OutputError({options.output}, error.reason(), error.hint());
   }
   page.write(glb.path(), name, output);
   return figures;

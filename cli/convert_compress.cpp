@@ -197,7 +197,7 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   if (with_photographs) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
-      throw InputError({arguments.photographs.path, {}, {}}, "the dataset has no test photographs");
+      throw InputError({arguments.photographs.path}, "the dataset has no test photographs");
     if (scene.cameras.size() < min_representative_cameras)
       request.training_cameras = training_cameras(arguments.photographs, lost);
   }

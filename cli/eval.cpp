@@ -99,7 +99,7 @@ ExitCode evaluate_scene(EvalOptions options) {
   const std::vector<Photograph> photographs = photographs_of(dataset);
   if (photographs.empty())
     throw InputError(
-        {options.dataset.path, {}, {}},
+        {options.dataset.path},
         std::string("the dataset has no photographs for --split ") + split_name(options.split));
 
   std::optional<EvalImages> images;

@@ -165,15 +165,15 @@ const Format& format_to_read(const Candidate& candidate) {
     if (format.read && format.recognises(candidate)) return format;
   const std::string extension = extension_of(candidate.path);
   if (needs_conversion(extension) && !candidate.is_folder)
-    throw InputError({candidate.path.string(), {}, {}},
+    throw InputError({candidate.path.string()},
                      "this page does not read " + extension + " files; convert it to GLB: " +
                          "tureen convert FILE" + extension + " FILE.glb");
   if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
-    throw InputError({candidate.path.string(), {}, {}}, stray->reason, stray->hint);
+    throw InputError({candidate.path.string()}, stray->reason, stray->hint);
   for (const Format& format : formats())
     if (format.read && !candidate.is_folder && contains(format.read_extensions, extension))
       return format;
-  throw InputError({candidate.path.string(), {}, {}},
+  throw InputError({candidate.path.string()},
                    std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
                        " in a supported format: " + listed(Direction::read));
 }
@@ -231,11 +231,11 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   for (const Layer& layer : scene.layers) {
     const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
     const auto reason = soup ? defect(*soup) : defect(std::get<Splats>(layer.primitives));
-    if (reason) throw InputError({path.string(), {}, {}}, *reason);
+    if (reason) throw InputError({path.string()}, *reason);
     if (soup ? !soup->triangles.empty() : count(std::get<Splats>(layer.primitives)) > 0)
       is_empty = false;
   }
-  if (is_empty) throw InputError({path.string(), {}, {}}, nothing_in(scene));
+  if (is_empty) throw InputError({path.string()}, nothing_in(scene));
   if (options.max_splats) limit_splats(scene, *options.max_splats);
   return scene;
 }

@@ -96,8 +96,7 @@ std::size_t JsonView::one_of(std::span<const char* const> names) const {
 void JsonView::fail(const std::string& reason, const std::string& hint) const {
   // Path and reason may contain text from the file. An unescaped NUL would cut the message, and a
   // newline could forge another message.
-  throw InputError({*file_, {}, {}}, shown_text(path_.empty() ? reason : path_ + ": " + reason),
-                   hint);
+  throw InputError({*file_}, shown_text(path_.empty() ? reason : path_ + ": " + reason), hint);
 }
 
 }  // namespace tureen

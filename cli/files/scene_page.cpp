@@ -63,8 +63,7 @@ ScenePageTemplate ScenePageTemplate::find() {
 ScenePageTemplate::ScenePageTemplate(std::string text, const std::string& file)
     : text_(std::move(text)), element_(text_.find(scene_element)) {
   if (element_ == std::string::npos)
-    throw InputError({file, {}, {}},
-                     std::string("not a template for a scene: it lacks ") + scene_element);
+    throw InputError({file}, std::string("not a template for a scene: it lacks ") + scene_element);
   if (const std::size_t second = text_.find(scene_element, element_ + 1);
       second != std::string::npos)
     throw InputError({file, second, {}},

@@ -19,7 +19,7 @@ constexpr const char* window_program = "tureen-view";
             ", the window program, beside this program or on PATH",
         "install libglfw3-dev and libimgui-dev and build it with ./dev demo, or draw images with "
         "tureen render");
-  throw OutputError({program_beside(window_program), {}, {}}, "cannot be started");
+  throw OutputError({program_beside(window_program)}, "cannot be started");
 }
 
 }  // namespace

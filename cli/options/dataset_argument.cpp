@@ -58,7 +58,7 @@ void require_sides(const DatasetArgument& argument, const Dataset& dataset, Side
       if (shorter >= limits.least && longer <= limits.most) continue;
       const std::string bound = shorter < limits.least ? fmt::format("at least {}", limits.least)
                                                        : fmt::format("at most {}", limits.most);
-      throw InputError({argument.path, {}, {}},
+      throw InputError({argument.path},
                        fmt::format("{} is {} x {} pixels; each side must have {}", view.camera.name,
                                    view.camera.width, view.camera.height, bound),
                        longer > limits.most ? "--scale makes it smaller" : "");

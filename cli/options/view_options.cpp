@@ -82,8 +82,7 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
                      const Scene& scene, const std::string& scene_path) {
   const CameraArgument wanted(argument, which_without);
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
-  if (found.cameras.empty())
-    throw InputError({wanted.file.string(), {}, {}}, "the file has no cameras");
+  if (found.cameras.empty()) throw InputError({wanted.file.string()}, "the file has no cameras");
   if (wanted.which == "all") return {std::move(found.cameras), notes_of(found.remarks)};
   const int last = int(found.cameras.size()) - 1;
   // Tests the length first, because std::stol throws for a number of forty digits.

@@ -59,7 +59,7 @@ std::vector<Photograph> test_photographs(const TradeoffOptions& options, Tradeof
   std::vector<Photograph> photographs =
       tradeoff::spread_out(std::move(dataset.test), std::size_t(most));
   if (photographs.empty())
-    throw InputError({options.dataset.path, {}, {}}, "the dataset has no test photographs");
+    throw InputError({options.dataset.path}, "the dataset has no test photographs");
   for (std::string& note : notes_of(dataset.remarks)) report.notes.push_back(std::move(note));
   return photographs;
 }

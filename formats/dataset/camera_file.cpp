@@ -60,7 +60,7 @@ Camera our_camera(const CameraJson& json) {
 std::vector<CameraJson> our_cameras(const Json& root, const std::string& file) {
   const auto version = root.find("tureen_cameras");
   if (version != root.end() && *version != 1)
-    throw InputError({file, {}, {}}, "tureen_cameras is not version 1");
+    throw InputError({file}, "tureen_cameras is not version 1");
   std::vector<CameraJson> result;
   const Json& cameras = json_list(root, "cameras", file);
   for (std::size_t i = 0; i < cameras.size(); ++i)
@@ -95,7 +95,7 @@ CameraKeyframe our_keyframe(const CameraJson& json) {
 /// Duration of the loop in seconds; 0 without a loop.
 double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
                 const std::string& file) {
-  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  const auto fail = [&](const char* reason) { throw InputError({file}, reason); };
   const auto loop = root.find("loop");
   if (loop == root.end()) return 0;
   if (!loop->is_boolean()) fail("loop is neither true nor false");
@@ -114,7 +114,7 @@ double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
 
 CameraPathData our_path(const Json& root, const std::string& file) {
   if (!root.is_object() || !root.contains("cameras"))
-    throw InputError({file, {}, {}}, "it has no \"cameras\": not a camera path in our format");
+    throw InputError({file}, "it has no \"cameras\": not a camera path in our format");
   CameraPathData path;
   for (const CameraJson& json : our_cameras(root, file)) {
     path.keyframes.push_back(our_keyframe(json));
@@ -122,7 +122,7 @@ CameraPathData our_path(const Json& root, const std::string& file) {
     if (count > 1 && path.keyframes[count - 1].seconds < path.keyframes[count - 2].seconds)
       json.fail("seconds is less than that of the camera before it");
   }
-  if (path.keyframes.empty()) throw InputError({file, {}, {}}, "it holds no cameras");
+  if (path.keyframes.empty()) throw InputError({file}, "it holds no cameras");
   path.loop_seconds = our_loop(root, path.keyframes, file);
   return path;
 }
@@ -177,10 +177,10 @@ CameraFile read_cameras(Input& input) {
   const Json root = read_json(input);
   const std::string& file = input.name();
   if (root.is_array()) return {read_gaussian_cameras(root, file), {}};
-  if (!root.is_object()) throw InputError({file, {}, {}}, "the file holds no JSON object or list");
+  if (!root.is_object()) throw InputError({file}, "the file holds no JSON object or list");
   if (root.contains("frames")) return from_transforms(root, file);
   if (root.contains("cameras")) return from_ours(root, file);
-  throw InputError({file, {}, {}},
+  throw InputError({file},
                    "it has neither \"cameras\" nor \"frames\": not a supported camera file");
 }
 

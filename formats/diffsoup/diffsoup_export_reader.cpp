@@ -45,7 +45,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
   Input input = open_in_folder(folder, "meta.json", budget);
   const nlohmann::json json = read_json(input);
   const std::string& file = input.name();
-  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  const auto fail = [&](const char* reason) { throw InputError({file}, reason); };
   if (!json.is_object()) fail("not a JSON object");
   const auto vector = [&](const char* key, glm::vec3 otherwise) {
     if (!json.contains(key)) return otherwise;
@@ -81,8 +81,8 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
 void expect_count(const fs::path& mesh, std::optional<std::uint64_t> said, std::size_t have,
                   const char* what) {
   if (said && *said != have)
-    throw InputError({mesh.string(), {}, {}}, std::to_string(have) + " " + what +
-                                                  ", but meta.json has " + std::to_string(*said));
+    throw InputError({mesh.string()}, std::to_string(have) + " " + what + ", but meta.json has " +
+                                          std::to_string(*said));
 }
 
 /// One of the two images, with `texels` pixels and a remainder below one row. `assumed` is the
@@ -177,11 +177,11 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   const std::size_t faces = mesh.triangles.size();
   expect_count(mesh_path, meta.faces, faces, "faces");
   expect_count(mesh_path, meta.vertices, mesh.positions.size(), "vertices");
-  if (faces == 0) throw InputError({mesh_path.string(), {}, {}}, "no faces");
+  if (faces == 0) throw InputError({mesh_path.string()}, "no faces");
   const std::uint64_t per_face = lattice::texel_count(meta.level);
   const std::uint64_t count = faces * per_face;
   if (count > max_image_pixels)
-    throw InputError({mesh_path.string(), {}, {}},
+    throw InputError({mesh_path.string()},
                      std::to_string(count) + " texels are more than an image can have");
 
   LatticeTexture texture;

@@ -182,10 +182,9 @@ class NewFolder {
     std::error_code error;
     if (fs::exists(path_, error) && !is_diffsoup_export(path_) &&
         !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
-      throw OutputError({path_.string(), {}, {}},
-                        "exists and is not a DiffSoup export: not replaced");
+      throw OutputError({path_.string()}, "exists and is not a DiffSoup export: not replaced");
     if (const std::string foreign = foreign_to_diffsoup_export(path_); !foreign.empty())
-      throw OutputError({path_.string(), {}, {}},
+      throw OutputError({path_.string()},
                         "not replaced: it holds " + foreign + ", which is not part of an export");
 #ifndef __EMSCRIPTEN__  // it has no links
     path_ = writable_folder(path_);
@@ -204,7 +203,7 @@ class NewFolder {
 
   /// The same error with the file's final path in place of the temporary one.
   OutputError in_place(const OutputError& error) const {
-    return {{(path_ / fs::path(error.position().file).filename()).string(), {}, {}},
+    return {{(path_ / fs::path(error.position().file).filename()).string()},
             error.reason(),
             error.hint()};
   }
@@ -216,8 +215,7 @@ class NewFolder {
 
  private:
   void check(bool done, const char* what, const std::error_code& error) const {
-    if (!done)
-      throw OutputError({path_.string(), {}, {}}, std::string(what) + ": " + error.message());
+    if (!done) throw OutputError({path_.string()}, std::string(what) + ": " + error.message());
   }
 
   fs::path path_, temporary_;

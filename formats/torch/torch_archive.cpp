@@ -328,7 +328,7 @@ double TorchArchive::number(std::string_view key) const {
 }
 
 void TorchArchive::fail(const std::string& reason) const {
-  throw InputError({zip_.name(), {}, {}}, reason);
+  throw InputError({zip_.name()}, reason);
 }
 
 }  // namespace tureen
