@@ -147,20 +147,18 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
                        "write a compressed GLB, with loss: the smallest within --max-error");
   command
       .add_option(
-          "--max-error", arguments.max_error_db,
-          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default")
-      .check(between(1e-4, 20.0))
-      .value_name("DB")
+          "--max-error DB", arguments.max_error_db,
+          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default",
+          between(1e-4, 20.0))
       .needs(compressed);
   const Option photographs =
       command
           .add_option(
-              "--photographs", arguments.photographs.path,
+              "--photographs DATASET", arguments.photographs.path,
               "with --compress: dataset for measuring the loss on test photographs; by default the "
               "loss is estimated from images of the scene. If the scene has few cameras, the "
               "dataset's training cameras also decide which parts are visible. If you draw OUT at "
               "a larger size than the scaled photographs, the loss can exceed --max-error")
-          .value_name("DATASET")
           .needs(compressed);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command

@@ -469,10 +469,8 @@ Examples:
   tureen info soup.glb --strict               a check for scripts
   tureen info photographs -o cameras.svg      a dataset: sizes, lenses, points, plot of cameras)");
   add_scene_arguments(command, options->scene);
-  command
-      .add_option("-o,--output", options->plot,
-                  "of a dataset: plot of its cameras from above and from the side")
-      .value_name("PLOT.svg");
+  command.add_option("-o,--output PLOT.svg", options->plot,
+                     "of a dataset: plot of its cameras from above and from the side");
   add_memory_option(command);
   command.add_flag("--json", options->json, "print all properties as JSON to standard output");
   command.add_flag("--strict", options->strict,

@@ -260,18 +260,15 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
 5 the scene does not fit on the device, or an image cannot be written.)");
   add_scene_arguments(command, options->scene);
   add_memory_option(command);
-  command
-      .add_option(
-          "-o,--output", options->output,
-          "image to write, out.png by default; with several views, %d is the "
-          "index of the view; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
-      .value_name("OUT.png");
+  command.add_option(
+      "-o,--output OUT.png", options->output,
+      "image to write, out.png by default; with several views, %d is the "
+      "index of the view; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg");
   add_view_options(command, options->views);
-  command
-      .add_option("--background", options->background,
-                  "colour of pixels without a triangle: white, black, transparent, or r,g,b from 0 "
-                  "to 1; the scene's own by default")
-      .value_name("COLOR");
+  command.add_option(
+      "--background COLOR", options->background,
+      "colour of pixels without a triangle: white, black, transparent, or r,g,b from 0 "
+      "to 1; the scene's own by default");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
   command.add_flag("--as-published", options->drawing.plan.as_published,
@@ -283,11 +280,9 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})
     show.excludes(command.option(other));
   command
-      .add_option("--frames", options->frames,
-                  "after a warm-up, draw N more frames and print their times")
-      .check(between(1, 1000000))
-      .excludes(show)
-      .value_name("N");
+      .add_option("--frames N", options->frames,
+                  "after a warm-up, draw N more frames and print their times", between(1, 1000000))
+      .excludes(show);
   command.add_flag("--json", options->json,
                    "print the images, the plan and the frame times as JSON to standard output");
   command.does([options] { return render(*options); });

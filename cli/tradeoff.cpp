@@ -100,15 +100,14 @@ on the device, or the output cannot be written.)");
   add_scene_argument(command, options->scene);
   add_dataset_argument(command, options->dataset).required(false);
   add_memory_option(command);
-  command.add_option("-o,--output", options->folder, "folder for report.html and tradeoff.json")
-      .value_name("FOLDER");
+  command.add_option("-o,--output FOLDER", options->folder,
+                     "folder for report.html and tradeoff.json");
   add_choice<tradeoff::Samples>(
-      command, "--reference", options->samples,
+      command, "--reference NAME", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
       "reference for edits, drawn by the CPU in double precision: device (default, vertices "
       "rounded as on the device, splats in the order of their centres) or exact (vertices not "
-      "rounded, splats in exact order; the error then includes those of the device)")
-      .value_name("NAME");
+      "rounded, splats in exact order; the error then includes those of the device)");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
       "measure more: 1280x720, 8 views and 4 adversarial views, 5 rounds, up to 8 x 8 samples, all "
@@ -118,48 +117,37 @@ on the device, or the output cannot be written.)");
           "--quick", [options] { options->effort = Effort::quick; },
           "test run: 96x64, 2 views, 1 round")
       .excludes(full);
-  command.add_option("--size", options->size, "image size in pixels").value_name("WxH");
+  command.add_option("--size WxH", options->size, "image size in pixels");
   command
-      .add_option("--cameras", options->cameras,
+      .add_option("--cameras SET[,SET..]", options->cameras,
                   "sets of views, separated by commas: hemisphere:N, orbit:N, adversarial, dataset "
                   "(its test cameras), or a file with cameras; by default 4 of the scene's own "
                   "cameras, or hemisphere:4 without cameras")
-      .value_name("SET[,SET..]")
       .split_at_commas();
-  command.add_option("--rounds", options->rounds, "number of rounds over all views")
-      .check(between(1, 1000))
-      .value_name("N");
-  command
-      .add_option(
-          "--combinations", options->combinations,
-          "largest number of combinations, separately for edits and for quality settings: 48 "
-          "each by default, 256 each with --full. With 0, only one edit or setting changes "
-          "at a time")
-      .check(between(0, 10000))
-      .value_name("N");
-  command
-      .add_option("--photographs", options->photographs,
-                  "largest number of test photographs, chosen at even intervals from DATASET")
-      .check(between(1, 1000000))
-      .value_name("N");
-  command
-      .add_option(
-          "--least-psnr", options->limits.min_psnr_db,
-          "limit for the choice: smallest PSNR against the oracle (E_render) in dB, 50 by default")
-      .check(between(0.0, 100.0))
-      .value_name("DB");
-  command
-      .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
-                  "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a "
-                  "mismatched pixel is covered either in the device's image or in the reference, "
-                  "but not in both")
-      .check(between(0.0, 1.0))
-      .value_name("FRACTION");
+  command.add_option("--rounds N", options->rounds, "number of rounds over all views",
+                     between(1, 1000));
+  command.add_option(
+      "--combinations N", options->combinations,
+      "largest number of combinations, separately for edits and for quality settings: 48 "
+      "each by default, 256 each with --full. With 0, only one edit or setting changes "
+      "at a time",
+      between(0, 10000));
+  command.add_option("--photographs N", options->photographs,
+                     "largest number of test photographs, chosen at even intervals from DATASET",
+                     between(1, 1000000));
+  command.add_option(
+      "--least-psnr DB", options->limits.min_psnr_db,
+      "limit for the choice: smallest PSNR against the oracle (E_render) in dB, 50 by default",
+      between(0.0, 100.0));
+  command.add_option(
+      "--most-mismatch FRACTION", options->limits.max_coverage_mismatch,
+      "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a "
+      "mismatched pixel is covered either in the device's image or in the reference, "
+      "but not in both",
+      between(0.0, 1.0));
   const Option write =
-      command
-          .add_option("--write", options->written_scene,
-                      "GLB to write: the scene with the chosen edits; SCENE stays unchanged")
-          .value_name("OUT.glb");
+      command.add_option("--write OUT.glb", options->written_scene,
+                         "GLB to write: the scene with the chosen edits; SCENE stays unchanged");
   command.add_flag("--force", options->force, "replace OUT.glb if it exists").needs(write);
   command.add_flag(
       "--no-flip", [options] { options->with_flip = false; },

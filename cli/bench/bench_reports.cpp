@@ -56,22 +56,17 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 }  // namespace
 
 void add_bench_report_options(Command& command, BenchReportOptions& options) {
-  command
-      .add_option("-o,--output", options.folder,
-                  "folder for report.html, bench.json and the images")
-      .value_name("FOLDER");
+  command.add_option("-o,--output FOLDER", options.folder,
+                     "folder for report.html, bench.json and the images");
   const Option against =
-      command
-          .add_option("--against", options.against,
-                      "earlier bench.json to compare with; reports differences above twice the "
-                      "spread")
-          .value_name("OLD.json");
+      command.add_option("--against OLD.json", options.against,
+                         "earlier bench.json to compare with; reports differences above twice the "
+                         "spread");
   command
-      .add_option("--fail-slower", options.fail_slower,
+      .add_option("--fail-slower PERCENT", options.fail_slower,
                   "exit with 1 if anything is slower than in --against by more than this "
-                  "percentage and by more than twice the spread")
-      .value_name("PERCENT")
-      .check(between(0.0, 1e4))
+                  "percentage and by more than twice the spread",
+                  between(0.0, 1e4))
       .needs(against);
   command.add_flag("--json", options.json, "print the result as JSON to standard output");
 }
