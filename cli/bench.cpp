@@ -196,11 +196,10 @@ the output cannot be written.)");
   add_case_options(command, options->cases);
   command.add_option("--rounds N", options->rounds,
                      "largest number of rounds over all views, 5 by default", between(1, 10000));
-  command.add_option(
-      "--seconds S", options->seconds,
-      "approximate time limit in seconds, 20 by default, 0 for no limit; reduces the "
-      "number of rounds, to at least 1",
-      between(0.0, 1e6));
+  command.add_option("--seconds S", options->seconds,
+                     "approximate time limit in seconds, 20 by default, 0 for no limit; reduces "
+                     "the number of rounds, to at least 1",
+                     between(0.0, 1e6));
   command.add_flag("--processor-time", options->processor_time,
                    "measure the processor time of all threads instead of elapsed time, for ratios "
                    "on a busy machine; software OpenGL only");

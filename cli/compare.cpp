@@ -130,13 +130,12 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot b
                      });
   std::vector<std::pair<std::string, const NamedMetric*>> metrics;
   for (const NamedMetric& metric : named_metrics) metrics.emplace_back(metric.key, &metric);
-  add_choice<const NamedMetric*>(command, "--metric NAME", options->metric, metrics,
-                                 "metric for --tolerance: a name in the printed table; mae by "
-                                 "default");
+  add_choice<const NamedMetric*>(
+      command, "--metric NAME", options->metric, metrics,
+      "metric for --tolerance: a name in the printed table; mae by default");
   command.add_option(
       "--pixel-tolerance VALUE", options->metrics.pixel_tolerance,
-      "difference of a channel, 0 to 1, above which a pixel counts as different; 1/255 "
-      "by default",
+      "difference of a channel, 0 to 1, above which a pixel counts as different; 1/255 by default",
       between(0.0, 1.0));
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::zero_pad, SsimBorder::valid, SsimBorder::uniform7})

@@ -162,13 +162,11 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
           .needs(compressed);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
-      .add_flag(
-          "--keep-unseen", arguments.keep_unseen,
-          "with --compress: keep unseen faces. By default they are removed if the scene has at "
-          "least 8 recorded cameras, or if at least 8 training cameras of --photographs show "
-          "it. A face is unseen if it appears in none of these views: up to 200 of these cameras, "
-          "and 64 "
-          "views from above and around")
+      .add_flag("--keep-unseen", arguments.keep_unseen,
+                "with --compress: keep unseen faces. By default they are removed if the scene has "
+                "at least 8 recorded cameras, or if at least 8 training cameras of --photographs "
+                "show it. A face is unseen if it appears in none of these views: up to 200 of "
+                "these cameras, and 64 views from above and around")
       .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,

@@ -179,9 +179,8 @@ context, 5 the scene does not fit on the device, or the output cannot be written
       "photographs to use: test (default), train or all");
   command.add_option(
       "-o,--output FOLDER", options->folder,
-      "folder for report.html, eval.json, contact_sheet.png, and an image per view: "
-      "photograph, rendering, heat map, and holes and specks (magenta and yellow) side by "
-      "side");
+      "folder for report.html, eval.json, contact_sheet.png, and an image per view: photograph, "
+      "rendering, heat map, and holes and specks (magenta and yellow) side by side");
   command.add_option("--background COLOR", options->background,
                      "colour behind the scene and behind photographs with alpha: white, black, or "
                      "r,g,b from 0 to 1; the scene's own by default");

@@ -323,8 +323,7 @@ struct DeviceFit {
           "{} ({} x {}, {} layers): {}", device.name, device.limits.max_texture_size,
           device.limits.max_texture_size, device.limits.max_array_layers,
           fits ? "fits"
-               : fmt::format("does not fit: {} has {} texels, but a texture holds at "
-                             "most {}",
+               : fmt::format("does not fit: {} has {} texels, but a texture holds at most {}",
                              largest.largest_store, counted(largest.largest_store_texels),
                              counted(capacity))));
     }

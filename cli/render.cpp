@@ -262,18 +262,17 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
   add_memory_option(command);
   command.add_option(
       "-o,--output OUT.png", options->output,
-      "image to write, out.png by default; with several views, %d is the "
-      "index of the view; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg");
+      "image to write, out.png by default; with several views, %d is the index of the view; with "
+      "--path or --turntable, .mp4 or .webm writes a video with ffmpeg");
   add_view_options(command, options->views);
-  command.add_option(
-      "--background COLOR", options->background,
-      "colour of pixels without a triangle: white, black, transparent, or r,g,b from 0 "
-      "to 1; the scene's own by default");
+  command.add_option("--background COLOR", options->background,
+                     "colour of pixels without a triangle: white, black, transparent, or r,g,b "
+                     "from 0 to 1; the scene's own by default");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
-  command.add_flag("--as-published", options->drawing.plan.as_published,
-                   "also cull splats by the rules of their authors' code that depend on the "
-                   "resolution");
+  command.add_flag(
+      "--as-published", options->drawing.plan.as_published,
+      "also cull splats by the rules of their authors' code that depend on the resolution");
   add_measured_outputs(command, options->measured);
   Option show = add_debug_view_option(command, options->show);
   for (const char* other :

@@ -128,9 +128,8 @@ on the device, or the output cannot be written.)");
                      between(1, 1000));
   command.add_option(
       "--combinations N", options->combinations,
-      "largest number of combinations, separately for edits and for quality settings: 48 "
-      "each by default, 256 each with --full. With 0, only one edit or setting changes "
-      "at a time",
+      "largest number of combinations, separately for edits and for quality settings: 48 each by "
+      "default, 256 each with --full. With 0, only one edit or setting changes at a time",
       between(0, 10000));
   command.add_option("--photographs N", options->photographs,
                      "largest number of test photographs, chosen at even intervals from DATASET",
@@ -141,9 +140,8 @@ on the device, or the output cannot be written.)");
       between(0.0, 100.0));
   command.add_option(
       "--most-mismatch FRACTION", options->limits.max_coverage_mismatch,
-      "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a "
-      "mismatched pixel is covered either in the device's image or in the reference, "
-      "but not in both",
+      "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a mismatched "
+      "pixel is covered either in the device's image or in the reference, but not in both",
       between(0.0, 1.0));
   const Option write =
       command.add_option("--write OUT.glb", options->written_scene,

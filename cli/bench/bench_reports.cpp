@@ -38,10 +38,10 @@ void say_limits(const BenchComparison& comparison, double percent) {
   };
   const auto count = std::count_if(comparison.ratios.begin(), comparison.ratios.end(), coarse);
   if (count > 0)
-    say(fmt::format(
-        "--fail-slower: in {} of {} rows, twice the spread is above {:g} %; smaller slowdowns "
-        "there cannot be detected",
-        count, comparison.ratios.size(), percent));
+    say(
+        fmt::format("--fail-slower: in {} of {} rows, twice the spread is above {:g} %; smaller "
+                    "slowdowns there cannot be detected",
+                    count, comparison.ratios.size(), percent));
   if (!comparison.unmatched.empty())
     say(fmt::format("--fail-slower: {} in one result only {} not checked",
                     count_text(int(comparison.unmatched.size()), "row"),
@@ -58,10 +58,9 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 void add_bench_report_options(Command& command, BenchReportOptions& options) {
   command.add_option("-o,--output FOLDER", options.folder,
                      "folder for report.html, bench.json and the images");
-  const Option against =
-      command.add_option("--against OLD.json", options.against,
-                         "earlier bench.json to compare with; reports differences above twice the "
-                         "spread");
+  const Option against = command.add_option(
+      "--against OLD.json", options.against,
+      "earlier bench.json to compare with; reports differences above twice the spread");
   command
       .add_option("--fail-slower PERCENT", options.fail_slower,
                   "exit with 1 if anything is slower than in --against by more than this "
@@ -112,10 +111,9 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
       std::count_if(comparison->ratios.begin(), comparison->ratios.end(),
                     [](const BenchRatio& ratio) { return ratio.verdict == Verdict::unknown; });
   if (unknown > 0)
-    say(
-        fmt::format("--fail-slower cannot check {} of {} rows with fewer than {} rounds; increase "
-                    "--seconds",
-                    unknown, comparison->ratios.size(), min_rounds));
+    say(fmt::format(
+        "--fail-slower cannot check {} of {} rows with fewer than {} rounds; increase --seconds",
+        unknown, comparison->ratios.size(), min_rounds));
   say_limits(*comparison, *options.fail_slower);
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)

@@ -20,11 +20,10 @@ std::string refuse_scale(const std::string& text) {
 }  // namespace
 
 Option add_scale_option(Command& command, DatasetArgument& argument) {
-  return command.add_option(
-      "--scale FRACTION", argument.options.scale,
-      "scale of the photographs, above 0 and at most 1 (default): 0.5 halves both "
-      "sides, and each pixel is the mean of the pixels it covers",
-      refuse_scale);
+  return command.add_option("--scale FRACTION", argument.options.scale,
+                            "scale of the photographs, above 0 and at most 1 (default): 0.5 halves "
+                            "both sides, and each pixel is the mean of the pixels it covers",
+                            refuse_scale);
 }
 
 Option add_dataset_argument(Command& command, DatasetArgument& argument) {
@@ -35,10 +34,10 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
                       "transforms_train.json and transforms_test.json; a COLMAP model and images")
           .required();
   add_scale_option(command, argument);
-  command.add_option("--images N", argument.options.images_folder,
-                     "read photographs from the folder images_N, where some datasets have copies N "
-                     "times smaller",
-                     between(1, 64));
+  command.add_option(
+      "--images N", argument.options.images_folder,
+      "read photographs from the folder images_N, where some datasets have copies N times smaller",
+      between(1, 64));
   command.add_option("--test-every N", argument.options.test_every,
                      "use every N-th photograph in name order as a test view, starting with the "
                      "first, if the dataset has no split; 8 by default",

@@ -41,13 +41,12 @@ Option add_splat_order(Command& command, std::function<void(Quality::SplatOrder)
 
 void add_drawing_options(Command& command, DrawingOptions& options) {
   add_context_option(command, options.backend);
-  add_choice<PipelineKind>(
-      command, "--pipeline NAME", options.pipeline,
-      {{"auto", PipelineKind::tureen},
-       {"baseline", PipelineKind::baseline},
-       {"published", PipelineKind::baseline}},
-      "pipeline: auto (default, Tureen's own) or baseline (soups as in DiffSoup's viewer, "
-      "splats as instanced quads)");
+  add_choice<PipelineKind>(command, "--pipeline NAME", options.pipeline,
+                           {{"auto", PipelineKind::tureen},
+                            {"baseline", PipelineKind::baseline},
+                            {"published", PipelineKind::baseline}},
+                           "pipeline: auto (default, Tureen's own) or baseline (soups as in "
+                           "DiffSoup's viewer, splats as instanced quads)");
   const Option no_specialise = command.add_flag(
       "--no-specialise", [&options] { options.plan.specialise = false; },
       "apply no specialisation: also draw and compute the parts that the scene does not need");
@@ -81,11 +80,10 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       "order of splats at a pixel; the scene's own by default. centre: by their centres. exact: "
       "along the pixel's ray; by the processor, several times slower. stochastic: by their "
       "centres, without blending; noisy, but the mean of many samples is right");
-  command.add_option(
-      "--supersample N", options.supersampling,
-      "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "
-      "the scene's own number by default",
-      between(1, 8));
+  command.add_option("--supersample N", options.supersampling,
+                     "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the "
+                     "pixels; the scene's own number by default",
+                     between(1, 8));
   command.add_flag("--opaque", options.opaque,
                    "draw triangle windows as opaque triangles instead of blending them");
 }

@@ -56,9 +56,8 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
                      "up direction in world coordinates; the scene's own by default");
   command.add_option(
       "--octagon-q Q", choice.octagon_q,
-      "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at "
-      "sqrt(Q) standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 "
-      "and 21.1075",
+      "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at sqrt(Q) "
+      "standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 and 21.1075",
       between(0.001, 1000.0));
   command.add_option(
       "--max-splats N", choice.max_splats,

@@ -61,8 +61,7 @@ Views animation(CameraPathData data, const FrameRate& rate) {
   const double count = frame_count(path, rate.frames_per_second);
   if (count > max_frames)
     throw UsageError(
-        fmt::format("{:.0f} seconds at {} frames per second are {:.0f} frames; the limit is "
-                    "{:.0f}",
+        fmt::format("{:.0f} seconds at {} frames per second are {:.0f} frames; the limit is {:.0f}",
                     path.duration(), rate.frames_per_second, count, max_frames));
   return {frames(path, rate), {}, rate.frames_per_second};
 }
@@ -94,17 +93,15 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
 namespace {
 
 void add_animation_options(Command& command, ViewOptions& options) {
-  Option path = command.add_option(
-      "--path FILE.json", options.path,
-      "draw the frames along a camera path: a JSON file with \"cameras\" and their "
-      "\"seconds\" (docs/camera-paths.md)");
+  Option path = command.add_option("--path FILE.json", options.path,
+                                   "draw the frames along a camera path: a JSON file with "
+                                   "\"cameras\" and their \"seconds\" (docs/camera-paths.md)");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
     path.excludes(command.option(other));
   Option turntable =
       command.add_option("--turntable SECONDS", options.turntable,
-                         "draw the frames of one turn of this duration around the up "
-                         "axis; the camera moves as "
-                         "for --orbit, or starts at --eye and circles --target",
+                         "draw the frames of one turn of this duration around the up axis; the "
+                         "camera moves as for --orbit, or starts at --eye and circles --target",
                          between(0.001, 36000.0));
   for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
     turntable.excludes(other);
@@ -122,20 +119,19 @@ void check(const ViewOptions& options) {
 }
 
 void add_view_options(Command& command, ViewOptions& options) {
-  command.add_option(
-      "--size WxH", options.size,
-      "width and height in pixels, 1280x720 by default; recorded cameras keep their own size "
-      "by default");
+  command.add_option("--size WxH", options.size,
+                     "width and height in pixels, 1280x720 by default; recorded cameras keep their "
+                     "own size by default");
   const Option camera = command.add_option(
       "--camera FILE[:N|:all]", options.camera,
-      "camera N of FILE, counted from 0, or all its cameras. FILE is a JSON file written "
-      "by Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, "
-      "the folder of a COLMAP model, or a scene with cameras, such as SCENE");
-  const Option eye = command
-                         .add_option("--eye X,Y,Z", options.eye,
-                                     "eye position in world coordinates; the view direction is "
-                                     "towards --target")
-                         .excludes(camera);
+      "camera N of FILE, counted from 0, or all its cameras. FILE is a JSON file written by "
+      "Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, the folder of a "
+      "COLMAP model, or a scene with cameras, such as SCENE");
+  const Option eye =
+      command
+          .add_option("--eye X,Y,Z", options.eye,
+                      "eye position in world coordinates; the view direction is towards --target")
+          .excludes(camera);
   command
       .add_option("--target X,Y,Z", options.target,
                   "point in the centre of the image, in world coordinates; the centre of the scene "

@@ -78,11 +78,10 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
     outline.file = (folder / name).string();
     std::error_code ignored;
     if (!fs::exists(folder / name, ignored))
-      throw InputError(
-          {(folder / name).string()},
-          "is missing, but the other half of the dataset's split exists",
-          "to read the other half alone, pass its file instead of the folder; every n-th "
-          "photograph then becomes a test view");
+      throw InputError({(folder / name).string()},
+                       "is missing, but the other half of the dataset's split exists",
+                       "to read the other half alone, pass its file instead of the folder; every "
+                       "n-th photograph then becomes a test view");
     TransformsDataset part = read_transforms_dataset(folder / name, options.images_folder, budget);
     sort_by_name(part.frames);
     // Both files name the same points.
@@ -210,10 +209,10 @@ Outline make_outline(const fs::path& path, const DatasetOptions& options,
     return one_transforms_file(path / "transforms.json", options, budget);
   if (const auto model = colmap_folder(path)) return colmap_outline(path, *model, options, budget);
   if (const auto files = bundler_files(path)) return bundler_outline(path, *files, options, budget);
-  throw InputError({path.string()},
-                   "not a supported dataset: it has neither transforms_train.json nor "
-                   "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0, "
-                   "nor Bundler's bundle.out");
+  throw InputError(
+      {path.string()},
+      "not a supported dataset: it has neither transforms_train.json nor transforms.json, nor "
+      "COLMAP's cameras in sparse/0, sparse or colmap/sparse/0, nor Bundler's bundle.out");
 }
 
 /// Rejects a part without photographs. All of a dataset may have no test views.

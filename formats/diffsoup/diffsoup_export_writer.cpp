@@ -272,13 +272,10 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
   // The exporter's indices are signed.
   if (soup->positions.size() > 0x7fffffffu)
     throw UsageError(std::to_string(soup->positions.size()) +
-                     " vertices are too many for a "
-                     "DiffSoup export");
+                     " vertices are too many for a DiffSoup export");
   if (std::size_t(luts.first.height) > viewer_rows)
     notes.push_back("the images have " + std::to_string(luts.first.height) +
-                    " rows: viewers in "
-                    "browsers often stop at " +
-                    std::to_string(viewer_rows));
+                    " rows: viewers in browsers often stop at " + std::to_string(viewer_rows));
   std::vector<glm::vec3> positions = soup->positions;
   if (!is_translation(layer)) {
     positions = baked_positions(positions, layer);

@@ -205,8 +205,7 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
       fs::symlink_status(folder / "mlp.json", ignored).type() == fs::file_type::not_found)
     throw InputError(
         {path.string()},
-        "an .obj is supported only as part of a MobileNeRF scene, but its folder has no "
-        "mlp.json");
+        "an .obj is supported only as part of a MobileNeRF scene, but its folder has no mlp.json");
   const MemoryBudget budget;
   Network network = read_network(folder, budget);
   const auto shapes = find_shapes(folder);

@@ -36,18 +36,16 @@ PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wa
   if (sum > 0 && sum <= wall_ms * tolerance + rounding_ms * double(passes.size())) {
     if (sum >= wall_ms * complete)
       return {.ms = std::move(passes), .gap = {}, .reason = {}, .gpu_ms = sum};
-    std::snprintf(
-        text, sizeof text,
-        "the passes take %.3f ms of frames that take %.3f ms by the wall clock: the rest is work "
-        "of the processor, or the device's timers miss a part",
-        sum, wall_ms);
+    std::snprintf(text, sizeof text,
+                  "the passes take %.3f ms of frames that take %.3f ms by the wall clock: the rest "
+                  "is work of the processor, or the device's timers miss a part",
+                  sum, wall_ms);
     return {.ms = std::move(passes), .gap = PassTimesGap::partial, .reason = text, .gpu_ms = sum};
   }
-  std::snprintf(
-      text, sizeof text,
-      "the device's timers report %.3f ms for frames that take %.3f ms by the wall clock: "
-      "only the processor's clock is used",
-      sum, wall_ms);
+  std::snprintf(text, sizeof text,
+                "the device's timers report %.3f ms for frames that take %.3f ms by the wall "
+                "clock: only the processor's clock is used",
+                sum, wall_ms);
   return {.ms = {}, .gap = PassTimesGap::exceeds_wall_clock, .reason = text, .gpu_ms = {}};
 }
 
