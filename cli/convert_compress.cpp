@@ -14,7 +14,6 @@
 #include "cli/measuring/bench_words.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
-#include "cli/report.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "jobs/compress/compress.hpp"
 #include "scene/edit/baked_transform.hpp"

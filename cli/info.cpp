@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>

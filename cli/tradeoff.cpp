@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/output.hpp"
 #include "cli/commands.hpp"

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <optional>
 #include <vector>
 
 #include "base/error.hpp"

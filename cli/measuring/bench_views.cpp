@@ -1,8 +1,6 @@
 #include "cli/measuring/bench_views.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <sstream>
 #include <system_error>
-#include <type_traits>
 
 #include "base/suggestion.hpp"
 #include "cli/options/retired.hpp"

@@ -1,6 +1,5 @@
 #include "formats/archive/npy_array.hpp"
 
-#include <array>
 #include <cassert>
 #include <charconv>
 #include <cstdint>

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
-#include <string>
 
 #include "base/existing_path.hpp"
 #include "formats/common/uri.hpp"

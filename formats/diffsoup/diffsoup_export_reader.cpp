@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>

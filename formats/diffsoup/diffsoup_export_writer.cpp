@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "base/output.hpp"

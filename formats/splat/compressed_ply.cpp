@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "formats/common/format_remarks.hpp"
 #include "formats/ply/ply_values.hpp"

@@ -1,7 +1,5 @@
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"
 
-#include <cassert>
-
 #include "base/crc32.hpp"
 #include "base/error.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "runtime/gl/api.hpp"
-
 namespace tureen::tradeoff {
 
 namespace {

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <iterator>
 
 #include "jobs/timing/benchmark.hpp"

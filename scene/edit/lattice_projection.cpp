@@ -1,7 +1,6 @@
 #include "scene/edit/lattice_projection.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 

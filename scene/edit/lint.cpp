@@ -1,11 +1,9 @@
 #include "scene/edit/lint.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "scene/edit/lint_findings.hpp"
 #include "scene/finite.hpp"
