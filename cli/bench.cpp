@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/steady_seconds.hpp"
 #include "cli/bench/bench_reports.hpp"
 #include "cli/bench/bench_table.hpp"
 #include "cli/commands.hpp"
@@ -83,10 +83,9 @@ BenchResult run(const BenchOptions& options) {
   result.machine = this_machine();
   result.protocol.rounds = options.rounds;
 
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steady_seconds();
   Scene scene = read(options.scene);
-  const std::chrono::duration<double, std::milli> read_ms =
-      std::chrono::steady_clock::now() - start;
+  const double read_ms = 1000 * (steady_seconds() - start);
   apply_opaque(scene, options.cases.drawing);
   result.scene = described(scene, options.scene.path);
   result.notes = notes_of(scene.info);
@@ -108,7 +107,7 @@ BenchResult run(const BenchOptions& options) {
                                       context, scene);
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is skipped: " + each.reason);
-  result.load = load_of(cases, read_ms.count());
+  result.load = load_of(cases, read_ms);
   result.load.disk_mib = double(bytes_on_disk(options.scene.path)) / bytes_per_mib;
   result.load.memory_mib = double(byte_size(scene)) / bytes_per_mib;
   Progress progress("timing");

@@ -44,28 +44,12 @@ std::string vector_text(const glm::dvec3& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
-const char* name(DirectionEncoding encoding) {
-  switch (encoding) {
-    case DirectionEncoding::none:
-      return "none";
-    case DirectionEncoding::xyz:
-      return "xyz";
-    case DirectionEncoding::harmonics2:
-      return "harmonics2";
-  }
-  return "";
-}
-
-const char* name(ViewConvention view) {
-  return view == ViewConvention::surface_to_eye ? "surface_to_eye" : "eye_to_surface";
-}
-
 Json mlp_json(const ColorMlp& mlp) {
   Json widths = {mlp.layers.front().inputs};
   for (const DenseLayer& layer : mlp.layers) widths.push_back(layer.outputs);
   return {{"layers", widths},
-          {"direction_encoding", name(mlp.encoding)},
-          {"view_direction", name(mlp.view)},
+          {"direction_encoding", direction_encodings[std::size_t(mlp.encoding)]},
+          {"view_direction", view_conventions[std::size_t(mlp.view)]},
           {"blend_channel", mlp.blend_channel ? Json(*mlp.blend_channel) : Json(nullptr)}};
 }
 
@@ -85,7 +69,7 @@ struct Described {
   void operator()(const VertexColors&) {}
   void operator()(const Harmonics& sh) {
     json["degree"] = sh.degree;
-    json["view_direction"] = name(sh.view);
+    json["view_direction"] = view_conventions[std::size_t(sh.view)];
     lines.push_back(fmt::format("harmonics of degree {}, {} coefficients", sh.degree,
                                 harmonics::count(sh.degree)));
   }

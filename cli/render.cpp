@@ -21,6 +21,7 @@
 #include "cli/report.hpp"
 #include "image/video_file.hpp"
 #include "jobs/bench/plan_json.hpp"
+#include "jobs/timing/frame_statistics.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
@@ -68,10 +69,10 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const RenderOp
                     {.plan = preferences_for(scene, options.drawing), .background = background});
   const Drawer drawer = drawer_of(renderer, device);
   // benchmark() rejects images in tiles. It runs first, because drawing may take hours.
-  FrameTimes times;
-  if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
+  std::vector<double> ms;
+  if (options.frames > 0) ms = benchmark(drawer, device, views.cameras, options.frames);
   WrittenImages images = draw_views(drawer, device, views, options.output);
-  if (options.frames > 0) images.times = times;
+  if (options.frames > 0) images.ms = std::move(ms);
   const RenderPlan& plan = renderer.plan();
   return {std::move(images), describe(plan), plan.applied(), {}, renderer.device_bytes()};
 }
@@ -193,7 +194,7 @@ ExitCode render(RenderOptions options) {
       options.measured.any() ? write_measured(context, scene, views.cameras, options.measured)
                              : std::vector<MeasuredImage>{};
   const WrittenImages& images = drawn.images;
-  const FrameTimes& times = images.times;
+  const double median_ms = median(images.ms), p95_ms = percentile(images.ms, 95);
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
@@ -206,23 +207,22 @@ ExitCode render(RenderOptions options) {
                   primitives_text(triangle_count(scene), splat_count(scene)),
                   bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
                   context.description()));
-  say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
-                  times.ms.size(), times.p95()));
+  say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", median_ms,
+                  images.ms.size(), p95_ms));
   say_written(images, views);
   say_measured(measured);
   if (options.json) {
-    Json json = {
-        {"width", first.width},
-        {"height", first.height},
-        {"context", context.description()},
-        {"renderer", device.renderer},
-        {"software", device.software},
-        {"triangles", triangle_count(scene)},
-        {"splats", splat_count(scene)},
-        {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
-        {"plan", drawn.plan},
-        {"specialisations", results::specialisations_json(drawn.specialisations)},
-        {"output", images.paths}};
+    Json json = {{"width", first.width},
+                 {"height", first.height},
+                 {"context", context.description()},
+                 {"renderer", device.renderer},
+                 {"software", device.software},
+                 {"triangles", triangle_count(scene)},
+                 {"splats", splat_count(scene)},
+                 {"frame_ms", {{"median", median_ms}, {"p95", p95_ms}, {"n", images.ms.size()}}},
+                 {"plan", drawn.plan},
+                 {"specialisations", results::specialisations_json(drawn.specialisations)},
+                 {"output", images.paths}};
     if (!measured.empty()) json["measured"] = measured_json(measured);
     print_json(json);
   }

@@ -321,7 +321,7 @@ Camera stored_camera(const DatasetFrame& frame, const fs::path& image, int image
   }
   Camera camera = frame.camera(size.x, size.y);
   if (images_folder > 1)
-    camera = stretched(std::move(camera), scaled_side(size.x, 1.0 / images_folder),
+    camera = resampled(camera, scaled_side(size.x, 1.0 / images_folder),
                        scaled_side(size.y, 1.0 / images_folder));
   camera.name = frame.name;
   return camera;

@@ -29,7 +29,7 @@ Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
     throw InputError({file}, "the image is " + size_text(image.width, image.height) +
                                  ", but its camera's is " + size_text(full.x, full.y) +
                                  (shrunk > 1 ? " / " + std::to_string(shrunk) : ""));
-  return stretched(frame.camera(full.x, full.y), image.width, image.height);
+  return resampled(frame.camera(full.x, full.y), image.width, image.height);
 }
 
 /// The pixels whose area lies within `known`, after the image was scaled from size `from` to size
@@ -137,17 +137,6 @@ std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int i
   return {};
 }
 
-Camera stretched(Camera camera, int width, int height) {
-  const double x = double(width) / camera.width, y = double(height) / camera.height;
-  camera.fx *= x;
-  camera.cx *= x;
-  camera.fy *= y;
-  camera.cy *= y;
-  camera.width = width;
-  camera.height = height;
-  return camera;
-}
-
 int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
 
 ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& file,
@@ -179,7 +168,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   if (known.left >= known.right || known.top >= known.bottom)
     throw InputError({input.name()}, "no pixels remain at " + size_text(size.x, size.y) +
                                          ", scaled by " + float_text(float(options.scale)));
-  camera = stretched(std::move(camera), size.x, size.y);
+  camera = resampled(camera, size.x, size.y);
   // The scaled image, and perhaps a cropped copy.
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
                     "the scaled image");

@@ -91,7 +91,7 @@ struct AddAppearance {
     json result = {{"type", "harmonics"},
                    {"domain", layout::domains[int(sh.domain)]},
                    {"degree", sh.degree},
-                   {"view", layout::view_conventions[int(sh.view)]}};
+                   {"view", view_conventions[int(sh.view)]}};
     plan.accessor(result, "coefficients", bytes_of(sh.coefficients), vec3_float);
     return result;
   }
@@ -311,8 +311,8 @@ json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
     layers.push_back(std::move(entry));
   }
   json result = {{"layers", std::move(layers)},
-                 {"encoding", layout::direction_encodings[int(mlp.encoding)]},
-                 {"view", layout::view_conventions[int(mlp.view)]}};
+                 {"encoding", direction_encodings[int(mlp.encoding)]},
+                 {"view", view_conventions[int(mlp.view)]}};
   if (mlp.blend_channel) result["blend_channel"] = *mlp.blend_channel;
   return result;
 }

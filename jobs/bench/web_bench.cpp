@@ -105,7 +105,9 @@ void add_measurements(const JsonView& view, BenchResult& result) {
     const JsonView benchmark_case = cases.at(i);
     BenchMeasurement measurement = shared;
     measurement.configuration = benchmark_case["configuration"].text();
-    if (!find_configuration(result, measurement.configuration))
+    if (std::none_of(
+            result.configurations.begin(), result.configurations.end(),
+            [&](const BenchConfiguration& each) { return each.name == measurement.configuration; }))
       benchmark_case["configuration"].fail("is not a configuration of the scene");
     for (std::size_t k = begin; k < result.measurements.size(); ++k)
       if (result.measurements[k].configuration == measurement.configuration)

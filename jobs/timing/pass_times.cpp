@@ -1,9 +1,9 @@
 #include "jobs/timing/pass_times.hpp"
 
 #include <cassert>
-#include <chrono>
 #include <cstdio>
 
+#include "base/steady_seconds.hpp"
 #include "runtime/gl/timer_query.hpp"
 
 namespace tureen {
@@ -13,13 +13,12 @@ namespace {
 /// Mean milliseconds a frame, from an idle device to an idle device.
 double wall_ms(Renderer& renderer, std::span<const Camera> cameras, int repeats) {
   renderer.finish();
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steady_seconds();
   for (const Camera& camera : cameras) {
     for (int i = 0; i < repeats; ++i) renderer.draw({camera});
     renderer.finish();
   }
-  const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start;
-  return all.count() / (double(repeats) * double(cameras.size()));
+  return 1000 * (steady_seconds() - start) / (double(repeats) * double(cameras.size()));
 }
 
 }  // namespace
