@@ -79,6 +79,11 @@ std::vector<std::byte> Input::read_rest() {
   return bytes;
 }
 
+std::string Input::read_text() {
+  const std::vector<std::byte> bytes = read_rest();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 void Input::fail(const std::string& reason, const std::string& hint) const {
   fail_at(position_, reason, hint);
 }

@@ -77,6 +77,11 @@ float JsonView::number_float() const {
   return static_cast<float>(real);
 }
 
+bool JsonView::boolean() const {
+  if (!value_->is_boolean()) fail("expected true or false");
+  return value_->get<bool>();
+}
+
 const std::string& JsonView::text() const {
   if (!value_->is_string()) fail("expected a string");
   return value_->get_ref<const std::string&>();

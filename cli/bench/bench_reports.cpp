@@ -22,11 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  const std::vector<std::byte> bytes = Input::open(path).read_rest();
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::vector<fs::path> files_of(const BenchReportOptions& options) {
   return options.folder.empty() ? std::vector<fs::path>() : result_files(options.folder, "bench");
 }
@@ -78,7 +73,8 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
     require_there(options.against);
-    then = results::bench_result_from_json(text_of(options.against), options.against);
+    then =
+        results::bench_result_from_json(Input::open(options.against).read_text(), options.against);
     const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < min_rounds; };
     if (options.fail_slower &&
         std::any_of(then->measurements.begin(), then->measurements.end(), few))

@@ -69,8 +69,7 @@ std::vector<ReportResult> web_bench(const std::string& file) {
 }
 
 std::vector<ReportResult> read_file(const std::string& file) {
-  const std::vector<std::byte> bytes = Input::open(file).read_rest();
-  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string text = Input::open(file).read_text();
   if (text.empty()) throw UnknownResult({file}, "is empty");
   if (text.starts_with("{\"step\":")) return {training(file, text)};  // every log begins with this
   const nlohmann::json document = parse_json(text, file);

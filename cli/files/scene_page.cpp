@@ -36,9 +36,7 @@ std::optional<fs::path> template_of_program() {
 }
 
 ScenePageTemplate read_template(const fs::path& path) {
-  const std::vector<std::byte> bytes = Input::open(path).read_rest();
-  return ScenePageTemplate({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                           path.string());
+  return ScenePageTemplate(Input::open(path).read_text(), path.string());
 }
 
 }  // namespace

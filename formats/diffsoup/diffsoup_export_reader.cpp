@@ -13,6 +13,7 @@
 #include "formats/diffsoup/diffsoup_mesh.hpp"
 #include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "image/png.hpp"
+#include "image/png_chunks.hpp"
 #include "scene/lattice.hpp"
 
 namespace tureen {
@@ -91,18 +92,11 @@ Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
   const auto bytes = input.read_rest();
   // Bit depth and colour type of IHDR, which is always the first chunk. The decoder would convert
   // other depths and types to RGBA8 and change the values.
-  constexpr std::array<unsigned char, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  if (bytes.size() < 26 || std::memcmp(bytes.data(), signature.data(), signature.size()) != 0)
-    input.fail_at(0, "not a PNG image");
+  if (bytes.size() < 26 || !is_png(bytes)) input.fail_at(0, "not a PNG image");
   if (bytes[24] != std::byte(8) || bytes[25] != std::byte(6))
     input.fail_at(24, "not a PNG of four channels of 8 bits");
-  const auto big_endian = [&](std::size_t at) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
-    return value;
-  };
-  const std::uint64_t width = big_endian(16), height = big_endian(20);
+  const auto number = [&](std::size_t at) { return png_number(std::span(bytes).subspan(at)); };
+  const std::uint64_t width = number(16), height = number(20);
   const std::uint64_t expected = width == 0 ? 0 : (texels + width - 1) / width;
   if (width == 0 || height != expected)
     input.fail_at(16, std::to_string(width) + " x " + std::to_string(height) +
