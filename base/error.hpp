@@ -13,8 +13,8 @@ namespace tureen {
 /// file, the machine or the request caused the error.
 struct FilePosition {
   std::string file;
-  std::optional<std::uint64_t> byte;
-  std::optional<std::uint64_t> line;
+  std::optional<std::uint64_t> byte = {};
+  std::optional<std::uint64_t> line = {};
 };
 
 /// "file:line: " or "file: byte N: " or "".

@@ -17,7 +17,7 @@ bool is_missing(const fs::path& path) {
 
 void require_there(const fs::path& path) {
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) {
-    throw InputError({path.string(), {}, {}}, reason, hint);
+    throw InputError({path.string()}, reason, hint);
   };
   if (path.empty()) throw UsageError("the name of an input is empty");
   std::error_code error;

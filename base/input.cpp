@@ -19,19 +19,18 @@ Input Input::open(const std::filesystem::path& path, MemoryBudget budget) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
-    throw InputError({input.name_, {}, {}}, "no such file");
+    throw InputError({input.name_}, "no such file");
   if (!std::filesystem::status_known(status))  // a cycle of links, a long name, no permission
-    throw InputError({input.name_, {}, {}}, "cannot be looked up: " + error.message());
+    throw InputError({input.name_}, "cannot be looked up: " + error.message());
   if (!std::filesystem::is_regular_file(status))
-    throw InputError({input.name_, {}, {}}, std::filesystem::is_directory(status)
-                                                ? "is a folder, expected a file"
-                                                : "is a pipe or a device, expected a file");
+    throw InputError({input.name_}, std::filesystem::is_directory(status)
+                                        ? "is a folder, expected a file"
+                                        : "is a pipe or a device, expected a file");
   input.size_ = std::filesystem::file_size(path, error);
-  if (error) throw InputError({input.name_, {}, {}}, "cannot be read: " + error.message());
+  if (error) throw InputError({input.name_}, "cannot be read: " + error.message());
   input.file_.reset(std::fopen(path.c_str(), "rb"));
   if (!input.file_)
-    throw InputError({input.name_, {}, {}},
-                     std::string("cannot be opened: ") + std::strerror(errno));
+    throw InputError({input.name_}, std::string("cannot be opened: ") + std::strerror(errno));
   return input;
 }
 
@@ -78,6 +77,11 @@ std::vector<std::byte> Input::read_rest() {
   std::vector<std::byte> bytes(static_cast<std::size_t>(remaining()));
   bytes.resize(read_some(bytes));
   return bytes;
+}
+
+std::string Input::read_text() {
+  const std::vector<std::byte> bytes = read_rest();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 void Input::fail(const std::string& reason, const std::string& hint) const {

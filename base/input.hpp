@@ -73,6 +73,7 @@ class Input {
 
   /// All bytes from the current position on.
   std::vector<std::byte> read_rest();
+  std::string read_text();
 
   /// Throws an InputError at the current position, or at `byte`.
   [[noreturn]] void fail(const std::string& reason, const std::string& hint = {}) const;

@@ -33,7 +33,7 @@ Output::Output(std::filesystem::path path) : path_(std::move(path)) {
   const std::filesystem::path folder = path_.parent_path();
   std::error_code error;
   if (!folder.empty() && !std::filesystem::exists(folder, error))
-    throw OutputError({path_.string(), {}, {}}, "there is no folder " + folder.string());
+    throw OutputError({path_.string()}, "there is no folder " + folder.string());
   errno = reason;
   fail("cannot be created");
 }
@@ -65,12 +65,12 @@ void Output::commit() {
   if (error) {
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
-    throw OutputError({path_.string(), {}, {}}, "cannot be replaced: " + error.message());
+    throw OutputError({path_.string()}, "cannot be replaced: " + error.message());
   }
 }
 
 void Output::fail(const char* what) const {
-  throw OutputError({path_.string(), {}, {}}, std::string(what) + ": " + std::strerror(errno));
+  throw OutputError({path_.string()}, std::string(what) + ": " + std::strerror(errno));
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
@@ -99,7 +99,7 @@ void replace_folder(const std::filesystem::path& made, const std::filesystem::pa
     fs::rename(made, path, error);
     if (error && replaces) fs::rename(old, path, ignored);
   }
-  if (error) throw OutputError({path.string(), {}, {}}, "cannot be replaced: " + error.message());
+  if (error) throw OutputError({path.string()}, "cannot be replaced: " + error.message());
   if (replaces) fs::remove_all(old, ignored);
 }
 
@@ -107,9 +107,8 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error))
-    throw OutputError(
-        {folder.string(), {}, {}},
-        "cannot be created as a folder" + (error ? ": " + error.message() : std::string()));
+    throw OutputError({folder.string()}, "cannot be created as a folder" +
+                                             (error ? ": " + error.message() : std::string()));
 }
 
 }  // namespace tureen

@@ -23,9 +23,7 @@ fs::path followed(const fs::path& path) {
 }
 
 fs::path writable_file(const fs::path& path) {
-  const auto fail = [&](const std::string& reason) {
-    throw OutputError({path.string(), {}, {}}, reason);
-  };
+  const auto fail = [&](const std::string& reason) { throw OutputError({path.string()}, reason); };
   if (path.empty()) throw UsageError("the name of an output is empty");
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -41,7 +39,7 @@ fs::path writable_file(const fs::path& path) {
 fs::path writable_folder(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error) && !may_write(path))
-    throw OutputError({path.string(), {}, {}}, "cannot be replaced: it is write-protected");
+    throw OutputError({path.string()}, "cannot be replaced: it is write-protected");
   return followed(path);
 }
 

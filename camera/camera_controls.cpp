@@ -67,60 +67,36 @@ Camera whole_in(const glm::dvec2& viewport, Camera camera) {
 
 }  // namespace
 
-const char* name_of(NamedView view) {
-  switch (view) {
-    case NamedView::front:
-      return "front";
-    case NamedView::back:
-      return "back";
-    case NamedView::left:
-      return "left";
-    case NamedView::right:
-      return "right";
-    case NamedView::top:
-      return "top";
-    case NamedView::bottom:
-      return "bottom";
-    case NamedView::three_quarter:
-      return "three-quarter";
-    case NamedView::three_quarter_left:
-      return "three-quarter left";
-    case NamedView::three_quarter_back:
-      return "three-quarter back";
-  }
-  return "";
-}
+namespace {
 
-const char* key_of(NamedView view) {
-  if (view == NamedView::three_quarter_left) return "three-quarter-left";
-  if (view == NamedView::three_quarter_back) return "three-quarter-back";
-  return name_of(view);
-}
+struct NamedBearing {
+  const char *name, *key;
+  Bearing bearing;
+};
 
-Bearing bearing_of(NamedView view) {
-  const auto [azimuth, elevation] = three_quarter_view;
-  switch (view) {
-    case NamedView::front:
-      return {0, 0};
-    case NamedView::back:
-      return {pi, 0};
-    case NamedView::left:
-      return {-0.5 * pi, 0};
-    case NamedView::right:
-      return {0.5 * pi, 0};
-    case NamedView::top:
-      return {0, 0.5 * pi};
-    case NamedView::bottom:
-      return {0, -0.5 * pi};
-    case NamedView::three_quarter:
-      return {azimuth, elevation};
-    case NamedView::three_quarter_left:
-      return {-azimuth, elevation};
-    case NamedView::three_quarter_back:
-      return {azimuth + pi, elevation};
-  }
-  return {};
-}
+constexpr std::array<NamedBearing, named_views.size()> named_bearings{{
+    {"front", "front", {0, 0}},
+    {"back", "back", {pi, 0}},
+    {"left", "left", {-0.5 * pi, 0}},
+    {"right", "right", {0.5 * pi, 0}},
+    {"top", "top", {0, 0.5 * pi}},
+    {"bottom", "bottom", {0, -0.5 * pi}},
+    {"three-quarter", "three-quarter", three_quarter_view},
+    {"three-quarter left",
+     "three-quarter-left",
+     {-three_quarter_view.azimuth, three_quarter_view.elevation}},
+    {"three-quarter back",
+     "three-quarter-back",
+     {three_quarter_view.azimuth + pi, three_quarter_view.elevation}},
+}};
+
+}  // namespace
+
+const char* name_of(NamedView view) { return named_bearings[std::size_t(view)].name; }
+
+const char* key_of(NamedView view) { return named_bearings[std::size_t(view)].key; }
+
+Bearing bearing_of(NamedView view) { return named_bearings[std::size_t(view)].bearing; }
 
 CameraControls::CameraControls(const Subject& subject) {
   set_subject(subject);

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <string>
 
 #include "camera/angles.hpp"

@@ -1,7 +1,6 @@
 #include "camera/camera_sets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,7 +8,6 @@
 #include <glm/vec4.hpp>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include "base/error.hpp"
 

@@ -45,7 +45,6 @@ double estimated_overdraw(const TriangleSoup& soup, glm::dvec3 origin, const Cam
 double facing(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera);
 
 /// Names of the four adversarial_views(), in their order.
-inline constexpr std::array adversarial_names = {"inside", "far", "grazing", "most overdraw"};
 
 /// Four worst-case views for a renderer:
 ///   "inside"         the eye at the centre of mass of the triangles; of eight horizontal

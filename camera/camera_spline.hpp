@@ -18,7 +18,6 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
 
 namespace tureen {
 

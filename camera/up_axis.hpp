@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <string>
 

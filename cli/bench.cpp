@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/steady_seconds.hpp"
 #include "cli/bench/bench_reports.hpp"
 #include "cli/bench/bench_table.hpp"
 #include "cli/commands.hpp"
@@ -83,10 +83,9 @@ BenchResult run(const BenchOptions& options) {
   result.machine = this_machine();
   result.protocol.rounds = options.rounds;
 
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steady_seconds();
   Scene scene = read(options.scene);
-  const std::chrono::duration<double, std::milli> read_ms =
-      std::chrono::steady_clock::now() - start;
+  const double read_ms = 1000 * (steady_seconds() - start);
   apply_opaque(scene, options.cases.drawing);
   result.scene = described(scene, options.scene.path);
   result.notes = notes_of(scene.info);
@@ -108,7 +107,7 @@ BenchResult run(const BenchOptions& options) {
                                       context, scene);
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is skipped: " + each.reason);
-  result.load = load_of(cases, read_ms.count());
+  result.load = load_of(cases, read_ms);
   result.load.disk_mib = double(bytes_on_disk(options.scene.path)) / bytes_per_mib;
   result.load.memory_mib = double(byte_size(scene)) / bytes_per_mib;
   Progress progress("timing");
@@ -194,17 +193,12 @@ the output cannot be written.)");
   add_memory_option(command);
   add_bench_view_options(command, options->views);
   add_case_options(command, options->cases);
-  command
-      .add_option("--rounds", options->rounds,
-                  "largest number of rounds over all views, 5 by default")
-      .check(between(1, 10000))
-      .value_name("N");
-  command
-      .add_option("--seconds", options->seconds,
-                  "approximate time limit in seconds, 20 by default, 0 for no limit; reduces the "
-                  "number of rounds, to at least 1")
-      .check(between(0.0, 1e6))
-      .value_name("S");
+  command.add_option("--rounds N", options->rounds,
+                     "largest number of rounds over all views, 5 by default", between(1, 10000));
+  command.add_option("--seconds S", options->seconds,
+                     "approximate time limit in seconds, 20 by default, 0 for no limit; reduces "
+                     "the number of rounds, to at least 1",
+                     between(0.0, 1e6));
   command.add_flag("--processor-time", options->processor_time,
                    "measure the processor time of all threads instead of elapsed time, for ratios "
                    "on a busy machine; software OpenGL only");

@@ -118,44 +118,36 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot b
   command.add_option("A", options->a, "first image, PNG or JPEG").required();
   command.add_option("B", options->b, "second image, of the same size").required();
   command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
-  command
-      .add_option("--tolerance", options->tolerance,
-                  "limit for --metric; exit with 1 if the metric is worse")
-      .check([](const std::string& text) {
-        // With a negative, infinite or NaN tolerance every comparison would have the same result.
-        const std::optional<double> value = number_from(text);
-        return text.starts_with('-') || !value || !std::isfinite(*value)
-                   ? "a tolerance must be a number of at least 0, not " + text
-                   : std::string();
-      })
-      .value_name("VALUE");
+  command.add_option("--tolerance VALUE", options->tolerance,
+                     "limit for --metric; exit with 1 if the metric is worse",
+                     [](const std::string& text) {
+                       // With a negative, infinite or NaN tolerance every comparison would have the
+                       // same result.
+                       const std::optional<double> value = number_from(text);
+                       return text.starts_with('-') || !value || !std::isfinite(*value)
+                                  ? "a tolerance must be a number of at least 0, not " + text
+                                  : std::string();
+                     });
   std::vector<std::pair<std::string, const NamedMetric*>> metrics;
   for (const NamedMetric& metric : named_metrics) metrics.emplace_back(metric.key, &metric);
-  add_choice<const NamedMetric*>(command, "--metric", options->metric, metrics,
-                                 "metric for --tolerance: a name in the printed table; mae by "
-                                 "default")
-      .value_name("NAME");
-  command
-      .add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
-                  "difference of a channel, 0 to 1, above which a pixel counts as different; 1/255 "
-                  "by default")
-      .check(between(0.0, 1.0))
-      .value_name("VALUE");
+  add_choice<const NamedMetric*>(
+      command, "--metric NAME", options->metric, metrics,
+      "metric for --tolerance: a name in the printed table; mae by default");
+  command.add_option(
+      "--pixel-tolerance VALUE", options->metrics.pixel_tolerance,
+      "difference of a channel, 0 to 1, above which a pixel counts as different; 1/255 by default",
+      between(0.0, 1.0));
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::zero_pad, SsimBorder::valid, SsimBorder::uniform7})
     borders.emplace_back(name(border), border);
-  add_choice<SsimBorder>(command, "--ssim-border", options->metrics.ssim_border, borders,
+  add_choice<SsimBorder>(command, "--ssim-border MODE", options->metrics.ssim_border, borders,
                          "SSIM window at the image border: zero_pad (default, as in 3DGS), valid, "
-                         "or uniform7 (scikit-image)")
-      .value_name("MODE");
-  command
-      .add_option("--background", options->background,
-                  "colour behind transparent pixels: black (default), white, or r,g,b from 0 to 1")
-      .value_name("COLOR");
-  command
-      .add_option("--diff", options->diff,
-                  "image to write: A, B and a heat map of their differences, side by side")
-      .value_name("OUT.png");
+                         "or uniform7 (scikit-image)");
+  command.add_option(
+      "--background COLOR", options->background,
+      "colour behind transparent pixels: black (default), white, or r,g,b from 0 to 1");
+  command.add_option("--diff OUT.png", options->diff,
+                     "image to write: A, B and a heat map of their differences, side by side");
   add_memory_option(command);
   command.does([options] { return compare_images(*options); });
 }

@@ -160,7 +160,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions
   try {
     figures = write(std::move(scene), options, glb.path());
   } catch (const OutputError& error) {
-    throw OutputError({options.output, {}, {}}, error.reason(), error.hint());
+    throw OutputError({options.output}, error.reason(), error.hint());
   }
   page.write(glb.path(), name, output);
   return figures;
@@ -239,10 +239,8 @@ Examples:
       .required();
   command.add_option("OUT", options->second, "file or folder to write; with -o, a second scene");
   command.add_option("FURTHER", options->further, "with -o: further scenes");
-  command.add_option("-o,--output", options->output, "file or folder to write, instead of OUT")
-      .value_name("OUT");
-  command.add_option("--layer", options->layer, "write only this layer, with its transform")
-      .value_name("NAME");
+  command.add_option("-o,--output OUT", options->output, "file or folder to write, instead of OUT");
+  command.add_option("--layer NAME", options->layer, "write only this layer, with its transform");
   add_reading_options(command, options->scene.choice);
   add_memory_option(command);
   command.add_flag("--force", options->force, "replace OUT if it exists");

@@ -14,7 +14,6 @@
 #include "cli/measuring/bench_words.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
-#include "cli/report.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "jobs/compress/compress.hpp"
 #include "scene/edit/baked_transform.hpp"
@@ -147,30 +146,26 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments) {
                        "write a compressed GLB, with loss: the smallest within --max-error");
   command
       .add_option(
-          "--max-error", arguments.max_error_db,
-          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default")
-      .check(between(1e-4, 20.0))
-      .value_name("DB")
+          "--max-error DB", arguments.max_error_db,
+          "with --compress: largest loss in dB of the PSNR against photographs, 0.1 by default",
+          between(1e-4, 20.0))
       .needs(compressed);
   const Option photographs =
       command
           .add_option(
-              "--photographs", arguments.photographs.path,
+              "--photographs DATASET", arguments.photographs.path,
               "with --compress: dataset for measuring the loss on test photographs; by default the "
               "loss is estimated from images of the scene. If the scene has few cameras, the "
               "dataset's training cameras also decide which parts are visible. If you draw OUT at "
               "a larger size than the scaled photographs, the loss can exceed --max-error")
-          .value_name("DATASET")
           .needs(compressed);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
-      .add_flag(
-          "--keep-unseen", arguments.keep_unseen,
-          "with --compress: keep unseen faces. By default they are removed if the scene has at "
-          "least 8 recorded cameras, or if at least 8 training cameras of --photographs show "
-          "it. A face is unseen if it appears in none of these views: up to 200 of these cameras, "
-          "and 64 "
-          "views from above and around")
+      .add_flag("--keep-unseen", arguments.keep_unseen,
+                "with --compress: keep unseen faces. By default they are removed if the scene has "
+                "at least 8 recorded cameras, or if at least 8 training cameras of --photographs "
+                "show it. A face is unseen if it appears in none of these views: up to 200 of "
+                "these cameras, and 64 views from above and around")
       .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,
@@ -197,7 +192,7 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   if (with_photographs) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
-      throw InputError({arguments.photographs.path, {}, {}}, "the dataset has no test photographs");
+      throw InputError({arguments.photographs.path}, "the dataset has no test photographs");
     if (scene.cameras.size() < min_representative_cameras)
       request.training_cameras = training_cameras(arguments.photographs, lost);
   }

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "cli/options/arguments.hpp"
 #include "cli/options/dataset_argument.hpp"

@@ -1,10 +1,7 @@
 // `tureen info` of a dataset instead of a scene.
 #pragma once
 
-#include <filesystem>
 #include <string>
-
-#include "cli/report.hpp"
 
 namespace tureen::cli {
 

@@ -99,7 +99,7 @@ ExitCode evaluate_scene(EvalOptions options) {
   const std::vector<Photograph> photographs = photographs_of(dataset);
   if (photographs.empty())
     throw InputError(
-        {options.dataset.path, {}, {}},
+        {options.dataset.path},
         std::string("the dataset has no photographs for --split ") + split_name(options.split));
 
   std::optional<EvalImages> images;
@@ -174,29 +174,23 @@ context, 5 the scene does not fit on the device, or the output cannot be written
   add_dataset_argument(command, options->dataset);
   add_memory_option(command);
   add_choice<DatasetPart>(
-      command, "--split", options->split,
+      command, "--split NAME", options->split,
       {{"test", DatasetPart::test}, {"train", DatasetPart::train}, {"all", DatasetPart::all}},
-      "photographs to use: test (default), train or all")
-      .value_name("NAME");
-  command
-      .add_option(
-          "-o,--output", options->folder,
-          "folder for report.html, eval.json, contact_sheet.png, and an image per view: "
-          "photograph, rendering, heat map, and holes and specks (magenta and yellow) side by "
-          "side")
-      .value_name("FOLDER");
-  command
-      .add_option("--background", options->background,
-                  "colour behind the scene and behind photographs with alpha: white, black, or "
-                  "r,g,b from 0 to 1; the scene's own by default")
-      .value_name("COLOR");
+      "photographs to use: test (default), train or all");
+  command.add_option(
+      "-o,--output FOLDER", options->folder,
+      "folder for report.html, eval.json, contact_sheet.png, and an image per view: photograph, "
+      "rendering, heat map, and holes and specks (magenta and yellow) side by side");
+  command.add_option("--background COLOR", options->background,
+                     "colour behind the scene and behind photographs with alpha: white, black, or "
+                     "r,g,b from 0 to 1; the scene's own by default");
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::valid, SsimBorder::zero_pad, SsimBorder::uniform7})
     borders.emplace_back(name(border), border);
-  add_choice<SsimBorder>(command, "--ssim-border", options->evaluation.metrics.ssim_border, borders,
+  add_choice<SsimBorder>(command, "--ssim-border MODE", options->evaluation.metrics.ssim_border,
+                         borders,
                          "SSIM window at the image border: valid (default, as in DiffSoup on "
-                         "photographs), zero_pad (3DGS), or uniform7 (scikit-image)")
-      .value_name("MODE");
+                         "photographs), zero_pad (3DGS), or uniform7 (scikit-image)");
   command.add_flag(
       "--no-flip", [options] { options->evaluation.metrics.with_flip = false; },
       "do not compute FLIP; saves more than half of the time for the metrics");

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
@@ -45,28 +44,12 @@ std::string vector_text(const glm::dvec3& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
-const char* name(DirectionEncoding encoding) {
-  switch (encoding) {
-    case DirectionEncoding::none:
-      return "none";
-    case DirectionEncoding::xyz:
-      return "xyz";
-    case DirectionEncoding::harmonics2:
-      return "harmonics2";
-  }
-  return "";
-}
-
-const char* name(ViewConvention view) {
-  return view == ViewConvention::surface_to_eye ? "surface_to_eye" : "eye_to_surface";
-}
-
 Json mlp_json(const ColorMlp& mlp) {
   Json widths = {mlp.layers.front().inputs};
   for (const DenseLayer& layer : mlp.layers) widths.push_back(layer.outputs);
   return {{"layers", widths},
-          {"direction_encoding", name(mlp.encoding)},
-          {"view_direction", name(mlp.view)},
+          {"direction_encoding", direction_encodings[std::size_t(mlp.encoding)]},
+          {"view_direction", view_conventions[std::size_t(mlp.view)]},
           {"blend_channel", mlp.blend_channel ? Json(*mlp.blend_channel) : Json(nullptr)}};
 }
 
@@ -86,7 +69,7 @@ struct Described {
   void operator()(const VertexColors&) {}
   void operator()(const Harmonics& sh) {
     json["degree"] = sh.degree;
-    json["view_direction"] = name(sh.view);
+    json["view_direction"] = view_conventions[std::size_t(sh.view)];
     lines.push_back(fmt::format("harmonics of degree {}, {} coefficients", sh.degree,
                                 harmonics::count(sh.degree)));
   }
@@ -323,8 +306,7 @@ struct DeviceFit {
           "{} ({} x {}, {} layers): {}", device.name, device.limits.max_texture_size,
           device.limits.max_texture_size, device.limits.max_array_layers,
           fits ? "fits"
-               : fmt::format("does not fit: {} has {} texels, but a texture holds at "
-                             "most {}",
+               : fmt::format("does not fit: {} has {} texels, but a texture holds at most {}",
                              largest.largest_store, counted(largest.largest_store_texels),
                              counted(capacity))));
     }
@@ -469,10 +451,8 @@ Examples:
   tureen info soup.glb --strict               a check for scripts
   tureen info photographs -o cameras.svg      a dataset: sizes, lenses, points, plot of cameras)");
   add_scene_arguments(command, options->scene);
-  command
-      .add_option("-o,--output", options->plot,
-                  "of a dataset: plot of its cameras from above and from the side")
-      .value_name("PLOT.svg");
+  command.add_option("-o,--output PLOT.svg", options->plot,
+                     "of a dataset: plot of its cameras from above and from the side");
   add_memory_option(command);
   command.add_flag("--json", options->json, "print all properties as JSON to standard output");
   command.add_flag("--strict", options->strict,

@@ -7,6 +7,7 @@
 
 #include "base/platform/system.hpp"
 #include "base/shown_text.hpp"
+#include "base/steady_seconds.hpp"
 #include "cli/interrupt.hpp"
 
 namespace tureen::cli {
@@ -21,10 +22,7 @@ int percent(double fraction) { return int(std::clamp(fraction, 0.0, 1.0) * 100);
 }  // namespace
 
 Progress::Output Progress::standard_error() {
-  return {.stream = stderr, .terminal = is_terminal(stderr), .seconds = [] {
-            const auto now = std::chrono::steady_clock::now().time_since_epoch();
-            return std::chrono::duration<double>(now).count();
-          }};
+  return {.stream = stderr, .terminal = is_terminal(stderr), .seconds = steady_seconds};
 }
 
 Progress::Progress(std::string task, Output output)

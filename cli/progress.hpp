@@ -2,7 +2,6 @@
 // nothing.
 #pragma once
 
-#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <string>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/image_file.hpp"
@@ -22,6 +21,7 @@
 #include "cli/report.hpp"
 #include "image/video_file.hpp"
 #include "jobs/bench/plan_json.hpp"
+#include "jobs/timing/frame_statistics.hpp"
 #include "oracle/oracle_images.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/plan/plan_description.hpp"
@@ -74,10 +74,10 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const RenderOp
                     {.plan = preferences_for(scene, options.drawing), .background = background});
   const Drawer drawer = drawer_of(renderer, device);
   // benchmark() rejects images in tiles. It runs first, because drawing may take hours.
-  FrameTimes times;
-  if (options.frames > 0) times = benchmark(drawer, views.cameras, options.frames);
+  std::vector<double> ms;
+  if (options.frames > 0) ms = benchmark(drawer, views.cameras, options.frames);
   WrittenImages images = draw_views(drawer, views, options.output);
-  if (options.frames > 0) images.times = times;
+  if (options.frames > 0) images.ms = std::move(ms);
   const RenderPlan& plan = renderer.plan();
   return {std::move(images), describe(plan), plan.applied(), {}, renderer.device_bytes()};
 }
@@ -190,8 +190,8 @@ Json measured_json(const std::vector<MeasuredImage>& images) {
   return list;
 }
 
-Json frame_times_json(const FrameTimes& times) {
-  return {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}};
+Json frame_ms_json(const std::vector<double>& ms) {
+  return {{"median", median(ms)}, {"p95", percentile(ms, 95)}, {"n", ms.size()}};
 }
 
 /// Prints the written files: all names, or the first and the last frame.
@@ -229,7 +229,7 @@ ExitCode render(RenderOptions options) {
     say_list("Cameras:", views.notes);
     say(fmt::format("{}; {} x {} by {}; {} per image",
                     primitives_text(triangle_count(scene), splat_count(scene)), first.width,
-                    first.height, name, duration_text(images.times.median() / 1000)));
+                    first.height, name, duration_text(median(images.ms) / 1000)));
     say_written(images, views);
     if (options.json)
       print_json({{"width", first.width},
@@ -237,7 +237,7 @@ ExitCode render(RenderOptions options) {
                   {"renderer", name},
                   {"triangles", triangle_count(scene)},
                   {"splats", splat_count(scene)},
-                  {"frame_ms", frame_times_json(images.times)},
+                  {"frame_ms", frame_ms_json(images.ms)},
                   {"output", images.paths}});
     return ExitCode::done;
   }
@@ -251,7 +251,7 @@ ExitCode render(RenderOptions options) {
       options.measured.any() ? write_measured(context, scene, views.cameras, options.measured)
                              : std::vector<MeasuredImage>{};
   const WrittenImages& images = drawn.images;
-  const FrameTimes& times = images.times;
+  const double median_ms = median(images.ms), p95_ms = percentile(images.ms, 95);
 
   const gl::Capabilities& device = context.capabilities();
   say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
@@ -263,8 +263,8 @@ ExitCode render(RenderOptions options) {
                   primitives_text(triangle_count(scene), splat_count(scene)),
                   bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
                   context.description()));
-  say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
-                  times.ms.size(), times.p95()));
+  say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", median_ms,
+                  images.ms.size(), p95_ms));
   say_written(images, views);
   say_measured(measured);
   if (options.json) {
@@ -275,7 +275,7 @@ ExitCode render(RenderOptions options) {
                  {"software", device.software},
                  {"triangles", triangle_count(scene)},
                  {"splats", splat_count(scene)},
-                 {"frame_ms", frame_times_json(times)},
+                 {"frame_ms", frame_ms_json(images.ms)},
                  {"plan", drawn.plan},
                  {"specialisations", results::specialisations_json(drawn.specialisations)},
                  {"output", images.paths}};
@@ -316,43 +316,34 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
 5 the scene does not fit on the device, or an image cannot be written.)");
   add_scene_arguments(command, options->scene);
   add_memory_option(command);
-  command
-      .add_option(
-          "-o,--output", options->output,
-          "image to write, out.png by default; with several views, %d is the "
-          "index of the view; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
-      .value_name("OUT.png");
+  command.add_option(
+      "-o,--output OUT.png", options->output,
+      "image to write, out.png by default; with several views, %d is the index of the view; with "
+      "--path or --turntable, .mp4 or .webm writes a video with ffmpeg");
   add_view_options(command, options->views);
-  command
-      .add_option("--background", options->background,
-                  "colour of pixels without a triangle: white, black, transparent, or r,g,b from 0 "
-                  "to 1; the scene's own by default")
-      .value_name("COLOR");
+  command.add_option("--background COLOR", options->background,
+                     "colour of pixels without a triangle: white, black, transparent, or r,g,b "
+                     "from 0 to 1; the scene's own by default");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
-  command.add_flag("--as-published", options->drawing.plan.as_published,
-                   "also cull splats by the rules of their authors' code that depend on the "
-                   "resolution");
+  command.add_flag(
+      "--as-published", options->drawing.plan.as_published,
+      "also cull splats by the rules of their authors' code that depend on the resolution");
   add_measured_outputs(command, options->measured);
   Option show = add_debug_view_option(command, options->show);
   for (const char* other :
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})
     show.excludes(command.option(other));
   command
-      .add_option("--frames", options->frames,
-                  "after a warm-up, draw N more frames and print their times")
-      .check(between(1, 1000000))
-      .excludes(show)
-      .value_name("N");
-  Option renderer =
-      add_choice<RendererKind>(command, "--renderer", options->renderer,
-                               {{"gl", RendererKind::gl},
-                                {"oracle", RendererKind::oracle},
-                                {"tiles", RendererKind::tiles}},
-                               "what draws: gl (default, OpenGL); oracle: the reference in double "
-                               "precision, seconds to hours an image; tiles: splats on the "
-                               "processor. The last two need no OpenGL")
-          .value_name("NAME");
+      .add_option("--frames N", options->frames,
+                  "after a warm-up, draw N more frames and print their times", between(1, 1000000))
+      .excludes(show);
+  Option renderer = add_choice<RendererKind>(
+      command, "--renderer NAME", options->renderer,
+      {{"gl", RendererKind::gl}, {"oracle", RendererKind::oracle}, {"tiles", RendererKind::tiles}},
+      "what draws: gl (default, OpenGL); oracle: the reference in double "
+      "precision, seconds to hours an image; tiles: splats on the "
+      "processor. The last two need no OpenGL");
   for (const char* other : {"--debug-view", "--scale", "--pipeline", "--shading", "--no-specialise",
                             "--keep", "--blend", "--context", "--frames", "--as-published",
                             "--depth", "--median-depth", "--normals", "--alpha"})

@@ -98,12 +98,9 @@ Examples:
 Exit codes: 0 done, 2 wrong usage, 3 a result cannot be read, 5 the page cannot be written.)");
   command.add_option("FILE", options->inputs, "JSON results, training logs, or folders with them")
       .required();
-  command
-      .add_option(
-          "-o,--output", options->output,
-          "page to write. By default, writes report.html to the user's cache folder and opens "
-          "it in a browser")
-      .value_name("OUT.html");
+  command.add_option("-o,--output OUT.html", options->output,
+                     "page to write. By default, writes report.html to the user's cache folder and "
+                     "opens it in a browser");
   command.does([options] { return report(*options); });
 }
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/decimal_text.hpp"
 #include "base/error.hpp"
+#include "base/extension.hpp"
 #include "base/output.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/result_files.hpp"
@@ -15,10 +15,11 @@
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/options/scene_argument.hpp"
+#include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/tradeoff/tradeoff_run.hpp"
 #include "cli/tradeoff/tradeoff_tables.hpp"
-#include "cli/tradeoff/tradeoff_write.hpp"
+#include "formats/scene_file.hpp"
 
 namespace tureen::cli {
 
@@ -32,6 +33,41 @@ struct TradeoffArguments : TradeoffOptions {
   bool force = false;
   bool json = false;
 };
+
+/// Runs before anything is measured, so that an error does not cost minutes of work. Throws
+/// UsageError if `path` does not end in .glb, is `scene`, or exists without `replaces`; OutputError
+/// if it cannot be written.
+void require_writable_scene(const fs::path& path, const fs::path& scene, bool replaces) {
+  if (extension_of(path) != ".glb")
+    throw UsageError("'" + path.string() + "' does not end in .glb; --write writes GLB files");
+  std::error_code error;
+  if (fs::equivalent(path, scene, error))
+    throw UsageError(path.string() + " is also the input SCENE", "choose another name");
+  if (fs::exists(path, error) && !replaces)
+    throw UsageError(path.string() + " exists", "choose another name, or replace it with --force");
+  require_writable_file(path);
+}
+
+/// Writes a scene with one layer, which must hold a TriangleSoup, with the chosen edits as a Tureen
+/// GLB, and adds its name to the report. Without a choice, does nothing.
+void write_chosen(const fs::path& path, Scene scene, TradeoffReport& report) {
+  if (!report.study.choice) return;
+  const tradeoff::Applied& applied = report.study.drawing.outcomes[*report.study.choice].applied;
+  std::vector<std::string> sentences;
+  if (!has_edits(applied)) {
+    sentences.emplace_back("without edits: no edit within the limits is measurably faster");
+  } else {
+    Progress progress("reducing the scene");
+    scene = edited(std::move(scene), applied, [&](double done) { progress.update(done); });
+    scene.info.notes.push_back("reduced by tureen tradeoff: " + describe_edits(applied));
+  }
+  if (splat_count(scene) > 0) scene.quality.splat_order = applied.quality.splat_order;
+  const std::vector<std::string> losses = write_scene(scene, path);
+  sentences.insert(sentences.end(), losses.begin(), losses.end());
+  say_list("Writing " + path.string() + ":", sentences);
+  report.scene_written = path.string();
+  report.output.push_back(path.string());
+}
 
 void write_files(const TradeoffArguments& options, TradeoffReport& report) {
   if (options.folder.empty()) return;
@@ -100,15 +136,14 @@ on the device, or the output cannot be written.)");
   add_scene_argument(command, options->scene);
   add_dataset_argument(command, options->dataset).required(false);
   add_memory_option(command);
-  command.add_option("-o,--output", options->folder, "folder for report.html and tradeoff.json")
-      .value_name("FOLDER");
+  command.add_option("-o,--output FOLDER", options->folder,
+                     "folder for report.html and tradeoff.json");
   add_choice<tradeoff::Samples>(
-      command, "--reference", options->samples,
+      command, "--reference NAME", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
       "reference for edits, drawn by the CPU in double precision: device (default, vertices "
       "rounded as on the device, splats in the order of their centres) or exact (vertices not "
-      "rounded, splats in exact order; the error then includes those of the device)")
-      .value_name("NAME");
+      "rounded, splats in exact order; the error then includes those of the device)");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
       "measure more: 1280x720, 8 views and 4 adversarial views, 5 rounds, up to 8 x 8 samples, all "
@@ -118,48 +153,35 @@ on the device, or the output cannot be written.)");
           "--quick", [options] { options->effort = Effort::quick; },
           "test run: 96x64, 2 views, 1 round")
       .excludes(full);
-  command.add_option("--size", options->size, "image size in pixels").value_name("WxH");
+  command.add_option("--size WxH", options->size, "image size in pixels");
   command
-      .add_option("--cameras", options->cameras,
+      .add_option("--cameras SET[,SET..]", options->cameras,
                   "sets of views, separated by commas: hemisphere:N, orbit:N, adversarial, dataset "
                   "(its test cameras), or a file with cameras; by default 4 of the scene's own "
                   "cameras, or hemisphere:4 without cameras")
-      .value_name("SET[,SET..]")
       .split_at_commas();
-  command.add_option("--rounds", options->rounds, "number of rounds over all views")
-      .check(between(1, 1000))
-      .value_name("N");
-  command
-      .add_option(
-          "--combinations", options->combinations,
-          "largest number of combinations, separately for edits and for quality settings: 48 "
-          "each by default, 256 each with --full. With 0, only one edit or setting changes "
-          "at a time")
-      .check(between(0, 10000))
-      .value_name("N");
-  command
-      .add_option("--photographs", options->photographs,
-                  "largest number of test photographs, chosen at even intervals from DATASET")
-      .check(between(1, 1000000))
-      .value_name("N");
-  command
-      .add_option(
-          "--least-psnr", options->limits.min_psnr_db,
-          "limit for the choice: smallest PSNR against the oracle (E_render) in dB, 50 by default")
-      .check(between(0.0, 100.0))
-      .value_name("DB");
-  command
-      .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
-                  "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a "
-                  "mismatched pixel is covered either in the device's image or in the reference, "
-                  "but not in both")
-      .check(between(0.0, 1.0))
-      .value_name("FRACTION");
+  command.add_option("--rounds N", options->rounds, "number of rounds over all views",
+                     between(1, 1000));
+  command.add_option(
+      "--combinations N", options->combinations,
+      "largest number of combinations, separately for edits and for quality settings: 48 each by "
+      "default, 256 each with --full. With 0, only one edit or setting changes at a time",
+      between(0, 10000));
+  command.add_option("--photographs N", options->photographs,
+                     "largest number of test photographs, chosen at even intervals from DATASET",
+                     between(1, 1000000));
+  command.add_option(
+      "--least-psnr DB", options->limits.min_psnr_db,
+      "limit for the choice: smallest PSNR against the oracle (E_render) in dB, 50 by default",
+      between(0.0, 100.0));
+  command.add_option(
+      "--most-mismatch FRACTION", options->limits.max_coverage_mismatch,
+      "limit for the choice: largest fraction of mismatched pixels, 1e-4 by default; a mismatched "
+      "pixel is covered either in the device's image or in the reference, but not in both",
+      between(0.0, 1.0));
   const Option write =
-      command
-          .add_option("--write", options->written_scene,
-                      "GLB to write: the scene with the chosen edits; SCENE stays unchanged")
-          .value_name("OUT.glb");
+      command.add_option("--write OUT.glb", options->written_scene,
+                         "GLB to write: the scene with the chosen edits; SCENE stays unchanged");
   command.add_flag("--force", options->force, "replace OUT.glb if it exists").needs(write);
   command.add_flag(
       "--no-flip", [options] { options->with_flip = false; },

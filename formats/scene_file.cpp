@@ -56,7 +56,6 @@ struct Format {
 
 /// In the order of recognition: the first format that recognises a file reads it.
 const std::vector<Format>& formats() {
-  using Path = std::filesystem::path;
   static const std::vector<Format> table{
       {.name = "GLB",
        .description = "Tureen's own format, streamable and exact; any glTF viewer shows its mean "
@@ -71,7 +70,7 @@ const std::vector<Format>& formats() {
        .read_extensions = {".off", ".coff"},
        .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
-       .read = [](const Path& path, const ReadOptions& o) { return read_off(path, o); },
+       .read = read_off,
        .write = writes_files ? write_off : nullptr},
       {.name = "PLY",
        .description = "triangles with one colour per face or vertex, or splats (3DGS, 2DGS, GaMeS, "
@@ -79,7 +78,7 @@ const std::vector<Format>& formats() {
        .read_extensions = {".ply"},
        .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
-       .read = [](const Path& path, const ReadOptions& o) { return read_ply(path, o); },
+       .read = read_ply,
        .write = writes_files ? write_ply : nullptr},
       {.name = "DiffSoup export",
        .description = "lattice textures and a color MLP, for the web",
@@ -92,23 +91,23 @@ const std::vector<Format>& formats() {
        .description = "REdiSplats: octagons as flat Gaussians",
        .read_extensions = {".npz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_octagon_npz(c.head); },
-       .read = [](const Path& path, const ReadOptions& o) { return read_octagon_npz(path, o); }},
+       .read = read_octagon_npz},
       {.name = "checkpoint",
        .description = "Torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .read_extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
-       .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
+       .read = read_checkpoint},
       {.name = "SPZ",
        .description = "Gaussians, quantised and compressed",
        .read_extensions = {".spz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_spz(c.head); },
-       .read = [](const Path& path, const ReadOptions& o) { return read_spz(path, o); }},
+       .read = read_spz},
 #endif
       {.name = ".splat",
        .description = "Gaussians of one colour in records of 32 bytes, without a header",
        .read_extensions = {".splat"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_splat_records(c.path); },
-       .read = [](const Path& path, const ReadOptions& o) { return read_splat_records(path, o); }},
+       .read = read_splat_records},
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file in it",
        .read_extensions = {".obj"},
@@ -165,15 +164,15 @@ const Format& format_to_read(const Candidate& candidate) {
     if (format.read && format.recognises(candidate)) return format;
   const std::string extension = extension_of(candidate.path);
   if (needs_conversion(extension) && !candidate.is_folder)
-    throw InputError({candidate.path.string(), {}, {}},
+    throw InputError({candidate.path.string()},
                      "this page does not read " + extension + " files; convert it to GLB: " +
                          "tureen convert FILE" + extension + " FILE.glb");
   if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
-    throw InputError({candidate.path.string(), {}, {}}, stray->reason, stray->hint);
+    throw InputError({candidate.path.string()}, stray->reason, stray->hint);
   for (const Format& format : formats())
     if (format.read && !candidate.is_folder && contains(format.read_extensions, extension))
       return format;
-  throw InputError({candidate.path.string(), {}, {}},
+  throw InputError({candidate.path.string()},
                    std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
                        " in a supported format: " + listed(Direction::read));
 }
@@ -231,11 +230,11 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   for (const Layer& layer : scene.layers) {
     const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
     const auto reason = soup ? defect(*soup) : defect(std::get<Splats>(layer.primitives));
-    if (reason) throw InputError({path.string(), {}, {}}, *reason);
+    if (reason) throw InputError({path.string()}, *reason);
     if (soup ? !soup->triangles.empty() : count(std::get<Splats>(layer.primitives)) > 0)
       is_empty = false;
   }
-  if (is_empty) throw InputError({path.string(), {}, {}}, nothing_in(scene));
+  if (is_empty) throw InputError({path.string()}, nothing_in(scene));
   if (options.max_splats) limit_splats(scene, *options.max_splats);
   return scene;
 }

@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "image/separable_filter.hpp"
+#include "image/srgb.hpp"
 
 namespace tureen {
 
@@ -21,23 +22,18 @@ using std::numbers::pi;
 
 // --- Colour spaces --------------------------------------------------------------------------
 
-/// The transfer function of sRGB (IEC 61966-2-1).
-double linear_from_srgb(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 /// linear_from_srgb with a table for the 256 values of 8-bit images. A power per channel would be a
 /// large part of the total time.
 class Linearise {
  public:
   Linearise() {
-    for (int i = 0; i < 256; ++i) table_[i] = linear_from_srgb(float(i) / 255.0f);
+    for (int i = 0; i < 256; ++i) table_[i] = linear_from_srgb(double(float(i) / 255.0f));
   }
   double operator()(float value) const {
     if (!(value > 0.0f)) return 0.0;  // also NaN
     if (value >= 1.0f) return 1.0;
     const int nearest = int(value * 255.0f + 0.5f);
-    return value == float(nearest) / 255.0f ? table_[nearest] : linear_from_srgb(value);
+    return value == float(nearest) / 255.0f ? table_[nearest] : linear_from_srgb(double(value));
   }
 
  private:

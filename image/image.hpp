@@ -9,31 +9,25 @@
 
 namespace tureen {
 
-/// 8 bits a channel, value = byte / 255.
-struct Image8 {
+/// Pixels of four channels.
+template <class Pixel>
+struct Image {
   int width = 0;
   int height = 0;
-  std::vector<glm::u8vec4> pixels;  // width * height, row by row
+  std::vector<Pixel> pixels;  // width * height, row by row
 
-  Image8() = default;
-  Image8(int w, int h, glm::u8vec4 fill = glm::u8vec4(0))
+  Image() = default;
+  Image(int w, int h, Pixel fill = Pixel(0))
       : width(w), height(h), pixels(std::size_t(w) * h, fill) {}
-  glm::u8vec4& at(int x, int y) { return pixels[std::size_t(y) * width + x]; }
-  const glm::u8vec4& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
+  Pixel& at(int x, int y) { return pixels[std::size_t(y) * width + x]; }
+  const Pixel& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
 };
+
+/// 8 bits a channel, value = byte / 255.
+using Image8 = Image<glm::u8vec4>;
 
 /// Float channels, nominally in [0, 1]; alpha is coverage.
-struct ImageF {
-  int width = 0;
-  int height = 0;
-  std::vector<glm::vec4> pixels;
-
-  ImageF() = default;
-  ImageF(int w, int h, glm::vec4 fill = glm::vec4(0))
-      : width(w), height(h), pixels(std::size_t(w) * h, fill) {}
-  glm::vec4& at(int x, int y) { return pixels[std::size_t(y) * width + x]; }
-  const glm::vec4& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
-};
+using ImageF = Image<glm::vec4>;
 
 /// Rounds to the nearest of 256 values, as a GL framebuffer does. Clamps; NaN becomes 0.
 Image8 quantised(const ImageF& image);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <span>
 #include <string>
 
 #include "base/error.hpp"

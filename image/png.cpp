@@ -90,7 +90,7 @@ void refuse_damaged(std::span<const std::byte> bytes, const std::string& name) {
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                     MemoryBudget budget) {
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
-    throw InputError({name, {}, {}}, reason, hint);
+    throw InputError({name}, reason, hint);
   };
   if (bytes.size() > std::size_t(INT_MAX)) fail("the image file exceeds 2 GiB");
   if (const auto table = oversized_huffman_table(bytes)) {

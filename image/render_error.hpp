@@ -3,7 +3,6 @@
 // another quantity, and the two never share an axis (docs/tradeoff.md).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -75,15 +75,8 @@ double mean_similarity(const Plane& a, const Plane& b, const Window& window, con
 }  // namespace
 
 const char* name(SsimBorder border) {
-  switch (border) {
-    case SsimBorder::zero_pad:
-      return "zero_pad";
-    case SsimBorder::valid:
-      return "valid";
-    case SsimBorder::uniform7:
-      return "uniform7";
-  }
-  return "";
+  constexpr const char* names[] = {"zero_pad", "valid", "uniform7"};
+  return names[std::size_t(border)];
 }
 
 double ssim(const ImageF& a, const ImageF& b, SsimBorder border,

@@ -71,7 +71,7 @@ VideoFile::VideoFile(fs::path path, const Format& format)
   const fs::path folder = target_.parent_path();
   std::error_code error;
   if (!folder.empty() && !fs::is_directory(folder, error))
-    throw OutputError({path_.string(), {}, {}}, "there is no folder " + folder.string());
+    throw OutputError({path_.string()}, "there is no folder " + folder.string());
   temporary_ = temporary_beside(target_);
   bytes_.resize(std::size_t(3) * even(format.width) * even(format.height));
   start();
@@ -105,7 +105,7 @@ void VideoFile::fail() {
   std::rewind(complaints_.get());
   text.resize(std::fread(text.data(), 1, text.size(), complaints_.get()));
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-  throw OutputError({path_.string(), {}, {}},
+  throw OutputError({path_.string()},
                     "ffmpeg failed" + (text.empty() ? std::string() : ": " + text));
 }
 
@@ -128,7 +128,7 @@ void VideoFile::commit() {
   if (process_->wait() != 0) fail();
   std::error_code error;
   fs::rename(temporary_, target_, error);
-  if (error) throw OutputError({path_.string(), {}, {}}, "cannot be replaced: " + error.message());
+  if (error) throw OutputError({path_.string()}, "cannot be replaced: " + error.message());
   temporary_.clear();
 }
 

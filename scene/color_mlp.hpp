@@ -14,12 +14,14 @@ namespace tureen {
 
 /// The sign of a view direction. Odd harmonics bands change sign between the two conventions.
 enum class ViewConvention { surface_to_eye, eye_to_surface };
+inline constexpr const char* view_conventions[] = {"surface_to_eye", "eye_to_surface"};
 
 enum class DirectionEncoding {
   none,        // 0 inputs
   xyz,         // 3 inputs: the unit direction
   harmonics2,  // 9 inputs: harmonics::basis up to degree 2
 };
+inline constexpr const char* direction_encodings[] = {"none", "xyz", "harmonics2"};
 
 constexpr int encoded_size(DirectionEncoding encoding) {
   return encoding == DirectionEncoding::none ? 0 : encoding == DirectionEncoding::xyz ? 3 : 9;

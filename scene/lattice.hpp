@@ -50,6 +50,18 @@ inline Coordinates texel_coordinates(std::uint32_t index) {
   return {diagonal - y, y};
 }
 
+/// Calls visit(a, b, c) with the texels at the corners of each of the lattice's 4^level triangles.
+template <class Visit>
+void for_each_triangle(int level, const Visit& visit) {
+  const int n = resolution(level);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x + y < n; ++x) {
+      visit(texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x, y));
+      if (x + y + 1 < n)
+        visit(texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x + 1, y + 1));
+    }
+}
+
 /// The three texels around a point and their weights, which sum to 1 up to rounding.
 template <class Real>
 struct Footprint {

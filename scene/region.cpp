@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <optional>
 #include <vector>
 
 #include "base/error.hpp"
+#include "scene/clip_range.hpp"
 
 namespace tureen {
 
@@ -27,15 +27,13 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-glm::dvec3 forward(const Camera& camera) { return -camera.world_from_view_rotation()[2]; }
-
 /// The c with the smallest sum of |(I - d d^T)(c - eye)|^2, if the axes (eye, d) determine it.
 std::optional<glm::dvec3> nearest_to_axes(std::span<const Camera> views) {
   glm::dmat3 normal(0.0);
   glm::dvec3 right(0.0);
   const double weight = 1.0 / double(views.size());
   for (const Camera& view : views) {
-    const glm::dvec3 d = forward(view);
+    const glm::dvec3 d = forward_of(view);
     const glm::dmat3 across = weight * (glm::dmat3(1.0) - glm::outerProduct(d, d));
     normal += across;
     right += across * view.eye();
@@ -58,7 +56,7 @@ double half_tangent(const Camera& camera) {
 std::optional<Region> looked_at(std::span<const Camera> views, glm::dvec3 center) {
   std::vector<double> half_sides;
   for (const Camera& camera : views) {
-    const double depth = glm::dot(center - camera.eye(), forward(camera));
+    const double depth = glm::dot(center - camera.eye(), forward_of(camera));
     if (depth > rounding * glm::length(camera.eye()))
       half_sides.push_back(depth * half_tangent(camera));
   }
@@ -84,7 +82,7 @@ Region of_eyes(std::span<const Camera> views, bool outwards) {
   glm::dvec3 middle(0.0), direction(0.0);
   for (const Camera& view : views) {
     middle += view.eye() / double(views.size());
-    direction += forward(view) / double(views.size());
+    direction += forward_of(view) / double(views.size());
   }
   double extent = 0;
   for (const Camera& view : views) extent = std::max(extent, glm::distance(view.eye(), middle));

@@ -13,8 +13,6 @@
 
 namespace tureen {
 
-struct Remark;
-
 /// What a remark is about. Each reader has a table of its kinds (formats/gltf/gltf_remarks.hpp).
 struct RemarkKind {
   enum class Severity {
@@ -24,7 +22,10 @@ struct RemarkKind {
   };
   const char* code;  // in JSON: "polygons_split"
   Severity severity;
-  std::string (*text)(const Remark& remark);  // an English sentence
+  /// An English sentence with named fields in braces: {field} is a value, {field:one|many} a word
+  /// by its count, {field:and} a list such as "1, 2 and 5", {field:.2} a number with 2 decimal
+  /// places, {field:%} a fraction in percent.
+  const char* text;
   /// The setting that the reader assumed, such as "up"; "": none.
   const char* setting = "";
 };
@@ -54,15 +55,6 @@ struct Remark {
   /// Name of the scene, if several scenes were merged.
   std::string scene = {};
 
-  /// The value of a field of the kind.
-  const RemarkValue& operator[](std::string_view field) const;
-  std::uint64_t count(std::string_view field) const {
-    return std::get<std::uint64_t>((*this)[field]);
-  }
-  double number(std::string_view field) const { return std::get<double>((*this)[field]); }
-  /// Any value as text: "7", "0.25", "site, color".
-  std::string text(std::string_view field) const;
-
   bool operator==(const Remark&) const = default;
   /// An arbitrary total order, for sets. Browser toolchains lack <=> for vectors.
   friend bool operator<(const Remark& a, const Remark& b) {
@@ -79,12 +71,7 @@ std::string describe(const Remark& remark);
 std::vector<std::string> described(const std::vector<Remark>& remarks);
 
 namespace remarks {
-
 using Severity = RemarkKind::Severity;
-
-/// "1 face", "2 faces".
-std::string counted(std::uint64_t count, const char* one, const char* many);
-
-}  // namespace remarks
+}
 
 }  // namespace tureen

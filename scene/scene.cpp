@@ -109,8 +109,7 @@ std::optional<std::string> defect(const Layer& layer) {
       const double expected = column == row ? squared_scale : 0.0;
       if (std::abs(products[column][row] - expected) > tolerance * squared_scale)
         return "world_from_layer stretches or shears; only a rotation, a translation, one scale "
-               "and "
-               "a mirror are supported";
+               "and a mirror are supported";
     }
   return std::nullopt;
 }

@@ -131,6 +131,12 @@ float LatticeTexture::value(std::size_t texel, int channel) const {
   return std::get<std::vector<float>>(texels)[index];
 }
 
+std::vector<glm::uvec3> unshared_triangles(std::size_t count) {
+  std::vector<glm::uvec3> triangles(count);
+  for (std::size_t t = 0; t < count; ++t) triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
+  return triangles;
+}
+
 double Bounds::radius() const { return 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low)); }
 
 Bounds bounds(const TriangleSoup& soup) {

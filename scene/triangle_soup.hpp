@@ -109,6 +109,9 @@ struct TriangleSoup {
   Appearance appearance;
 };
 
+/// Triangles that share no corners: t has the corners 3t, 3t + 1 and 3t + 2.
+std::vector<glm::uvec3> unshared_triangles(std::size_t count);
+
 struct Bounds {
   glm::vec3 low{0.0f};
   glm::vec3 high{0.0f};

@@ -65,19 +65,18 @@ nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
 }
 
 float json_float(const nlohmann::json& value, const std::string& file, const std::string& what) {
-  if (!value.is_number()) throw InputError({file, {}, {}}, what + " is not a number");
+  if (!value.is_number()) throw InputError({file}, what + " is not a number");
   const auto number = static_cast<float>(value.get<double>());
-  if (!std::isfinite(number)) throw InputError({file, {}, {}}, what + " is not a finite number");
+  if (!std::isfinite(number)) throw InputError({file}, what + " is not a finite number");
   return number;
 }
 
 std::vector<float> json_floats(const nlohmann::json& value, std::size_t count,
                                const std::string& file, const std::string& what) {
   if (!value.is_array() || value.size() != count)
-    throw InputError(
-        {file, {}, {}},
-        what + " is not a list of " + std::to_string(count) + " numbers" +
-            (value.is_array() ? ", but has " + std::to_string(value.size()) : std::string()));
+    throw InputError({file}, what + " is not a list of " + std::to_string(count) + " numbers" +
+                                 (value.is_array() ? ", but has " + std::to_string(value.size())
+                                                   : std::string()));
   std::vector<float> numbers;
   numbers.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -87,10 +86,9 @@ std::vector<float> json_floats(const nlohmann::json& value, std::size_t count,
 
 const nlohmann::json& json_at(const nlohmann::json& object, const char* key,
                               const std::string& file) {
-  if (!object.is_object()) throw InputError({file, {}, {}}, "not a JSON object");
+  if (!object.is_object()) throw InputError({file}, "not a JSON object");
   const auto found = object.find(key);
-  if (found == object.end())
-    throw InputError({file, {}, {}}, std::string("has no \"") + key + "\"");
+  if (found == object.end()) throw InputError({file}, std::string("has no \"") + key + "\"");
   return *found;
 }
 

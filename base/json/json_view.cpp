@@ -77,6 +77,11 @@ float JsonView::number_float() const {
   return static_cast<float>(real);
 }
 
+bool JsonView::boolean() const {
+  if (!value_->is_boolean()) fail("expected true or false");
+  return value_->get<bool>();
+}
+
 const std::string& JsonView::text() const {
   if (!value_->is_string()) fail("expected a string");
   return value_->get_ref<const std::string&>();
@@ -96,8 +101,7 @@ std::size_t JsonView::one_of(std::span<const char* const> names) const {
 void JsonView::fail(const std::string& reason, const std::string& hint) const {
   // Path and reason may contain text from the file. An unescaped NUL would cut the message, and a
   // newline could forge another message.
-  throw InputError({*file_, {}, {}}, shown_text(path_.empty() ? reason : path_ + ": " + reason),
-                   hint);
+  throw InputError({*file_}, shown_text(path_.empty() ? reason : path_ + ": " + reason), hint);
 }
 
 }  // namespace tureen

@@ -43,6 +43,7 @@ class JsonView {
   double number() const;
   /// A number that a float can hold.
   float number_float() const;
+  bool boolean() const;
   const std::string& text() const;
   /// The index of the text in `names`. Any other text fails with a list of the names.
   std::size_t one_of(std::span<const char* const> names) const;

@@ -31,7 +31,7 @@ FileLock::FileLock(std::filesystem::path file) : file_(std::move(file)) {
   for (;;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
-      throw OutputError({file_.string(), {}, {}},
+      throw OutputError({file_.string()},
                         std::string("cannot be written: ") + std::strerror(errno));
     const bool is_locked = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!is_locked && is_still(descriptor_, file_)) return;

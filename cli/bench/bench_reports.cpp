@@ -22,11 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  const std::vector<std::byte> bytes = Input::open(path).read_rest();
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::vector<fs::path> files_of(const BenchReportOptions& options) {
   return options.folder.empty() ? std::vector<fs::path>() : result_files(options.folder, "bench");
 }
@@ -38,10 +33,10 @@ void say_limits(const BenchComparison& comparison, double percent) {
   };
   const auto count = std::count_if(comparison.ratios.begin(), comparison.ratios.end(), coarse);
   if (count > 0)
-    say(fmt::format(
-        "--fail-slower: in {} of {} rows, twice the spread is above {:g} %; smaller slowdowns "
-        "there cannot be detected",
-        count, comparison.ratios.size(), percent));
+    say(
+        fmt::format("--fail-slower: in {} of {} rows, twice the spread is above {:g} %; smaller "
+                    "slowdowns there cannot be detected",
+                    count, comparison.ratios.size(), percent));
   if (!comparison.unmatched.empty())
     say(fmt::format("--fail-slower: {} in one result only {} not checked",
                     count_text(int(comparison.unmatched.size()), "row"),
@@ -56,22 +51,16 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 }  // namespace
 
 void add_bench_report_options(Command& command, BenchReportOptions& options) {
+  command.add_option("-o,--output FOLDER", options.folder,
+                     "folder for report.html, bench.json and the images");
+  const Option against = command.add_option(
+      "--against OLD.json", options.against,
+      "earlier bench.json to compare with; reports differences above twice the spread");
   command
-      .add_option("-o,--output", options.folder,
-                  "folder for report.html, bench.json and the images")
-      .value_name("FOLDER");
-  const Option against =
-      command
-          .add_option("--against", options.against,
-                      "earlier bench.json to compare with; reports differences above twice the "
-                      "spread")
-          .value_name("OLD.json");
-  command
-      .add_option("--fail-slower", options.fail_slower,
+      .add_option("--fail-slower PERCENT", options.fail_slower,
                   "exit with 1 if anything is slower than in --against by more than this "
-                  "percentage and by more than twice the spread")
-      .value_name("PERCENT")
-      .check(between(0.0, 1e4))
+                  "percentage and by more than twice the spread",
+                  between(0.0, 1e4))
       .needs(against);
   command.add_flag("--json", options.json, "print the result as JSON to standard output");
 }
@@ -84,7 +73,8 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
     require_there(options.against);
-    then = results::bench_result_from_json(text_of(options.against), options.against);
+    then =
+        results::bench_result_from_json(Input::open(options.against).read_text(), options.against);
     const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < min_rounds; };
     if (options.fail_slower &&
         std::any_of(then->measurements.begin(), then->measurements.end(), few))
@@ -117,10 +107,9 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
       std::count_if(comparison->ratios.begin(), comparison->ratios.end(),
                     [](const BenchRatio& ratio) { return ratio.verdict == Verdict::unknown; });
   if (unknown > 0)
-    say(
-        fmt::format("--fail-slower cannot check {} of {} rows with fewer than {} rounds; increase "
-                    "--seconds",
-                    unknown, comparison->ratios.size(), min_rounds));
+    say(fmt::format(
+        "--fail-slower cannot check {} of {} rows with fewer than {} rounds; increase --seconds",
+        unknown, comparison->ratios.size(), min_rounds));
   say_limits(*comparison, *options.fail_slower);
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)

@@ -50,10 +50,7 @@ Image8 read_image(const std::filesystem::path& path) {
 }
 
 void write_image(const Image8& image, const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = encode_png(image);
-  Output output(path);
-  output.write(bytes);
-  output.commit();
+  write_file(path, encode_png(image));
 }
 
 void require_png_name(const std::filesystem::path& path) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
+#include "base/steady_seconds.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/progress.hpp"
 #include "image/contact_sheet.hpp"
@@ -24,10 +24,9 @@ namespace {
 double timed_draw(
     const Drawer& drawer, const FrameInput& input,
     const std::function<void(double)>& progress = [](double) {}) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steady_seconds();
   drawer.draw(input, progress);
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+  return 1000 * (steady_seconds() - start);
 }
 
 bool needs_tiles(const Quality& quality, const gl::Capabilities& device, const Camera& camera) {
@@ -48,8 +47,8 @@ Camera small_view(const Camera& camera) {
 
 /// Draws an image at once and writes it. Returns its thumbnail.
 Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
-                  FrameTimes& times, const std::function<void(double)>& progress) {
-  times.ms.push_back(timed_draw(drawer, {camera}, progress));
+                  std::vector<double>& ms, const std::function<void(double)>& progress) {
+  ms.push_back(timed_draw(drawer, {camera}, progress));
   const Image8 image = drawer.read();
   write_image(image, path);
   return thumbnail(image);
@@ -58,11 +57,11 @@ Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesys
 /// Draws an image in tiles and writes it row by row, in about 400 MiB for any size. Returns its
 /// thumbnail.
 Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
-                  FrameTimes& times, const std::function<void(double)>& progress) {
-  times.ms.push_back(0);
+                  std::vector<double>& ms, const std::function<void(double)>& progress) {
+  ms.push_back(0);
   ImageTiles tiles = drawer.tiles();
   tiles.draw = [&](const FrameInput& part) {
-    times.ms.back() += timed_draw(drawer, part);
+    ms.back() += timed_draw(drawer, part);
     return drawer.read();
   };
   tiles.progress = progress;
@@ -76,19 +75,6 @@ Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesys
 }
 
 }  // namespace
-
-double FrameTimes::median() const {
-  std::vector<double> sorted = ms;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
-}
-
-double FrameTimes::p95() const {
-  std::vector<double> sorted = ms;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted[(sorted.size() * 95 + 99) / 100 - 1];
-}
 
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
   return {.draw =
@@ -135,9 +121,8 @@ WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& camer
     update(0);
     const Camera& camera = cameras[std::size_t(i)];
     const std::filesystem::path path = image_name(names.pattern, i, count);
-    Image8 small = drawer.needs_tiles(camera)
-                       ? draw_large(drawer, camera, path, result.times, update)
-                       : draw_whole(drawer, camera, path, result.times, update);
+    Image8 small = drawer.needs_tiles(camera) ? draw_large(drawer, camera, path, result.ms, update)
+                                              : draw_whole(drawer, camera, path, result.ms, update);
     if (with_sheet) thumbnails.push_back(std::move(small));
     result.paths.push_back(path.string());
   }
@@ -159,17 +144,18 @@ WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& camera
   if (drawer.warms_up) timed_draw(drawer, {first});
   for (const Camera& camera : cameras) {
     const auto update = [&](double done) {
-      progress.update((double(result.times.ms.size()) + done) / double(cameras.size()));
+      progress.update((double(result.ms.size()) + done) / double(cameras.size()));
     };
     update(0);
-    result.times.ms.push_back(timed_draw(drawer, {camera}, update));
+    result.ms.push_back(timed_draw(drawer, {camera}, update));
     video.add(drawer.read());
   }
   video.commit();
   return result;
 }
 
-FrameTimes benchmark(const Drawer& drawer, const std::vector<Camera>& cameras, int frames) {
+std::vector<double> benchmark(const Drawer& drawer, const std::vector<Camera>& cameras,
+                              int frames) {
   for (const Camera& camera : cameras)
     if (drawer.needs_tiles(camera))
       throw UsageError(
@@ -178,10 +164,10 @@ FrameTimes benchmark(const Drawer& drawer, const std::vector<Camera>& cameras, i
                       camera.width, camera.height));
   const int warm_up = std::clamp(frames, 3, 10);
   Progress progress("timing");
-  FrameTimes times;
+  std::vector<double> times;
   for (int i = -warm_up; i < frames; ++i) {
     const double ms = timed_draw(drawer, {cameras[std::size_t(i + warm_up) % cameras.size()]});
-    if (i >= 0) times.ms.push_back(ms);
+    if (i >= 0) times.push_back(ms);
     progress.update(double(i + warm_up + 1) / (frames + warm_up));
   }
   return times;

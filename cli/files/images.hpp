@@ -11,16 +11,6 @@
 
 namespace tureen::cli {
 
-/// Milliseconds a frame, each from before the draw to after the device has finished.
-struct FrameTimes {
-  std::vector<double> ms;
-
-  double median() const;
-  /// The 95th percentile (nearest rank): the smallest time that at least 95 % of the times do not
-  /// exceed.
-  double p95() const;
-};
-
 /// A renderer, and what its images need.
 struct Drawer {
   /// Draws a frame, and waits for the device. Slow renderers call `progress` with the fraction
@@ -41,7 +31,7 @@ Drawer drawer_of(ImageSource& source, std::function<void(double)>& progress, boo
 
 struct WrittenImages {
   std::vector<std::string> paths;
-  FrameTimes times;
+  std::vector<double> ms;  // a frame, each from before the draw to after the device has finished
 };
 
 enum class Sheet { none, of_several };
@@ -61,8 +51,9 @@ WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& camer
 WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
                          double frames_per_second, const std::string& path);
 
-/// Times of `frames` frames, with all cameras in turn. The 3 to 10 frames before them compile
-/// shaders and fill caches, and are not counted. Throws UsageError for images that need tiles.
-FrameTimes benchmark(const Drawer& drawer, const std::vector<Camera>& cameras, int frames);
+/// Milliseconds of `frames` frames, with all cameras in turn. The 3 to 10 frames before them
+/// compile shaders and fill caches, and are not counted. Throws UsageError for images that need
+/// tiles.
+std::vector<double> benchmark(const Drawer& drawer, const std::vector<Camera>& cameras, int frames);
 
 }  // namespace tureen::cli

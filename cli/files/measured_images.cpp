@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -94,12 +93,10 @@ void add_measured_outputs(Command& command, MeasuredOutputs& outputs) {
       "mean normal of each pixel, weighted by contribution: x, y, z in world axes",
       "1 - transmittance of each pixel; 1 on triangles"};
   for (std::size_t i = 0; i < outputs.list.size(); ++i)
-    command
-        .add_option(outputs.list[i].option, outputs.list[i].pattern,
-                    std::string("also write the ") + meanings[i] +
-                        "; names as for --output; .exr (32-bit floats) or .png (16 bits, "
-                        "docs/debug-views.md)")
-        .value_name("FILE");
+    command.add_option(std::string(outputs.list[i].option) + " FILE", outputs.list[i].pattern,
+                       std::string("also write the ") + meanings[i] +
+                           "; names as for --output; .exr (32-bit floats) or .png (16 bits, "
+                           "docs/debug-views.md)");
 }
 
 void require_measured_names(const MeasuredOutputs& outputs, const std::string& image) {

@@ -54,7 +54,7 @@ void check_measurements(const JsonView& root) {
 /// The lines of a log as a list, without an incomplete last line.
 ReportResult training(const std::string& file, const std::string& text) {
   if (trainer::read_training_log(file).empty())
-    throw UnknownResult({file, {}, {}}, "the log has no records yet");
+    throw UnknownResult({file}, "the log has no records yet");
   std::string lines = text.substr(0, text.rfind('\n'));
   std::replace(lines.begin(), lines.end(), '\n', ',');
   return {file, "training", "[" + lines + "]"};
@@ -69,9 +69,8 @@ std::vector<ReportResult> web_bench(const std::string& file) {
 }
 
 std::vector<ReportResult> read_file(const std::string& file) {
-  const std::vector<std::byte> bytes = Input::open(file).read_rest();
-  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.empty()) throw UnknownResult({file, {}, {}}, "is empty");
+  std::string text = Input::open(file).read_text();
+  if (text.empty()) throw UnknownResult({file}, "is empty");
   if (text.starts_with("{\"step\":")) return {training(file, text)};  // every log begins with this
   const nlohmann::json document = parse_json(text, file);
   if (text.starts_with("\xef\xbb\xbf"))
@@ -96,7 +95,7 @@ std::vector<ReportResult> read_file(const std::string& file) {
     check_eval(root);
     return {{file, "eval", text}};
   }
-  throw UnknownResult({file, {}, {}}, "not a result of bench, tradeoff, train, eval or ./dev");
+  throw UnknownResult({file}, "not a result of bench, tradeoff, train, eval or ./dev");
 }
 
 std::vector<ReportResult> read_folder(const fs::path& folder) {
@@ -112,8 +111,7 @@ std::vector<ReportResult> read_folder(const fs::path& folder) {
     } catch (const UnknownResult&) {
     }
   if (results.empty())
-    throw InputError({folder.string(), {}, {}},
-                     "the folder has no results in .json or .jsonl files");
+    throw InputError({folder.string()}, "the folder has no results in .json or .jsonl files");
   return results;
 }
 
@@ -124,7 +122,7 @@ std::vector<ReportResult> read_results(const fs::path& path) {
   try {
     return fs::is_directory(path) ? read_folder(path) : read_file(path.string());
   } catch (const fs::filesystem_error& error) {
-    throw InputError({error.path1().string(), {}, {}}, error.code().message());
+    throw InputError({error.path1().string()}, error.code().message());
   }
 }
 

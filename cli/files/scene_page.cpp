@@ -36,9 +36,7 @@ std::optional<fs::path> template_of_program() {
 }
 
 ScenePageTemplate read_template(const fs::path& path) {
-  const std::vector<std::byte> bytes = Input::open(path).read_rest();
-  return ScenePageTemplate({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                           path.string());
+  return ScenePageTemplate(Input::open(path).read_text(), path.string());
 }
 
 }  // namespace
@@ -63,8 +61,7 @@ ScenePageTemplate ScenePageTemplate::find() {
 ScenePageTemplate::ScenePageTemplate(std::string text, const std::string& file)
     : text_(std::move(text)), element_(text_.find(scene_element)) {
   if (element_ == std::string::npos)
-    throw InputError({file, {}, {}},
-                     std::string("not a template for a scene: it lacks ") + scene_element);
+    throw InputError({file}, std::string("not a template for a scene: it lacks ") + scene_element);
   if (const std::size_t second = text_.find(scene_element, element_ + 1);
       second != std::string::npos)
     throw InputError({file, second, {}},

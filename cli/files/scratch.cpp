@@ -1,7 +1,5 @@
 #include "cli/files/scratch.hpp"
 
-#include <string>
-
 #include "base/error.hpp"
 
 namespace tureen::cli {

@@ -14,12 +14,11 @@ constexpr const char* window_program = "tureen-view";
 
 [[noreturn]] void fail_to_start(const std::system_error& reason) {
   if (reason.code() == std::errc::no_such_file_or_directory)
-    throw UsageError(
-        "cannot find " + std::string(window_program) +
-            ", the window program, beside this program or on PATH",
-        "install libglfw3-dev and libimgui-dev and build it with ./dev demo, or draw images with "
-        "tureen render");
-  throw OutputError({program_beside(window_program), {}, {}}, "cannot be started");
+    throw UsageError("cannot find " + std::string(window_program) +
+                         ", the window program, beside this program or on PATH",
+                     "install libglfw3-dev and libimgui-dev and build it with ./dev demo, or draw "
+                     "images with tureen render");
+  throw OutputError({program_beside(window_program)}, "cannot be started");
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 #include "cli/measuring/bench_views.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
@@ -132,24 +130,20 @@ void add_bench_view_options(Command& command, BenchViewOptions& options) {
       "DATASET", options.dataset,
       "posed photographs, as for tureen eval; the scene is drawn from their test cameras");
   command
-      .add_option(
-          "--cameras", options.cameras,
-          "sets of views, separated by commas: hemisphere[:N] (evenly spaced above the scene), "
-          "orbit[:N], adversarial (inside, far, grazing, most overdraw), dataset, or a FILE[:N] "
-          "with cameras as for tureen render --camera; dataset by default if DATASET is given, "
-          "else hemisphere:8")
+      .add_option("--cameras SET,..", options.cameras,
+                  "sets of views, separated by commas: hemisphere[:N] (evenly spaced above the "
+                  "scene), orbit[:N], adversarial (inside, far, grazing, most overdraw), dataset, "
+                  "or a FILE[:N] with cameras as for tureen render --camera; dataset by default if "
+                  "DATASET is given, else hemisphere:8")
       .split_at_commas()
-      .single_argument()
-      .value_name("SET,..");
+      .single_argument();
   command
       .add_option(
-          "--size,--sizes", options.sizes,
+          "--size,--sizes WxH,..", options.sizes,
           "image sizes, separated by commas: WxH in pixels; recorded cameras also support full, "
-          "half "
-          "and quarter of their own size; default: full for recorded cameras, else 1280x720")
+          "half and quarter of their own size; default: full for recorded cameras, else 1280x720")
       .split_at_commas()
-      .single_argument()
-      .value_name("WxH,..");
+      .single_argument();
   command.add_flag("--sweep", options.sweep,
                    "use the sizes 640x360, 1280x720, 1920x1080, 2560x1440 and 3840x2160; for "
                    "recorded cameras also full, half and quarter");
@@ -171,8 +165,8 @@ void check(const BenchViewOptions& options) {
     const std::string file = set.name.substr(0, set.name.rfind(':'));
     if (set.kind == CameraSet::Kind::file && is_missing(set.name) && is_missing(file))
       throw UsageError(
-          "--cameras takes hemisphere[:N], orbit[:N], adversarial, dataset or a file "
-          "with cameras, not '" +
+          "--cameras takes hemisphere[:N], orbit[:N], adversarial, dataset or a file with cameras, "
+          "not '" +
           set.name + "', which does not exist");
   }
 }

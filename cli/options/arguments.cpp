@@ -8,7 +8,6 @@
 #include <cmath>
 #include <sstream>
 #include <system_error>
-#include <type_traits>
 
 #include "base/suggestion.hpp"
 #include "cli/options/retired.hpp"
@@ -32,11 +31,8 @@ Check check_between(T least, T most) {
   };
 }
 
-/// Positional arguments show no type in --help; their names are enough.
-CLI::Option* shown(CLI::Option* option) {
-  if (option->get_positional()) option->type_name("");
-  return option;
-}
+/// "-o,--output" of "-o,--output FOLDER".
+std::string without_value(const std::string& name) { return name.substr(0, name.find(' ')); }
 
 /// The text in lines of at most `width` letters, broken between words.
 std::string wrapped(const std::string& text, std::size_t width) {
@@ -198,67 +194,59 @@ Command Command::add_command(const std::string& name, const std::string& descrip
 
 void Command::footer(const std::string& text) { app_->footer(text); }
 
-Option Command::add_option(const std::string& name, std::string& value, const std::string& help) {
-  return Option(shown(app_->add_option(name, value, help)));
+Option Option::added(CLI::Option* option, const std::string& name, const Check& check) {
+  // Positional arguments show no type in --help; their names are enough.
+  if (option->get_positional()) option->type_name("");
+  if (const std::size_t space = name.find(' '); space != name.npos)
+    option->option_text(name.substr(space + 1));
+  if (check) option->check(check);
+  return Option(option);
 }
 
-Option Command::add_option(const std::string& name, std::vector<std::string>& values,
-                           const std::string& help) {
-  return Option(shown(app_->add_option(name, values, help)));
+template <OptionValue T>
+Option Command::add_option(const std::string& name, T& value, const std::string& help,
+                           const Check& check) {
+  const std::string bare = without_value(name);
+  CLI::Option* option = nullptr;
+  if constexpr (OneOf<T, double, std::optional<double>>) {
+    const auto store = [&value, bare](double number) {
+      if (!std::isfinite(number)) throw UsageError(bare + " is not a finite number");
+      value = number;
+    };
+    option = app_->add_option_function<double>(bare, store, help);
+  } else {
+    option = app_->add_option(bare, value, help);
+  }
+  return Option::added(option, name, check);
 }
-
-Option Command::add_option(const std::string& name, int& value, const std::string& help) {
-  return Option(shown(app_->add_option(name, value, help)));
-}
-
-Option Command::add_option(const std::string& name, std::optional<int>& value,
-                           const std::string& help) {
-  return Option(shown(app_->add_option(name, value, help)));
-}
-
-Option Command::add_option(const std::string& name, std::optional<std::int64_t>& value,
-                           const std::string& help) {
-  return Option(shown(app_->add_option(name, value, help)));
-}
-
-Option Command::add_option(const std::string& name, std::optional<std::uint64_t>& value,
-                           const std::string& help) {
-  return Option(shown(app_->add_option(name, value, help)));
-}
-
-namespace {
-
-CLI::Option* add_finite(CLI::App& app, const std::string& name, std::function<void(double)> store,
-                        const std::string& help) {
-  const auto refuse_others = [name, store = std::move(store)](double value) {
-    if (!std::isfinite(value)) throw UsageError(name + " is not a finite number");
-    store(value);
-  };
-  return shown(app.add_option_function<double>(name, refuse_others, help));
-}
-
-}  // namespace
-
-Option Command::add_option(const std::string& name, double& value, const std::string& help) {
-  return Option(add_finite(
-      *app_, name, [&value](double number) { value = number; }, help));
-}
-
-Option Command::add_option(const std::string& name, std::optional<double>& value,
-                           const std::string& help) {
-  return Option(add_finite(
-      *app_, name, [&value](double number) { value = number; }, help));
-}
+template Option Command::add_option(const std::string&, std::string&, const std::string&,
+                                    const Check&);
+template Option Command::add_option(const std::string&, std::vector<std::string>&,
+                                    const std::string&, const Check&);
+template Option Command::add_option(const std::string&, int&, const std::string&, const Check&);
+template Option Command::add_option(const std::string&, double&, const std::string&, const Check&);
+template Option Command::add_option(const std::string&, std::optional<int>&, const std::string&,
+                                    const Check&);
+template Option Command::add_option(const std::string&, std::optional<std::int64_t>&,
+                                    const std::string&, const Check&);
+template Option Command::add_option(const std::string&, std::optional<std::uint64_t>&,
+                                    const std::string&, const Check&);
+template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&,
+                                    const Check&);
 
 Option Command::add_option(const std::string& name, std::function<void(const std::string&)> store,
-                           const std::string& help) {
-  return Option(shown(app_->add_option_function<std::string>(name, store, help)));
+                           const std::string& help, const Check& check) {
+  return Option::added(
+      app_->add_option_function<std::string>(without_value(name), std::move(store), help), name,
+      check);
 }
 
 Option Command::add_option(const std::string& name,
                            std::function<void(const std::vector<std::string>&)> store,
-                           const std::string& help) {
-  return Option(shown(app_->add_option_function<std::vector<std::string>>(name, store, help)));
+                           const std::string& help, const Check& check) {
+  return Option::added(app_->add_option_function<std::vector<std::string>>(without_value(name),
+                                                                           std::move(store), help),
+                       name, check);
 }
 
 Option Command::add_flag(const std::string& name, bool& value, const std::string& help) {
@@ -292,11 +280,11 @@ void Command::does_with_rest(std::function<ExitCode(const std::vector<std::strin
 Option add_word_option(Command& command, const std::string& name, std::vector<std::string> words,
                        std::function<void(std::size_t)> choose, const std::string& help,
                        RemovedWords removed) {
-  const auto find = [=](const std::string& word) {
+  const auto find = [=, bare = without_value(name)](const std::string& word) {
     for (const auto& [known, hint] : removed)
-      if (known == word) throw UsageError(name + " no longer takes '" + word + "'", hint);
+      if (known == word) throw UsageError(bare + " no longer takes '" + word + "'", hint);
     const auto found = std::find(words.begin(), words.end(), word);
-    if (found == words.end()) throw unknown_word(name, word, words);
+    if (found == words.end()) throw unknown_word(bare, word, words);
     choose(std::size_t(found - words.begin()));
   };
   return command.add_option(name, find, help);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -64,14 +65,27 @@ class Option {
  private:
   friend class Command;
   explicit Option(CLI::Option* option) : option_(option) {}
+  static Option added(CLI::Option* option, const std::string& name, const Check& check);
   CLI::Option* option_;
 };
 
+template <class T, class... Others>
+concept OneOf = (std::is_same_v<T, Others> || ...);
+
+/// A type of variable for an option's value.
+template <class T>
+concept OptionValue = OneOf < T,
+        std::string, std::vector<std::string>,
+int, double, std::optional<int>, std::optional<std::int64_t>, std::optional<std::uint64_t>,
+    std::optional < double >>
+    ;
+
 /// A handle of a command, or of the program itself, valid as long as its CommandLine.
 ///
-/// Names are "-o,--output" for an option and "SCENE" for a positional argument. Variables keep
-/// their value if the option is not given. Variables, and references in functions, must live until
-/// the arguments are parsed. `help` is the description in --help.
+/// Names are "-o,--output FOLDER" for an option with its value in --help (by default the value's
+/// type and requirements), and "SCENE" for a positional argument. Variables keep their value if the
+/// option is not given. Variables, and references in functions, must live until the arguments are
+/// parsed. `help` is the description in --help. `check` precedes the checks of Option::check().
 class Command {
  public:
   /// Adds a subcommand. Parsing then fails unless one is chosen.
@@ -79,24 +93,16 @@ class Command {
   /// Sets the text at the end of --help. Commands added later inherit it.
   void footer(const std::string& text);
 
-  Option add_option(const std::string& name, std::string& value, const std::string& help);
-  Option add_option(const std::string& name, std::vector<std::string>& values,
-                    const std::string& help);
-  Option add_option(const std::string& name, int& value, const std::string& help);
-  Option add_option(const std::string& name, std::optional<int>& value, const std::string& help);
-  Option add_option(const std::string& name, std::optional<std::int64_t>& value,
-                    const std::string& help);
-  Option add_option(const std::string& name, std::optional<std::uint64_t>& value,
-                    const std::string& help);
-  /// Rejects nan and infinities, after the option's checks.
-  Option add_option(const std::string& name, double& value, const std::string& help);
-  Option add_option(const std::string& name, std::optional<double>& value, const std::string& help);
+  /// Numbers of type double: rejects nan and infinities, after the option's checks.
+  template <OptionValue T>
+  Option add_option(const std::string& name, T& value, const std::string& help,
+                    const Check& check = {});
   /// Calls `store` with the value, or with all values; it may throw UsageError.
   Option add_option(const std::string& name, std::function<void(const std::string&)> store,
-                    const std::string& help);
+                    const std::string& help, const Check& check = {});
   Option add_option(const std::string& name,
                     std::function<void(const std::vector<std::string>&)> store,
-                    const std::string& help);
+                    const std::string& help, const Check& check = {});
 
   /// Sets `value` to true if the flag is given.
   Option add_flag(const std::string& name, bool& value, const std::string& help);

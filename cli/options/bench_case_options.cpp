@@ -14,14 +14,13 @@ void add_case_options(Command& command, BenchCaseArguments& options) {
   add_drawing_scale(command, options.drawing);
   command
       .add_option(
-          "--only", options.only,
+          "--only NAME,..", options.only,
           "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
           "tureen-compute (triangles: the plan with --shading), raster and tiles (splats: the plan "
           "with --blend), generic (no specialisation), baseline, triangles and copy (upper limits "
           "of the speed, see --ceilings); ratios are relative to the first case")
       .split_at_commas()
-      .single_argument()
-      .value_name("NAME,..");
+      .single_argument();
   command.add_flag("--ceilings", options.ceilings,
                    "also measure two upper limits of the speed: drawing the triangles with an "
                    "empty fragment shader, and copying the same number of pixels");

@@ -20,12 +20,10 @@ std::string refuse_scale(const std::string& text) {
 }  // namespace
 
 Option add_scale_option(Command& command, DatasetArgument& argument) {
-  return command
-      .add_option("--scale", argument.options.scale,
-                  "scale of the photographs, above 0 and at most 1 (default): 0.5 halves both "
-                  "sides, and each pixel is the mean of the pixels it covers")
-      .check(refuse_scale)
-      .value_name("FRACTION");
+  return command.add_option("--scale FRACTION", argument.options.scale,
+                            "scale of the photographs, above 0 and at most 1 (default): 0.5 halves "
+                            "both sides, and each pixel is the mean of the pixels it covers",
+                            refuse_scale);
 }
 
 Option add_dataset_argument(Command& command, DatasetArgument& argument) {
@@ -36,18 +34,14 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
                       "transforms_train.json and transforms_test.json; a COLMAP model and images")
           .required();
   add_scale_option(command, argument);
-  command
-      .add_option("--images", argument.options.images_folder,
-                  "read photographs from the folder images_N, where some datasets have copies N "
-                  "times smaller")
-      .check(between(1, 64))
-      .value_name("N");
-  command
-      .add_option("--test-every", argument.options.test_every,
-                  "use every N-th photograph in name order as a test view, starting with the "
-                  "first, if the dataset has no split; 8 by default")
-      .check(between(2, 1000000))
-      .value_name("N");
+  command.add_option(
+      "--images N", argument.options.images_folder,
+      "read photographs from the folder images_N, where some datasets have copies N times smaller",
+      between(1, 64));
+  command.add_option("--test-every N", argument.options.test_every,
+                     "use every N-th photograph in name order as a test view, starting with the "
+                     "first, if the dataset has no split; 8 by default",
+                     between(2, 1000000));
   return dataset;
 }
 
@@ -58,7 +52,7 @@ void require_sides(const DatasetArgument& argument, const Dataset& dataset, Side
       if (shorter >= limits.least && longer <= limits.most) continue;
       const std::string bound = shorter < limits.least ? fmt::format("at least {}", limits.least)
                                                        : fmt::format("at most {}", limits.most);
-      throw InputError({argument.path, {}, {}},
+      throw InputError({argument.path},
                        fmt::format("{} is {} x {} pixels; each side must have {}", view.camera.name,
                                    view.camera.width, view.camera.height, bound),
                        longer > limits.most ? "--scale makes it smaller" : "");

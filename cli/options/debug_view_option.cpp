@@ -43,17 +43,14 @@ DebugViewOption parse_debug_view(const std::string& text) {
 }
 
 Option add_debug_view_option(Command& command, DebugViewOption& show) {
-  return command
-      .add_option(
-          "--debug-view,--show",
-          [&show](const std::string& text) { show = parse_debug_view(text); },
-          "debug view instead of the final colour: depth, normals, triangle-id, texels, alpha, "
-          "mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), overdraw, "
-          "wireframe, holes, median-depth, opacity, sigma, contributions, order or quarter; drawn "
-          "with "
-          "one sample a pixel and without specialisations that can "
-          "change a colour (docs/debug-views.md)")
-      .value_name("NAME");
+  return command.add_option(
+      "--debug-view,--show NAME",
+      [&show](const std::string& text) { show = parse_debug_view(text); },
+      "debug view instead of the final colour: depth, normals, triangle-id, texels, alpha, "
+      "mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), overdraw, "
+      "wireframe, holes, median-depth, opacity, sigma, contributions, order or quarter; drawn with "
+      "one sample a pixel and without specialisations that can change a colour "
+      "(docs/debug-views.md)");
 }
 
 std::vector<std::string> legend_lines(const Legend& legend) {

@@ -23,12 +23,11 @@ Specialisation specialisation_of(const std::string& name) {
 }  // namespace
 
 void add_context_option(Command& command, gl::Backend& backend) {
-  add_choice<gl::Backend>(command, "--context", backend,
+  add_choice<gl::Backend>(command, "--context NAME", backend,
                           {{"auto", gl::Backend::automatic},
                            {"egl", gl::Backend::egl},
                            {"osmesa", gl::Backend::osmesa}},
-                          "source of OpenGL: auto (default: EGL, else OSMesa), egl or osmesa")
-      .value_name("NAME");
+                          "source of OpenGL: auto (default: EGL, else OSMesa), egl or osmesa");
 }
 
 Option add_splat_order(Command& command, std::function<void(Quality::SplatOrder)> set,
@@ -36,27 +35,24 @@ Option add_splat_order(Command& command, std::function<void(Quality::SplatOrder)
   const auto choose = [set = std::move(set)](std::size_t index) {
     set(Quality::SplatOrder(index));
   };
-  return add_word_option(command, "--splat-order",
-                         {splat_order_names.begin(), splat_order_names.end()}, choose, help)
-      .value_name("NAME");
+  return add_word_option(command, "--splat-order NAME",
+                         {splat_order_names.begin(), splat_order_names.end()}, choose, help);
 }
 
 void add_drawing_options(Command& command, DrawingOptions& options) {
   add_context_option(command, options.backend);
-  add_choice<PipelineKind>(
-      command, "--pipeline", options.pipeline,
-      {{"auto", PipelineKind::tureen},
-       {"baseline", PipelineKind::baseline},
-       {"published", PipelineKind::baseline}},
-      "pipeline: auto (default, Tureen's own) or baseline (soups as in DiffSoup's viewer, "
-      "splats as instanced quads)")
-      .value_name("NAME");
+  add_choice<PipelineKind>(command, "--pipeline NAME", options.pipeline,
+                           {{"auto", PipelineKind::tureen},
+                            {"baseline", PipelineKind::baseline},
+                            {"published", PipelineKind::baseline}},
+                           "pipeline: auto (default, Tureen's own) or baseline (soups as in "
+                           "DiffSoup's viewer, splats as instanced quads)");
   const Option no_specialise = command.add_flag(
       "--no-specialise", [&options] { options.plan.specialise = false; },
       "apply no specialisation: also draw and compute the parts that the scene does not need");
   command
       .add_option(
-          "--keep",
+          "--keep NAMES",
           [&options](const std::vector<std::string>& names) {
             for (const std::string& name : names)
               options.plan.specialisations =
@@ -64,47 +60,41 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
           },
           "do not apply these specialisations (keep the work that they skip): names from "
           "docs/specialisations.md, separated by commas, such as alpha-test,background")
-      .value_name("NAMES")
       .split_at_commas()
       .single_argument()
       .excludes(no_specialise);
   add_choice<ShadingStage>(
-      command, "--shading", options.plan.shading_stage,
+      command, "--shading NAME", options.plan.shading_stage,
       {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
       "shader of the shading pass, for scenes that have one: fragment (default) or compute",
-      {{"measured", "use fragment, the default, or compute"}})
-      .value_name("NAME");
+      {{"measured", "use fragment, the default, or compute"}});
   add_choice<SplatBlending>(
-      command, "--blend", options.plan.splat_blending,
+      command, "--blend NAME", options.plan.splat_blending,
       {{"auto", SplatBlending::automatic},
        {"raster", SplatBlending::raster},
        {"tiles", SplatBlending::tiles}},
       "what blends splats: raster (the device), tiles (the processor), or auto (default: tiles on "
-      "software OpenGL, but not with --as-published)")
-      .value_name("NAME");
+      "software OpenGL, but not with --as-published)");
   add_splat_order(
       command, [&options](Quality::SplatOrder order) { options.splat_order = order; },
       "order of splats at a pixel; the scene's own by default. centre: by their centres. exact: "
       "along the pixel's ray; by the processor, several times slower. stochastic: by their "
       "centres, without blending; noisy, but the mean of many samples is right");
-  command
-      .add_option("--supersample", options.supersampling,
-                  "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "
-                  "the scene's own number by default")
-      .check(between(1, 8))
-      .value_name("N");
+  command.add_option("--supersample N", options.supersampling,
+                     "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the "
+                     "pixels; the scene's own number by default",
+                     between(1, 8));
   command.add_flag("--opaque", options.opaque,
                    "draw triangle windows as opaque triangles instead of blending them");
 }
 
 void add_drawing_scale(Command& command, DrawingOptions& options) {
   command
-      .add_option("--scale", options.resolution_scale,
+      .add_option("--scale S", options.resolution_scale,
                   "fraction of the rows and columns to draw before enlarging, 0.25 to 1; below 1 "
-                  "is faster but blurred")
-      .check(between(0.25, 1.0))
-      .excludes(command.option("--supersample"))
-      .value_name("S");
+                  "is faster but blurred",
+                  between(0.25, 1.0))
+      .excludes(command.option("--supersample"));
 }
 
 void apply_opaque(Scene& scene, const DrawingOptions& options) {

@@ -11,7 +11,7 @@ void add_memory_option(Command& command, std::function<void(std::uint64_t)> also
     set_max_memory(bytes);
     if (also) also(bytes);
   };
-  command.add_option("--max-memory", set, max_memory_help).value_name("SIZE");
+  command.add_option("--max-memory SIZE", set, max_memory_help);
 }
 
 }  // namespace tureen::cli

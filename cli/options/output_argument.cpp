@@ -18,7 +18,7 @@ void try_in(const fs::path& folder, const fs::path& path) {
     // Removes its temporary file. No file has this name, so any error comes from the folder.
     const Output probe(folder / ".tureen-probe");
   } catch (const OutputError& error) {
-    throw OutputError({path.string(), {}, {}}, error.reason(), error.hint());
+    throw OutputError({path.string()}, error.reason(), error.hint());
   }
 }
 
@@ -45,12 +45,12 @@ void require_writable_beside(const fs::path& path) { try_in(path.parent_path(), 
 void require_writable_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::is_symlink(folder, error) && !fs::exists(folder, error))
-    throw OutputError({folder.string(), {}, {}}, "cannot become a folder: it is a broken link");
+    throw OutputError({folder.string()}, "cannot become a folder: it is a broken link");
   fs::path there = folder;
   while (!there.empty() && !fs::exists(there, error) && there != there.parent_path())
     there = there.parent_path();
   if (!there.empty() && !fs::is_directory(there, error))
-    throw OutputError({folder.string(), {}, {}},
+    throw OutputError({folder.string()},
                       "cannot become a folder: " + there.string() + " is not a folder");
   try_in(there, folder);
 }

@@ -46,30 +46,23 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
 }  // namespace
 
 void add_reading_options(Command& command, ReadingChoice& choice) {
-  add_choice<VertexColorSpace>(command, "--vertex-colors", choice.vertex_colors,
+  add_choice<VertexColorSpace>(command, "--vertex-colors SPACE", choice.vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
                                "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
-                               "on its generator), srgb or linear")
-      .value_name("SPACE");
-  command
-      .add_option("--up", choice.up,
-                  "up direction in world coordinates; the scene's own by default")
-      .value_name("X,Y,Z");
-  command
-      .add_option(
-          "--octagon-q", choice.octagon_q,
-          "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at "
-          "sqrt(Q) standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 "
-          "and 21.1075")
-      .value_name("Q")
-      .check(between(0.001, 1000.0));
-  command
-      .add_option("--max-splats", choice.max_splats,
-                  "read at most N splats of each scene, those with the largest opacity times area")
-      .value_name("N")
-      .check(between(1.0, 4294967295.0));
+                               "on its generator), srgb or linear");
+  command.add_option("--up X,Y,Z", choice.up,
+                     "up direction in world coordinates; the scene's own by default");
+  command.add_option(
+      "--octagon-q Q", choice.octagon_q,
+      "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at sqrt(Q) "
+      "standard deviations; 4 by default, others are 6.2514, 7.8147, 11.3449 and 21.1075",
+      between(0.001, 1000.0));
+  command.add_option(
+      "--max-splats N", choice.max_splats,
+      "read at most N splats of each scene, those with the largest opacity times area",
+      between(1.0, 4294967295.0));
   std::vector<std::string> names;
   std::string listed;
   for (const NamedProfile& each : named_profiles) {
@@ -77,10 +70,9 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
     listed += (listed.empty() ? "" : ", ") + names.back();
   }
   add_word_option(
-      command, "--profile", std::move(names),
+      command, "--profile NAME", std::move(names),
       [&choice](std::size_t index) { choice.profile = named_profiles[index].name; },
-      "draw splats by the rules of another method: " + listed + "; the scene's own by default")
-      .value_name("NAME");
+      "draw splats by the rules of another method: " + listed + "; the scene's own by default");
 }
 
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {

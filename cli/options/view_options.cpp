@@ -61,8 +61,7 @@ Views animation(CameraPathData data, const FrameRate& rate) {
   const double count = frame_count(path, rate.frames_per_second);
   if (count > max_frames)
     throw UsageError(
-        fmt::format("{:.0f} seconds at {} frames per second are {:.0f} frames; the limit is "
-                    "{:.0f}",
+        fmt::format("{:.0f} seconds at {} frames per second are {:.0f} frames; the limit is {:.0f}",
                     path.duration(), rate.frames_per_second, count, max_frames));
   return {frames(path, rate), {}, rate.frames_per_second};
 }
@@ -82,8 +81,7 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
                      const Scene& scene, const std::string& scene_path) {
   const CameraArgument wanted(argument, which_without);
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
-  if (found.cameras.empty())
-    throw InputError({wanted.file.string(), {}, {}}, "the file has no cameras");
+  if (found.cameras.empty()) throw InputError({wanted.file.string()}, "the file has no cameras");
   if (wanted.which == "all") return {std::move(found.cameras), notes_of(found.remarks)};
   const int last = int(found.cameras.size()) - 1;
   // Tests the length first, because std::stol throws for a number of forty digits.
@@ -95,28 +93,21 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
 namespace {
 
 void add_animation_options(Command& command, ViewOptions& options) {
-  Option path =
-      command
-          .add_option("--path", options.path,
-                      "draw the frames along a camera path: a JSON file with \"cameras\" and their "
-                      "\"seconds\" (docs/camera-paths.md)")
-          .value_name("FILE.json");
+  Option path = command.add_option("--path FILE.json", options.path,
+                                   "draw the frames along a camera path: a JSON file with "
+                                   "\"cameras\" and their \"seconds\" (docs/camera-paths.md)");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
     path.excludes(command.option(other));
-  Option turntable = command
-                         .add_option("--turntable", options.turntable,
-                                     "draw the frames of one turn of this duration around the up "
-                                     "axis; the camera moves as "
-                                     "for --orbit, or starts at --eye and circles --target")
-                         .value_name("SECONDS")
-                         .check(between(0.001, 36000.0));
+  Option turntable =
+      command.add_option("--turntable SECONDS", options.turntable,
+                         "draw the frames of one turn of this duration around the up axis; the "
+                         "camera moves as for --orbit, or starts at --eye and circles --target",
+                         between(0.001, 36000.0));
   for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
     turntable.excludes(other);
-  command
-      .add_option("--fps", options.frames_per_second,
-                  "frames per second for --path and --turntable, 30 by default")
-      .value_name("N")
-      .check(between(0.01, 1000.0));
+  command.add_option("--fps N", options.frames_per_second,
+                     "frames per second for --path and --turntable, 30 by default",
+                     between(0.01, 1000.0));
 }
 
 }  // namespace
@@ -128,44 +119,33 @@ void check(const ViewOptions& options) {
 }
 
 void add_view_options(Command& command, ViewOptions& options) {
-  command
-      .add_option(
-          "--size", options.size,
-          "width and height in pixels, 1280x720 by default; recorded cameras keep their own size "
-          "by default")
-      .value_name("WxH");
-  const Option camera =
+  command.add_option("--size WxH", options.size,
+                     "width and height in pixels, 1280x720 by default; recorded cameras keep their "
+                     "own size by default");
+  const Option camera = command.add_option(
+      "--camera FILE[:N|:all]", options.camera,
+      "camera N of FILE, counted from 0, or all its cameras. FILE is a JSON file written by "
+      "Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, the folder of a "
+      "COLMAP model, or a scene with cameras, such as SCENE");
+  const Option eye =
       command
-          .add_option(
-              "--camera", options.camera,
-              "camera N of FILE, counted from 0, or all its cameras. FILE is a JSON file written "
-              "by Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, "
-              "the folder of a COLMAP model, or a scene with cameras, such as SCENE")
-          .value_name("FILE[:N|:all]");
-  const Option eye = command
-                         .add_option("--eye", options.eye,
-                                     "eye position in world coordinates; the view direction is "
-                                     "towards --target")
-                         .value_name("X,Y,Z")
-                         .excludes(camera);
+          .add_option("--eye X,Y,Z", options.eye,
+                      "eye position in world coordinates; the view direction is towards --target")
+          .excludes(camera);
   command
-      .add_option("--target", options.target,
+      .add_option("--target X,Y,Z", options.target,
                   "point in the centre of the image, in world coordinates; the centre of the scene "
                   "by default")
-      .value_name("X,Y,Z")
       .needs(eye);
   command
-      .add_option("--fov", options.fov_degrees,
-                  "full vertical field of view in degrees, 40 by default")
-      .value_name("DEGREES")
-      .check(between(0.1, 179.0))
+      .add_option("--fov DEGREES", options.fov_degrees,
+                  "full vertical field of view in degrees, 40 by default", between(0.1, 179.0))
       .excludes(camera);
   command
       .add_option(
-          "--orbit", options.orbit,
-          "draw N views around the up axis, slightly from above; each shows the whole scene")
-      .value_name("N")
-      .check(between(1, max_orbit_views))
+          "--orbit N", options.orbit,
+          "draw N views around the up axis, slightly from above; each shows the whole scene",
+          between(1, max_orbit_views))
       .excludes(camera)
       .excludes(eye);
   add_animation_options(command, options);

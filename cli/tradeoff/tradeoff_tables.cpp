@@ -83,14 +83,12 @@ void say_tables(const TradeoffReport& report) {
       fmt::format("E_render of edits, against the oracle {} (* = on the front, > = the choice):",
                   where_it_looks(report)));
   const double limit = report.study.grid.psnr_db;
-  say(report.scene.splats > 0
-          ? fmt::format("  exact dB: PSNR against the exact order; the order of the centres alone "
-                        "limits it to {:.2f} dB",
-                        limit)
-          : fmt::format(
-                "  exact dB: PSNR against exact triangles; the device's subpixel grid alone "
-                "limits it to {:.2f} dB",
-                limit));
+  say(report.scene.splats > 0 ? fmt::format("  exact dB: PSNR against the exact order; the order "
+                                            "of the centres alone limits it to {:.2f} dB",
+                                            limit)
+                              : fmt::format("  exact dB: PSNR against exact triangles; the "
+                                            "device's subpixel grid alone limits it to {:.2f} dB",
+                                            limit));
   say_panel(report, report.study.antialiasing,
             "E_render of quality settings, against 8 x 8 samples a pixel (* = on the front):");
   say_model(report);

@@ -1,6 +1,5 @@
 #include "formats/archive/npy_array.hpp"
 
-#include <array>
 #include <cassert>
 #include <charconv>
 #include <cstdint>
@@ -92,7 +91,7 @@ std::optional<NpyHeader> parsed_npy_header(std::string_view text) {
 
 const ZipEntry& entry_named(const ZipArchive& archive, const std::string& name) {
   if (const ZipEntry* entry = archive.find(name)) return *entry;
-  throw InputError({archive.name(), {}, {}}, "the archive has no \"" + name + "\"");
+  throw InputError({archive.name()}, "the archive has no \"" + name + "\"");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Input open_in_folder(const std::filesystem::path& folder, const std::string& nam
   try {
     if (std::filesystem::status_known(status)) resolve_name_in_folder(folder, name);
   } catch (const UriError& refusal) {
-    throw InputError({path.string(), {}, {}}, refusal.reason);
+    throw InputError({path.string()}, refusal.reason);
   }
   return Input::open(path, std::move(budget));
 }

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "base/text_scanner.hpp"
 #include "formats/dataset/camera_json.hpp"

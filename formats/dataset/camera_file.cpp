@@ -14,7 +14,6 @@
 #endif
 #include "base/json/json_file.hpp"
 #include "formats/dataset/dataset_remarks.hpp"
-#include "formats/dataset/gaussian_cameras.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
 namespace tureen {
@@ -42,6 +41,14 @@ CameraFile from_transforms(const Json& root, const std::string& file) {
   return result;
 }
 
+std::vector<CameraJson> elements(const Json& cameras, const std::string& file) {
+  std::vector<CameraJson> result;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    result.push_back(CameraJson(
+        {.object = cameras[i], .file = file, .where = "camera " + std::to_string(i) + ": "}));
+  return result;
+}
+
 Camera our_camera(const CameraJson& json) {
   Camera camera;
   camera.name = json.text("name");
@@ -60,19 +67,48 @@ Camera our_camera(const CameraJson& json) {
 std::vector<CameraJson> our_cameras(const Json& root, const std::string& file) {
   const auto version = root.find("tureen_cameras");
   if (version != root.end() && *version != 1)
-    throw InputError({file, {}, {}}, "tureen_cameras is not version 1");
-  std::vector<CameraJson> result;
-  const Json& cameras = json_list(root, "cameras", file);
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    result.push_back(CameraJson(
-        {.object = cameras[i], .file = file, .where = "camera " + std::to_string(i) + ": "}));
-  return result;
+    throw InputError({file}, "tureen_cameras is not version 1");
+  return elements(json_list(root, "cameras", file), file);
 }
 
 CameraFile from_ours(const Json& root, const std::string& file) {
   CameraFile result;
   for (const CameraJson& json : our_cameras(root, file)) result.cameras.push_back(our_camera(json));
   return result;
+}
+
+Camera gaussian_camera(const CameraJson& json) {
+  Camera camera;
+  camera.name = json.text("img_name");
+  camera.width = json.side("width");
+  camera.height = json.side("height");
+  camera.fx = json.number("fx");
+  camera.fy = json.number("fy");
+  if (!(camera.fx > 0 && camera.fy > 0)) json.fail("a focal length is not positive");
+  camera.cx = json.maybe_number("cx").value_or(0.5 * camera.width);
+  camera.cy = json.maybe_number("cy").value_or(0.5 * camera.height);
+  glm::dmat4 world_from_view(json.rotation("rotation"));
+  world_from_view[1] *= -1.0;
+  world_from_view[2] *= -1.0;
+  world_from_view[3] = glm::dvec4(json.vector("position"), 1.0);
+  camera.view_from_world = rigid_inverse(world_from_view);
+  return camera;
+}
+
+/// cameras.json as 3D Gaussian Splatting and its descendants write it beside a model:
+///   [ { "id": 0, "img_name": "0001", "width": 640, "height": 360, "position": [3 numbers],
+///       "rotation": [[3 numbers], [3 numbers], [3 numbers]], "fx": 500.0, "fy": 500.0 } ]
+/// position is the eye in world coordinates. The columns of rotation are the camera's axes in the
+/// world, in OpenCV's convention (x right, y down, looking along +z); the reader converts them to
+/// OpenGL's.
+///
+/// The cameras in the list's order, each named by its img_name. Without cx, cy the principal point
+/// is the centre: the format does not store it, but some descendants do. Throws InputError with the
+/// camera and the reason.
+std::vector<Camera> gaussian_cameras(const Json& list, const std::string& file) {
+  std::vector<Camera> cameras;
+  for (const CameraJson& json : elements(list, file)) cameras.push_back(gaussian_camera(json));
+  return cameras;
 }
 
 // ---- Paths
@@ -95,7 +131,7 @@ CameraKeyframe our_keyframe(const CameraJson& json) {
 /// Duration of the loop in seconds; 0 without a loop.
 double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
                 const std::string& file) {
-  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  const auto fail = [&](const char* reason) { throw InputError({file}, reason); };
   const auto loop = root.find("loop");
   if (loop == root.end()) return 0;
   if (!loop->is_boolean()) fail("loop is neither true nor false");
@@ -114,7 +150,7 @@ double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
 
 CameraPathData our_path(const Json& root, const std::string& file) {
   if (!root.is_object() || !root.contains("cameras"))
-    throw InputError({file, {}, {}}, "it has no \"cameras\": not a camera path in our format");
+    throw InputError({file}, "it has no \"cameras\": not a camera path in our format");
   CameraPathData path;
   for (const CameraJson& json : our_cameras(root, file)) {
     path.keyframes.push_back(our_keyframe(json));
@@ -122,7 +158,7 @@ CameraPathData our_path(const Json& root, const std::string& file) {
     if (count > 1 && path.keyframes[count - 1].seconds < path.keyframes[count - 2].seconds)
       json.fail("seconds is less than that of the camera before it");
   }
-  if (path.keyframes.empty()) throw InputError({file, {}, {}}, "it holds no cameras");
+  if (path.keyframes.empty()) throw InputError({file}, "it holds no cameras");
   path.loop_seconds = our_loop(root, path.keyframes, file);
   return path;
 }
@@ -176,11 +212,11 @@ bool is_camera_file(const fs::path& path) {
 CameraFile read_cameras(Input& input) {
   const Json root = read_json(input);
   const std::string& file = input.name();
-  if (root.is_array()) return {read_gaussian_cameras(root, file), {}};
-  if (!root.is_object()) throw InputError({file, {}, {}}, "the file holds no JSON object or list");
+  if (root.is_array()) return {gaussian_cameras(root, file), {}};
+  if (!root.is_object()) throw InputError({file}, "the file holds no JSON object or list");
   if (root.contains("frames")) return from_transforms(root, file);
   if (root.contains("cameras")) return from_ours(root, file);
-  throw InputError({file, {}, {}},
+  throw InputError({file},
                    "it has neither \"cameras\" nor \"frames\": not a supported camera file");
 }
 

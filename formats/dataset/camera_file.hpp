@@ -43,7 +43,7 @@ bool is_camera_file(const std::filesystem::path& path);
 /// cy, w, h or only camera_angle_x, for all frames or for each. Without an image size the reader
 /// assumes 800 x 800, the size of NeRF's synthetic scenes, and adds a remark. Lens distortion is
 /// dropped with a remark. The name of a camera is its image's path as spelled in the file.
-/// cameras.json of 3D Gaussian Splatting: formats/dataset/gaussian_cameras.hpp.
+/// cameras.json of 3D Gaussian Splatting: see gaussian_cameras() in camera_file.cpp.
 /// Throws InputError with the file and the reason: invalid JSON (with the byte), a number missing
 /// or out of range, a matrix that is not a rotation to three digits.
 CameraFile read_cameras(Input& input);

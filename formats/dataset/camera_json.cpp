@@ -28,7 +28,7 @@ CameraJson::CameraJson(Source source) : source_(std::move(source)) {
 }
 
 void CameraJson::fail(const std::string& reason) const {
-  throw InputError({source_.file, {}, {}}, source_.where + reason);
+  throw InputError({source_.file}, source_.where + reason);
 }
 
 const json* CameraJson::find(const char* key) const {
@@ -155,7 +155,7 @@ glm::dmat4 rigid_inverse(const glm::dmat4& pose) {
 const json& json_list(const json& root, const char* key, const std::string& file) {
   const auto found = root.find(key);
   if (found == root.end() || !found->is_array())
-    throw InputError({file, {}, {}}, std::string(key) + " is not a list");
+    throw InputError({file}, std::string(key) + " is not a list");
   return *found;
 }
 

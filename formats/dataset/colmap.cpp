@@ -138,10 +138,9 @@ ColmapModel read_colmap_poses(const std::filesystem::path& folder, const MemoryB
       images.binary ? read_colmap_images_binary(image_input) : read_colmap_images_text(image_input);
   for (const ColmapImage& image : model.images)
     if (!model.cameras.contains(image.camera))
-      throw InputError({image_input.name(), {}, {}}, "the image " + image.name +
-                                                         " was taken by camera " +
-                                                         std::to_string(image.camera) + ", which " +
-                                                         camera_input.name() + " does not have");
+      throw InputError({image_input.name()}, "the image " + image.name + " was taken by camera " +
+                                                 std::to_string(image.camera) + ", which " +
+                                                 camera_input.name() + " does not have");
   return model;
 }
 

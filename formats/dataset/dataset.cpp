@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
-#include <string>
 
 #include "base/existing_path.hpp"
 #include "formats/common/uri.hpp"
@@ -78,11 +77,10 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
     outline.file = (folder / name).string();
     std::error_code ignored;
     if (!fs::exists(folder / name, ignored))
-      throw InputError(
-          {(folder / name).string(), {}, {}},
-          "is missing, but the other half of the dataset's split exists",
-          "to read the other half alone, pass its file instead of the folder; every n-th "
-          "photograph then becomes a test view");
+      throw InputError({(folder / name).string()},
+                       "is missing, but the other half of the dataset's split exists",
+                       "to read the other half alone, pass its file instead of the folder; every "
+                       "n-th photograph then becomes a test view");
     TransformsDataset part = read_transforms_dataset(folder / name, options.images_folder, budget);
     sort_by_name(part.frames);
     // Both files name the same points.
@@ -159,17 +157,16 @@ Outline bundler_outline(const fs::path& folder, const BundlerFiles& files,
   Outline outline;
   outline.file = files.model.string();
   if (files.list.empty())
-    throw InputError({files.model.string(), {}, {}},
+    throw InputError({files.model.string()},
                      "the list of its images is missing: list.txt or bundle.out.list.txt");
   Input list = Input::open(files.list, budget);
   const std::vector<std::string> names = read_bundler_list(list);
   Input input = Input::open(files.model, budget);
   BundlerModel model = read_bundler(input);
   if (names.size() != model.cameras.size())
-    throw InputError({files.list.string(), {}, {}},
-                     "it lists " + std::to_string(names.size()) + " images, but " +
-                         files.model.string() + " has " + std::to_string(model.cameras.size()) +
-                         " cameras");
+    throw InputError({files.list.string()}, "it lists " + std::to_string(names.size()) +
+                                                " images, but " + files.model.string() + " has " +
+                                                std::to_string(model.cameras.size()) + " cameras");
   Frames frames;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const BundlerCamera& found = model.cameras[i];
@@ -211,20 +208,20 @@ Outline make_outline(const fs::path& path, const DatasetOptions& options,
     return one_transforms_file(path / "transforms.json", options, budget);
   if (const auto model = colmap_folder(path)) return colmap_outline(path, *model, options, budget);
   if (const auto files = bundler_files(path)) return bundler_outline(path, *files, options, budget);
-  throw InputError({path.string(), {}, {}},
-                   "not a supported dataset: it has neither transforms_train.json nor "
-                   "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0, "
-                   "nor Bundler's bundle.out");
+  throw InputError(
+      {path.string()},
+      "not a supported dataset: it has neither transforms_train.json nor transforms.json, nor "
+      "COLMAP's cameras in sparse/0, sparse or colmap/sparse/0, nor Bundler's bundle.out");
 }
 
 /// Rejects a part without photographs. All of a dataset may have no test views.
 void require_photographs(const Outline& outline, const DatasetOptions& options) {
   const auto refuse = [&](const Frames& frames, bool needed, const char* what) {
     if (needed && frames.empty())
-      throw InputError({outline.file, {}, {}},
-                       std::string("there are no photographs to ") + what + ": it has " +
-                           std::to_string(outline.train.size()) + " to train on and " +
-                           std::to_string(outline.test.size()) + " to test");
+      throw InputError({outline.file}, std::string("there are no photographs to ") + what +
+                                           ": it has " + std::to_string(outline.train.size()) +
+                                           " to train on and " +
+                                           std::to_string(outline.test.size()) + " to test");
   };
   refuse(outline.train, options.part != DatasetPart::test, "train on");
   refuse(outline.test, options.part == DatasetPart::test, "test");
@@ -247,16 +244,15 @@ std::vector<fs::path> find_images(const std::string& file,
       else if (missing_count++ < named)
         missing += (missing.empty() ? "" : ", ") + frame->file;
     } catch (const UriError& error) {
-      throw InputError({file, {}, {}}, error.reason);
+      throw InputError({file}, error.reason);
     }
   }
   if (missing_count > named) missing += " and " + std::to_string(missing_count - named) + " more";
   if (missing_count > 0)
-    throw InputError({file, {}, {}},
-                     std::to_string(missing_count) + " of " + std::to_string(frames.size()) +
-                         " photographs are missing in " +
-                         (frames[0]->folder.empty() ? "." : frames[0]->folder.string()) + ": " +
-                         missing);
+    throw InputError({file}, std::to_string(missing_count) + " of " +
+                                 std::to_string(frames.size()) + " photographs are missing in " +
+                                 (frames[0]->folder.empty() ? "." : frames[0]->folder.string()) +
+                                 ": " + missing);
   return images;
 }
 
@@ -271,7 +267,7 @@ void require_budget(const std::string& file, const std::vector<const DatasetFram
                 scaled_side(frame->size->y, options.scale / options.images_folder);
   // Cropping removes less than half of the pixels, so the limit is twice the budget.
   if (pixels * sizeof(glm::u8vec4) > 2.0 * double(budget.left()))
-    throw InputError({file, {}, {}}, budget.refusal("the photographs"),
+    throw InputError({file}, budget.refusal("the photographs"),
                      std::string(max_memory_hint) + ", --scale makes them smaller");
 }
 
@@ -325,7 +321,7 @@ Camera stored_camera(const DatasetFrame& frame, const fs::path& image, int image
   }
   Camera camera = frame.camera(size.x, size.y);
   if (images_folder > 1)
-    camera = stretched(std::move(camera), scaled_side(size.x, 1.0 / images_folder),
+    camera = resampled(camera, scaled_side(size.x, 1.0 / images_folder),
                        scaled_side(size.y, 1.0 / images_folder));
   camera.name = frame.name;
   return camera;
@@ -385,7 +381,7 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
       const Camera& camera = read.photograph.camera;
       if (first_size.x == 0) first_size = glm::ivec2(camera.width, camera.height);
       if (first_size != glm::ivec2(camera.width, camera.height))
-        throw InputError({images[i].string(), {}, {}},
+        throw InputError({images[i].string()},
                          "the image is " + std::to_string(camera.width) + " x " +
                              std::to_string(camera.height) + ", the first one " +
                              std::to_string(first_size.x) + " x " + std::to_string(first_size.y) +
@@ -404,7 +400,7 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   }
   if (distorted)
     dataset.remarks.push_back(
-        {&remarks::lens_undone,
+        {lost_columns + lost_rows > 0 ? &remarks::lens_undone_cropped : &remarks::lens_undone,
          {{"columns", std::uint64_t(lost_columns)}, {"rows", std::uint64_t(lost_rows)}}});
   if (widest_fisheye > 0)
     dataset.remarks.push_back({&remarks::fisheye_undone, {{"degrees", widest_fisheye}}});

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <glm/vec4.hpp>
-#include <vector>
 
 namespace tureen {
 

@@ -26,10 +26,10 @@ Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
   // Sizes that are not divisible may have been rounded up or down.
   const auto fits = [&](int have, int want) { return std::abs(have * shrunk - want) < shrunk; };
   if (!fits(image.width, full.x) || !fits(image.height, full.y))
-    throw InputError({file, {}, {}}, "the image is " + size_text(image.width, image.height) +
-                                         ", but its camera's is " + size_text(full.x, full.y) +
-                                         (shrunk > 1 ? " / " + std::to_string(shrunk) : ""));
-  return stretched(frame.camera(full.x, full.y), image.width, image.height);
+    throw InputError({file}, "the image is " + size_text(image.width, image.height) +
+                                 ", but its camera's is " + size_text(full.x, full.y) +
+                                 (shrunk > 1 ? " / " + std::to_string(shrunk) : ""));
+  return resampled(frame.camera(full.x, full.y), image.width, image.height);
 }
 
 /// The pixels whose area lies within `known`, after the image was scaled from size `from` to size
@@ -59,8 +59,8 @@ Marks read_mask(const std::filesystem::path& file, glm::ivec2 size, const Memory
   Input input = Input::open(file, budget);
   const Image8 mask = read_image(input);
   if (mask.width != size.x || mask.height != size.y)
-    throw InputError({input.name(), {}, {}}, "the mask is " + size_text(mask.width, mask.height) +
-                                                 ", but its image is " + size_text(size.x, size.y));
+    throw InputError({input.name()}, "the mask is " + size_text(mask.width, mask.height) +
+                                         ", but its image is " + size_text(size.x, size.y));
   input.take_memory(mask.pixels.size(), 2, "the mask");
   Marks marks(mask.pixels.size());
   std::transform(mask.pixels.begin(), mask.pixels.end(), marks.begin(),
@@ -103,7 +103,7 @@ Marks ignored_pixels(const Marks& marks, int width, const PixelRectangle& area,
   }
   const auto count = std::size_t(std::count(ignored.begin(), ignored.end(), 1));
   if (count == ignored.size())
-    throw InputError({file, {}, {}}, "the mask leaves no pixel of its photograph");
+    throw InputError({file}, "the mask leaves no pixel of its photograph");
   if (count == 0) ignored.clear();
   return ignored;
 }
@@ -115,7 +115,7 @@ std::optional<std::filesystem::path> find_mask(const DatasetFrame& frame) {
   const std::filesystem::path path = resolve_name_from_folder(frame.folder, frame.mask);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw InputError({path.string(), {}, {}}, "the mask of " + frame.name + " is missing");
+    throw InputError({path.string()}, "the mask of " + frame.name + " is missing");
   return path;
 }
 
@@ -135,17 +135,6 @@ std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int i
     if (auto path = exists(bare + extension)) return path;
   }
   return {};
-}
-
-Camera stretched(Camera camera, int width, int height) {
-  const double x = double(width) / camera.width, y = double(height) / camera.height;
-  camera.fx *= x;
-  camera.cx *= x;
-  camera.fy *= y;
-  camera.cy *= y;
-  camera.width = width;
-  camera.height = height;
-  return camera;
 }
 
 int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
@@ -170,16 +159,16 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
     known = without_lens.known;
     if (mask_file) mask = undistorted_marks(mask, camera, frame.lens);
     if (known.right == 0)
-      throw InputError({input.name(), {}, {}},
+      throw InputError({input.name()},
                        "the distortion of its lens cannot be undone: less than half of the "
                        "image would remain");
   }
   const glm::ivec2 size(scaled_side(full.x, options.scale), scaled_side(full.y, options.scale));
   known = scaled_rectangle(known, full, size);
   if (known.left >= known.right || known.top >= known.bottom)
-    throw InputError({input.name(), {}, {}}, "no pixels remain at " + size_text(size.x, size.y) +
-                                                 ", scaled by " + float_text(float(options.scale)));
-  camera = stretched(std::move(camera), size.x, size.y);
+    throw InputError({input.name()}, "no pixels remain at " + size_text(size.x, size.y) +
+                                         ", scaled by " + float_text(float(options.scale)));
+  camera = resampled(camera, size.x, size.y);
   // The scaled image, and perhaps a cropped copy.
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
                     "the scaled image");

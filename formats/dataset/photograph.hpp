@@ -16,9 +16,6 @@ namespace tureen {
 /// absolute name.
 std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int images_folder);
 
-/// The camera after its image was resized to width x height.
-Camera stretched(Camera camera, int width, int height);
-
 /// The width or height of an image with `side` pixels at this scale: rounded, at least 1.
 int scaled_side(int side, double scale);
 

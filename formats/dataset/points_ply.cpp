@@ -57,19 +57,12 @@ std::vector<DatasetPoint> read_points_ply(Input& input) {
     }
     input.make_room_in(points, vertex->count, "the points");
     for (std::uint64_t row = 0; row < vertex->count; ++row) {
-      values.begin_row(*vertex);
       std::array<double, point_properties.size()> numbers{0, 0, 0, 128, 128, 128};
-      for (std::size_t i = 0; i < slots.size(); ++i) {
-        const PlyProperty& property = vertex->properties[i];
-        if (slots[i] == skipped_property)
-          values.skip(property);
-        else
-          numbers[std::size_t(slots[i])] = values.read(property.type);
-      }
+      values.read_row(*vertex, slots,
+                      [&](std::size_t slot, double value) { numbers[slot] = value; });
       const auto& [x, y, z, red, green, blue] = numbers;
       if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
         values.fail("a point's position is not finite");
-      values.end_row();
       points.push_back({{x, y, z}, {glm::u8(red), glm::u8(green), glm::u8(blue)}});
     }
     break;

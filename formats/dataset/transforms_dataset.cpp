@@ -65,11 +65,10 @@ TransformsDataset read_transforms_dataset(const std::filesystem::path& path, int
   const nlohmann::json root = read_json(input);
   const auto fail = [&](std::size_t frame, const std::string& reason,
                         const std::string& hint = {}) {
-    throw InputError({input.name(), {}, {}}, "frame " + std::to_string(frame) + ": " + reason,
-                     hint);
+    throw InputError({input.name()}, "frame " + std::to_string(frame) + ": " + reason, hint);
   };
   if (!root.is_object() || !root.contains("frames"))
-    throw InputError({input.name(), {}, {}}, "it has no \"frames\": not a transforms.json");
+    throw InputError({input.name()}, "it has no \"frames\": not a transforms.json");
   TransformsDataset dataset;
   std::vector<DatasetFrame>& result = dataset.frames;
   for (const TransformsFrame& frame : read_transforms(root, input.name())) {

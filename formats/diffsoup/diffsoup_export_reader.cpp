@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -15,6 +13,7 @@
 #include "formats/diffsoup/diffsoup_mesh.hpp"
 #include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "image/png.hpp"
+#include "image/png_chunks.hpp"
 #include "scene/lattice.hpp"
 
 namespace tureen {
@@ -45,7 +44,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
   Input input = open_in_folder(folder, "meta.json", budget);
   const nlohmann::json json = read_json(input);
   const std::string& file = input.name();
-  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  const auto fail = [&](const char* reason) { throw InputError({file}, reason); };
   if (!json.is_object()) fail("not a JSON object");
   const auto vector = [&](const char* key, glm::vec3 otherwise) {
     if (!json.contains(key)) return otherwise;
@@ -81,8 +80,8 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
 void expect_count(const fs::path& mesh, std::optional<std::uint64_t> said, std::size_t have,
                   const char* what) {
   if (said && *said != have)
-    throw InputError({mesh.string(), {}, {}}, std::to_string(have) + " " + what +
-                                                  ", but meta.json has " + std::to_string(*said));
+    throw InputError({mesh.string()}, std::to_string(have) + " " + what + ", but meta.json has " +
+                                          std::to_string(*said));
 }
 
 /// One of the two images, with `texels` pixels and a remainder below one row. `assumed` is the
@@ -93,18 +92,11 @@ Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
   const auto bytes = input.read_rest();
   // Bit depth and colour type of IHDR, which is always the first chunk. The decoder would convert
   // other depths and types to RGBA8 and change the values.
-  constexpr std::array<unsigned char, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  if (bytes.size() < 26 || std::memcmp(bytes.data(), signature.data(), signature.size()) != 0)
-    input.fail_at(0, "not a PNG image");
+  if (bytes.size() < 26 || !is_png(bytes)) input.fail_at(0, "not a PNG image");
   if (bytes[24] != std::byte(8) || bytes[25] != std::byte(6))
     input.fail_at(24, "not a PNG of four channels of 8 bits");
-  const auto big_endian = [&](std::size_t at) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
-    return value;
-  };
-  const std::uint64_t width = big_endian(16), height = big_endian(20);
+  const auto number = [&](std::size_t at) { return png_number(std::span(bytes).subspan(at)); };
+  const std::uint64_t width = number(16), height = number(20);
   const std::uint64_t expected = width == 0 ? 0 : (texels + width - 1) / width;
   if (width == 0 || height != expected)
     input.fail_at(16, std::to_string(width) + " x " + std::to_string(height) +
@@ -177,11 +169,11 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   const std::size_t faces = mesh.triangles.size();
   expect_count(mesh_path, meta.faces, faces, "faces");
   expect_count(mesh_path, meta.vertices, mesh.positions.size(), "vertices");
-  if (faces == 0) throw InputError({mesh_path.string(), {}, {}}, "no faces");
+  if (faces == 0) throw InputError({mesh_path.string()}, "no faces");
   const std::uint64_t per_face = lattice::texel_count(meta.level);
   const std::uint64_t count = faces * per_face;
   if (count > max_image_pixels)
-    throw InputError({mesh_path.string(), {}, {}},
+    throw InputError({mesh_path.string()},
                      std::to_string(count) + " texels are more than an image can have");
 
   LatticeTexture texture;

@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "base/output.hpp"
@@ -182,10 +181,9 @@ class NewFolder {
     std::error_code error;
     if (fs::exists(path_, error) && !is_diffsoup_export(path_) &&
         !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
-      throw OutputError({path_.string(), {}, {}},
-                        "exists and is not a DiffSoup export: not replaced");
+      throw OutputError({path_.string()}, "exists and is not a DiffSoup export: not replaced");
     if (const std::string foreign = foreign_to_diffsoup_export(path_); !foreign.empty())
-      throw OutputError({path_.string(), {}, {}},
+      throw OutputError({path_.string()},
                         "not replaced: it holds " + foreign + ", which is not part of an export");
 #ifndef __EMSCRIPTEN__  // it has no links
     path_ = writable_folder(path_);
@@ -204,7 +202,7 @@ class NewFolder {
 
   /// The same error with the file's final path in place of the temporary one.
   OutputError in_place(const OutputError& error) const {
-    return {{(path_ / fs::path(error.position().file).filename()).string(), {}, {}},
+    return {{(path_ / fs::path(error.position().file).filename()).string()},
             error.reason(),
             error.hint()};
   }
@@ -216,8 +214,7 @@ class NewFolder {
 
  private:
   void check(bool done, const char* what, const std::error_code& error) const {
-    if (!done)
-      throw OutputError({path_.string(), {}, {}}, std::string(what) + ": " + error.message());
+    if (!done) throw OutputError({path_.string()}, std::string(what) + ": " + error.message());
   }
 
   fs::path path_, temporary_;
@@ -274,13 +271,10 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
   // The exporter's indices are signed.
   if (soup->positions.size() > 0x7fffffffu)
     throw UsageError(std::to_string(soup->positions.size()) +
-                     " vertices are too many for a "
-                     "DiffSoup export");
+                     " vertices are too many for a DiffSoup export");
   if (std::size_t(luts.first.height) > viewer_rows)
     notes.push_back("the images have " + std::to_string(luts.first.height) +
-                    " rows: viewers in "
-                    "browsers often stop at " +
-                    std::to_string(viewer_rows));
+                    " rows: viewers in browsers often stop at " + std::to_string(viewer_rows));
   std::vector<glm::vec3> positions = soup->positions;
   if (!is_translation(layer)) {
     positions = baked_positions(positions, layer);

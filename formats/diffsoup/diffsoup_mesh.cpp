@@ -56,7 +56,7 @@ MeshRecords records_of(Input& input) {
   };
   if (ply.encoding != PlyHeader::Encoding::little_endian)
     throw InputError(
-        {input.name(), {}, {}},
+        {input.name()},
         std::string("the PLY format is ") +
             (ply.encoding == PlyHeader::Encoding::ascii ? "ascii" : "binary_big_endian") +
             ", expected binary_little_endian");

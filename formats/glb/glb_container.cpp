@@ -1,7 +1,6 @@
 #include "formats/glb/glb_container.hpp"
 
 #include <bit>
-#include <optional>
 #include <string_view>
 
 #include "base/json/json_view.hpp"

@@ -141,7 +141,7 @@ void GltfDocument::parse() {
 
 void GltfDocument::fail(const std::string& where, const std::string& reason,
                         const std::string& hint) const {
-  throw InputError({input_.name(), {}, {}}, where.empty() ? reason : where + ": " + reason, hint);
+  throw InputError({input_.name()}, where.empty() ? reason : where + ": " + reason, hint);
 }
 
 void GltfDocument::take_memory(std::uint64_t elements, std::size_t each,

@@ -5,7 +5,6 @@
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <string>
 #include <vector>
 
 #include "formats/gltf/gltf_document.hpp"

@@ -7,72 +7,48 @@ namespace tureen::remarks {
 
 inline constexpr RemarkKind up_unknown_to_trimesh{
     "up_unknown_to_trimesh", Severity::assumption,
-    [](const Remark&) -> std::string {
-      return "trimesh, which wrote the file, stores no up axis: z is assumed";
-    },
-    "up"};
-inline constexpr RemarkKind corners_dropped{
-    "corners_dropped", Severity::loss, [](const Remark& r) {
-      return r.text("primitive") + ": " + r.text("corners") +
-             " corners are not a multiple of three; the incomplete triangle is skipped";
-    }};
+    "trimesh, which wrote the file, stores no up axis: z is assumed", "up"};
+inline constexpr RemarkKind corners_dropped{"corners_dropped", Severity::loss,
+                                            "{primitive}: {corners} corners are not a multiple of "
+                                            "three; the incomplete triangle is skipped"};
 inline constexpr RemarkKind splat_colors_linear{
-    "splat_colors_linear", Severity::loss, [](const Remark&) -> std::string {
-      return "the splats were trained and are blended in linear light; they are drawn as if their "
-             "colours were display-referred, and look different";
-    }};
-inline constexpr RemarkKind vertex_colors_srgb{
-    "vertex_colors_srgb", Severity::note,
-    [](const Remark&) -> std::string { return "vertex colours are read as sRGB, as requested"; }};
-inline constexpr RemarkKind vertex_colors_linear{
-    "vertex_colors_linear", Severity::note,
-    [](const Remark&) -> std::string { return "vertex colours are read as linear, as requested"; }};
+    "splat_colors_linear", Severity::loss,
+    "the splats were trained and are blended in linear light; they are drawn as if their colours "
+    "were display-referred, and look different"};
+inline constexpr RemarkKind vertex_colors_srgb{"vertex_colors_srgb", Severity::note,
+                                               "vertex colours are read as sRGB, as requested"};
+inline constexpr RemarkKind vertex_colors_linear{"vertex_colors_linear", Severity::note,
+                                                 "vertex colours are read as linear, as requested"};
 inline constexpr RemarkKind vertex_colors_srgb_by_generator{
     "vertex_colors_srgb_by_generator", Severity::assumption,
-    [](const Remark&) -> std::string {
-      return "vertex colours are read as sRGB, because the file's generator stores them so";
-    },
+    "vertex colours are read as sRGB, because the file's generator stores them so",
     "vertex_colors"};
 inline constexpr RemarkKind vertex_colors_linear_by_gltf{
     "vertex_colors_linear_by_gltf", Severity::assumption,
-    [](const Remark&) -> std::string {
-      return "vertex colours are read as linear, as glTF specifies";
-    },
-    "vertex_colors"};
+    "vertex colours are read as linear, as glTF specifies", "vertex_colors"};
 inline constexpr RemarkKind colors_multiplied{
-    "colors_multiplied", Severity::loss, [](const Remark&) -> std::string {
-      return "texture, factor and vertex colour are multiplied as display-referred values; this "
-             "approximates the product in linear light that glTF specifies";
-    }};
-inline constexpr RemarkKind materials_unlit{
-    "materials_unlit", Severity::loss, [](const Remark&) -> std::string {
-      return "lit materials are drawn unlit, by their base colour";
-    }};
+    "colors_multiplied", Severity::loss,
+    "texture, factor and vertex colour are multiplied as display-referred values; this "
+    "approximates the product in linear light that glTF specifies"};
+inline constexpr RemarkKind materials_unlit{"materials_unlit", Severity::loss,
+                                            "lit materials are drawn unlit, by their base colour"};
 inline constexpr RemarkKind blending_cut_out{
-    "blending_cut_out", Severity::loss, [](const Remark&) -> std::string {
-      return "blended materials are drawn as cut-outs at an alpha of 0.5";
-    }};
-inline constexpr RemarkKind animations_dropped{
-    "animations_dropped", Severity::loss,
-    [](const Remark&) -> std::string { return "animations are not played"; }};
-inline constexpr RemarkKind skins_dropped{
-    "skins_dropped", Severity::loss,
-    [](const Remark&) -> std::string { return "skinned meshes are drawn in their bind pose"; }};
-inline constexpr RemarkKind morph_targets_dropped{
-    "morph_targets_dropped", Severity::loss,
-    [](const Remark&) -> std::string { return "morph targets are not applied"; }};
-inline constexpr RemarkKind points_and_lines_dropped{
-    "points_and_lines_dropped", Severity::loss,
-    [](const Remark&) -> std::string { return "points and lines are not drawn"; }};
+    "blending_cut_out", Severity::loss,
+    "blended materials are drawn as cut-outs at an alpha of 0.5"};
+inline constexpr RemarkKind animations_dropped{"animations_dropped", Severity::loss,
+                                               "animations are not played"};
+inline constexpr RemarkKind skins_dropped{"skins_dropped", Severity::loss,
+                                          "skinned meshes are drawn in their bind pose"};
+inline constexpr RemarkKind morph_targets_dropped{"morph_targets_dropped", Severity::loss,
+                                                  "morph targets are not applied"};
+inline constexpr RemarkKind points_and_lines_dropped{"points_and_lines_dropped", Severity::loss,
+                                                     "points and lines are not drawn"};
 inline constexpr RemarkKind primitives_without_positions_dropped{
     "primitives_without_positions_dropped", Severity::loss,
-    [](const Remark&) -> std::string { return "primitives without POSITION are not drawn"; }};
+    "primitives without POSITION are not drawn"};
 inline constexpr RemarkKind other_projections_dropped{
-    "other_projections_dropped", Severity::loss,
-    [](const Remark&) -> std::string { return "cameras that are not perspective are skipped"; }};
+    "other_projections_dropped", Severity::loss, "cameras that are not perspective are skipped"};
 inline constexpr RemarkKind blind_cameras_dropped{
-    "blind_cameras_dropped", Severity::loss, [](const Remark&) -> std::string {
-      return "cameras without a valid field of view are skipped";
-    }};
+    "blind_cameras_dropped", Severity::loss, "cameras without a valid field of view are skipped"};
 
 }  // namespace tureen::remarks

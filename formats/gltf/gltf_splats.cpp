@@ -1,9 +1,6 @@
 #include "formats/gltf/gltf_splats.hpp"
 
-#include <algorithm>
 #include <numeric>
-#include <optional>
-#include <span>
 
 #include "formats/common/format_remarks.hpp"
 #include "formats/common/splat_values.hpp"

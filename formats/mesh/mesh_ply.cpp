@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -66,8 +65,8 @@ class PlyReader {
     for (const char* name : {"face", "tristrips"})
       if (const PlyElement* faces = header_.find(name); faces && faces->count > 0) return;
     if (vertices_ > 0)
-      fail_header(*vertex,
-                  "is a point cloud: " + std::to_string(vertices_) + " vertices and no faces");
+      fail_element(input_, *vertex,
+                   "is a point cloud: " + std::to_string(vertices_) + " vertices and no faces");
   }
 
   Layout layout_of(const PlyElement& element) {
@@ -82,8 +81,9 @@ class PlyReader {
       if (name.substr(0, 8) == "diffuse_") name.remove_prefix(8);
       const auto slot = std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
       if (slot == names.size()) continue;
-      if (found[slot]) fail_header(element, "has a second property '" + property.name + "'");
-      if (property.count_type) fail_header(element, "has a list '" + property.name + "'");
+      if (found[slot])
+        fail_element(input_, element, "has a second property '" + property.name + "'");
+      if (property.count_type) fail_element(input_, element, "has a list '" + property.name + "'");
       found[slot] = true;
       layout.slot[i] = int(slot);
       layout.unit[slot] = slot < first_color ? 1.0 : unit_of(element, property);
@@ -91,10 +91,10 @@ class PlyReader {
     layout.has_color = found[3] || found[4] || found[5];
     for (std::size_t slot = 3; slot < 6; ++slot)
       if (layout.has_color && !found[slot])
-        fail_header(element, std::string("has colours that lack '") + names[slot] + "'");
+        fail_element(input_, element, std::string("has colours that lack '") + names[slot] + "'");
     if (element.name == "vertex")
       for (std::size_t slot = 0; slot < 3; ++slot)
-        if (!found[slot]) fail_header(element, std::string("lacks '") + names[slot] + "'");
+        if (!found[slot]) fail_element(input_, element, std::string("lacks '") + names[slot] + "'");
     return layout;
   }
 
@@ -108,19 +108,20 @@ class PlyReader {
       case PlyType::float64:
         return 1.0;
       default:
-        fail_header(element, "has a colour '" + property.name +
-                                 "' of a type without a defined scale; supported: uchar, ushort, "
-                                 "float and double");
+        fail_element(input_, element,
+                     "has a colour '" + property.name +
+                         "' of a type without a defined scale; supported: uchar, ushort, "
+                         "float and double");
     }
   }
 
   void find_indices(const PlyElement& element, Layout& layout) {
     for (const char* name : {"vertex_indices", "vertex_index"})
       if (!layout.indices) layout.indices = element.find(name);
-    if (!layout.indices) fail_header(element, "lacks 'vertex_indices'");
+    if (!layout.indices) fail_element(input_, element, "lacks 'vertex_indices'");
     const PlyProperty& list = element.properties[*layout.indices];
     if (!list.count_type || !is_integer(list.type))
-      fail_header(element, "has '" + list.name + "' that are not a list of integers");
+      fail_element(input_, element, "has '" + list.name + "' that are not a list of integers");
   }
 
   /// The value of a slot; colours are divided as floats, so that a byte k is float(k) / 255.
@@ -138,17 +139,10 @@ class PlyReader {
     mesh_.reserve_vertices(element.count);
     if (layout.has_color) mesh_.reserve_colors_of_vertices(element.count);
     for (std::uint64_t v = 0; v < element.count; ++v) {
-      values_.begin_row(element);
       std::array<float, slots> row{0, 0, 0, 0, 0, 0, 1};
-      for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const int slot = layout.slot[i];
-        if (slot == none)
-          values_.skip(element.properties[i]);
-        else
-          row[std::size_t(slot)] =
-              scaled(values_.read(element.properties[i].type), layout.unit[std::size_t(slot)]);
-      }
-      values_.end_row();
+      values_.read_row(element, layout.slot, [&](std::size_t slot, double value) {
+        row[slot] = scaled(value, layout.unit[slot]);
+      });
       mesh_.positions.emplace_back(row[0], row[1], row[2]);
       if (layout.has_color) mesh_.vertex_rgba.emplace_back(row[3], row[4], row[5], row[6]);
     }
@@ -228,10 +222,6 @@ class PlyReader {
   }
 
   bool ascii() const { return header_.encoding == PlyHeader::Encoding::ascii; }
-
-  [[noreturn]] void fail_header(const PlyElement& element, const std::string& reason) const {
-    throw InputError({input_.name(), {}, element.line}, "element '" + element.name + "' " + reason);
-  }
 
   Input& input_;
   const PlyHeader& header_;

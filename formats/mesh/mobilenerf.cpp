@@ -39,7 +39,7 @@ DenseLayer read_layer(const nlohmann::json& json, const std::string& file, int i
   const std::string name = std::to_string(index);
   const nlohmann::json& rows = json_at(json, (name + "_weights").c_str(), file);
   if (!rows.is_array() || rows.size() != std::size_t(inputs))
-    throw InputError({file, {}, {}},
+    throw InputError({file},
                      name + "_weights is not a list of " + std::to_string(inputs) + " rows");
   DenseLayer layer{inputs, outputs, std::vector<float>(std::size_t(inputs) * outputs),
                    json_floats(json_at(json, (name + "_bias").c_str(), file), std::size_t(outputs),
@@ -85,10 +85,10 @@ Network read_network(const fs::path& folder, const MemoryBudget& budget) {
                  .view = ViewConvention::eye_to_surface,
                  .blend_channel = std::nullopt};
   take_plain_inputs(network.mlp.layers.front());
-  if (const auto why = defect(network.mlp, 8)) throw InputError({file, {}, {}}, *why);
+  if (const auto why = defect(network.mlp, 8)) throw InputError({file}, *why);
   const nlohmann::json& shapes = json_at(json, "obj_num", file);
   if (!shapes.is_number_integer() || shapes < 1 || shapes > max_shapes)
-    throw InputError({file, {}, {}},
+    throw InputError({file},
                      "obj_num is not a whole number from 1 to " + std::to_string(max_shapes));
   network.shapes = shapes.get<int>();
   return network;
@@ -117,7 +117,7 @@ std::map<int, std::map<int, fs::path>> find_shapes(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (const auto found = shape_and_piece(entry.path().filename().string()))
       shapes[found->first][found->second] = entry.path();
-  if (error) throw InputError({folder.string(), {}, {}}, "cannot be listed: " + error.message());
+  if (error) throw InputError({folder.string()}, "cannot be listed: " + error.message());
   return shapes;
 }
 
@@ -162,7 +162,7 @@ void append_material(UvTextures& textures, const std::array<fs::path, 2>& featur
   const Image8& first = textures.images[material.images[0]];
   const Image8& second = textures.images[material.images[1]];
   if (first.width != second.width || first.height != second.height)
-    throw InputError({features[1].string(), {}, {}},
+    throw InputError({features[1].string()},
                      std::to_string(second.width) + " x " + std::to_string(second.height) +
                          " pixels, but " + features[0].filename().string() + " has " +
                          std::to_string(first.width) + " x " + std::to_string(first.height));
@@ -204,9 +204,8 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   if (!fs::is_directory(path, ignored) && path.filename() != "mlp.json" &&
       fs::symlink_status(folder / "mlp.json", ignored).type() == fs::file_type::not_found)
     throw InputError(
-        {path.string(), {}, {}},
-        "an .obj is supported only as part of a MobileNeRF scene, but its folder has no "
-        "mlp.json");
+        {path.string()},
+        "an .obj is supported only as part of a MobileNeRF scene, but its folder has no mlp.json");
   const MemoryBudget budget;
   Network network = read_network(folder, budget);
   const auto shapes = find_shapes(folder);
@@ -240,7 +239,7 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
         {kind, {{"shapes", std::move(indices)}, {"all", std::uint64_t(network.shapes)}}});
   }
   if (textures.materials.empty())
-    throw InputError({folder.string(), {}, {}},
+    throw InputError({folder.string()},
                      "all " + std::to_string(network.shapes) +
                          " shapes in mlp.json lack their .obj or their feature images");
 

@@ -218,6 +218,10 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return nullptr;
 }
 
+void fail_element(const Input& input, const PlyElement& element, const std::string& reason) {
+  throw InputError({input.name(), {}, element.line}, "element '" + element.name + "' " + reason);
+}
+
 bool is_ply(std::span<const std::byte> head) {
   return head.size() >= 4 && std::memcmp(head.data(), "ply", 3) == 0 &&
          (head[3] == std::byte('\n') || head[3] == std::byte('\r'));

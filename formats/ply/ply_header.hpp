@@ -54,6 +54,10 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
+/// Throws InputError at the element's line in the header: "element 'vertex' lacks 'x'".
+[[noreturn]] void fail_element(const Input& input, const PlyElement& element,
+                               const std::string& reason);
+
 /// Whether the file begins with "ply" and a line break.
 bool is_ply(std::span<const std::byte> head);
 

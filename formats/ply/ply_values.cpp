@@ -1,6 +1,5 @@
 #include "formats/ply/ply_values.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace tureen {

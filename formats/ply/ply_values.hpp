@@ -27,6 +27,19 @@ class PlyValues {
   /// Ends a row. In ascii the rest of the line must be empty.
   void end_row();
 
+  /// Reads a row: calls use(slot, value) for each property that has a slot, one a property, and
+  /// skips those with a negative one.
+  template <class Use>
+  void read_row(const PlyElement& element, const std::vector<int>& slots, const Use& use) {
+    begin_row(element);
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (slots[i] < 0)
+        skip(element.properties[i]);
+      else
+        use(std::size_t(slots[i]), read(element.properties[i].type));
+    end_row();
+  }
+
   /// The next value. Integers in ascii are checked against the range of their type.
   double read(PlyType type) { return scanner_ ? read_text(type) : read_binary(type); }
   /// The length of a list, checked against the remaining bytes.

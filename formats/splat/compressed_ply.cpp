@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "formats/common/format_remarks.hpp"
 #include "formats/ply/ply_values.hpp"
@@ -63,10 +62,12 @@ class CompressedPlyReader {
     const PlyElement& chunk = *header_.find("chunk");
     const PlyElement* sh = header_.find("sh");
     if (chunk.count != (vertex.count + splats_a_chunk - 1) / splats_a_chunk)
-      fail_in(chunk, "occurs " + std::to_string(chunk.count) + " times for " +
-                         std::to_string(vertex.count) + " splats; a chunk holds 256");
+      fail_element(input_, chunk,
+                   "occurs " + std::to_string(chunk.count) + " times for " +
+                       std::to_string(vertex.count) + " splats; a chunk holds 256");
     if (sh && sh->count != vertex.count)
-      fail_in(*sh, "occurs " + std::to_string(sh->count) + " times for " +
+      fail_element(input_, *sh,
+                   "occurs " + std::to_string(sh->count) + " times for " +
                        std::to_string(vertex.count) + " splats");
     const int degree = sh ? degree_of_rest(input_, *sh, count_rest(*sh)) : 0;
     for (const PlyElement& element : header_.elements) {
@@ -93,13 +94,7 @@ class CompressedPlyReader {
   void read_rows(const PlyElement& element, const PlySlots& required, Use&& use, End&& end) {
     const std::vector<int> slots = find_slots(input_, element, required);
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      values_.begin_row(element);
-      for (std::size_t i = 0; i < slots.size(); ++i)
-        if (slots[i] == splat_slot::none)
-          values_.skip(element.properties[i]);
-        else
-          use(std::size_t(slots[i]), values_.read(element.properties[i].type));
-      values_.end_row();
+      values_.read_row(element, slots, use);
       end();
     }
   }
@@ -129,7 +124,7 @@ class CompressedPlyReader {
                          {"packed_color", packed_color}};
     for (const PlyProperty& property : element.properties)
       if (slots.count(property.name) && property.type != PlyType::uint32)
-        fail_in(element, "has '" + property.name + "' of a type other than uint");
+        fail_element(input_, element, "has '" + property.name + "' of a type other than uint");
     PackedSplat row{};
     take_rows(packed_, element);
     read_rows(
@@ -144,7 +139,7 @@ class CompressedPlyReader {
     for (int k = 0; k < count; ++k) slots["f_rest_" + std::to_string(k)] = place_of_rest(k, degree);
     for (const PlyProperty& property : element.properties)
       if (slots.count(property.name) && property.type != PlyType::uint8)
-        fail_in(element, "has '" + property.name + "' of a type other than uchar");
+        fail_element(input_, element, "has '" + property.name + "' of a type other than uchar");
     input_.take_memory(element.count, std::size_t(count), "the harmonics");
     rest_.reserve(std::size_t(element.count) * std::size_t(count));
     std::vector<std::uint8_t> row(static_cast<std::size_t>(count));
@@ -193,10 +188,6 @@ class CompressedPlyReader {
   void take_rows(std::vector<Row>& rows, const PlyElement& element) {
     input_.take_memory(element.count, sizeof(Row), "the packed splats");
     rows.reserve(static_cast<std::size_t>(element.count));
-  }
-
-  [[noreturn]] void fail_in(const PlyElement& element, const std::string& reason) const {
-    throw InputError({input_.name(), {}, element.line}, "element '" + element.name + "' " + reason);
   }
 
   Input& input_;

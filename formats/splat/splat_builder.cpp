@@ -4,7 +4,6 @@
 #include <cassert>
 #include <filesystem>
 #include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <string>
 

@@ -9,11 +9,6 @@ namespace tureen {
 
 namespace {
 
-[[noreturn]] void fail_element(const Input& input, const PlyElement& element,
-                               const std::string& reason) {
-  throw InputError({input.name(), {}, element.line}, "element '" + element.name + "' " + reason);
-}
-
 /// All properties of a file of this layout, which are all required.
 PlySlots required_slots(const SplatPlyLayout& layout) {
   namespace slot = splat_slot;

@@ -30,9 +30,9 @@ class SplatPlyReader {
         continue;
       }
       for (std::uint64_t i = 0; i < element.count; ++i) {
-        values_.begin_row(element);
-        read_splat(element, layout, profile, builder);
-        values_.end_row();
+        values_.read_row(element, layout.slots,
+                         [&](std::size_t slot, double value) { row_[slot] = value; });
+        add_row(layout, profile, builder);
       }
     }
     std::optional<Remark> trailing;
@@ -46,18 +46,6 @@ class SplatPlyReader {
   }
 
  private:
-  void read_splat(const PlyElement& element, const SplatPlyLayout& layout,
-                  const SplatPlyProfile& profile, SplatBuilder& builder) {
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      const PlyProperty& property = element.properties[i];
-      if (layout.slots[i] == splat_slot::none)
-        values_.skip(property);
-      else
-        row_[std::size_t(layout.slots[i])] = values_.read(property.type);
-    }
-    add_row(layout, profile, builder);
-  }
-
   void add_row(const SplatPlyLayout& layout, const SplatPlyProfile& profile,
                SplatBuilder& builder) const {
     namespace slot = splat_slot;

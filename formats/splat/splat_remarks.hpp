@@ -5,39 +5,23 @@
 
 namespace tureen::remarks {
 
-inline constexpr RemarkKind up_unknown_to_splats{
-    "up_unknown_to_splats", Severity::assumption,
-    [](const Remark& r) {
-      return r.text("format") +
-             " stores no up axis: -y is assumed, as in COLMAP; scenes trained on Blender images "
-             "have +z";
-    },
-    "up"};
+inline constexpr RemarkKind up_unknown_to_splats{"up_unknown_to_splats", Severity::assumption,
+                                                 "{format} stores no up axis: -y is assumed, as in "
+                                                 "COLMAP; scenes trained on Blender images have +z",
+                                                 "up"};
 inline constexpr RemarkKind profile_assumed{
     "profile_assumed", Severity::assumption,
-    [](const Remark& r) {
-      return "the file does not store how its splats are rendered: the profile " +
-             r.text("profile") + " is assumed";
-    },
+    "the file does not store how its splats are rendered: the profile {profile} is assumed",
     "profile"};
-inline constexpr RemarkKind render_mode_unknown{"render_mode_unknown", Severity::assumption,
-                                                [](const Remark& r) {
-                                                  return "the render mode '" + r.text("mode") +
-                                                         "' of the file is unknown: the profile " +
-                                                         r.text("profile") + " is used";
-                                                },
-                                                "profile"};
-inline constexpr RemarkKind octagon_q_assumed{
-    "octagon_q_assumed", Severity::assumption,
-    [](const Remark& r) {
-      return "the file does not store the radius of its octagons, sqrt(Q) standard deviations: Q "
-             "= " +
-             r.text("q") + " is assumed";
-    },
-    "octagon_q"};
+inline constexpr RemarkKind render_mode_unknown{
+    "render_mode_unknown", Severity::assumption,
+    "the render mode '{mode}' of the file is unknown: the profile {profile} is used", "profile"};
+inline constexpr RemarkKind octagon_q_assumed{"octagon_q_assumed", Severity::assumption,
+                                              "the file does not store the radius of its octagons, "
+                                              "sqrt(Q) standard deviations: Q = {q} is assumed",
+                                              "octagon_q"};
 inline constexpr RemarkKind splat_extensions_ignored{
-    "splat_extensions_ignored", Severity::loss, [](const Remark& r) {
-      return "extensions of the file that are not supported are ignored: " + r.text("extensions");
-    }};
+    "splat_extensions_ignored", Severity::loss,
+    "extensions of the file that are not supported are ignored: {extensions}"};
 
 }  // namespace tureen::remarks

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <iterator>
 #include <utility>
 
 #include "base/shown_text.hpp"
@@ -418,14 +417,14 @@ Pickle::Pickle(std::string name, std::span<const std::byte> bytes,
                std::span<const std::string_view> globals, MemoryBudget budget)
     : name_(std::move(name)) {
   if (bytes.size() > max_bytes)
-    throw InputError({name_, {}, {}}, "a pickle of " + std::to_string(bytes.size()) +
-                                          " bytes, the limit is " + std::to_string(max_bytes));
+    throw InputError({name_}, "a pickle of " + std::to_string(bytes.size()) +
+                                  " bytes, the limit is " + std::to_string(max_bytes));
   // An opcode creates at most one value and stores one index: on the stack, in the memo or among
   // the items of another value. All of these lie in vectors that double. Texts are parts of the
   // bytes.
   const std::uint64_t values = std::min<std::uint64_t>(bytes.size(), max_values);
   if (!budget.take(values, 3 * sizeof(Value)) || !budget.take(bytes.size(), 9 * sizeof(Ref) + 1))
-    throw InputError({name_, {}, {}}, budget.refusal("the pickle"), max_memory_hint);
+    throw InputError({name_}, budget.refusal("the pickle"), max_memory_hint);
   root_ = Machine(name_, bytes, globals, values_).run();
 }
 

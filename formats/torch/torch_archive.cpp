@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -328,7 +327,7 @@ double TorchArchive::number(std::string_view key) const {
 }
 
 void TorchArchive::fail(const std::string& reason) const {
-  throw InputError({zip_.name(), {}, {}}, reason);
+  throw InputError({zip_.name()}, reason);
 }
 
 }  // namespace tureen

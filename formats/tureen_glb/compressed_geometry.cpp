@@ -175,13 +175,13 @@ CompressedGeometry decode_compressed_geometry(std::span<const std::byte> bytes,
                                               std::size_t vertices, std::size_t faces,
                                               const std::string& file, MemoryBudget budget) {
   const auto damaged = [&]() -> InputError {
-    return InputError({file, {}, {}}, "the compressed geometry is cut short or damaged");
+    return InputError({file}, "the compressed geometry is cut short or damaged");
   };
   if (bytes.size() < sizeof(Grid) || faces / max_faces_per_byte > bytes.size() ||
       vertices > 3 * faces)
     throw damaged();
   if (!budget.take(faces, bytes_a_face))
-    throw InputError({file, {}, {}}, budget.refusal("the compressed geometry"), max_memory_hint);
+    throw InputError({file}, budget.refusal("the compressed geometry"), max_memory_hint);
   Grid grid;
   std::memcpy(&grid, bytes.data(), sizeof(Grid));
   for (int k = 0; k < 3; ++k)

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>

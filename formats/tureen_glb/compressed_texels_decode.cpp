@@ -44,7 +44,7 @@ LatticeTexture decode_compressed_texels(std::span<const std::byte> bytes, std::s
                                         const std::string& file, MemoryBudget budget) {
   using namespace compressed;
   const auto damaged = [&]() -> InputError {
-    return InputError({file, {}, {}}, "the compressed texels are cut short or damaged");
+    return InputError({file}, "the compressed texels are cut short or damaged");
   };
   // Texel indices have 32 bits.
   const auto limit = std::min<std::uint64_t>(bytes.size() * max_per_byte, 0xffffffffu);
@@ -56,7 +56,7 @@ LatticeTexture decode_compressed_texels(std::span<const std::byte> bytes, std::s
   RangeDecoder coder(bytes.subspan(sizeof(header)));
   const auto take = [&](std::uint64_t count, std::size_t each) {
     if (!budget.take(count, each))
-      throw InputError({file, {}, {}}, budget.refusal("the compressed texels"), max_memory_hint);
+      throw InputError({file}, budget.refusal("the compressed texels"), max_memory_hint);
   };
   take(1, sizeof(Models));
   const auto models = std::make_unique<Models>();

@@ -1,7 +1,5 @@
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"
 
-#include <cassert>
-
 #include "base/crc32.hpp"
 #include "base/error.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
@@ -31,8 +29,7 @@ std::vector<std::string> write_compressed_glb(const Scene& scene, const Compress
   const auto* soup = std::get_if<TriangleSoup>(&only_layer(scene).primitives);
   const auto* texture = soup ? std::get_if<LatticeTexture>(&soup->appearance) : nullptr;
   if (!texture) throw UsageError("a compressed file holds lattice textures only");
-  if (const auto reason = defect(*soup))
-    throw UsageError("the scene cannot be written: " + *reason);
+  require_sound(*soup);
   const Layer& layer = only_layer(scene);
   if (!is_translation(layer))
     throw UsageError("a compressed file holds no layer that is rotated, scaled or mirrored");

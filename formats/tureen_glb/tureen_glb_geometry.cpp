@@ -16,6 +16,14 @@ int side(const JsonView& view) {
   return int(pixels);
 }
 
+/// Column by column.
+glm::dmat4 matrix_of(const JsonView& view) {
+  if (view.size() != 16) view.fail("expected 16 numbers");
+  glm::dmat4 matrix;
+  for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = view.at(std::size_t(i)).number();
+  return matrix;
+}
+
 Camera camera(const JsonView& view) {
   Camera result;
   result.name = view["name"].text();
@@ -25,18 +33,14 @@ Camera camera(const JsonView& view) {
   result.fy = view["fy"].number();
   result.cx = view["cx"].number();
   result.cy = view["cy"].number();
-  const JsonView matrix = view["view_from_world"];
-  if (matrix.size() != 16) matrix.fail("expected 16 numbers");
-  for (int i = 0; i < 16; ++i) result.view_from_world[i / 4][i % 4] = matrix.at(i).number();
+  result.view_from_world = matrix_of(view["view_from_world"]);
   return result;
 }
 
 bool is_visible(const JsonView& node) {
   const auto extension = node["extensions"].find(glb_layout::visibility_extension);
   const auto visible = extension ? extension->find("visible") : std::nullopt;
-  if (!visible) return true;
-  if (!visible->value().is_boolean()) visible->fail("expected true or false");
-  return visible->value().get<bool>();
+  return !visible || visible->boolean();
 }
 
 }  // namespace
@@ -81,9 +85,7 @@ Layer read_layer_of_node(const JsonView& node) {
   Layer layer;
   if (const auto name = node.find("name")) layer.name = name->text();
   const JsonView matrix = node["matrix"];
-  if (matrix.size() != 16) matrix.fail("expected 16 numbers");
-  for (int i = 0; i < 16; ++i)
-    layer.world_from_layer[i / 4][i % 4] = matrix.at(std::size_t(i)).number();
+  layer.world_from_layer = matrix_of(matrix);
   if (const auto reason = defect(layer)) matrix.fail(*reason);
   layer.visible = is_visible(node);
   return layer;
@@ -110,9 +112,7 @@ void read_geometry(GlbArrays& arrays, const GeometryLayout& layout, TriangleSoup
   soup.triangles = arrays.read_at<glm::uvec3>(layout.triangles, "triangles");
   if (!soup.triangles.empty()) return;
   arrays.take_memory(layout.faces, sizeof(glm::uvec3), "triangles");
-  soup.triangles.resize(static_cast<std::size_t>(layout.faces));
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
+  soup.triangles = unshared_triangles(static_cast<std::size_t>(layout.faces));
 }
 
 }  // namespace tureen

@@ -22,8 +22,6 @@ inline constexpr std::uint32_t strip_rows = 1024;
 inline constexpr std::uint32_t strip_texels = strip_width * strip_rows;
 
 // Names of enumerations, in the order of their enumerators.
-inline constexpr const char* direction_encodings[] = {"none", "xyz", "harmonics2"};
-inline constexpr const char* view_conventions[] = {"surface_to_eye", "eye_to_surface"};
 inline constexpr const char* domains[] = {"face", "vertex"};
 inline constexpr const char* wraps[] = {"repeat", "mirror", "clamp"};
 inline constexpr const char* filters[] = {"nearest", "linear"};

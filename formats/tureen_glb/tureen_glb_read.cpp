@@ -246,7 +246,7 @@ class Reader {
     Harmonics sh;
     sh.domain = Harmonics::Domain(view["domain"].one_of(layout::domains));
     sh.degree = degree(view);
-    sh.view = ViewConvention(view["view"].one_of(layout::view_conventions));
+    sh.view = ViewConvention(view["view"].one_of(view_conventions));
     const std::size_t elements =
         sh.domain == Harmonics::Domain::face ? soup.triangles.size() : soup.positions.size();
     sh.coefficients = coefficients(view, sh.degree, elements);
@@ -277,8 +277,8 @@ class Reader {
     const auto view = holder.find("color_mlp");
     if (!view) return std::nullopt;
     ColorMlp mlp;
-    mlp.encoding = DirectionEncoding((*view)["encoding"].one_of(layout::direction_encodings));
-    mlp.view = ViewConvention((*view)["view"].one_of(layout::view_conventions));
+    mlp.encoding = DirectionEncoding((*view)["encoding"].one_of(direction_encodings));
+    mlp.view = ViewConvention((*view)["view"].one_of(view_conventions));
     if (const auto blend = view->find("blend_channel"))
       mlp.blend_channel = int(blend->natural(ColorMlp::max_width));
     const JsonView layers = (*view)["layers"];

@@ -30,18 +30,13 @@ namespace glb_writing {
 
 namespace {
 
-constexpr BinaryPlan::Format splat_scalar{"SCALAR", layout::float32, 1};
-constexpr BinaryPlan::Format splat_vec3{"VEC3", layout::float32, 3};
-constexpr BinaryPlan::Format splat_vec4{"VEC4", layout::float32, 4};
-constexpr BinaryPlan::Format splat_color{"VEC4", layout::unsigned_short, 4, true};
-
 // glTF stores x, y, z, w.
 static_assert(offsetof(glm::quat, x) == 0 && offsetof(glm::quat, w) == 3 * sizeof(float));
 
 template <class Value>
-constexpr const BinaryPlan::Format& format_of = sizeof(Value) == sizeof(glm::quat)   ? splat_vec4
-                                                : sizeof(Value) == sizeof(glm::vec3) ? splat_vec3
-                                                                                     : splat_scalar;
+constexpr const BinaryPlan::Format& format_of = sizeof(Value) == sizeof(glm::quat)   ? vec4_float
+                                                : sizeof(Value) == sizeof(glm::vec3) ? vec3_float
+                                                                                     : scalar_float;
 
 /// KHR_gaussian_splatting requires an opacity. Viewers without our kernel use that of a sphere
 /// with the constant part of the density, along its diameter of 2.
@@ -63,7 +58,7 @@ void add_columns(BinaryPlan& plan, json& attributes, json& ours, const SplatKern
     if (column.role == ColumnRole::value)
       if (const auto* densities = std::get_if<NeuralDensities>(&kernel)) {
         plan.owned_accessor(attributes, column_key(ColumnRole::opacity, "").c_str(),
-                            mean_opacity(*densities), splat_scalar);
+                            mean_opacity(*densities), scalar_float);
         ours["omega"] = densities->omega;
       }
     plan.accessor(column.role == ColumnRole::value ? ours : attributes, key.c_str(),
@@ -97,7 +92,7 @@ void add_coefficients(BinaryPlan& plan, json& attributes, const SplatColor& colo
     for (int order = 0; order < 2 * degree + 1; ++order, ++k) {
       for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = color.coefficients[stride * i + k];
       plan.owned_accessor(attributes, harmonics_attribute(degree, order).c_str(), plane,
-                          splat_vec3);
+                          vec3_float);
     }
 }
 
@@ -123,8 +118,7 @@ json profile_json(const SplatProfile& profile) {
 }
 
 json add_splats(BinaryPlan& plan, json& extension, const Splats& splats) {
-  if (const auto reason = defect(splats))
-    throw UsageError("the scene cannot be written: " + *reason);
+  require_sound(splats);
   extension["splat_count"] = count(splats);
   json ours = {{"kernel", stored_kernel(splats.kernel)},
                {"degree", splats.color.degree},
@@ -135,7 +129,7 @@ json add_splats(BinaryPlan& plan, json& extension, const Splats& splats) {
     extension["splats"] = std::move(ours);  // there is no primitive: glTF has no empty mesh
     return nullptr;
   }
-  plan.owned_accessor(attributes, "COLOR_0", point_colors(splats), splat_color);
+  plan.owned_accessor(attributes, "COLOR_0", point_colors(splats), vec4_unorm16);
   add_coefficients(plan, attributes, splats.color);
   const bool is_ellipse = std::holds_alternative<Gaussians>(splats.kernel);
   json splatting = {{"kernel", is_ellipse ? "ellipse" : stored_kernel(splats.kernel)},

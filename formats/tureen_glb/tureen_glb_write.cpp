@@ -19,6 +19,7 @@
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
 #include "scene/lattice.hpp"
+#include "scene/opaque_windows.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -26,15 +27,6 @@ namespace tureen {
 using namespace glb_writing;
 
 namespace {
-
-constexpr BinaryPlan::Format scalar_u32{"SCALAR", layout::unsigned_int, 1};
-constexpr BinaryPlan::Format scalar_u8{"SCALAR", layout::unsigned_byte, 1};
-constexpr BinaryPlan::Format scalar_float{"SCALAR", layout::float32, 1};
-constexpr BinaryPlan::Format vec2_float{"VEC2", layout::float32, 2};
-constexpr BinaryPlan::Format vec3_float{"VEC3", layout::float32, 3};
-constexpr BinaryPlan::Format vec4_float{"VEC4", layout::float32, 4};
-constexpr BinaryPlan::Format vec4_unorm8{"VEC4", layout::unsigned_byte, 4, true};
-constexpr BinaryPlan::Format vec4_unorm16{"VEC4", layout::unsigned_short, 4, true};
 
 /// The colours as bytes if every component is exactly byte / 255; otherwise empty.
 std::vector<glm::u8vec4> exact_bytes(const std::vector<glm::vec4>& colors) {
@@ -91,7 +83,7 @@ struct AddAppearance {
     json result = {{"type", "harmonics"},
                    {"domain", layout::domains[int(sh.domain)]},
                    {"degree", sh.degree},
-                   {"view", layout::view_conventions[int(sh.view)]}};
+                   {"view", view_conventions[int(sh.view)]}};
     plan.accessor(result, "coefficients", bytes_of(sh.coefficients), vec3_float);
     return result;
   }
@@ -242,6 +234,13 @@ json upright(const glm::vec3& up) {
   return {q.x, q.y, q.z, q.w};
 }
 
+/// Column by column.
+std::vector<double> numbers_of(const glm::dmat4& matrix) {
+  std::vector<double> numbers;
+  for (int i = 0; i < 16; ++i) numbers.push_back(matrix[i / 4][i % 4]);
+  return numbers;
+}
+
 /// The text with invalid UTF-8 replaced, because JSON cannot store it. A replacement is a loss.
 std::string utf8(const std::string& text, std::vector<std::string>& losses) {
   try {
@@ -252,21 +251,6 @@ std::string utf8(const std::string& text, std::vector<std::string>& losses) {
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
         .get<std::string>();
   }
-}
-
-/// The windows' triangles as a soup with their harmonics, only for the mesh.
-TriangleSoup hard_shapes(const Splats& splats) {
-  TriangleSoup soup;
-  soup.positions = std::get<TriangleWindows>(splats.kernel).corners;
-  soup.triangles.resize(count(splats));
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
-  soup.appearance = Harmonics{
-      .domain = splats.color.per_corner ? Harmonics::Domain::vertex : Harmonics::Domain::face,
-      .degree = splats.color.degree,
-      .view = ViewConvention::eye_to_surface,
-      .coefficients = splats.color.coefficients};
-  return soup;
 }
 
 json windows_json(BinaryPlan& plan, const Splats& splats) {
@@ -311,8 +295,8 @@ json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
     layers.push_back(std::move(entry));
   }
   json result = {{"layers", std::move(layers)},
-                 {"encoding", layout::direction_encodings[int(mlp.encoding)]},
-                 {"view", layout::view_conventions[int(mlp.view)]}};
+                 {"encoding", direction_encodings[int(mlp.encoding)]},
+                 {"view", view_conventions[int(mlp.view)]}};
   if (mlp.blend_channel) result["blend_channel"] = *mlp.blend_channel;
   return result;
 }
@@ -328,9 +312,7 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
                     {"cameras", json::array()}};
   for (const std::string& note : all_notes(info)) extension["notes"].push_back(utf8(note, losses));
   for (const Camera& camera : scene.cameras) {
-    std::vector<double> matrix;
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row) matrix.push_back(camera.view_from_world[column][row]);
+    const std::vector<double> matrix = numbers_of(camera.view_from_world);
     const std::string what = "camera \"" + camera.name + "\"";
     for (const int side : {camera.width, camera.height})
       if (side < 1 || side > max_image_side)
@@ -348,8 +330,7 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
                                     {"view_from_world", matrix}});
   }
   if (scene.quality != Quality{}) {
-    if (const auto reason = defect(scene.quality))
-      throw UsageError("the scene cannot be written: " + *reason);
+    require_sound(scene.quality);
     extension["preset"] = quality_json(scene.quality);
   }
   return extension;
@@ -420,8 +401,7 @@ class Document {
     }
     const TriangleSoup& soup = splats ? shapes_.emplace_back(checked_shapes(*splats))
                                       : std::get<TriangleSoup>(layer.primitives);
-    if (const auto reason = defect(soup))
-      throw UsageError("the scene cannot be written: " + *reason);
+    require_sound(soup);
     extension["vertex_count"] = soup.positions.size();
     extension["face_count"] = soup.triangles.size();
     json primitive = add_mesh(plan_, extension, soup);
@@ -432,12 +412,9 @@ class Document {
 
   /// Adds the layer as a node, and its index to `indices`.
   void add_node(json& indices, const Layer& layer, std::vector<std::string>& losses) {
-    if (const auto reason = defect(layer))
-      throw UsageError("the scene cannot be written: " + *reason);
-    json node = {{"name", utf8(layer.name, losses)}, {"matrix", json::array()}};
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row)
-        node["matrix"].push_back(layer.world_from_layer[column][row]);
+    require_sound(layer);
+    json node = {{"name", utf8(layer.name, losses)},
+                 {"matrix", numbers_of(layer.world_from_layer)}};
     json extension = json::object();
     if (json mesh = add_primitives(extension, layer); !mesh.is_null()) node["mesh"] = mesh;
     node["extensions"][tureen_extension] = std::move(extension);
@@ -485,9 +462,8 @@ class Document {
   }
 
   static TriangleSoup checked_shapes(const Splats& splats) {
-    if (const auto reason = defect(splats))
-      throw UsageError("the scene cannot be written: " + *reason);
-    return hard_shapes(splats);
+    require_sound(splats);
+    return hard_shapes(std::get<TriangleWindows>(splats.kernel).corners, splats.color);
   }
 
   static json unlit_material() {

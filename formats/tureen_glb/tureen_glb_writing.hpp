@@ -99,6 +99,21 @@ class BinaryPlan {
   std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
 };
 
+inline constexpr BinaryPlan::Format scalar_u32{"SCALAR", layout::unsigned_int, 1};
+inline constexpr BinaryPlan::Format scalar_u8{"SCALAR", layout::unsigned_byte, 1};
+inline constexpr BinaryPlan::Format scalar_float{"SCALAR", layout::float32, 1};
+inline constexpr BinaryPlan::Format vec2_float{"VEC2", layout::float32, 2};
+inline constexpr BinaryPlan::Format vec3_float{"VEC3", layout::float32, 3};
+inline constexpr BinaryPlan::Format vec4_float{"VEC4", layout::float32, 4};
+inline constexpr BinaryPlan::Format vec4_unorm8{"VEC4", layout::unsigned_byte, 4, true};
+inline constexpr BinaryPlan::Format vec4_unorm16{"VEC4", layout::unsigned_short, 4, true};
+
+/// Throws UsageError if the layer, its contents or the quality has a defect().
+template <class T>
+void require_sound(const T& part) {
+  if (const auto reason = defect(part)) throw UsageError("the scene cannot be written: " + *reason);
+}
+
 /// The JSON of everything except the version and the layers. Appends one sentence to `losses` for
 /// each text that JSON cannot store. Throws UsageError as write_tureen_glb does.
 json info_json(const Scene& scene, std::vector<std::string>& losses);

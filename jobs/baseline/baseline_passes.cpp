@@ -6,7 +6,6 @@
 #include "jobs/baseline/baseline_passes.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <glm/matrix.hpp>
 
 #include "base/error.hpp"

@@ -25,9 +25,9 @@ RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& p
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   const auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
   if (!texture || !texture->mlp)
-    throw UsageError(std::string("the baseline supports lattice textures with a color MLP; "
-                                 "this soup has ") +
-                     appearance_name(soup.appearance));
+    throw UsageError(
+        std::string("the baseline supports lattice textures with a color MLP; this soup has ") +
+        appearance_name(soup.appearance));
   if (preferences.shading_stage == ShadingStage::compute)
     throw UsageError("the baseline does not support --shading compute");
   const std::uint32_t level = texture->patches.empty() ? 0 : texture->patches.front().level;
@@ -65,10 +65,9 @@ RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& prefe
   plan.quality = preferences.quality;
   plan.quality.splat_order = Quality::SplatOrder::center;  // its own
   plan.specialise = preferences.specialise;
-  plan.description = {
-      "baseline: an instanced quad a splat (" + layer.kernel +
-      "), everything of a splat computed at its four vertices, blended from far to near in 8 bits, "
-      "in the order of 16-bit depths"};
+  plan.description = {"baseline: an instanced quad a splat (" + layer.kernel +
+                      "), everything of a splat computed at its four vertices, blended from far to "
+                      "near in 8 bits, in the order of 16-bit depths"};
   for (std::string& sentence : describe_sampling(preferences.quality))
     plan.description.push_back(std::move(sentence));
   if (preferences.splat_blending != SplatBlending::automatic)

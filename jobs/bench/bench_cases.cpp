@@ -1,10 +1,10 @@
 #include "jobs/bench/bench_cases.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 
 #include "base/error.hpp"
+#include "base/steady_seconds.hpp"
 #include "jobs/bench/order_time.hpp"
 #include "runtime/passes/copy_ceiling.hpp"
 #include "runtime/plan/plan_description.hpp"
@@ -27,10 +27,7 @@ constexpr const char* copy = "copy";
 const std::vector<std::string> all_names{ours,    in_fragments, as_compute, by_raster, in_tiles,
                                          generic, "baseline",   baseline,   triangles, copy};
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
+double milliseconds_since(double start) { return 1000 * (steady_seconds() - start); }
 
 /// A renderer with one plan, as in `tureen render`.
 class RendererCase final : public BenchCase {
@@ -40,13 +37,13 @@ class RendererCase final : public BenchCase {
       : context_(context), scene_(scene), pipeline_(pipeline) {
     configuration.name = name;
     const DeviceLimits limits = device_limits(context.capabilities());
-    auto start = std::chrono::steady_clock::now();
+    double start = steady_seconds();
     const std::vector<PlacedLayer> layers = placed_layers(scene);
     const bool is_baseline = pipeline == PipelineKind::baseline;
     RenderPlan plan = is_baseline ? make_baseline_plan(only_layer(scene).primitives, preferences)
                                   : make_plan(layers, limits, preferences);
     configuration.plan_ms = milliseconds_since(start);
-    start = std::chrono::steady_clock::now();
+    start = steady_seconds();
     PreparedScene prepared = is_baseline ? prepare_baseline(layers.front(), limits, std::move(plan))
                                          : prepare_scene(layers, limits, std::move(plan));
     const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
@@ -84,7 +81,7 @@ class CopyCase final : public BenchCase {
  public:
   explicit CopyCase(const gl::Context& context) {
     configuration.name = copy;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = steady_seconds();
     copy_ = std::make_unique<CopyCeiling>(context);
     copy_->finish();
     configuration.upload_ms = milliseconds_since(start);

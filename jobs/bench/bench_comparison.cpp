@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "base/decimal_text.hpp"
-
 namespace tureen {
 
 namespace {

@@ -123,7 +123,7 @@ BenchMeasurement measurement(const JsonView& view) {
           .frame_ms = frame_statistics(view),
           .fps = view["fps"].number(),
           .aa_spread = not_negative(view["aa_spread"]),
-          .stable = boolean(view["stable"]),
+          .stable = view["stable"].boolean(),
           .passes_ms = passes(view["passes_ms"]),
           .passes_gap = passes_gap(view),
           .passes_reason = view["passes_reason"].text(),
@@ -183,7 +183,7 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
   BenchProgram program = program_of(root["program"]);
   // Results of earlier versions have only the option.
   const std::optional<JsonView> known = protocol.find("processor_time");
-  const bool processor_time = known ? boolean(*known)
+  const bool processor_time = known ? known->boolean()
                                     : std::count(program.arguments.begin(), program.arguments.end(),
                                                  "--processor-time") > 0;
   const std::optional<JsonView> peak = root.find("peak_mib");

@@ -1,8 +1,9 @@
 #include "jobs/bench/bench_measure.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
+
+#include "base/steady_seconds.hpp"
 
 namespace tureen {
 
@@ -68,7 +69,7 @@ std::vector<BenchMeasurement> measure_views(const BenchCases& cases, const Bench
 
 std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector<BenchViews>& views,
                                       const MeasureOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steady_seconds();
   const double count = double(views.size());
   std::vector<BenchMeasurement> measurements;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -82,8 +83,8 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
     };
     if (options.max_seconds > 0) {
       // Views that need less than their share leave time to later views, which have larger images.
-      const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-      const double left = (options.max_seconds - used.count()) / (count - double(i));
+      const double used = steady_seconds() - start;
+      const double left = (options.max_seconds - used) / (count - double(i));
       benchmark.max_seconds = std::max(left, 1e-3);  // one round is always measured
       benchmark.max_warm_up_seconds = std::min(benchmark.max_warm_up_seconds, left / 8);
     }

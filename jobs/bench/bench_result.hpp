@@ -117,9 +117,6 @@ struct BenchResult {
   std::optional<double> peak_mib = {};
 };
 
-/// The configuration of this name, or null.
-const BenchConfiguration* find_configuration(const BenchResult& result, const std::string& name);
-
 /// One set of cameras at one size.
 struct BenchViews {
   std::string camera_set;  // the name in the result: "hemisphere:8", ..

@@ -34,11 +34,6 @@ inline int count_of(const JsonView& view) {
   return count;
 }
 
-inline bool boolean(const JsonView& view) {
-  if (!view.value().is_boolean()) view.fail("expected true or false");
-  return view.value().get<bool>();
-}
-
 /// Calls read() for every element.
 template <class Read>
 auto list(const JsonView& view, Read read) {

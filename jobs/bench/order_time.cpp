@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <limits>
 #include <vector>
 
+#include "base/steady_seconds.hpp"
 #include "jobs/baseline/splat_baseline_order.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/splats/ordered_splats.hpp"
 
 namespace tureen {
-
-namespace {
-
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 std::optional<double> order_ms(const Scene& scene, PipelineKind pipeline,
                                std::span<const Camera> cameras,

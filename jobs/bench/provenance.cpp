@@ -67,7 +67,7 @@ BenchDevice device_of(const JsonView& view) {
           .renderer = text_within(view["renderer"], longest_text),
           .vendor = text_within(view["vendor"], longest_text),
           .version = text_within(view["version"], longest_text),
-          .software = boolean(view["software"])};
+          .software = view["software"].boolean()};
 }
 
 }  // namespace tureen::results

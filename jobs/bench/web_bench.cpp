@@ -105,12 +105,14 @@ void add_measurements(const JsonView& view, BenchResult& result) {
     const JsonView benchmark_case = cases.at(i);
     BenchMeasurement measurement = shared;
     measurement.configuration = benchmark_case["configuration"].text();
-    if (!find_configuration(result, measurement.configuration))
+    if (std::none_of(
+            result.configurations.begin(), result.configurations.end(),
+            [&](const BenchConfiguration& each) { return each.name == measurement.configuration; }))
       benchmark_case["configuration"].fail("is not a configuration of the scene");
     for (std::size_t k = begin; k < result.measurements.size(); ++k)
       if (result.measurements[k].configuration == measurement.configuration)
         benchmark_case["configuration"].fail("appears twice");
-    measurement.stable = boolean(benchmark_case["stable"]);
+    measurement.stable = benchmark_case["stable"].boolean();
     measurement.pixels_hash = hash_of(benchmark_case["pixels_hash"]);
     const FrameTimes times = frame_times(benchmark_case["frame_ms"], std::size_t(shared.views),
                                          std::size_t(shared.frame_ms.rounds));
@@ -140,7 +142,7 @@ BenchResult result_of_page(const JsonView& root) {
       .renderer = device["renderer"].text(),
       .vendor = device["vendor"].text(),
       .version = device["gl_version"].text(),
-      .software = boolean(device["software"])};
+      .software = device["software"].boolean()};
   result.protocol.clock = root["protocol"]["clock"].text();
   result.notes.push_back("measured in a browser: " + page["address"].text());
   return result;

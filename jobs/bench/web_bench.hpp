@@ -2,7 +2,6 @@
 // statistics. docs/json.md explains the keys.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "base/input.hpp"

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"

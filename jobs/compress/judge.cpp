@@ -69,11 +69,10 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
   if (photographs_.empty()) return;
   model_db_ = model_db(errors);
   if (model_db_ < hopeless_db)
-    throw UsageError(
-        fmt::format("the PSNR of the scene against these photographs is only {:.2f} dB: they most "
-                    "likely show another scene",
-                    model_db_),
-        "omit --photographs to estimate the loss");
+    throw UsageError(fmt::format("the PSNR of the scene against these photographs is only {:.2f} "
+                                 "dB: they most likely show another scene",
+                                 model_db_),
+                     "omit --photographs to estimate the loss");
 }
 
 CompressLoss CompressJudge::loss(const TriangleSoup& soup) const {

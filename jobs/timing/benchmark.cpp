@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
-#include <ctime>
+
+#include "base/steady_seconds.hpp"
 
 namespace tureen {
 
 namespace {
-
-double steady_seconds() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
 
 bool is_stable(const std::vector<double>& ms, double stable_within) {
   if (ms.size() < 3) return false;

@@ -45,12 +45,6 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-double geometric_mean(std::span<const double> values) {
-  std::vector<double> logarithms;
-  for (const double value : values) logarithms.push_back(std::log(value));
-  return std::exp(mean(logarithms));
-}
-
 double percentile(std::span<const double> values, double percent) {
   assert(!values.empty() && percent > 0 && percent <= 100);
   return sorted(values)[rank(values.size(), percent)];
@@ -112,17 +106,8 @@ Verdict verdict_on(const FrameStatistics& a, const FrameStatistics& b, double aa
 }
 
 const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::equal:
-      return "equal";
-    case Verdict::faster:
-      return "faster";
-    case Verdict::slower:
-      return "slower";
-  }
-  return "";
+  constexpr const char* names[] = {"unknown", "equal", "faster", "slower"};
+  return names[std::size_t(verdict)];
 }
 
 }  // namespace tureen

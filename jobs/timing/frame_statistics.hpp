@@ -13,10 +13,6 @@ double median(std::span<const double> values);
 
 double mean(std::span<const double> values);
 
-/// The exponential of the mean of the logarithms, the mean for ratios: the mean of inverse ratios
-/// is its inverse. All values > 0; asserts at least one.
-double geometric_mean(std::span<const double> values);
-
 /// The nearest-rank percentile: the smallest value v such that at least `percent` % of all values
 /// are at most v. 0 < percent <= 100.
 double percentile(std::span<const double> values, double percent);

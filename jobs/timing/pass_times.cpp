@@ -1,9 +1,9 @@
 #include "jobs/timing/pass_times.hpp"
 
 #include <cassert>
-#include <chrono>
 #include <cstdio>
 
+#include "base/steady_seconds.hpp"
 #include "runtime/gl/timer_query.hpp"
 
 namespace tureen {
@@ -13,13 +13,12 @@ namespace {
 /// Mean milliseconds a frame, from an idle device to an idle device.
 double wall_ms(Renderer& renderer, std::span<const Camera> cameras, int repeats) {
   renderer.finish();
-  const auto start = std::chrono::steady_clock::now();
+  const double start = steady_seconds();
   for (const Camera& camera : cameras) {
     for (int i = 0; i < repeats; ++i) renderer.draw({camera});
     renderer.finish();
   }
-  const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start;
-  return all.count() / (double(repeats) * double(cameras.size()));
+  return 1000 * (steady_seconds() - start) / (double(repeats) * double(cameras.size()));
 }
 
 }  // namespace
@@ -36,18 +35,16 @@ PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wa
   if (sum > 0 && sum <= wall_ms * tolerance + rounding_ms * double(passes.size())) {
     if (sum >= wall_ms * complete)
       return {.ms = std::move(passes), .gap = {}, .reason = {}, .gpu_ms = sum};
-    std::snprintf(
-        text, sizeof text,
-        "the passes take %.3f ms of frames that take %.3f ms by the wall clock: the rest is work "
-        "of the processor, or the device's timers miss a part",
-        sum, wall_ms);
+    std::snprintf(text, sizeof text,
+                  "the passes take %.3f ms of frames that take %.3f ms by the wall clock: the rest "
+                  "is work of the processor, or the device's timers miss a part",
+                  sum, wall_ms);
     return {.ms = std::move(passes), .gap = PassTimesGap::partial, .reason = text, .gpu_ms = sum};
   }
-  std::snprintf(
-      text, sizeof text,
-      "the device's timers report %.3f ms for frames that take %.3f ms by the wall clock: "
-      "only the processor's clock is used",
-      sum, wall_ms);
+  std::snprintf(text, sizeof text,
+                "the device's timers report %.3f ms for frames that take %.3f ms by the wall "
+                "clock: only the processor's clock is used",
+                sum, wall_ms);
   return {.ms = {}, .gap = PassTimesGap::exceeds_wall_clock, .reason = text, .gpu_ms = {}};
 }
 

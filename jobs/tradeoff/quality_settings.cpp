@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jobs/visibility/visibility_count.hpp"
+#include "scene/edit/lattice_refine.hpp"
 
 namespace tureen::tradeoff {
 
@@ -18,10 +19,8 @@ std::string percent_text(double fraction) {
 }
 
 QualitySetting lattice_level(const LatticeTexture& texture) {
-  int finest = 0;
-  for (const LatticePatch& patch : texture.patches) finest = std::max(finest, int(patch.level));
   QualitySetting setting{"lattice_level", "lattice level", {}};
-  for (int level = finest; level >= 0; --level)
+  for (int level = highest_level(texture); level >= 0; --level)
     setting.values.push_back({std::to_string(level), "lattice level " + std::to_string(level),
                               [level](Applied& applied) { applied.edits.lattice_level = level; }});
   setting.values.front().apply = unchanged;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "oracle/oracle_images.hpp"
-#include "runtime/gl/api.hpp"
 
 namespace tureen::tradeoff {
 

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <iterator>
 
 #include "jobs/timing/benchmark.hpp"
@@ -130,25 +128,11 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
 }  // namespace
 
 const char* name_of(StudyStage stage) {
-  switch (stage) {
-    case StudyStage::device_references:
-      return "reference images";
-    case StudyStage::exact_references:
-      return "exact reference images";
-    case StudyStage::visibility:
-      return "visible primitives";
-    case StudyStage::settings:
-      return "one setting at a time";
-    case StudyStage::combined_settings:
-      return "combined settings";
-    case StudyStage::antialiased_references:
-      return "antialiased reference images";
-    case StudyStage::antialiasing:
-      return "antialiasing";
-    case StudyStage::combined_antialiasing:
-      return "combined antialiasing";
-  }
-  return "";
+  constexpr const char* names[] = {"reference images",   "exact reference images",
+                                   "visible primitives", "one setting at a time",
+                                   "combined settings",  "antialiased reference images",
+                                   "antialiasing",       "combined antialiasing"};
+  return names[std::size_t(stage)];
 }
 
 Study run_study(const StudyScene& scene, const StudyOptions& options) {

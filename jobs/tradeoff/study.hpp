@@ -10,7 +10,6 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "jobs/tradeoff/experiment.hpp"

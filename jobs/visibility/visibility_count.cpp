@@ -7,7 +7,6 @@
 
 #include "oracle/hits.hpp"
 #include "runtime/renderer.hpp"
-#include "scene/edit/keep_faces.hpp"
 #include "scene/lattice.hpp"
 #include "scene/scene.hpp"
 
@@ -94,11 +93,6 @@ std::vector<std::uint8_t> most_visible(std::span<const std::uint64_t> pixels, do
   std::vector<std::uint8_t> keeps(pixels.size(), 0);
   for (std::size_t i = 0; i < count; ++i) keeps[order[i]] = 1;
   return keeps;
-}
-
-TriangleSoup keep_most_visible(const TriangleSoup& soup, std::span<const std::uint64_t> pixels,
-                               double fraction) {
-  return keep_faces(soup, most_visible(pixels, fraction));
 }
 
 }  // namespace tureen

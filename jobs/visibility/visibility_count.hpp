@@ -44,8 +44,4 @@ std::vector<float> count_visible_texels(const gl::Context& context, const Triang
 /// index. A larger fraction selects a superset.
 std::vector<std::uint8_t> most_visible(std::span<const std::uint64_t> pixels, double fraction);
 
-/// The soup with only these faces, in their order.
-TriangleSoup keep_most_visible(const TriangleSoup& soup, std::span<const std::uint64_t> pixels,
-                               double fraction);
-
 }  // namespace tureen

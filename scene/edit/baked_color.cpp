@@ -16,19 +16,13 @@ namespace {
 std::vector<bool> texels_that_show(const LatticeTexture& texture) {
   std::vector<bool> shows(texture.texel_count(), false);
   for (const LatticePatch& patch : texture.patches) {
-    const int n = lattice::resolution(int(patch.level));
-    const auto index = [&](int x, int y) { return patch.first_texel + lattice::texel_index(x, y); };
-    const auto cell = [&](std::size_t a, std::size_t b, std::size_t c) {
-      const auto visible = [&](std::size_t texel) {
-        return texture.value(texel, LatticeTexture::features) >= alpha_threshold;
-      };
-      if (visible(a) || visible(b) || visible(c)) shows[a] = shows[b] = shows[c] = true;
+    const auto visible = [&](std::size_t texel) {
+      return texture.value(patch.first_texel + texel, LatticeTexture::features) >= alpha_threshold;
     };
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x + y < n; ++x) {
-        cell(index(x + 1, y), index(x, y + 1), index(x, y));
-        if (x + y + 1 < n) cell(index(x + 1, y), index(x, y + 1), index(x + 1, y + 1));
-      }
+    lattice::for_each_triangle(int(patch.level), [&](std::size_t a, std::size_t b, std::size_t c) {
+      if (visible(a) || visible(b) || visible(c))
+        for (const std::size_t texel : {a, b, c}) shows[patch.first_texel + texel] = true;
+    });
   }
   return shows;
 }

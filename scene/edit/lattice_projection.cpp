@@ -1,7 +1,6 @@
 #include "scene/edit/lattice_projection.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -12,18 +11,7 @@ namespace tureen {
 
 namespace {
 
-/// Calls visit(a, b, c) with the texels at the corners of each of the lattice's 4^level triangles.
-template <class Visit>
-void for_each_triangle(int level, const Visit& visit) {
-  using lattice::texel_index;
-  const int n = lattice::resolution(level);
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x + y < n; ++x) {
-      visit(texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x, y));
-      if (x + y + 1 < n)
-        visit(texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x + 1, y + 1));
-    }
-}
+using lattice::for_each_triangle;
 
 /// The integral of u v, both linear on a triangle, is area / 12 (sum_k u_k v_k + sum_k u_k sum_k
 /// v_k) with corners k. All triangles of a lattice have equal area, so area / 12 is omitted. The

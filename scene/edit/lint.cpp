@@ -1,11 +1,9 @@
 #include "scene/edit/lint.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "scene/edit/lint_findings.hpp"
 #include "scene/finite.hpp"
@@ -144,80 +142,41 @@ struct NeverVisible {
 
 }  // namespace
 
-const char* name_of(LintFinding::Id id) {
-  switch (id) {
-    case LintFinding::Id::non_finite_vertices:
-      return "non_finite_vertices";
-    case LintFinding::Id::degenerate_faces:
-      return "degenerate_faces";
-    case LintFinding::Id::duplicate_faces:
-      return "duplicate_faces";
-    case LintFinding::Id::never_visible_faces:
-      return "never_visible_faces";
-    case LintFinding::Id::unused_vertices:
-      return "unused_vertices";
-    case LintFinding::Id::far_from_origin:
-      return "far_from_origin";
-    case LintFinding::Id::transparent_splats:
-      return "transparent_splats";
-    case LintFinding::Id::collapsed_splats:
-      return "collapsed_splats";
-    case LintFinding::Id::needle_splats:
-      return "needle_splats";
-    case LintFinding::Id::outlying_splats:
-      return "outlying_splats";
-    case LintFinding::Id::duplicate_splats:
-      return "duplicate_splats";
-    case LintFinding::Id::zero_harmonics:
-      return "zero_harmonics";
-  }
-  return "";
-}
-
 namespace {
 
-/// "vertices", one of them, and what is said of one and of several.
+/// Of a finding, by its id: its name, "vertices", one of them, and what is said of one and of
+/// several.
 struct Wording {
-  const char *one, *many, *of_one, *of_many;
+  const char *name, *one, *many, *of_one, *of_many;
 };
 
-Wording wording_of(LintFinding::Id id) {
-  switch (id) {
-    case LintFinding::Id::non_finite_vertices:
-      return {"vertex", "vertices", "is not finite (NaN or infinity)",
-              "are not finite (NaN or infinity)"};
-    case LintFinding::Id::degenerate_faces:
-      return {"face", "faces", "is degenerate (zero area)", "are degenerate (zero area)"};
-    case LintFinding::Id::duplicate_faces:
-      return {"face", "faces", "repeats the corners of an earlier face",
-              "repeat the corners of an earlier face"};
-    case LintFinding::Id::never_visible_faces:
-      return {"face", "faces", "is transparent everywhere", "are transparent everywhere"};
-    case LintFinding::Id::unused_vertices:
-      return {"vertex", "vertices", "is used by no face", "are used by no face"};
-    case LintFinding::Id::transparent_splats:
-      return {"splat", "splats", "is too transparent to be drawn",
-              "are too transparent to be drawn"};
-    case LintFinding::Id::collapsed_splats:
-      return {"splat", "splats", "has a size of 0 along an axis", "have a size of 0 along an axis"};
-    case LintFinding::Id::needle_splats:
-      return {"splat", "splats", "is over 2000 times as long as wide",
-              "are over 2000 times as long as wide"};
-    case LintFinding::Id::outlying_splats:
-      return {"splat", "splats", "is far from the others, or larger than their extent",
-              "are far from the others, or larger than their extent"};
-    case LintFinding::Id::duplicate_splats:
-      return {"splat", "splats", "repeats an earlier splat", "repeat an earlier splat"};
-    case LintFinding::Id::zero_harmonics:
-      return {"coefficient", "harmonics coefficients", "is 0 for all splats",
-              "are 0 for all splats"};
-    case LintFinding::Id::far_from_origin:
-      break;
-  }
-  return {};
-}
+constexpr Wording wordings[] = {
+    {"non_finite_vertices", "vertex", "vertices", "is not finite (NaN or infinity)",
+     "are not finite (NaN or infinity)"},
+    {"degenerate_faces", "face", "faces", "is degenerate (zero area)",
+     "are degenerate (zero area)"},
+    {"duplicate_faces", "face", "faces", "repeats the corners of an earlier face",
+     "repeat the corners of an earlier face"},
+    {"never_visible_faces", "face", "faces", "is transparent everywhere",
+     "are transparent everywhere"},
+    {"unused_vertices", "vertex", "vertices", "is used by no face", "are used by no face"},
+    {"far_from_origin", "", "", "", ""},  // describe() has a sentence for it
+    {"transparent_splats", "splat", "splats", "is too transparent to be drawn",
+     "are too transparent to be drawn"},
+    {"collapsed_splats", "splat", "splats", "has a size of 0 along an axis",
+     "have a size of 0 along an axis"},
+    {"needle_splats", "splat", "splats", "is over 2000 times as long as wide",
+     "are over 2000 times as long as wide"},
+    {"outlying_splats", "splat", "splats", "is far from the others, or larger than their extent",
+     "are far from the others, or larger than their extent"},
+    {"duplicate_splats", "splat", "splats", "repeats an earlier splat", "repeat an earlier splat"},
+    {"zero_harmonics", "coefficient", "harmonics coefficients", "is 0 for all splats",
+     "are 0 for all splats"},
+};
 
 }  // namespace
+
+const char* name_of(LintFinding::Id id) { return wordings[std::size_t(id)].name; }
 
 std::string describe(const LintFinding& finding) {
   if (finding.id == LintFinding::Id::far_from_origin)
@@ -225,7 +184,7 @@ std::string describe(const LintFinding& finding) {
            std::to_string(finding.extent_over_offset) +
            " of the largest coordinate (below 0.0002); store them relative to an origin";
   const bool single = finding.count == 1;
-  const Wording words = wording_of(finding.id);
+  const Wording& words = wordings[std::size_t(finding.id)];
   std::string text = std::to_string(finding.count) + " of " + std::to_string(finding.of) + " " +
                      words.many + " " + (single ? words.of_one : words.of_many) + ": " +
                      (single ? words.one : words.many);

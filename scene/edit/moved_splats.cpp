@@ -7,7 +7,6 @@
 #include <numbers>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "scene/spherical_harmonics.hpp"
 

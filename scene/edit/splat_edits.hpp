@@ -2,7 +2,6 @@
 // error.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>

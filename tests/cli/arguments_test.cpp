@@ -21,7 +21,7 @@ struct Program {
         "--version", [] { return "1"; }, "");
     Command draw = program.add_command("draw", "");
     draw.add_option("SCENE", scene, "the scene").required();
-    draw.add_option("-o,--output", output, "").value_name("FILE");
+    draw.add_option("-o,--output FILE", output, "");
     draw.add_option("--lines", lines, "");
     draw.add_option("--cases", cases, "").split_at_commas().single_argument();
     const Option width = draw.add_option("--width", width_, "").check(between(1, 100));

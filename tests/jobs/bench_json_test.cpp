@@ -231,13 +231,6 @@ TEST(BenchResult, NamesWhatIsWrong) {
   EXPECT_THAT(refusal(document.dump()), wrong("measurements[0].frame_ms.p99"));
 }
 
-TEST(BenchResult, FindsAConfiguration) {
-  const BenchResult result = example();
-  ASSERT_TRUE(find_configuration(result, "published"));
-  EXPECT_EQ(find_configuration(result, "published")->upload_ms, 6);
-  EXPECT_FALSE(find_configuration(result, "publish"));
-}
-
 TEST(Machine, IsKnownAndTakesMemory) {
   const Machine machine = this_machine();
   EXPECT_GE(machine.cores, 1);

@@ -15,15 +15,6 @@ TEST(FrameStatistics, MedianOfOddAndEvenCounts) {
   EXPECT_EQ(median(std::vector<double>{9, 1, 5, 7}), 6);
 }
 
-TEST(FrameStatistics, TheGeometricMeanIsThatOfTheInverseInverted) {
-  constexpr double rounding = 1e-14;  // of logarithms of about 1, so also relative
-  EXPECT_NEAR(geometric_mean(std::vector<double>{2, 8}), 4, rounding);
-  EXPECT_NEAR(geometric_mean(std::vector<double>{1 / 2.0, 1 / 8.0}), 1 / 4.0, rounding);
-  EXPECT_NEAR(geometric_mean(std::vector<double>{7}), 7, rounding);
-  // The products would overflow; logarithms of 690 have steps of 1e-13.
-  EXPECT_NEAR(geometric_mean(std::vector<double>{1e300, 1e300, 1e-300}) / 1e100, 1, 1e-12);
-}
-
 TEST(FrameStatistics, PercentilesAreNearestRanks) {
   std::vector<double> values(20);
   std::iota(values.rbegin(), values.rend(), 1);  // 20 .. 1

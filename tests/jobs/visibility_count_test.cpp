@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "image/metrics.hpp"
+#include "scene/edit/keep_faces.hpp"
 #include "scene/lattice.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/random_soups.hpp"
@@ -137,7 +138,8 @@ TEST(VisibilityCount, OmittingWhatIsNotSeenChangesNothing) {
   std::size_t seen = 0;
   for (const std::uint64_t count : pixels) seen += count > 0 ? 1 : 0;
   ASSERT_LT(seen, pixels.size());
-  const TriangleSoup fewer = keep_most_visible(soup, pixels, double(seen) / double(pixels.size()));
+  const TriangleSoup fewer =
+      keep_faces(soup, most_visible(pixels, double(seen) / double(pixels.size())));
   EXPECT_EQ(fewer.triangles.size(), seen);
   for (const Camera& view : views) {
     const auto all = test::draw(context(), soup, glm::dvec3(0), view);

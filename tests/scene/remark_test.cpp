@@ -11,12 +11,23 @@ namespace remark_test {
 
 using testing::ElementsAre;
 
-TEST(Remark, HasItsFieldsByName) {
+TEST(Remark, IsEqualByItsFields) {
   const Remark remark{&remarks::splats_limited, {{"kept", 2u}, {"all", 7u}}};
-  EXPECT_EQ(remark.count("kept"), 2u);
-  EXPECT_EQ(remark.text("all"), "7");
   EXPECT_EQ(describe(remark), "2 of 7 splats were read: those with the largest opacity times area");
   EXPECT_NE(remark, (Remark{&remarks::splats_limited, {{"kept", 2u}, {"all", 8u}}}));
+}
+
+TEST(Remark, HasWordsByCount) {
+  constexpr RemarkKind kind{"kind", RemarkKind::Severity::note, "{n} {n:face|faces}: {list:and}"};
+  using Counts = std::vector<std::uint64_t>;
+  EXPECT_EQ(describe({&kind, {{"n", 1}, {"list", Counts{4}}}}), "1 face: 4");
+  EXPECT_EQ(describe({&kind, {{"n", 0}, {"list", Counts{4, 5}}}}), "0 faces: 4 and 5");
+  EXPECT_EQ(describe({&kind, {{"n", 1234}, {"list", Counts{4, 5, 6}}}}), "1234 faces: 4, 5 and 6");
+}
+
+TEST(Remark, KeepsTheBracesOfAFieldThatItLacks) {
+  constexpr RemarkKind kind{"kind", RemarkKind::Severity::note, "{m} and {n:.2}"};
+  EXPECT_EQ(describe({&kind, {{"n", 0.125}}}), "{m} and 0.12");
 }
 
 TEST(Remark, RoundsNumbers) {
@@ -45,8 +56,8 @@ TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
 }
 
 TEST(Remark, LeavesWithTheAssumptionThatAChoiceReplaces) {
-  constexpr RemarkKind assumed{"up_assumed", RemarkKind::Severity::assumption,
-                               [](const Remark&) -> std::string { return "z is assumed"; }, "up"};
+  constexpr RemarkKind assumed{"up_assumed", RemarkKind::Severity::assumption, "z is assumed",
+                               "up"};
   SceneInfo info;
   info.remarks = {{&assumed}, {&remarks::screen_interpolation_dropped}};
   choose_up(info, {0, 1, 0});

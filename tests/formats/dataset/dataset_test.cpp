@@ -276,7 +276,7 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
   const Photograph& photograph = whole.train[0];
   EXPECT_FALSE(whole.has_alpha);
   EXPECT_THAT(whole.remarks,
-              ::testing::Contains(::testing::Field(&Remark::kind, &remarks::lens_undone)));
+              ::testing::Contains(::testing::Field(&Remark::kind, &remarks::lens_undone_cropped)));
   for (const glm::u8vec4& pixel : photograph.image.pixels)
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
   // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing. At the
@@ -322,7 +322,7 @@ TEST(Dataset, FisheyesBecomePinholes) {
     const double degrees = glm::degrees(2 * std::atan(40 / focal));
     ASSERT_EQ(dataset.remarks.size(), 2u);
     EXPECT_EQ(dataset.remarks[1].kind, &remarks::fisheye_undone);
-    EXPECT_NEAR(dataset.remarks[1].number("degrees"), degrees, 1e-3);
+    EXPECT_NEAR(std::get<double>(dataset.remarks[1].fields[0].value), degrees, 1e-3);
   }
   std::filesystem::remove(folder / "transforms.json");
   ColmapFixture model = upright_colmap(2);
@@ -700,8 +700,8 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
   EXPECT_EQ(dataset.train.size(), 88u);
   EXPECT_EQ(dataset.test.size(), 13u);
   ASSERT_EQ(dataset.points.size(), 6885u);
-  EXPECT_THAT(dataset.remarks,
-              Not(::testing::Contains(::testing::Field(&Remark::kind, &remarks::lens_undone))));
+  EXPECT_THAT(described(dataset.remarks),
+              Not(::testing::Contains(::testing::StartsWith("Lens distortion was removed"))));
   // Structure from motion took the colours of the points from these images. Some points are hidden
   // in some views. So the pixel at a point is only closer to its colour than to the colours of
   // other points.
