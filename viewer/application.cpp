@@ -217,7 +217,7 @@ void Application::frame() {
     for (Worker* worker : {&worker_, &writer_})
       if (worker->collect()) frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   } catch (const std::exception& error) {
-    state_.messages.error("The operation failed", error.what(), now);
+    state_.error("The operation failed", error.what());
     frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   }
   state_.busy = worker_.status();
@@ -350,7 +350,7 @@ void Application::draw_image() {
     draw_scene();
   } catch (const DeviceLimitError& error) {
     // Most likely the window is too large for this number of samples a pixel.
-    state_.messages.error("The image cannot be drawn", error.reason(), state_.now);
+    state_.error("The image cannot be drawn", error.reason());
     image_is_current_ = false;
     DrawingChoice choice = state_.stage->choice;
     Quality quality = quality_of(choice, *state_.stage->scene);
