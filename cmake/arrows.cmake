@@ -76,7 +76,7 @@ set(arrows
   "viewer/gui: base image scene runtime/gl runtime/passes viewer/input"
   "viewer/files: base scene formats/* trainer/common viewer/input viewer/gui"
   "viewer: base image scene camera formats/* runtime/* trainer/common jobs/baseline jobs/timing viewer/*"
-  "viewer/panels: base image scene camera formats/* runtime/plan trainer/common viewer viewer/files viewer/gui viewer/input"
+  "viewer/panels: base image scene camera formats/* runtime/plan trainer/common jobs/timing viewer viewer/files viewer/gui viewer/input"
 
   "web/engine: base image scene splatting/* camera formats/* runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing"
   "web/viewer:"

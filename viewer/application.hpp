@@ -182,7 +182,7 @@ class Application {
   FrameClock frame_clock_;
   NavigationInput navigation_;
   DoubleClick double_click_;
-  std::optional<Recorder> recorder_;
+  std::optional<Session> recorded_;
   std::vector<std::filesystem::path> promised_;  // paths of images that are being written
   std::vector<Event> pending_;
   std::vector<FileWatch> watches_;  // of the scene's files
