@@ -112,14 +112,7 @@ Application::Application(ApplicationOptions options)
 
 Application::~Application() = default;
 
-double Application::clock() const {
-  if (replay_) return replay_->now();
-  return seconds_since_start();
-}
-
-double Application::seconds_since_start() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
+double Application::clock() const { return replay_ ? replay_->now() : seconds_since_start(); }
 
 void Application::run() {
   try {

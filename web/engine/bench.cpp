@@ -1,11 +1,11 @@
 // The commands of bench.html: several scenes, and frames timed by the protocol of `tureen bench`
 // (jobs/timing/benchmark.hpp), a few samples at a time.
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/steady_seconds.hpp"
 #include "camera/camera_path.hpp"
 #include "camera/camera_sets.hpp"
 #include "formats/dataset/camera_file.hpp"
@@ -21,10 +21,7 @@ namespace tureen::web {
 
 namespace {
 
-double milliseconds() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(now).count();
-}
+double milliseconds() { return 1e3 * steady_seconds(); }
 
 struct BenchScene {
   Renderer tureen;
