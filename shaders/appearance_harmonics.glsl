@@ -2,22 +2,14 @@
 // each corner, interpolated (1). VIEW_SIGN is +1 for surface-to-eye coefficients, -1 for
 // eye-to-surface ones.
 #include "eye.glsl"
-#include "harmonics.glsl"
-#include "texel_store.glsl"
+#include "harmonics_color.glsl"
 
-uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels an element
 uniform sampler2DArray anchors;       // the point of an element from which d points to the eye
 
 vec3 element_color(uint element) {
   vec3 anchor = texelFetch(anchors, texel_position(element), 0).xyz;
   vec3 to_eye = -((anchor - eye_high) - eye_low);
-  float basis[HARMONICS_COUNT];
-  harmonics_basis(direction_of(VIEW_SIGN * to_eye), basis);
-  vec3 sum = vec3(0.5);
-  for (int i = 0; i < HARMONICS_COUNT; ++i)
-    sum += basis[i] *
-           texelFetch(coefficients, texel_position(element * uint(HARMONICS_COUNT) + uint(i)), 0).rgb;
-  return clamp(sum, 0.0, 1.0);
+  return clamp(harmonics_color(element, direction_of(VIEW_SIGN * to_eye)), 0.0, 1.0);
 }
 
 bool fragment_exists(uint face, vec2 b) { return true; }

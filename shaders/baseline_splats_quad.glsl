@@ -1,17 +1,15 @@
 // What the plain baselines for splats share in the vertex shader: the splat of an instance, its
 // quad's vertex, and its colour, evaluated at each of the quad's four vertices.
 #include "eye.glsl"
-#include "harmonics.glsl"
-#include "texel_store.glsl"
+#include "harmonics_color.glsl"
 
 layout(location = 0) in uint splat;  // of the instance
 
-uniform sampler2DArray kernel;        // three texels a splat
-uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels a splat
-uniform mat3 view_from_layer;         // rotation, perhaps a mirror
-uniform vec2 focal;                   // in pixels
-uniform vec2 principal_point;         // in pixels from the lower left corner of the image
-uniform vec2 half_size;               // of the image, in pixels
+uniform sampler2DArray kernel;  // three texels a splat
+uniform mat3 view_from_layer;   // rotation, perhaps a mirror
+uniform vec2 focal;             // in pixels
+uniform vec2 principal_point;   // in pixels from the lower left corner of the image
+uniform vec2 half_size;         // of the image, in pixels
 uniform float near;
 uniform float min_center_depth;  // SplatProfile::min_center_depth
 
@@ -28,11 +26,5 @@ vec2 quad_corner() { return vec2(gl_VertexID & 1, gl_VertexID >> 1); }
 vec4 at_pixel(vec2 pixel) { return vec4(pixel / half_size - 1.0, 0.0, 1.0); }
 
 vec3 color_towards(vec3 from_eye) {
-  float basis[HARMONICS_COUNT];
-  harmonics_basis(normalize(from_eye), basis);
-  vec3 sum = vec3(0.5);
-  for (int i = 0; i < HARMONICS_COUNT; ++i)
-    sum += basis[i] *
-           texelFetch(coefficients, texel_position(splat * uint(HARMONICS_COUNT) + uint(i)), 0).rgb;
-  return max(sum, 0.0);
+  return max(harmonics_color(splat, normalize(from_eye)), 0.0);
 }

@@ -100,7 +100,7 @@ Application::Application(ApplicationOptions options)
   state_.settings = settings_of(options_);
   state_.images_option = options_.images;
   if (!options_.smooth_at_rest) state_.settings.smooth_at_rest = false;
-  if (!options_.record.empty()) recorder_.emplace(window_.size());
+  if (!options_.record.empty()) recorded_ = Session{.window = window_.size(), .events = {}};
   // A replay does not wait for the screen.
   vsync_ = state_.settings.vsync && !replay_;
   window_.set_vsync(vsync_);
@@ -112,14 +112,7 @@ Application::Application(ApplicationOptions options)
 
 Application::~Application() = default;
 
-double Application::clock() const {
-  if (replay_) return replay_->now();
-  return seconds_since_start();
-}
-
-double Application::seconds_since_start() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
+double Application::clock() const { return replay_ ? replay_->now() : seconds_since_start(); }
 
 void Application::run() {
   try {
@@ -139,7 +132,7 @@ void Application::run() {
 }
 
 void Application::keep_session() {
-  if (recorder_) write_file(options_.record, session_to_json(recorder_->session()));
+  if (recorded_) write_file(options_.record, session_to_json(*recorded_));
 }
 
 void Application::keep_settings() {
@@ -197,7 +190,7 @@ std::vector<Event> Application::gather() {
       quit_ = true;  // other events come from the session
   if (pending_.empty()) {
     if (replay_->finished()) quit_ = true;
-    pending_ = replay_->next(at_rest()).events;
+    pending_ = replay_->next(at_rest());
   }
   return take_frame(pending_);
 }
@@ -206,7 +199,7 @@ void Application::frame() {
   const std::vector<Event> events = gather();
   const double began = seconds_since_start();
   const double now = clock();
-  if (recorder_) recorder_->add(now, events);
+  if (recorded_) recorded_->add(now, events);
   const double step = replay_ ? Replay::frame_seconds : std::min(now - last_, longest_step);
   last_ = state_.now = now;
   if (!events.empty()) frames_wanted_ = frames_after_event;
@@ -217,14 +210,14 @@ void Application::frame() {
     for (Worker* worker : {&worker_, &writer_})
       if (worker->collect()) frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   } catch (const std::exception& error) {
-    state_.messages.error("The operation failed", error.what(), now);
+    state_.error("The operation failed", error.what());
     frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
   // A replay on a slower machine then waits until loading has finished there.
-  if (recorder_ && was_loading && !state_.busy)
-    recorder_->add(now, std::vector<Event>{AwaitRest{}});
+  if (recorded_ && was_loading && !state_.busy)
+    recorded_->add(now, std::vector<Event>{AwaitRest{}});
   if (state_.busy || state_.writing || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
   watch_files();
   if (const bool wanted = state_.settings.vsync && !replay_; wanted != vsync_)
@@ -350,7 +343,7 @@ void Application::draw_image() {
     draw_scene();
   } catch (const DeviceLimitError& error) {
     // Most likely the window is too large for this number of samples a pixel.
-    state_.messages.error("The image cannot be drawn", error.reason(), state_.now);
+    state_.error("The image cannot be drawn", error.reason());
     image_is_current_ = false;
     DrawingChoice choice = state_.stage->choice;
     Quality quality = quality_of(choice, *state_.stage->scene);

@@ -2,7 +2,6 @@
 // while nothing moves.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/steady_seconds.hpp"
 #include "viewer/background_program.hpp"
 #include "viewer/files/file_watch.hpp"
 #include "viewer/files/session.hpp"
@@ -82,7 +82,7 @@ class Application {
   bool refines() const;
   double wait_seconds() const;
   double clock() const;
-  double seconds_since_start() const;
+  double seconds_since_start() const { return steady_seconds() - start_; }
 
   // -- the end
   void keep_session();
@@ -171,7 +171,7 @@ class Application {
   std::filesystem::path image_path(const std::string& extension);
   void save_window_image(const std::string& name);
 
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_ = steady_seconds();
   RunReport report_;
   ApplicationOptions options_;
   std::optional<Replay> replay_;
@@ -182,7 +182,7 @@ class Application {
   FrameClock frame_clock_;
   NavigationInput navigation_;
   DoubleClick double_click_;
-  std::optional<Recorder> recorder_;
+  std::optional<Session> recorded_;
   std::vector<std::filesystem::path> promised_;  // paths of images that are being written
   std::vector<Event> pending_;
   std::vector<FileWatch> watches_;  // of the scene's files

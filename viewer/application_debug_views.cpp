@@ -37,9 +37,8 @@ void Application::prepare_debug_view_when_needed() {
                state_.debug_view.what = DebugView::color;
              else if (!why_not(left, *state_.stage))
                state_.debug_view.what = left;
-             state_.messages.error(
-                 wanted ? "The debug view cannot be shown" : "The colours cannot be shown", reason,
-                 state_.now);
+             state_.error(wanted ? "The debug view cannot be shown" : "The colours cannot be shown",
+                          reason);
            }});
 }
 
@@ -61,7 +60,7 @@ void Application::compare_when_needed() {
   } catch (const DeviceLimitError& error) {
     comparison.show = Comparison::Show::off;
     image_is_current_ = false;  // the targets of the window's image are gone
-    state_.messages.error("The photograph cannot be compared", error.reason(), state_.now);
+    state_.error("The photograph cannot be compared", error.reason());
     return;
   }
   const int ticket = comparison.ticket;
@@ -84,8 +83,7 @@ void Application::compare_when_needed() {
                      },
                  .failed =
                      [this](const std::string& reason) {
-                       state_.messages.error("The photograph cannot be compared", reason,
-                                             state_.now);
+                       state_.error("The photograph cannot be compared", reason);
                      }});
 }
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// Shows a note if there is no scene.
 bool Application::has_scene() {
-  if (!state_.stage) state_.messages.note("There is no scene: open one first.", state_.now);
+  if (!state_.stage) state_.note("There is no scene: open one first.");
   return state_.stage != nullptr;
 }
 
@@ -64,8 +64,7 @@ void Application::carry_out(const TakeImage& request) {
 void Application::carry_out(const SavePage&) {
   if (!has_scene()) return;
   if (!state_.stage->is_as_read()) {
-    state_.messages.note(
-        "Pages cannot store changed layers: reload the scene (F5) or save an image.", state_.now);
+    state_.note("Pages cannot store changed layers: reload the scene (F5) or save an image.");
     return;
   }
   const fs::path page = image_path(".html");
@@ -93,26 +92,25 @@ void Application::carry_out(const WriteAnimation&) {
 
 void Application::write(const fs::path& path, std::function<void(const StageRequest&)> work,
                         const std::string& remark) {
-  writer_.start(
-      {.kind = JobKind::writing,
-       .what = "writing " + short_name(path),
-       .work =
-           [this, path, remark, work = std::move(work),
-            choice = state_.stage->choice](const Worker::Progress& progress) {
-             work({window_.context(), choice, progress});
-             return Worker::Completion([this, path, remark] {
-               state_.messages.note("Saved as " + path.string() + remark + ".", state_.now);
-             });
-           },
-       .failed =
-           [this, path](const std::string& reason) {
-             state_.messages.error(short_name(path) + " was not written", reason, state_.now);
-           }});
+  writer_.start({.kind = JobKind::writing,
+                 .what = "writing " + short_name(path),
+                 .work =
+                     [this, path, remark, work = std::move(work),
+                      choice = state_.stage->choice](const Worker::Progress& progress) {
+                       work({window_.context(), choice, progress});
+                       return Worker::Completion([this, path, remark] {
+                         state_.note("Saved as " + path.string() + remark + ".");
+                       });
+                     },
+                 .failed =
+                     [this, path](const std::string& reason) {
+                       state_.error(short_name(path) + " was not written", reason);
+                     }});
 }
 
 void Application::carry_out(const StopWriting&) {
   writer_.abandon(JobKind::writing);
-  state_.messages.note("Cancelled.", state_.now);
+  state_.note("Cancelled.");
 }
 
 void Application::carry_out(const AddKeyframe&) {
@@ -148,7 +146,7 @@ void Application::carry_out(const SavePath& request) {
   write_file(request.file, path_to_json(state_.animation.path.data()));
   std::error_code unknown;
   const fs::path path = fs::absolute(request.file, unknown).lexically_normal();
-  state_.messages.note("Saved as " + path.string() + ".", state_.now);
+  state_.note("Saved as " + path.string() + ".");
 }
 
 void Application::carry_out(const LoadPath& request) {
@@ -161,8 +159,7 @@ void Application::carry_out(const LoadPath& request) {
 void Application::carry_out(const CopyCommand&) {
   if (!has_scene()) return;
   if (!state_.stage->is_as_read()) {
-    state_.messages.note("No command draws this image: layers were changed. P saves the image.",
-                         state_.now);
+    state_.note("No command draws this image: layers were changed. P saves the image.");
     return;
   }
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
@@ -177,7 +174,7 @@ void Application::carry_out(const CopyCommand&) {
     choice.quality->supersampling = samples_at_rest;
   }
   window_.set_clipboard(render_command(*state_.stage, choice, state_.debug_view, camera, file));
-  state_.messages.note("Copied the command for this image to the clipboard", state_.now);
+  state_.note("Copied the command for this image to the clipboard");
 }
 
 }  // namespace tureen::viewer

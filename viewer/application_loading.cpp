@@ -48,12 +48,11 @@ void Application::load(const Loading& loading) {
 void Application::end_loading(const Reading& files, Relation relation) {
   loading_.reset();
   const bool in_part = shows_preview_of(files);
-  const auto report =
-      in_part || relation == Relation::changed ? &Messages::scene_error : &Messages::opening_error;
+  const auto about =
+      in_part || relation == Relation::changed ? Message::About::scene : Message::About::opening;
   for (const Reading::Failure& each : files.failures)
-    (state_.messages.*report)(
-        short_name(each.path) + (in_part ? " is shown only in part" : " cannot be shown"),
-        each.reason, state_.now);
+    state_.error(short_name(each.path) + (in_part ? " is shown only in part" : " cannot be shown"),
+                 each.reason, about);
 }
 
 /// Runs in the worker's thread; its result runs in the main thread.
@@ -163,8 +162,7 @@ void Application::add(const std::shared_ptr<StageAddition>& addition) {
   const std::vector<std::string> known = named_notes(stage);
   add_to(stage, std::move(*addition));
   for (const std::string& note : window_notes(stage.scene->info))
-    if (std::find(known.begin(), known.end(), note) == known.end())
-      state_.messages.note(note, state_.now);
+    if (std::find(known.begin(), known.end(), note) == known.end()) state_.note(note);
   state_.layer_editing.selected = stage.layers.size() - 1;
   // Jobs for the scene before would show it without the new layers.
   worker_.abandon(JobKind::debug_view);
@@ -199,14 +197,14 @@ void Application::prepare_grown(const StageSource& source) {
        .failed =
            [this, name = short_name(source.files.back().path)](const std::string& reason) {
              loading_.reset();
-             state_.messages.opening_error(name + " cannot be shown", reason, state_.now);
+             state_.error(name + " cannot be shown", reason, Message::About::opening);
            }});
 }
 
 void Application::report_refused(const std::vector<RefusedLayer>& layers) {
   for (const RefusedLayer& layer : layers)
-    state_.messages.scene_error("The layer " + layer.name + " does not fit the device's memory",
-                                describe(layer), state_.now);
+    state_.error("The layer " + layer.name + " does not fit the device's memory", describe(layer),
+                 Message::About::scene);
 }
 
 /// After a change of the files.
@@ -241,9 +239,8 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
   frame_clock_.clear();
   if (same_scene) return;  // only the method of drawing changed
   if (replaces && state_.photographs && !std::exchange(state_.photographs->stay_is_noted, true))
-    state_.messages.note("The photographs of " + short_name(state_.photographs->path) +
-                             " stay open. Close them in Photographs.",
-                         state_.now);
+    state_.note("The photographs of " + short_name(state_.photographs->path) +
+                " stay open. Close them in Photographs.");
   preparing_drawing_ = false;
   report_refused(state_.stage->refused);
   state_.debug_view.features = {};
@@ -264,8 +261,7 @@ void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
     state_.controls.arrive();
   }
   show_files_of_scene();
-  for (const std::string& note : window_notes(state_.stage->scene->info))
-    state_.messages.note(note, state_.now);
+  for (const std::string& note : window_notes(state_.stage->scene->info)) state_.note(note);
 }
 
 }  // namespace tureen::viewer

@@ -39,7 +39,7 @@ void Application::carry_out() {
     try {
       std::visit([this](const auto& each) { carry_out(each); }, request);
     } catch (const std::exception& error) {
-      state_.messages.error("The request failed", error.what(), state_.now);
+      state_.error("The request failed", error.what());
     }
     frames_wanted_ = std::max(frames_wanted_, 2);
   }
@@ -107,15 +107,13 @@ void Application::carry_out(const OpenPhotographs& request) {
                state_.photographs = std::move(photographs);
                state_.recorded = -1;
                state_.comparison = {};
-               state_.messages.note(std::to_string(state_.photographs->list.size()) +
-                                        " photographs: [ and ] select their cameras, C compares.",
-                                    state_.now);
+               state_.note(std::to_string(state_.photographs->list.size()) +
+                           " photographs: [ and ] select their cameras, C compares.");
              });
            },
        .failed =
            [this, path](const std::string& reason) {
-             state_.messages.opening_error(short_name(path) + " cannot be read", reason,
-                                           state_.now);
+             state_.error(short_name(path) + " cannot be read", reason, Message::About::opening);
            }});
 }
 
@@ -137,8 +135,7 @@ void Application::watch_files() {
   for (FileWatch& watch : watches_) changed |= watch.changed();
   if (!changed) return;
   if (!state_.training)  // changes every few seconds
-    state_.messages.note(short_names(state_.stage->paths()) + " has changed: reading it again.",
-                         state_.now);
+    state_.note(short_names(state_.stage->paths()) + " has changed: reading it again.");
   state_.ask(ReloadScene{});
 }
 
@@ -151,8 +148,7 @@ void Application::carry_out(const CancelJob& request) {
     if (state_.stage) state_.wanted = state_.stage->choice;
   }
   const bool in_part = request.kind == JobKind::scene && shows_preview();
-  state_.messages.note(in_part ? "Cancelled. The scene is shown only in part." : "Cancelled.",
-                       state_.now);
+  state_.note(in_part ? "Cancelled. The scene is shown only in part." : "Cancelled.");
 }
 
 void Application::carry_out(const ChooseDrawing& request) {
@@ -178,8 +174,7 @@ void Application::carry_out(const ChooseDrawing& request) {
                      [this](const std::string& reason) {
                        preparing_drawing_ = false;
                        if (state_.stage) state_.wanted = state_.stage->choice;
-                       state_.messages.error("The drawing options cannot be applied", reason,
-                                             state_.now);
+                       state_.error("The drawing options cannot be applied", reason);
                      }});
 }
 

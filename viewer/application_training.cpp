@@ -24,8 +24,7 @@ void Application::carry_out(const StartTraining& request) {
                                    .start = request.start,
                                    .choice = request.choice,
                                    .scene_before = scene_before};
-  state_.messages.note("The training has started. Another window will show its progress.",
-                       state_.now);
+  state_.note("The training has started. Another window will show its progress.");
 }
 
 void Application::carry_out(const StopTraining&) {
@@ -45,7 +44,7 @@ void Application::carry_out(const CopyTrainingCommand&) {
       started && started->dataset == dataset
           ? training_arguments(dataset, started->scene, started->start, started->choice)
           : training_arguments(dataset, new_trained_scene(dataset))));
-  state_.messages.note("Copied the training command to the clipboard.", state_.now);
+  state_.note("Copied the training command to the clipboard.");
 }
 
 void Application::watch_training_program() {
@@ -61,10 +60,9 @@ void Application::watch_training_program() {
       .wrote_checkpoint = checkpoint && checkpoint != training.checkpoint_before,
       .failure = training_program_->failure()};
   if (const std::string note = note_of(ended); !note.empty())
-    state_.messages.note(note, state_.now);
+    state_.note(note);
   else
-    state_.messages.error("The training of " + short_name(training.scene) + " failed",
-                          *ended.failure, state_.now);
+    state_.error("The training of " + short_name(training.scene) + " failed", *ended.failure);
   training_program_.reset();
   state_.started.reset();
   state_.asks_before_quitting = false;

@@ -9,10 +9,7 @@ struct DebugViewChoice {
   DebugView what = DebugView::color;
   FeatureChoice features = {};
 
-  bool operator==(const DebugViewChoice& other) const {
-    return what == other.what && features.first == other.features.first &&
-           features.count == other.features.count;
-  }
+  bool operator==(const DebugViewChoice& other) const = default;
 };
 
 }  // namespace tureen::viewer

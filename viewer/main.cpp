@@ -38,15 +38,14 @@ volatile std::sig_atomic_t was_interrupted = 0;
 extern "C" void note_interrupt(int) { was_interrupted = 1; }
 
 struct Arguments {
+  ApplicationOptions options;  // those with a value of their own
   std::vector<std::string> paths;
-  std::string api = "gl", size, replay, record, images, training;
-  std::string pipeline = "auto", profile, blend = "auto";
-  std::optional<std::uint64_t> max_splats;
-  bool as_published = false;
-  bool no_specialise = false, no_smooth_at_rest = false, no_settings = false, report = false;
+  std::string api = "gl", size, replay, pipeline = "auto", profile, blend = "auto";
+  bool no_settings = false, report = false;
 };
 
 void add_arguments(CLI::App& program, Arguments& arguments) {
+  ApplicationOptions& options = arguments.options;
   program
       .add_option(
           "SCENE", arguments.paths,
@@ -70,7 +69,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->check(CLI::IsMember({"auto", "baseline", "published"}))
       ->option_text("NAME");
   program
-      .add_option("--training", arguments.training,
+      .add_option("--training", options.training,
                   "log of a run of tureen train to follow: curves, pause, stop and keep; SCENE is "
                   "its OUT.watch.glb")
       ->option_text("OUT.jsonl");
@@ -82,12 +81,14 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->check(CLI::IsMember(
           std::vector<std::string>(splat_blending_names.begin(), splat_blending_names.end())))
       ->option_text("NAME");
-  program.add_flag("--no-specialise", arguments.no_specialise,
-                   "apply no specialisation: also draw and compute the parts that the scene does "
-                   "not need");
-  program.add_flag("--no-smooth-at-rest", arguments.no_smooth_at_rest,
-                   "keep one sample a pixel while nothing moves, and in saved images: switches off "
-                   "\"smooth at rest\" in the panel Drawing");
+  program.add_flag_callback(
+      "--no-specialise", [&options] { options.drawing.plan.specialise = false; },
+      "apply no specialisation: also draw and compute the parts that the scene does "
+      "not need");
+  program.add_flag_callback(
+      "--no-smooth-at-rest", [&options] { options.smooth_at_rest = false; },
+      "keep one sample a pixel while nothing moves, and in saved images: switches off "
+      "\"smooth at rest\" in the panel Drawing");
   std::vector<std::string> profiles;
   for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);
   program
@@ -95,11 +96,11 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
                   "draw splats by the rules of another method; the scene's own by default")
       ->check(CLI::IsMember(profiles))
       ->option_text("NAME");
-  program.add_flag("--as-published", arguments.as_published,
+  program.add_flag("--as-published", options.drawing.plan.as_published,
                    "also cull splats by the rules of their authors' code that depend on the "
                    "resolution");
   program
-      .add_option("--images,--pictures", arguments.images,
+      .add_option("--images,--pictures", options.images,
                   "folder for saved images; created if it does not exist")
       ->option_text("FOLDER");
   program
@@ -108,7 +109,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
           max_memory_help)
       ->option_text("SIZE");
   program
-      .add_option("--max-splats", arguments.max_splats,
+      .add_option("--max-splats", options.max_splats,
                   "read at most N splats of each scene, those with the largest opacity times area")
       ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
       ->option_text("N");
@@ -118,7 +119,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       "at the end, print the time to the first image, the longest time that the main thread needed "
       "for a frame while a scene was loading, without the drawing of the scene, and how often the "
       "scene was drawn");
-  program.add_option("--record", arguments.record, "session file to write: the events of this run")
+  program.add_option("--record", options.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
       .add_option(
@@ -152,22 +153,15 @@ void take_paths(const std::vector<std::string>& paths, ApplicationOptions& optio
   }
 }
 
-int run(const Arguments& arguments) {
-  ApplicationOptions options;
+int run(Arguments& arguments) {
+  ApplicationOptions& options = arguments.options;
   take_paths(arguments.paths, options);
   options.api = arguments.api == "es" ? gl::Api::es : gl::Api::desktop;
   options.window = parse_size(arguments.size);
-  options.record = arguments.record;
-  options.images = arguments.images;
-  options.training = arguments.training;
   if (arguments.pipeline != "auto") options.drawing.pipeline = PipelineKind::baseline;
-  options.drawing.plan.specialise = !arguments.no_specialise;
-  options.drawing.plan.as_published = arguments.as_published;
   options.drawing.plan.splat_blending = SplatBlending(
       std::find(splat_blending_names.begin(), splat_blending_names.end(), arguments.blend) -
       splat_blending_names.begin());
-  options.smooth_at_rest = !arguments.no_smooth_at_rest;
-  options.max_splats = arguments.max_splats;
   options.drawing.plan.splat_profile = profile_named(arguments.profile);
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on stored settings.

@@ -11,16 +11,9 @@ void Messages::note(const std::string& text, double now) {
   add({Message::Kind::note, "", shown_line(text), now});
 }
 
-void Messages::error(const std::string& title, const std::string& reason, double now) {
-  add({Message::Kind::error, shown_line(title), shown_line(reason), now});
-}
-
-void Messages::opening_error(const std::string& title, const std::string& reason, double now) {
-  add({Message::Kind::error, shown_line(title), shown_line(reason), now, Message::About::opening});
-}
-
-void Messages::scene_error(const std::string& title, const std::string& reason, double now) {
-  add({Message::Kind::error, shown_line(title), shown_line(reason), now, Message::About::scene});
+void Messages::error(const std::string& title, const std::string& reason, double now,
+                     Message::About about) {
+  add({Message::Kind::error, shown_line(title), shown_line(reason), now, about});
 }
 
 void Messages::add(Message message) {

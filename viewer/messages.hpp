@@ -14,6 +14,7 @@ struct Message {
   std::string title;  // "bad.glb cannot be shown"
   std::string text;   // the reason
   double since = 0;   // seconds of the window's clock
+  /// `opening`: a file that was to be opened. `scene`: a file or a layer of the shown scene.
   enum class About { other, opening, scene };
   About about = About::other;
 };
@@ -26,11 +27,8 @@ class Messages {
 
   /// All pass texts, which may come from files, through shown_line (base/shown_text.hpp).
   void note(const std::string& text, double now);
-  void error(const std::string& title, const std::string& reason, double now);
-  /// An error about a file that was to be opened.
-  void opening_error(const std::string& title, const std::string& reason, double now);
-  /// An error about a file or a layer of the shown scene.
-  void scene_error(const std::string& title, const std::string& reason, double now);
+  void error(const std::string& title, const std::string& reason, double now,
+             Message::About about = Message::About::other);
   void dismiss(std::size_t index);
   /// Removes the errors about opening and about the scene, when another file was opened.
   void dismiss_opening();

@@ -12,8 +12,7 @@ namespace {
 void step_recorded(State& state, int step) {
   const int count = static_cast<int>(state.recorded_cameras().size());
   if (count == 0) {
-    state.messages.note(
-        "The scene has no recorded cameras: open a dataset, or a scene with cameras.", state.now);
+    state.note("The scene has no recorded cameras: open a dataset, or a scene with cameras.");
     return;
   }
   const int from = state.recorded < 0 && step < 0 ? 0 : state.recorded;
@@ -31,13 +30,13 @@ void next_up(State& state) {
   for (std::size_t i = 0; i < up_axes.size(); ++i)
     if (is_axis(state.controls.up(), up_axes[i])) next = (i + 1) % up_axes.size();
   state.controls.set_up(up_axes[next]);
-  state.messages.note("The up axis is now " + axis_name(up_axes[next]) + ".", state.now);
+  state.note("The up axis is now " + axis_name(up_axes[next]) + ".");
 }
 
 /// Scenes of 3DGS often have y downwards, and no file says so.
 void turn_over(State& state) {
   state.controls.set_up(-state.controls.up());
-  state.messages.note("The scene is turned upside down.", state.now);
+  state.note("The scene is turned upside down.");
 }
 
 void next_debug_view(State& state) {
@@ -51,7 +50,7 @@ void next_debug_view(State& state) {
 
 void next_comparison(State& state) {
   if (!state.photographs) {
-    state.messages.note("There are no photographs to compare with: open a dataset.", state.now);
+    state.note("There are no photographs to compare with: open a dataset.");
     return;
   }
   state.comparison.show = static_cast<Comparison::Show>((int(state.comparison.show) + 1) % 4);
@@ -112,7 +111,7 @@ const std::array table = {
     Shortcut{Key::space, false, path, "play or stop the camera path",
              [](State& s) {
                if (s.animation.path.empty())
-                 s.messages.note("There is no camera path: press K to add the view to one.", s.now);
+                 s.note("There is no camera path: press K to add the view to one.");
                s.animation.toggle();
              }},
     Shortcut{Key::h, false, window, "show or hide the panel",

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <iterator>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/input.hpp"
+#include "base/steady_seconds.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/scene_preview.hpp"
 #include "runtime/device_forecast.hpp"
@@ -22,16 +22,6 @@ namespace tureen::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Smaller files are read in less than about a third of a second; a preview would only delay them.
 constexpr std::uint64_t min_previewed_bytes = 16 << 20;
@@ -271,27 +261,27 @@ int feature_count(const StageSource& source) {
 }
 
 StageSource read_source(const ReadRequest& request) {
-  const Stopwatch reading;
+  const double begin = steady_seconds();
   StageSource source;
   append_files(source, request);
   merge_files(source);
   guess_up_axis(source);
-  source.read_seconds = reading.seconds();
+  source.read_seconds = steady_seconds() - begin;
   return source;
 }
 
 StageSource read_more(const StageSource& before, const ReadRequest& request) {
-  const Stopwatch reading;
+  const double begin = steady_seconds();
   StageSource source = before;
   append_files(source, request);
   merge_files(source);
   update_subject(source);
-  source.read_seconds = reading.seconds();
+  source.read_seconds = steady_seconds() - begin;
   return source;
 }
 
 StageSource read_again(const StageSource& before, const ReadRequest& request) {
-  const Stopwatch reading;
+  const double begin = steady_seconds();
   StageSource source;
   const std::vector<fs::path> drawn = before.paths();
   const double total = double(drawn.size() + request.paths.size());
@@ -316,7 +306,7 @@ StageSource read_again(const StageSource& before, const ReadRequest& request) {
   keep_changes(source, before);
   merge_files(source);
   guess_up_axis(source);
-  source.read_seconds = reading.seconds();
+  source.read_seconds = steady_seconds() - begin;
   return source;
 }
 
@@ -406,11 +396,11 @@ Renderer prepare_renderer(const StageSource& source, const StageRequest& request
 }
 
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {
-  const Stopwatch preparing;
+  const double begin = steady_seconds();
   Renderer renderer = prepare_renderer(source, request);
   renderer.leave_context();
   return std::make_unique<Stage>(
-      Stage{{source}, request.choice, std::nullopt, std::move(renderer), preparing.seconds()});
+      Stage{{source}, request.choice, std::nullopt, std::move(renderer), steady_seconds() - begin});
 }
 
 std::unique_ptr<Stage> prepare_fitting_stage(const StageSource& source,
@@ -420,7 +410,7 @@ std::unique_ptr<Stage> prepare_fitting_stage(const StageSource& source,
   } catch (const DeviceLimitError&) {
     if (source.layers.size() == 1 || request.choice.pipeline != PipelineKind::tureen) throw;
   }
-  const Stopwatch preparing;
+  const double begin = steady_seconds();
   StageAddition fitting = prepare_addition(source, 0, request);
   if (fitting.renderers.empty()) {
     const RefusedLayer& first = fitting.refused.front();
@@ -430,7 +420,7 @@ std::unique_ptr<Stage> prepare_fitting_stage(const StageSource& source,
                                              request.choice,
                                              std::nullopt,
                                              std::move(fitting.renderers.front()),
-                                             preparing.seconds(),
+                                             steady_seconds() - begin,
                                              std::move(fitting.refused)});
   for (std::size_t i = 1; i < fitting.renderers.size(); ++i)
     stage->renderer.add_layers(std::move(fitting.renderers[i]));
@@ -441,14 +431,14 @@ std::unique_ptr<Stage> prepare_fitting_stage(const StageSource& source,
 }
 
 std::unique_ptr<Stage> prepare_debug_stage(const StageSource& source, const StageRequest& request) {
-  const Stopwatch preparing;
+  const double begin = steady_seconds();
   const RenderOptions options{.background = glm::vec4(source.scene->info.background, 1.0f)};
   const DeviceLimits limits = device_limits(request.context.capabilities());
   const std::vector<PlacedLayer> layers = placed_layers(source);
   Renderer renderer(request.context, prepare_debug_views(layers, limits, options), options);
   renderer.leave_context();
   return std::make_unique<Stage>(Stage{
-      {source}, request.choice, DebugViews(layers), std::move(renderer), preparing.seconds()});
+      {source}, request.choice, DebugViews(layers), std::move(renderer), steady_seconds() - begin});
 }
 
 StageAddition prepare_addition(const StageSource& source, std::size_t present,

@@ -201,6 +201,12 @@ struct State {
   /// The photograph of the selected camera, if the view has not moved; otherwise null.
   const Photograph* photograph() const;
 
+  void note(const std::string& text) { messages.note(text, now); }
+  void error(const std::string& title, const std::string& reason,
+             Message::About about = Message::About::other) {
+    messages.error(title, reason, now, about);
+  }
+
   template <class Wish>
   void ask(Wish wish) {
     requests.emplace_back(std::move(wish));

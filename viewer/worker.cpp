@@ -6,6 +6,8 @@
 #include <new>
 #include <utility>
 
+#include "base/steady_seconds.hpp"
+
 namespace tureen::viewer {
 
 namespace {
@@ -77,9 +79,7 @@ std::optional<Worker::Status> Worker::status() const {
   const std::lock_guard lock(mutex_);
   if (abandoned_) return {};
   std::optional<Status> status = running_;
-  if (status)
-    status->seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  if (status) status->seconds = steady_seconds() - began_;
   return status;
 }
 
@@ -97,7 +97,7 @@ void Worker::run() {
     Job job = std::move(waiting_.front());
     waiting_.erase(waiting_.begin());
     running_ = Status{.what = job.what, .fraction = 0, .kind = job.kind};
-    began_ = std::chrono::steady_clock::now();
+    began_ = steady_seconds();
     abandoned_ = false;
     lock.unlock();
     run(job);

@@ -2,7 +2,6 @@
 // window never waits. Jobs run one after another. The main thread collects their results.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -71,8 +70,8 @@ class Worker {
   std::condition_variable changed_;
   std::vector<Job> waiting_;
   std::optional<Status> running_;
-  std::chrono::steady_clock::time_point began_;  // the running job
-  bool abandoned_ = false;                       // the running job
+  double began_ = 0;        // the running job, by steady_seconds()
+  bool abandoned_ = false;  // the running job
   bool ending_ = false;
   struct Done {
     JobKind kind;

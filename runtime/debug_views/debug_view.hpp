@@ -54,6 +54,7 @@ std::optional<DebugView> debug_view_named(std::string_view name);
 struct FeatureChoice {
   int first = 0;  // from 0
   int count = 3;  // 1..3
+  bool operator==(const FeatureChoice& other) const = default;
 };
 
 /// Number of features of a pixel of this soup: 7 for a lattice, 8 for textures with a color MLP,

@@ -1,5 +1,6 @@
 // Output of a splat's fragment. OUTPUT is one of the OUTPUT_.. constants, SplatOutput in C++: its
-// colour, or what is measured of a pixel besides its colour.
+// colour, or what is measured of a pixel besides its colour. WRITE_SPLAT evaluates only those of its
+// arguments that the output needs; the inputs of the others may not exist.
 
 // False for NaN, of which min() may make MAX_ALPHA (docs/numerics.md, B3).
 bool is_blended(float alpha) { return alpha >= MIN_ALPHA && MAX_ALPHA >= MIN_ALPHA; }
@@ -14,6 +15,7 @@ void blend(vec3 color, float alpha) {
 }
 
 void blend_nothing() { blended = vec4(0.0); }
+#define WRITE_SPLAT(color, alpha, depth, normal, opacity, sigma) blend(color, alpha)
 #elif OUTPUT == OUTPUT_SAMPLE
 flat in uint sampled_splat;
 uniform int layer;
@@ -46,6 +48,7 @@ void sample_splat(vec3 color, float alpha, float depth) {
 }
 
 void blend_nothing() { discard; }
+#define WRITE_SPLAT(color, alpha, depth, normal, opacity, sigma) sample_splat(color, alpha, depth)
 #else
 #include "splat_prefixes.glsl"
 
@@ -79,4 +82,5 @@ void measure(float alpha, float depth, vec3 normal, float opacity, float sigma) 
 }
 
 void blend_nothing() { discard; }
+#define WRITE_SPLAT(color, alpha, depth, normal, opacity, sigma) measure(alpha, depth, normal, opacity, sigma)
 #endif

@@ -43,11 +43,5 @@ void main() {
 #endif
   float alpha = color.a * exp(-0.5 * squared);
   if (!(depth < depth_behind())) alpha = 0.0;
-#if OUTPUT == OUTPUT_COLOR
-  blend(color.rgb, alpha);
-#elif OUTPUT == OUTPUT_SAMPLE
-  sample_splat(color.rgb, alpha, depth);
-#else
-  measure(alpha, depth, normal, color.a, 0.0);
-#endif
+  WRITE_SPLAT(color.rgb, alpha, depth, normal, color.a, 0.0);
 }

@@ -22,11 +22,5 @@ void main() {
   }
 #endif
   float alpha = color.a * exp(-0.5 * dot(deviations, deviations));
-#if OUTPUT == OUTPUT_COLOR
-  blend(color.rgb, alpha);
-#elif OUTPUT == OUTPUT_SAMPLE
-  sample_splat(color.rgb, alpha, center_depth);
-#else
-  measure(alpha, center_depth, normal, color.a, 0.0);
-#endif
+  WRITE_SPLAT(color.rgb, alpha, center_depth, normal, color.a, 0.0);
 }

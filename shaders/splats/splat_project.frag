@@ -1,10 +1,9 @@
 // The values that all pixels of a splat share, computed once a splat and frame: one texel of each target a
 // splat, or one a corner if the corners have their own colours.
 #include "eye.glsl"
-#include "harmonics.glsl"
+#include "harmonics_color.glsl"
 #include "splat_kernel_texels.glsl"
 
-uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels a splat or corner
 uniform int projected_count;
 uniform float color_unit;  // the result for colour 1
 uniform mat3 view_from_layer;  // rotation, perhaps a mirror
@@ -18,12 +17,7 @@ bool is_center_drawn(float depth) { return MIN_CENTER_DEPTH == 0.0 || depth > MI
 #include "splat_project_kernel.glsl"
 
 vec3 color_of(uint element, vec3 from_eye) {
-  float basis[HARMONICS_COUNT];
-  harmonics_basis(direction_of(from_eye), basis);
-  vec3 sum = vec3(0.5);
-  for (int i = 0; i < HARMONICS_COUNT; ++i)
-    sum += basis[i] *
-           texelFetch(coefficients, texel_position(element * uint(HARMONICS_COUNT) + uint(i)), 0).rgb;
+  vec3 sum = harmonics_color(element, direction_of(from_eye));
   // The largest half float: in targets of halves, larger ones would become infinite, and 0 times
   // them NaN (docs/numerics.md, E7). The comparison is false for NaN.
   return mix(vec3(0.0), min(sum, 65504.0), greaterThan(sum, vec3(0.0)));

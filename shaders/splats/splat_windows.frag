@@ -19,18 +19,10 @@ void main() {
   float rho = clamp(min(distances.x, min(distances.y, distances.z)) * gl_FragCoord.w, 0.0, 1.0);
   // pow(0, sigma) may be undefined; there alpha is 0.
   float window = rho > 0.0 ? pow(rho, sigma) : 0.0;
-#if !MEASURES
 #if COLORS_PER_SPLAT == 3
   vec3 rgb = weighted_color.rgb / weighted_color.w;
 #else
   vec3 rgb = color.rgb;
 #endif
-#endif
-#if OUTPUT == OUTPUT_COLOR
-  blend(rgb, color.a * window);
-#elif OUTPUT == OUTPUT_SAMPLE
-  sample_splat(rgb, color.a * window, unit / (gl_FragCoord.w * weight));
-#else
-  measure(color.a * window, unit / (gl_FragCoord.w * weight), normal, color.a, sigma);
-#endif
+  WRITE_SPLAT(rgb, color.a * window, unit / (gl_FragCoord.w * weight), normal, color.a, sigma);
 }

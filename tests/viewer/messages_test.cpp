@@ -32,8 +32,8 @@ TEST(Messages, ErrorsAboutOpeningEndWithTheNextFile) {
   Messages messages;
   messages.note("saved", 1.0);
   messages.error("soup-1.png", "the disk is full", 1.0);
-  messages.opening_error("bad.glb", "it is cut short", 1.0);
-  messages.scene_error("soup.glb", "it is cut short", 1.0);
+  messages.error("bad.glb", "it is cut short", 1.0, Message::About::opening);
+  messages.error("soup.glb", "it is cut short", 1.0, Message::About::scene);
   messages.dismiss_opening();
   ASSERT_EQ(messages.list().size(), 2u);
   EXPECT_EQ(messages.list()[1].title, "soup-1.png");
@@ -41,8 +41,8 @@ TEST(Messages, ErrorsAboutOpeningEndWithTheNextFile) {
 
 TEST(Messages, ThoseAboutOpeningStayWhenTheSceneIsReadAgain) {
   Messages messages;
-  messages.opening_error("bad.glb", "it is cut short", 1.0);
-  messages.scene_error("soup.glb", "it is cut short", 1.0);
+  messages.error("bad.glb", "it is cut short", 1.0, Message::About::opening);
+  messages.error("soup.glb", "it is cut short", 1.0, Message::About::scene);
   messages.dismiss_scene();
   ASSERT_EQ(messages.list().size(), 1u);
   EXPECT_EQ(messages.list()[0].title, "bad.glb");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -10,6 +11,24 @@
 
 namespace tureen::viewer {
 namespace theme_test {
+
+struct PaletteColor {
+  const char* name;  // of the page's variable, without its dashes
+  std::uint32_t Palette::*color;
+};
+
+constexpr std::array colors = {PaletteColor{"page", &Palette::page},
+                               PaletteColor{"card", &Palette::card},
+                               PaletteColor{"tint", &Palette::tint},
+                               PaletteColor{"line", &Palette::line},
+                               PaletteColor{"edge", &Palette::edge},
+                               PaletteColor{"ink", &Palette::ink},
+                               PaletteColor{"faint", &Palette::faint},
+                               PaletteColor{"accent", &Palette::accent},
+                               PaletteColor{"on-accent", &Palette::on_accent},
+                               PaletteColor{"accent-tint", &Palette::accent_tint},
+                               PaletteColor{"danger", &Palette::danger},
+                               PaletteColor{"danger-tint", &Palette::danger_tint}};
 
 /// The variables of a block of the page's style sheet: "--name: #rrggbb;".
 std::uint32_t variable(const std::string& block, const std::string& name) {
@@ -26,16 +45,14 @@ TEST(Theme, HasTheColoursOfThePage) {
   const std::string css{std::istreambuf_iterator<char>(file), {}};
   const std::size_t dark = css.find("prefers-color-scheme: dark");
   ASSERT_NE(dark, std::string::npos);
-  for (const PaletteColor& each : palette_colors()) {
+  for (const PaletteColor& each : colors) {
     EXPECT_EQ(palette(Theme::light).*each.color, variable(css.substr(0, dark), each.name))
         << each.name;
     EXPECT_EQ(palette(Theme::dark).*each.color, variable(css.substr(dark), each.name)) << each.name;
   }
 }
 
-TEST(Theme, ListsEveryColour) {
-  EXPECT_EQ(palette_colors().size(), sizeof(Palette) / sizeof(std::uint32_t));
-}
+TEST(Theme, ListsEveryColour) { EXPECT_EQ(colors.size(), sizeof(Palette) / sizeof(std::uint32_t)); }
 
 }  // namespace theme_test
 }  // namespace tureen::viewer

@@ -145,26 +145,26 @@ std::string session_to_json(const Session& session) {
   return text + " ] }\n";
 }
 
-void Recorder::add(double seconds, std::span<const Event> events) {
-  for (const Event& event : events) session_.events.push_back({seconds, event});
+void Session::add(double seconds, std::span<const Event> more) {
+  for (const Event& event : more) events.push_back({seconds, event});
 }
 
-Replay::Step Replay::next(bool at_rest) {
-  Step step;
+std::vector<Event> Replay::next(bool at_rest) {
+  std::vector<Event> events;
   const auto awaits = [this] {
     return !finished() && session_.events[position_].seconds <= clock_ &&
            std::holds_alternative<AwaitRest>(session_.events[position_].event);
   };
   if (awaits()) {
-    if (!at_rest) return step;
-    step.events.push_back(session_.events[position_++].event);  // for a recorder
+    if (!at_rest) return events;
+    events.push_back(session_.events[position_++].event);  // for a recorder
   }
   clock_ += frame_seconds;
   while (!finished() && session_.events[position_].seconds <= clock_ && !awaits()) {
-    step.events.push_back(session_.events[position_++].event);
-    if (std::holds_alternative<WindowScreenshot>(step.events.back())) break;
+    events.push_back(session_.events[position_++].event);
+    if (std::holds_alternative<WindowScreenshot>(events.back())) break;
   }
-  return step;
+  return events;
 }
 
 }  // namespace tureen::viewer

@@ -36,23 +36,14 @@ namespace tureen::viewer {
 struct Session {
   glm::ivec2 window{1280, 800};  // in points
   std::vector<TimedEvent> events;
+
+  void add(double seconds, std::span<const Event> more);
 };
 
 /// Throws InputError with the file and the event.
 Session read_session(const std::filesystem::path& file);
 
 std::string session_to_json(const Session& session);
-
-/// Collects events with their times.
-class Recorder {
- public:
-  explicit Recorder(glm::ivec2 window) : session_{window, {}} {}
-  void add(double seconds, std::span<const Event> events);
-  const Session& session() const { return session_; }
-
- private:
-  Session session_;
-};
 
 /// Replays a session by the session's own clock. Each frame advances the clock by 1/60 s, whatever
 /// its real duration, so that a session shows the same images on every machine.
@@ -62,12 +53,9 @@ class Replay {
 
   static constexpr double frame_seconds = 1.0 / 60;
 
-  struct Step {
-    std::vector<Event> events;
-  };
   /// The events of the next frame. `at_rest`: nothing is being loaded and nothing moves. A
   /// screenshot ends the frame's events, so that it shows all events before it.
-  Step next(bool at_rest);
+  std::vector<Event> next(bool at_rest);
   bool finished() const { return position_ == session_.events.size(); }
   double now() const { return clock_; }
 

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "viewer/gui/font.hpp"
 #include "viewer/gui/gui_drawing.hpp"
@@ -131,20 +132,16 @@ void Gui::draw() {
 }
 
 Window::Pointer Gui::pointer() const {
-  switch (ImGui::GetMouseCursor()) {
-    case ImGuiMouseCursor_TextInput:
-      return Window::Pointer::text;
-    case ImGuiMouseCursor_Hand:
-      return Window::Pointer::hand;
-    case ImGuiMouseCursor_ResizeEW:
-      return Window::Pointer::resize_horizontally;
-    case ImGuiMouseCursor_ResizeNS:
-      return Window::Pointer::resize_vertically;
-    case ImGuiMouseCursor_ResizeAll:
-      return Window::Pointer::move;
-    default:
-      return Window::Pointer::arrow;
-  }
+  using Pointer = Window::Pointer;
+  static constexpr std::pair<ImGuiMouseCursor, Pointer> shapes[] = {
+      {ImGuiMouseCursor_TextInput, Pointer::text},
+      {ImGuiMouseCursor_Hand, Pointer::hand},
+      {ImGuiMouseCursor_ResizeEW, Pointer::resize_horizontally},
+      {ImGuiMouseCursor_ResizeNS, Pointer::resize_vertically},
+      {ImGuiMouseCursor_ResizeAll, Pointer::move}};
+  for (const auto& [wanted, shape] : shapes)
+    if (ImGui::GetMouseCursor() == wanted) return shape;
+  return Pointer::arrow;
 }
 
 }  // namespace tureen::viewer

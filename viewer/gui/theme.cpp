@@ -36,24 +36,9 @@ constexpr Palette dark{.page = 0x12151c,
                        .danger = 0xff9d97,
                        .danger_tint = 0x3a1f22};
 
-constexpr std::array colors = {PaletteColor{"page", &Palette::page},
-                               PaletteColor{"card", &Palette::card},
-                               PaletteColor{"tint", &Palette::tint},
-                               PaletteColor{"line", &Palette::line},
-                               PaletteColor{"edge", &Palette::edge},
-                               PaletteColor{"ink", &Palette::ink},
-                               PaletteColor{"faint", &Palette::faint},
-                               PaletteColor{"accent", &Palette::accent},
-                               PaletteColor{"on-accent", &Palette::on_accent},
-                               PaletteColor{"accent-tint", &Palette::accent_tint},
-                               PaletteColor{"danger", &Palette::danger},
-                               PaletteColor{"danger-tint", &Palette::danger_tint}};
-
 }  // namespace
 
 const Palette& palette(Theme theme) { return theme == Theme::light ? light : dark; }
-
-std::span<const PaletteColor> palette_colors() { return colors; }
 
 void set_colors(Theme theme) {
   const Palette& of = palette(theme);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 namespace tureen::viewer {
 
@@ -19,12 +18,6 @@ struct Palette {
       danger_tint;
 };
 const Palette& palette(Theme theme);
-
-struct PaletteColor {
-  const char* name;  // of the page's variable, without its dashes
-  std::uint32_t Palette::*color;
-};
-std::span<const PaletteColor> palette_colors();
 
 /// Sets the colours of the current Dear ImGui context.
 void set_colors(Theme theme);

@@ -1,5 +1,6 @@
 #include "viewer/input/navigation_input.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace tureen::viewer {
@@ -22,26 +23,19 @@ const std::array<Push, 6> pushes = {{{Key::w, {0, 0, -1.0}},
 /// a window of 720 points).
 constexpr double arrow_points = 12;
 
-/// The drag of an arrow; (0, 0) for other keys.
-glm::dvec2 way_of(Key key) {
-  switch (key) {
-    case Key::left:
-      return {-arrow_points, 0};
-    case Key::right:
-      return {arrow_points, 0};
-    case Key::up:
-      return {0, -arrow_points};
-    case Key::down:
-      return {0, arrow_points};
-    default:
-      return {0, 0};
-  }
-}
+struct Arrow {
+  Key key;
+  glm::dvec2 drag;
+};
+
+const std::array<Arrow, 4> arrows = {{{Key::left, {-arrow_points, 0}},
+                                      {Key::right, {arrow_points, 0}},
+                                      {Key::up, {0, -arrow_points}},
+                                      {Key::down, {0, arrow_points}}}};
 
 bool pushes_anywhere(Key key) {
-  for (const Push& push : pushes)
-    if (push.key == key) return true;
-  return false;
+  return std::any_of(pushes.begin(), pushes.end(),
+                     [key](const Push& push) { return push.key == key; });
 }
 
 }  // namespace
@@ -82,8 +76,9 @@ void NavigationInput::change(const KeyChanged& event, bool taken, CameraControls
       event.down && !taken && !(modified && pushes_anywhere(event.key));
   if (!event.down || taken || modified) return;
   if (pushes_anywhere(event.key)) controls.set_mode(NavigationMode::fly);
-  if (const glm::dvec2 way = way_of(event.key); way != glm::dvec2(0.0))
-    held(Key::shift) ? controls.pan(way.x, way.y) : controls.drag(way.x, way.y);
+  for (const auto& [key, drag] : arrows)
+    if (event.key == key)
+      held(Key::shift) ? controls.pan(drag.x, drag.y) : controls.drag(drag.x, drag.y);
   if (event.key == Key::equal) controls.dolly(1);
   if (event.key == Key::minus) controls.dolly(-1);
 }

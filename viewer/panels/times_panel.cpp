@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "jobs/timing/frame_statistics.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -9,34 +10,24 @@ namespace tureen::viewer {
 
 namespace {
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-struct Series {
-  std::vector<float> device, whole;  // ms
-};
-
 void graph(const std::vector<FrameParts>& frames) {
-  Series series;
+  std::vector<float> device, whole;  // ms
   float most = 1;
   for (const FrameParts& frame : frames) {
-    series.device.push_back(float(frame.device_ms));
-    series.whole.push_back(float(frame.device_ms + frame.processor_ms));
-    most = std::max(most, series.whole.back());
+    device.push_back(float(frame.device_ms));
+    whole.push_back(float(frame.device_ms + frame.processor_ms));
+    most = std::max(most, whole.back());
   }
   const ImVec2 size{ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()};
   const ImVec2 at = ImGui::GetCursorPos();
   const auto count = static_cast<int>(frames.size());
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_Border));
-  ImGui::PlotHistogram("##whole", series.whole.data(), count, 0, nullptr, 0, most, size);
+  ImGui::PlotHistogram("##whole", whole.data(), count, 0, nullptr, 0, most, size);
   ImGui::PopStyleColor();
   ImGui::SetCursorPos(at);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4(0, 0, 0, 0));
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
-  ImGui::PlotHistogram("##device", series.device.data(), count, 0, nullptr, 0, most, size);
+  ImGui::PlotHistogram("##device", device.data(), count, 0, nullptr, 0, most, size);
   ImGui::PopStyleColor(2);
 }
 

@@ -12,6 +12,16 @@ namespace {
 /// Width of the column of labels, in font heights: "GPU memory" and a space.
 constexpr float label_width = 6.2f;
 
+/// Changes a colour of the style in its scope.
+struct StyleColor : Scope<[] { ImGui::PopStyleColor(); }> {
+  StyleColor(ImGuiCol which, const ImVec4& color) { ImGui::PushStyleColor(which, color); }
+};
+
+/// Changes a number or a distance of the style in its scope.
+struct StyleVar : Scope<[] { ImGui::PopStyleVar(); }> {
+  StyleVar(ImGuiStyleVar which, const auto& value) { ImGui::PushStyleVar(which, value); }
+};
+
 ImVec4 style_color(ImGuiCol which) { return ImGui::GetStyleColorVec4(which); }
 
 /// `index`: in the order of add_fonts() (viewer/gui/font.hpp). Dear ImGui's own font is the only
@@ -27,10 +37,8 @@ void unformatted(const std::string& words) {
 
 /// A button without a frame's border: only fields have one.
 bool plain_button(const char* label, ImVec2 size) {
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
-  const bool pressed = ImGui::Button(label, size);
-  ImGui::PopStyleVar();
-  return pressed;
+  const StyleVar border(ImGuiStyleVar_FrameBorderSize, 0.0f);
+  return ImGui::Button(label, size);
 }
 
 /// Draws a label of the column and moves to its control.
@@ -53,9 +61,8 @@ void paragraph(const std::string& words) {
 }
 
 void aside(const std::string& words) {
-  ImGui::PushStyleColor(ImGuiCol_Text, style_color(ImGuiCol_TextDisabled));
+  const StyleColor dimmed(ImGuiCol_Text, style_color(ImGuiCol_TextDisabled));
   paragraph(words);
-  ImGui::PopStyleColor();
 }
 
 void sentence(std::string words) {
@@ -104,10 +111,8 @@ bool button(const char* name) { return plain_button(name, {0, 0}); }
 bool button(const char* name, float width) {
   // The width is given, so the text may come close to the edge.
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.2f * padding.x, padding.y});
-  const bool pressed = plain_button(name, {width, 0});
-  ImGui::PopStyleVar();
-  return pressed;
+  const StyleVar narrow(ImGuiStyleVar_FramePadding, ImVec2(0.2f * padding.x, padding.y));
+  return plain_button(name, {width, 0});
 }
 
 void beside(const char* label) {
@@ -118,23 +123,16 @@ void beside(const char* label) {
 }
 
 bool small_button(const char* name) {
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
-  const bool pressed = ImGui::SmallButton(name);
-  ImGui::PopStyleVar();
-  return pressed;
+  const StyleVar border(ImGuiStyleVar_FrameBorderSize, 0.0f);
+  return ImGui::SmallButton(name);
 }
 
 bool strong_button(const char* name) {
-  ImGui::PushStyleColor(ImGuiCol_Button, style_color(ImGuiCol_CheckMark));
-  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, style_color(ImGuiCol_CheckMark));
-  ImGui::PushStyleColor(ImGuiCol_ButtonActive, style_color(ImGuiCol_CheckMark));
-  ImGui::PushStyleColor(ImGuiCol_Text, style_color(ImGuiCol_FrameBg));
-  const bool pressed = [&] {
-    const Bold bold;
-    return plain_button(name, {0, 0});
-  }();
-  ImGui::PopStyleColor(4);
-  return pressed;
+  const ImVec4 accent = style_color(ImGuiCol_CheckMark);
+  const StyleColor at_rest(ImGuiCol_Button, accent), hovered(ImGuiCol_ButtonHovered, accent),
+      active(ImGuiCol_ButtonActive, accent), letters(ImGuiCol_Text, style_color(ImGuiCol_FrameBg));
+  const Bold bold;
+  return plain_button(name, {0, 0});
 }
 
 float share_of_row(int count) {
@@ -145,11 +143,9 @@ float share_of_row(int count) {
 bool check(const char* name, bool* on) {
   // The square is as high as a line, so that rows of text and of switches have one rhythm.
   const ImGuiStyle& style = ImGui::GetStyle();
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, 1});
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.5f * style.FrameRounding);
-  const bool changed = ImGui::Checkbox(name, on);
-  ImGui::PopStyleVar(2);
-  return changed;
+  const StyleVar padding(ImGuiStyleVar_FramePadding, ImVec2(style.FramePadding.x, 1));
+  const StyleVar rounding(ImGuiStyleVar_FrameRounding, 0.5f * style.FrameRounding);
+  return ImGui::Checkbox(name, on);
 }
 
 bool check_beside_field(const char* name, bool* on) {
@@ -187,14 +183,13 @@ bool segments(const char* id, std::span<const char* const> labels, int& chosen) 
                             : std::floor(ImGui::CalcTextSize(labels[std::size_t(i)]).x + spare);
     ImGui::SetCursorScreenPos({left, low.y + gap});
     left += width + gap;
-    ImGui::PushStyleColor(ImGuiCol_Button, on ? style_color(ImGuiCol_FrameBg) : ImVec4(0, 0, 0, 0));
-    ImGui::PushStyleColor(ImGuiCol_Text,
-                          style_color(on ? ImGuiCol_CheckMark : ImGuiCol_TextDisabled));
+    const StyleColor back(ImGuiCol_Button, on ? style_color(ImGuiCol_FrameBg) : ImVec4(0, 0, 0, 0));
+    const StyleColor front(ImGuiCol_Text,
+                           style_color(on ? ImGuiCol_CheckMark : ImGuiCol_TextDisabled));
     if (button(labels[std::size_t(i)], width) && !on) {
       chosen = i;
       changed = true;
     }
-    ImGui::PopStyleColor(2);
   }
   ImGui::SetCursorScreenPos(low);
   ImGui::Dummy(size);

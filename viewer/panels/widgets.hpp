@@ -102,31 +102,27 @@ class Dialog {
 /// Whether the user has pressed Escape, also in a field.
 bool escape_pressed();
 
+/// Undoes at the end of its scope, by `end`, what a derived class does at the beginning.
+template <void (*end)()>
+class Scope {
+ public:
+  Scope() = default;
+  ~Scope() { end(); }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+};
+
 /// Uses the bold font in its scope.
-class Bold {
- public:
+struct Bold : Scope<ImGui::PopFont> {
   Bold();
-  ~Bold() { ImGui::PopFont(); }
-  Bold(const Bold&) = delete;
-  Bold& operator=(const Bold&) = delete;
 };
-
 /// Uses the large bold font in its scope.
-class Title {
- public:
+struct Title : Scope<ImGui::PopFont> {
   Title();
-  ~Title() { ImGui::PopFont(); }
-  Title(const Title&) = delete;
-  Title& operator=(const Title&) = delete;
 };
-
 /// Disables and greys the items drawn in its scope.
-class Disabled {
- public:
+struct Disabled : Scope<ImGui::EndDisabled> {
   explicit Disabled(bool disabled) { ImGui::BeginDisabled(disabled); }
-  ~Disabled() { ImGui::EndDisabled(); }
-  Disabled(const Disabled&) = delete;
-  Disabled& operator=(const Disabled&) = delete;
 };
 
 }  // namespace tureen::viewer

@@ -2,7 +2,7 @@
 // A link can set everything (request.ts). The result is also in window.tureenBench, for programs that
 // drive the page.
 
-import { block, button, fillFacts, make } from '../page/dom.js';
+import { block, button, fillFacts, make, saveFile } from '../page/dom.js';
 import { Messages } from '../page/messages.js';
 import { BenchEngine } from './bench_engine.js';
 import { benchCsv, benchFile, type BenchFile } from './bench_file.js';
@@ -16,12 +16,6 @@ declare global {
     /** The result of the latest measurement, or of the first before one begins. Rejects if it fails. */
     tureenBench: Promise<BenchFile>;
   }
-}
-
-function save(name: string, type: string, content: string): void {
-  const url = URL.createObjectURL(new Blob([content], { type }));
-  make('a', { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), 60_000);  // browsers may start the download late
 }
 
 class Bench {
@@ -130,8 +124,8 @@ class Bench {
   private save(kind: 'json' | 'csv'): void {
     const { file, scenes } = this.outcome!;
     const name = `tureen-bench-${file.date.replaceAll(':', '')}.${kind}`;
-    if (kind === 'json') save(name, 'application/json', JSON.stringify(file, null, 1) + '\n');
-    else save(name, 'text/csv', benchCsv(file, scenes));
+    const content = kind === 'json' ? JSON.stringify(file, null, 1) + '\n' : benchCsv(file, scenes);
+    saveFile(name, new Blob([content], { type: kind === 'json' ? 'application/json' : 'text/csv' }));
   }
 
   private promiseResult(): void {

@@ -4,10 +4,10 @@
 import { ArrivingScene } from '../viewer/arriving_scene.js';
 import { assetsAt } from '../viewer/assets.js';
 import { compile, Engine } from '../viewer/engine.js';
-import type { PreparedScene, SceneDescription } from '../viewer/loader_messages.js';
+import type { FilesToLoad, PreparedScene, SceneDescription } from '../viewer/loader_messages.js';
 import { isShortage, Loading } from '../viewer/loading.js';
 import { openFiles, readWith } from '../viewer/scene_files.js';
-import { ViewerError, type Assets, type LoadProgress, type SceneFile } from '../viewer/types.js';
+import { ViewerError, type Assets, type LoadProgress } from '../viewer/types.js';
 import { setName, type CameraChoice, type Size } from './request.js';
 
 export interface Device {
@@ -17,11 +17,6 @@ export interface Device {
   /** `software`: whether the processor draws. */
   readonly limits: { readonly software: boolean };
   readonly max_image_side: number;
-}
-
-export interface Files {
-  readonly files: readonly SceneFile[];
-  readonly name: string;
 }
 
 /** Work that a plan omits: docs/json.md. */
@@ -146,7 +141,7 @@ export class BenchEngine {
   clear(): void { this.engine.call('bench_clear'); }
 
   /** Adds a scene; its number is the previous count. Rejects with ViewerError or the signal's reason. */
-  async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
+  async add(files: FilesToLoad, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
     let added: AddedScene | null = null, arriving: ArrivingScene | null = null, uploadMs = 0;
     const program = Promise.resolve(this.program), limits = Promise.resolve(this.device.limits);
     // A benchmark measures all splats.
@@ -189,21 +184,12 @@ export class BenchEngine {
 
   /** `uploadMs`: time for the blocks before. */
   private unpack({ description, parcel, level, readMs, planMs }: PreparedScene, uploadMs: number): AddedScene {
-    if (parcel.head.byteLength > 0) {
-      this.engine.setBuffer(new Uint8Array(parcel.head));
-      this.engine.call('take_head');
-    }
-    this.engine.setBlobs(parcel.blobs);
-    try {
-      const facts = this.engine.call<Omit<Pipeline, 'plan_ms'>>('bench_add_scene', { scene: description });
-      return { description, level, readMs, pipeline: { ...facts, plan_ms: planMs, upload_ms: facts.upload_ms + uploadMs } };
-    } finally {
-      this.engine.setBlobs([]);
-    }
+    const facts = this.engine.give<Omit<Pipeline, 'plan_ms'>>(parcel, 'bench_add_scene', { scene: description });
+    return { description, level, readMs, pipeline: { ...facts, plan_ms: planMs, upload_ms: facts.upload_ms + uploadMs } };
   }
 
   /** Prepares the same scene for the baseline. Rejects with ViewerError if the baseline cannot draw it. */
-  async addPublished(scene: number, { files, name }: Files): Promise<Pipeline> {
+  async addPublished(scene: number, { files, name }: FilesToLoad): Promise<Pipeline> {
     return readWith<Pipeline>(this.engine, 'bench_add_published', await openFiles(files, name), { scene });
   }
 

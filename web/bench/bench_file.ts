@@ -2,41 +2,10 @@
 
 import { clockSentence } from './clock.js';
 import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';
-import type { Device, FrameTimes, Specialisation } from './bench_engine.js';
+import type { Device } from './bench_engine.js';
 
 /** Set by build.mjs. */
 declare const builtVersion: string, builtCommit: string;
-
-export interface BenchFile {
-  readonly format: 'tureen web bench';
-  readonly version: 1;
-  readonly date: string;
-  readonly page: { readonly version: string; readonly commit: string; readonly address: string };
-  readonly device: {
-    readonly user_agent: string; readonly renderer: string; readonly vendor: string; readonly gl_version: string;
-    readonly software: boolean; readonly cores: number; readonly pixel_ratio: number;
-    readonly screen_width: number; readonly screen_height: number;
-  };
-  readonly protocol: { readonly clock: string };
-  readonly scenes: readonly SceneInFile[];
-}
-
-interface SceneInFile {
-  readonly name: string; readonly source: string; readonly triangles: number; readonly appearance: string;
-  readonly read_ms: number; readonly wasm_bytes: number;
-  readonly configurations: readonly {
-    readonly name: string; readonly plan: readonly string[]; readonly specialisations: readonly Specialisation[];
-    readonly plan_ms: number; readonly upload_ms: number; readonly device_bytes: number;
-  }[];
-  readonly measurements: readonly {
-    readonly camera_set: string; readonly width: number; readonly height: number;
-    readonly frames_per_sample: number; readonly self_test_ms: readonly [FrameTimes, FrameTimes];
-    readonly entrants: readonly {
-      readonly configuration: string; readonly stable: boolean; readonly frame_ms: FrameTimes; readonly pixels_hash: string;
-    }[];
-  }[];
-  readonly notes: readonly string[];
-}
 
 const measurementInFile = ({ cameraSet, width, height, result }: Measurement) => ({
   camera_set: cameraSet, width, height,
@@ -46,7 +15,7 @@ const measurementInFile = ({ cameraSet, width, height, result }: Measurement) =>
     ({ configuration: name, stable, frame_ms, pixels_hash })),
 });
 
-const sceneInFile = (scene: MeasuredScene): SceneInFile => ({
+const sceneInFile = (scene: MeasuredScene) => ({
   name: scene.name, source: scene.source, triangles: scene.triangles, appearance: scene.appearance,
   read_ms: scene.readMs, wasm_bytes: scene.wasmBytes,
   configurations: scene.configurations.map(({ name, plan, specialisations, plan_ms, upload_ms, device_bytes }) =>
@@ -55,7 +24,10 @@ const sceneInFile = (scene: MeasuredScene): SceneInFile => ({
   notes: scene.notes,
 });
 
-export function benchFile(device: Device, scenes: readonly MeasuredScene[]): BenchFile {
+export type BenchFile = ReturnType<typeof benchFile>;
+
+/** docs/json.md describes the members. */
+export function benchFile(device: Device, scenes: readonly MeasuredScene[]) {
   return {
     format: 'tureen web bench', version: 1,
     date: new Date().toISOString().replace(/\.\d+Z$/, 'Z'),

@@ -5,7 +5,8 @@ import { nameOf, urlOf } from '../viewer/addresses.js';
 import { download } from '../viewer/download.js';
 import { lowerLevelSentence } from '../viewer/scene_summary.js';
 import { ViewerError, type SceneSource } from '../viewer/types.js';
-import type { AddedScene, BenchEngine, Cell, BenchCase, Files, Pipeline, RunResult } from './bench_engine.js';
+import type { FilesToLoad } from '../viewer/loader_messages.js';
+import type { AddedScene, BenchEngine, Cell, BenchCase, Pipeline, RunResult } from './bench_engine.js';
 import { clockStepMs } from './clock.js';
 import { setName, sizeText, type BenchRequest, type Size } from './request.js';
 
@@ -58,7 +59,7 @@ const distinct = (texts: readonly string[]) => [...new Set(texts)];
 const sum = (values: readonly number[]) => values.reduce((total, value) => total + value, 0);
 
 export class Measuring {
-  private readonly fetched = new Map<string, Files>();
+  private readonly fetched = new Map<string, FilesToLoad>();
 
   constructor(private readonly bench: BenchEngine, private readonly request: BenchRequest,
               private readonly signal: AbortSignal, private readonly tell: Tell) {}
@@ -91,9 +92,14 @@ export class Measuring {
     }
     const configurations = [this.ours(added)], notes = this.notes(added);
     if (request.published) {
-      const { configuration, failure } = await this.published(sources[0]!, tell);
-      if (configuration) configurations.push(configuration);
-      else notes.push(`The baseline is missing: ${failure}`);
+      tell(`${nameOf(sources[0]!)}: preparing the baseline`, loadingShare);
+      try {
+        const files = await this.files(sources[0]!, tell);
+        configurations.push({ name: 'published', ...await bench.addPublished(0, files) });
+      } catch (error) {
+        if (!(error instanceof ViewerError) || bench.isLost) throw error;
+        notes.push(`The baseline is missing: ${error.message}`);
+      }
     }
     const measurements: Measurement[] = [];
     for (const [index, size] of request.sizes.entries())
@@ -106,7 +112,7 @@ export class Measuring {
     };
   }
 
-  private async files(source: SceneSource, tell: Tell): Promise<Files> {
+  private async files(source: SceneSource, tell: Tell): Promise<FilesToLoad> {
     const name = nameOf(source);
     if ('files' in source) return { files: source.files, name };
     const url = urlOf(source);
@@ -133,18 +139,6 @@ export class Measuring {
       upload_ms: sum(pipelines.map(({ upload_ms }) => upload_ms)),
       device_bytes: sum(pipelines.map(({ device_bytes }) => device_bytes)),
     };
-  }
-
-  /** The baseline for this scene, or the reason why the baseline cannot draw it. */
-  private async published(source: SceneSource, tell: Tell): Promise<{ configuration?: Configuration; failure?: string }> {
-    tell(`${nameOf(source)}: preparing the baseline`, loadingShare);
-    try {
-      const files = await this.files(source, tell);
-      return { configuration: { name: 'published', ...await this.bench.addPublished(0, files) } };
-    } catch (error) {
-      if (!(error instanceof ViewerError) || this.bench.isLost) throw error;
-      return { failure: error.message };
-    }
   }
 
   private notes(added: readonly AddedScene[]): string[] {

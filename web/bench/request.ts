@@ -3,6 +3,7 @@
 //   bench.html?scenes=soup.glb,models/fox.glb&set=hemisphere:8&size=1280x720,1920x1080&rounds=5&published=1&run=1
 //   bench.html?scenes=soup.glb&grid=1&copies=14&run=1
 
+import { queryText } from '../viewer/addresses.js';
 import { ViewerError, type SceneSource } from '../viewer/types.js';
 
 export interface Size {
@@ -24,14 +25,11 @@ export type CameraChoice =
   | CameraSet
   | { readonly kind: 'file'; readonly count: number; readonly name: string; readonly text: string };
 
-export interface BenchRequest {
-  /** May contain a scene more than once. */
-  readonly scenes: readonly SceneSource[];
+interface CommonRequest {
   /** Whether all scenes are in one frame instead of one after the other. */
   readonly grid: boolean;
   /** Number of copies of each scene on a grid. */
   readonly copies: number;
-  readonly cameras: CameraChoice;
   readonly sizes: readonly Size[];
   /** Number of passes over the cameras. */
   readonly rounds: number;
@@ -39,15 +37,16 @@ export interface BenchRequest {
   readonly published: boolean;
 }
 
+export interface BenchRequest extends CommonRequest {
+  /** May contain a scene more than once. */
+  readonly scenes: readonly SceneSource[];
+  readonly cameras: CameraChoice;
+}
+
 /** The initial values of the form, from the page's address or its defaults. */
-export interface AddressRequest {
+export interface AddressRequest extends CommonRequest {
   readonly scenes: readonly string[];
-  readonly grid: boolean;
-  readonly copies: number;
   readonly set: CameraSet;
-  readonly sizes: readonly Size[];
-  readonly rounds: number;
-  readonly published: boolean;
   /** Whether the measurement starts at once. */
   readonly run: boolean;
 }
@@ -104,9 +103,8 @@ export function writeAddress(request: BenchRequest): string | null {
   const { scenes, grid, copies, cameras, sizes, rounds, published } = request;
   const addresses = scenes.map((scene) => ('url' in scene ? scene.url : null));
   if (cameras.kind === 'file' || addresses.some((address) => address === null)) return null;
-  const readable = (text: string) => encodeURIComponent(text).replace(/%2F/g, '/').replace(/%3A/g, ':');
   return '?' + [
-    `scenes=${addresses.map((address) => readable(address!)).join(',')}`,
+    `scenes=${addresses.map((address) => queryText(address!)).join(',')}`,
     ...(grid ? ['grid=1', `copies=${copies}`] : [`published=${published ? 1 : 0}`]),
     `set=${cameras.kind}:${cameras.count}`, `size=${sizes.map(sizeKey).join(',')}`, `rounds=${rounds}`,
   ].join('&');

@@ -1,7 +1,7 @@
 // The list of available scenes with check boxes: from the gallery, from addresses, and from files that
 // were picked or dropped.
 
-import { block, button, input, make } from '../page/dom.js';
+import { attachPicker, block, button, input, make } from '../page/dom.js';
 import { sourcesOfDropped, sourcesOfPicked } from '../page/files.js';
 import { readModels } from '../page/gallery.js';
 import { nameOf } from '../viewer/addresses.js';
@@ -20,8 +20,8 @@ export class SceneList {
       event.preventDefault();  // Enter would start the measurement
       this.addTyped();
     });
-    this.attachPicker('choose-files', 'files');
-    this.attachPicker('choose-folder', 'folder');
+    for (const kind of ['files', 'folder'])
+      attachPicker(`choose-${kind}`, kind, (files) => void this.take(async () => sourcesOfPicked(files)));
     this.attachDrop();
   }
 
@@ -52,16 +52,6 @@ export class SceneList {
     if (!address) return;
     field.value = '';
     this.add({ url: address });
-  }
-
-  private attachPicker(buttonId: string, inputId: string): void {
-    const picker = input(inputId);
-    button(buttonId).addEventListener('click', () => picker.click());
-    picker.addEventListener('change', () => {
-      const picked = picker.files;
-      if (picked?.length) void this.take(async () => sourcesOfPicked(picked));
-      picker.value = '';  // so that the same file can be picked again
-    });
   }
 
   private attachDrop(): void {

@@ -1,6 +1,6 @@
 // The form with the settings. The page's address sets the initial values.
 
-import { block, button, byId, input, make, select } from '../page/dom.js';
+import { attachPicker, block, button, byId, input, make, select } from '../page/dom.js';
 import type { Messages } from '../page/messages.js';
 import { ViewerError } from '../viewer/types.js';
 import {
@@ -35,7 +35,10 @@ export class Settings {
       this.submit();
     });
     for (const id of ['grid', 'camera-kind']) byId(id, HTMLElement).addEventListener('change', () => this.follow());
-    this.attachCameraFile();
+    attachPicker('choose-camera-file', 'camera-file', async ([file]) => {
+      this.cameraFile = { name: file!.name, text: await file!.text() };
+      block('camera-file-name').textContent = file!.name;
+    });
   }
 
   /** Sets the initial values; called once. */
@@ -113,17 +116,5 @@ export class Settings {
     block('camera-file-part').hidden = kind !== 'file';
     block('copies-field').hidden = !grid;
     input('published').disabled = grid;  // a grid has no baseline
-  }
-
-  private attachCameraFile(): void {
-    const picker = input('camera-file');
-    button('choose-camera-file').addEventListener('click', () => picker.click());
-    picker.addEventListener('change', async () => {
-      const file = picker.files?.[0];
-      picker.value = '';
-      if (!file) return;
-      this.cameraFile = { name: file.name, text: await file.text() };
-      block('camera-file-name').textContent = file.name;
-    });
   }
 }

@@ -1,11 +1,11 @@
 // The commands of bench.html: several scenes, and frames timed by the protocol of `tureen bench`
 // (jobs/timing/benchmark.hpp), a few samples at a time.
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/steady_seconds.hpp"
 #include "camera/camera_path.hpp"
 #include "camera/camera_sets.hpp"
 #include "formats/dataset/camera_file.hpp"
@@ -21,10 +21,7 @@ namespace tureen::web {
 
 namespace {
 
-double milliseconds() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(now).count();
-}
+double milliseconds() { return 1e3 * steady_seconds(); }
 
 struct BenchScene {
   Renderer tureen;
@@ -72,10 +69,9 @@ Json facts(const Renderer& renderer, double start) {
                  {"upload_ms", milliseconds() - start}});
 }
 
-Json clear(const Json& arguments) {
-  forget_head(arguments);
+void clear(const Json&) {
+  forget_head();
   bench() = {};
-  return nullptr;
 }
 
 /// {"scene": result of "read"}
@@ -151,14 +147,13 @@ std::vector<Camera> cameras_in(const std::string& text, int count, const Lens& l
 }
 
 /// {"scene", "width", "height", "set"} or {.., "file", "count"}
-Json set_cameras(const Json& arguments) {
+void set_cameras(const Json& arguments) {
   BenchScene& scene = scene_at(arguments.at("scene"));
   const Lens lens{.width = arguments.at("width"), .height = arguments.at("height")};
   const auto file = arguments.find("file");
   scene.cameras = file != arguments.end()
                       ? cameras_in(file->get<std::string>(), arguments.at("count"), lens)
                       : named_set(set_of(arguments.at("set").get<std::string>()), scene, lens);
-  return nullptr;
 }
 
 // -- runs ---------------------------------------------------------------------------------------
@@ -199,7 +194,7 @@ BenchmarkCase benchmark_case_of(const BenchCase& bench_case) {
 }
 
 /// {"entrants", "rounds", "least_sample_ms"}
-Json begin(const Json& arguments) {
+void begin(const Json& arguments) {
   bench().run.reset();
   bench().cases.clear();
   std::size_t views = 0;
@@ -220,7 +215,6 @@ Json begin(const Json& arguments) {
   BenchmarkOptions options{.rounds = std::max(arguments.at("rounds").get<int>(), 1)};
   options.min_sample_ms = arguments.at("least_sample_ms");
   bench().run.emplace(cases, numbers, options);
-  return nullptr;
 }
 
 BenchmarkRun& run() {
@@ -285,7 +279,7 @@ Json result(const Json&) {
 }
 
 /// {"cells": [{"scene", "camera", "x", "y", "width", "height"}], "width", "height"}
-Json show(const Json& arguments) {
+void show(const Json& arguments) {
   page_view().clear_canvas(arguments.at("width"), arguments.at("height"));
   for (const Json& cell : arguments.at("cells")) {
     BenchScene& scene = scene_at(cell.at("scene"));
@@ -296,20 +290,19 @@ Json show(const Json& arguments) {
     renderer.draw({resized(camera, cell.at("width"), cell.at("height"))});
     renderer.blit_to(0, {cell.at("x").get<int>(), cell.at("y").get<int>()});
   }
-  return nullptr;
 }
 
 }  // namespace
 
 Commands bench_commands() {
-  return {{"bench_clear", clear},
+  return {{"bench_clear", does(clear)},
           {"bench_add_scene", add_scene},
           {"bench_add_published", add_published},
-          {"bench_cameras", set_cameras},
-          {"bench_run", begin},
+          {"bench_cameras", does(set_cameras)},
+          {"bench_run", does(begin)},
           {"bench_step", step},
           {"bench_result", result},
-          {"bench_show", show}};
+          {"bench_show", does(show)}};
 }
 
 }  // namespace tureen::web

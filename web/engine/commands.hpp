@@ -18,6 +18,15 @@ namespace tureen::web {
 using Command = std::function<Json(const Json& arguments)>;
 using Commands = std::map<std::string, Command>;
 
+/// A command without a result.
+template <class Action>
+Command does(Action action) {
+  return [action](const Json& arguments) {
+    action(arguments);
+    return Json();
+  };
+}
+
 /// The bytes of a command: input from the caller, or output for the caller. All commands share it;
 /// it is valid until the next command that uses it.
 std::vector<std::byte>& buffer();

@@ -236,10 +236,9 @@ Json forecast(const Json& arguments) {
 }
 
 /// {"blob", "offset", "size"}: writes the bytes to the buffer.
-Json read_block(const Json& arguments) {
+void read_block(const Json& arguments) {
   buffer().resize(arguments.at("size").get<std::size_t>());
   read_blob(loader().prepared.value(), arguments.at("blob"), arguments.at("offset"), buffer());
-  return nullptr;
 }
 
 Json range_json(const FileRange& range) {
@@ -315,7 +314,7 @@ Commands loader_commands() {
           {"add_texels", add_texels},
           {"prepare", prepare},
           {"forecast", forecast},
-          {"read_block", read_block},
+          {"read_block", does(read_block)},
           {"lattice_level", lattice_level}};
 }
 

@@ -83,7 +83,6 @@ class PageView {
   void set_viewport(int width, int height);
   /// Flies like this in each frame, until the next call.
   void fly(const Flight& flight) { flight_ = flight; }
-  bool moving();
 
   /// Moves the visible point at `place` to the centre. `place` and `viewport` have the same unit.
   /// Returns false for the background.
@@ -123,6 +122,7 @@ class PageView {
     CameraControls controls;
     std::vector<ShownLayer> layers;
   };
+  bool moving();
   bool rests(const FrameInput& input);
   void prepare_renderer(bool for_debug_views);
   Stage make_stage(PreparedScene prepared, ShownScene scene) const;

@@ -81,7 +81,7 @@ Json sorted(const Json& number) {
 
 /// {"layers"} of a task. The buffer has the centres; it is empty if they are those of the last
 /// task. Writes the order to the buffer.
-Json sort(const Json& task) {
+void sort(const Json& task) {
   static std::vector<std::vector<glm::vec3>> centers;
   static SplatOrder order;
   const Json& layers = task.at("layers");
@@ -100,7 +100,6 @@ Json sort(const Json& task) {
   ArchiveWriter archive;
   archive(order.splats(), order.runs());
   buffer() = archive.take();
-  return nullptr;
 }
 
 }  // namespace
@@ -108,7 +107,7 @@ Json sort(const Json& task) {
 std::unique_ptr<SplatSorter> make_page_sorter() { return std::make_unique<PageSplatSorter>(); }
 
 Commands sorting_commands() {
-  return {{"sort_task", sort_task}, {"sorted", sorted}, {"sort", sort}};
+  return {{"sort_task", sort_task}, {"sorted", sorted}, {"sort", does(sort)}};
 }
 
 }  // namespace tureen::web

@@ -16,22 +16,17 @@ std::optional<ArrivingScene>& arriving() {
 
 }  // namespace
 
-Json take_head(const Json&) {
+void take_head(const Json&) {
   static const BlobReader read = pull_block;  // the scene refers to it
   arriving().reset();
   arriving().emplace(std::exchange(buffer(), {}), read);
-  return nullptr;
 }
 
-Json upload_block(const Json& arguments) {
+void upload_block(const Json& arguments) {
   arriving().value().upload(arguments.at("blob"), arguments.at("offset"), buffer());
-  return nullptr;
 }
 
-Json forget_head(const Json&) {
-  arriving().reset();
-  return nullptr;
-}
+void forget_head() { arriving().reset(); }
 
 PreparedScene unpacked() {
   ArrivingScene scene = std::move(arriving().value());

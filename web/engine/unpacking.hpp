@@ -8,13 +8,13 @@
 namespace tureen::web {
 
 /// Takes the head of a scene from the buffer, for unpacked(). Forgets an earlier one.
-Json take_head(const Json& arguments);
+void take_head(const Json& arguments);
 
 /// {"blob", "offset"}: uploads the bytes in the buffer (ArrivingScene::upload).
-Json upload_block(const Json& arguments);
+void upload_block(const Json& arguments);
 
 /// Forgets the scene of the head, and frees its memory on the device.
-Json forget_head(const Json& arguments);
+void forget_head();
 
 /// The scene of the head. Its sources read Module.blobs, except those that were uploaded.
 PreparedScene unpacked();

@@ -82,22 +82,10 @@ Json show(const Json& arguments) {
   return facts();
 }
 
-Json clear(const Json&) {
-  forget_head({});
+void clear() {
+  forget_head();
   view().drop_preview();
   view().drop_scene();
-  return nullptr;
-}
-
-/// Before the blocks of another scene: the device's memory may not hold both.
-Json drop_scene(const Json&) {
-  view().drop_scene();
-  return nullptr;
-}
-
-Json drop_preview(const Json&) {
-  view().drop_preview();
-  return nullptr;
 }
 
 // -- layers: each command returns facts(), except those that only place or show a layer, which
@@ -134,8 +122,6 @@ Json move_layer(const Json& arguments) {
 
 // -- looking around -----------------------------------------------------------------------------
 
-Json moving() { return view().moving(); }
-
 /// The side of an image for poses, which do not depend on it.
 constexpr int any_side = 1000;
 
@@ -155,20 +141,18 @@ bool is_direction(const glm::dvec3& axis) {
   return glm::length(axis) > 0 && std::isfinite(glm::length(axis));
 }
 
-Json set_up(const Json& axis) {
+void set_up(const Json& axis) {
   if (!is_direction(vector_of(axis))) throw UsageError("the up axis must be a direction");
   controls().set_up(vector_of(axis));
-  return nullptr;
 }
 
-Json set_fov(const Json& fov) {
+void set_fov(const Json& fov) {
   if (!is_angle(fov.get<double>())) throw UsageError("the angle must be above 0 and below pi");
   controls().set_fov(fov);
-  return nullptr;
 }
 
 /// {"pose", "glide"}
-Json set_pose(const Json& arguments) {
+void set_pose(const Json& arguments) {
   const Json& pose = arguments.at("pose");
   const glm::dvec3 eye = vector_of(pose.at("eye")), target = vector_of(pose.at("target"));
   const glm::dvec3 up = vector_of(pose.at("up"));
@@ -184,7 +168,6 @@ Json set_pose(const Json& arguments) {
   controls().adopt(camera_of(state, any_side, any_side));
   controls().set_target_depth(distance);
   if (!arguments.at("glide").get<bool>()) controls().arrive();
-  return nullptr;
 }
 
 NamedView named_view(const std::string& name) {
@@ -194,60 +177,12 @@ NamedView named_view(const std::string& name) {
   throw UsageError("there is no view \"" + name + "\"");
 }
 
-Json show_camera(const Json& index) {
-  if (!view().shows_scene()) return nullptr;
+void show_camera(const Json& index) {
+  if (!view().shows_scene()) return;
   const auto& cameras = view().scene().cameras;
   if (index.get<std::size_t>() >= cameras.size())
     throw UsageError("there is no camera " + index.dump());
   controls().adopt(cameras[index.get<std::size_t>()]);
-  return nullptr;
-}
-
-Commands looking_around() {
-  // Most commands change the view and return whether it is moving.
-  const auto moves = [](auto move) {
-    return [move](const Json& a) {
-      move(a);
-      return moving();
-    };
-  };
-  return {
-      {"viewport", moves([](const Json& a) { view().set_viewport(a[0], a[1]); })},
-      {"mode", moves([](const Json& a) {
-         controls().set_mode(a == "fly" ? NavigationMode::fly : NavigationMode::orbit);
-       })},
-      {"orbit", moves([](const Json& a) { controls().orbit(a[0], a[1]); })},
-      {"pan", moves([](const Json& a) { controls().pan(a[0], a[1]); })},
-      {"turn_head", moves([](const Json& a) { controls().look(a[0], a[1]); })},
-      {"dolly", moves([](const Json& a) {
-         if (a.size() == 1)
-           controls().dolly(a[0]);
-         else
-           controls().dolly(a[0], {a[1].get<double>(), a[2].get<double>()});
-       })},
-      {"scale_speed", moves([](const Json& a) { controls().scale_speed(a[0]); })},
-      {"fly",
-       moves([](const Json& a) { view().fly({.direction = vector_of(a[0]), .factor = a[1]}); })},
-      {"frame", moves([](const Json&) { controls().frame(); })},
-      {"home", moves([](const Json&) { controls().reset(); })},
-      {"named_view",
-       moves([](const Json& a) { controls().look_from(named_view(a.get<std::string>())); })},
-      {"camera", moves([](const Json& a) { show_camera(a); })},
-      {"up", moves(set_up)},
-      {"fov", moves(set_fov)},
-      {"gliding", moves([](const Json& a) {
-         controls().set_smoothing(a.get<bool>() ? CameraControls().smoothing() : 0.0);
-       })},
-      {"speed", [](const Json&) { return Json(controls().speed()); }},
-      {"arrive", moves([](const Json&) { controls().arrive(); })},
-      {"set_pose", moves([](const Json& a) { set_pose(a); })},
-      {"focus",
-       [](const Json& a) {
-         return Json(view().focus({a.at(0).get<double>(), a.at(1).get<double>()},
-                                  {a.at(2).get<double>(), a.at(3).get<double>()}));
-       }},
-      {"pose", [](const Json&) { return pose(); }},
-  };
 }
 
 // -- drawing ------------------------------------------------------------------------------------
@@ -264,18 +199,12 @@ void keep_pixels(const Image8& image) {
 }
 
 /// {"width", "height"} for the current view, or {"camera"}.
-Json image(const Json& arguments) {
+void image(const Json& arguments) {
   if (!view().shows_scene()) throw UsageError("there is no scene for an image");
   const auto camera = arguments.find("camera");
   keep_pixels(camera != arguments.end()
                   ? view().image(camera_of(*camera))
                   : view().image(arguments.at("width"), arguments.at("height")));
-  return nullptr;
-}
-
-Json background(const Json& color) {
-  view().set_background(glm::vec3(vector_of(color)));
-  return nullptr;
 }
 
 /// The scenes that "read_for_debug_views" has read, one for each source of the page.
@@ -287,7 +216,7 @@ std::vector<Scene>& reread() {
 /// {"folder", "paths", "level"?: maximum lattice level, "max_splats"?, "source": number of the
 /// source}: reads a source again, for debug views that need more data than the renderer has. Source
 /// 0 is the first.
-Json read_for_debug_views(const Json& arguments) {
+void read_for_debug_views(const Json& arguments) {
   if (arguments.at("source") == 0) reread().clear();
   Scene scene = read_scene(scene_path(arguments), read_options(arguments));
   if (const auto level = arguments.find("level"); level != arguments.end()) {
@@ -298,11 +227,10 @@ Json read_for_debug_views(const Json& arguments) {
     }
   }
   reread().push_back(std::move(scene));
-  return nullptr;
 }
 
 /// [[source, layer of the source], ..]: the shown layers. Keeps what was read for them.
-Json keep_read_layers(const Json& shown) {
+void keep_read_layers(const Json& shown) {
   PageView::ReadScene read{.scenes = std::exchange(reread(), {}), .layers = {}, .options = {}};
   read.options = page_options(read.scenes.at(0), view().splat_blending());
   for (const Json& place : shown) {
@@ -310,16 +238,14 @@ Json keep_read_layers(const Json& shown) {
     read.layers.push_back(&scene.layers.at(place.at(1).get<std::size_t>()).primitives);
   }
   view().keep_read_scene(std::move(read));
-  return nullptr;
 }
 
 /// {"name", "first"?, "count"?}
-Json show_debug_view(const Json& arguments) {
+void show_debug_view(const Json& arguments) {
   const auto name = arguments.at("name").get<std::string>();
   const auto what = debug_view_named(name);
   if (!what) throw UsageError("there is no debug view \"" + name + "\"");
   view().show(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
-  return nullptr;
 }
 
 Json legend(const Json&) {
@@ -333,39 +259,67 @@ Json legend(const Json&) {
 }  // namespace
 
 Commands viewer_commands() {
-  Commands commands = looking_around();
-  commands.insert(
-      {{"start", start},
-       {"take_head", take_head},
-       {"upload_block", upload_block},
-       {"forget_head", forget_head},
-       {"drop_scene", drop_scene},
-       {"show", show},
-       {"clear", clear},
-       {"drop_preview", drop_preview},
-       {"add_layers", add_layers},
-       {"set_layer", set_layer},
-       {"remove_layer", remove_layer},
-       {"move_layer", move_layer},
-       {"draw", draw},
-       {"smooth_at_rest",
-        [](const Json& smooth) {
-          view().smooth_at_rest(smooth);
-          return Json();
-        }},
-       {"sort_in_frames",
-        [](const Json&) {
-          view().sort_in_frames();
-          return Json();
-        }},
-       {"picture", image},
-       {"background", background},
-       {"is_read_for_debug_views", [](const Json&) { return Json(view().has_read_scene()); }},
-       {"read_for_debug_views", read_for_debug_views},
-       {"keep_read_layers", keep_read_layers},
-       {"debug_view", show_debug_view},
-       {"legend", legend}});
-  return commands;
+  return {
+      {"start", start},
+      {"take_head", does(take_head)},
+      {"upload_block", does(upload_block)},
+      {"forget_head", does([](const Json&) { forget_head(); })},
+      // Before the blocks of another scene: the device's memory may not hold both.
+      {"drop_scene", does([](const Json&) { view().drop_scene(); })},
+      {"drop_preview", does([](const Json&) { view().drop_preview(); })},
+      {"show", show},
+      {"clear", does([](const Json&) { clear(); })},
+      {"add_layers", add_layers},
+      {"set_layer", set_layer},
+      {"remove_layer", remove_layer},
+      {"move_layer", move_layer},
+
+      {"viewport", does([](const Json& a) { view().set_viewport(a[0], a[1]); })},
+      {"mode", does([](const Json& a) {
+         controls().set_mode(a == "fly" ? NavigationMode::fly : NavigationMode::orbit);
+       })},
+      {"orbit", does([](const Json& a) { controls().orbit(a[0], a[1]); })},
+      {"pan", does([](const Json& a) { controls().pan(a[0], a[1]); })},
+      {"turn_head", does([](const Json& a) { controls().look(a[0], a[1]); })},
+      {"dolly", does([](const Json& a) {
+         if (a.size() == 1)
+           controls().dolly(a[0]);
+         else
+           controls().dolly(a[0], {a[1].get<double>(), a[2].get<double>()});
+       })},
+      {"scale_speed", does([](const Json& a) { controls().scale_speed(a[0]); })},
+      {"speed", [](const Json&) { return Json(controls().speed()); }},
+      {"fly",
+       does([](const Json& a) { view().fly({.direction = vector_of(a[0]), .factor = a[1]}); })},
+      {"frame", does([](const Json&) { controls().frame(); })},
+      {"home", does([](const Json&) { controls().reset(); })},
+      {"named_view",
+       does([](const Json& a) { controls().look_from(named_view(a.get<std::string>())); })},
+      {"camera", does(show_camera)},
+      {"up", does(set_up)},
+      {"fov", does(set_fov)},
+      {"gliding", does([](const Json& a) {
+         controls().set_smoothing(a.get<bool>() ? CameraControls().smoothing() : 0.0);
+       })},
+      {"arrive", does([](const Json&) { controls().arrive(); })},
+      {"pose", [](const Json&) { return pose(); }},
+      {"set_pose", does(set_pose)},
+      {"focus",
+       [](const Json& a) {
+         return Json(view().focus({a.at(0).get<double>(), a.at(1).get<double>()},
+                                  {a.at(2).get<double>(), a.at(3).get<double>()}));
+       }},
+
+      {"draw", draw},
+      {"smooth_at_rest", does([](const Json& smooth) { view().smooth_at_rest(smooth); })},
+      {"sort_in_frames", does([](const Json&) { view().sort_in_frames(); })},
+      {"picture", does(image)},
+      {"background", does([](const Json& a) { view().set_background(glm::vec3(vector_of(a))); })},
+      {"is_read_for_debug_views", [](const Json&) { return Json(view().has_read_scene()); }},
+      {"read_for_debug_views", does(read_for_debug_views)},
+      {"keep_read_layers", does(keep_read_layers)},
+      {"debug_view", does(show_debug_view)},
+      {"legend", legend}};
 }
 
 }  // namespace tureen::web

@@ -1,11 +1,9 @@
 // The page's address: ?scene= holds a scene, once for each, and the part after '#' the camera and the layers. The page updates it, so
 // reloads, bookmarks and the Back button work as usual.
 
+import { queryText } from '../viewer/addresses.js';
 import { splatBlendings, type SplatBlending, type ViewPose } from '../viewer/types.js';
 import { readFragment, writeFragment, type LinkedView } from './camera_link.js';
-
-/** Encodes a query, but keeps slashes and colons, which are allowed there, readable. */
-const queryText = (text: string) => encodeURIComponent(text).replace(/%2F/g, '/').replace(/%3A/g, ':');
 
 export class AddressBar {
   /** `still`: do not change the address, for a page in a frame. */

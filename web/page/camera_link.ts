@@ -8,7 +8,7 @@
 
 import { namedViews, type NamedView, type Vec3, type ViewPose } from '../viewer/types.js';
 import { readLayers, type LinkedLayer } from './layer_link.js';
-import { degreesPerRadian, plainNumber } from './numbers.js';
+import { degreesPerRadian, plainNumber, readVector } from './numbers.js';
 
 /** `up`: null for the scene's own up axis. */
 export type LinkedPose = Omit<ViewPose, 'up'> & { readonly up: Vec3 | null };
@@ -46,12 +46,6 @@ export function writeFragment(pose: ViewPose | null, debugView: string | null, l
   return parts.length ? '#' + parts.join('&') : '';
 }
 
-function readVector(text: string | null): Vec3 | null {
-  const parts = (text ?? '').split(',');
-  const values = parts.map((part) => (part.trim() === '' ? NaN : Number(part)));
-  return values.length === 3 && values.every(Number.isFinite) ? [values[0]!, values[1]!, values[2]!] : null;
-}
-
 export function readFragment(fragment: string): LinkedView {
   const parts = new URLSearchParams(fragment.replace(/^#/, ''));
   const debugView = parts.get('look') || null, layers = readLayers(parts.get('layers'));
@@ -63,12 +57,13 @@ export function readFragment(fragment: string): LinkedView {
   if (!parts.has('eye') && !parts.has('target')) return { pose: null, ...rest, defect: viewDefect ?? layersDefect };
 
   const without = (defect: string): LinkedView => ({ pose: null, ...rest, defect });
-  const eye = readVector(parts.get('eye')), target = readVector(parts.get('target'));
+  const vector = (name: string) => readVector(parts.get(name) ?? '', ',');
+  const eye = vector('eye'), target = vector('target');
   if (!eye || !target)
     return without('The link\'s camera needs eye and target, three numbers each: #eye=4,-6,3&target=0,0,0.');
   if (eye.every((value, axis) => value === target[axis]))
     return without('The link\'s camera has the same eye and target: they must differ.');
-  const up = parts.has('up') ? readVector(parts.get('up')) : null;
+  const up = vector('up');
   if (parts.has('up') && (!up || up.every((value) => value === 0))) return without('The link\'s up is not a direction: it needs three numbers, up=0,0,1.');
   const fov = Number(parts.get('fov') ?? 40), roll = Number(parts.get('roll') ?? 0);
   if (!(fov > 0 && fov < 180)) return without('The link\'s fov is not an angle between 0 and 180 degrees.');

@@ -49,6 +49,23 @@ export function fillFacts(list: HTMLElement, facts: readonly (readonly [string, 
       make('div', {}, make('dt', {}, name), make('dd', {}, value!))));
 }
 
+/** Lets a button open a file input, and calls `picked` after each choice. The list is empty after the call. */
+export function attachPicker(buttonId: string, inputId: string, picked: (files: FileList) => void): void {
+  const picker = input(inputId);
+  button(buttonId).addEventListener('click', () => picker.click());
+  picker.addEventListener('change', () => {
+    if (picker.files?.length) picked(picker.files);
+    picker.value = '';  // so that the same file can be picked again
+  });
+}
+
+/** Saves a file as a download of the browser. */
+export function saveFile(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
+  make('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 60_000);  // some browsers start the download late
+}
+
 /** Whether the element is a text input. */
 export function takesText(target: EventTarget | null): boolean {
   if (target instanceof HTMLInputElement)

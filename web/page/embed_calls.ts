@@ -7,7 +7,8 @@ import {
   type SceneSource, type Vec3, type Viewer, type ViewerEvents, type ViewPose,
 } from '../viewer/types.js';
 import type { Loading } from './loading.js';
-import { isPose, isVector } from './saved_views.js';
+import { isVector } from './numbers.js';
+import { isPose } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =
   ['progress', 'preview', 'scene', 'layers', 'notice', 'frame', 'view', 'context'];

@@ -7,7 +7,7 @@
 // new place of a layer that was moved. `shown`: hidden in the file, but visible now. Layers without an entry are removed.
 
 import type { Placement, SceneLayer, SceneSource, Vec3 } from '../viewer/types.js';
-import { degreesPerRadian } from './numbers.js';
+import { degreesPerRadian, readVector } from './numbers.js';
 
 export interface LinkedLayer {
   /** The number of the scene in the link, and of the layer in its scene, from 0. */
@@ -55,11 +55,6 @@ export function writeLayers(scenes: readonly SceneSource[], layers: readonly Sce
   return text === untouched.join(';') ? null : text;
 }
 
-function readNumbers(text: string): Vec3 | null {
-  const values = text.split(':').map((part) => (part === '' ? NaN : Number(part)));
-  return values.length === 3 && values.every(Number.isFinite) ? [values[0]!, values[1]!, values[2]!] : null;
-}
-
 function readLayer(entry: string): LinkedLayer | null {
   const [number = '', ...changes] = entry.split(',');
   const numbers = /^([1-9]\d{0,4})(?:\.([1-9]\d{0,4}))?$/.exec(number);
@@ -79,7 +74,7 @@ function readLayer(entry: string): LinkedLayer | null {
         break;
       case 'at':
       case 'turn': {
-        const vector = readNumbers(values);
+        const vector = readVector(values, ':');
         if (!vector) return null;
         if (name === 'at') position = vector;
         else rotation = [vector[0] / degreesPerRadian, vector[1] / degreesPerRadian, vector[2] / degreesPerRadian];

@@ -41,6 +41,15 @@ export function plainNumber(value: number, decimals: number): string {
   return short === '-0' ? '0' : short;
 }
 
+export const isVector = (value: unknown): value is Vec3 =>
+  Array.isArray(value) && value.length === 3 && value.every((part) => Number.isFinite(part));
+
+/** Three numbers with this separator, as in a link; null for another text. */
+export function readVector(text: string, separator: string): Vec3 | null {
+  const values = text.split(separator).map((part) => (part.trim() === '' ? NaN : Number(part)));
+  return isVector(values) ? values : null;
+}
+
 /** "#20242e" for colours with channels in 0..1. */
 export function hexColor(color: Vec3): string {
   const digits = (part: number) =>

@@ -1,16 +1,14 @@
 // The user's saved views of each scene, by name. Other scripts may change the storage, so invalid
 // entries are skipped.
 
-import type { Vec3, ViewPose } from '../viewer/types.js';
+import type { ViewPose } from '../viewer/types.js';
 import { recall, remember } from './memory.js';
+import { isVector } from './numbers.js';
 
 export interface SavedView {
   readonly name: string;
   readonly pose: ViewPose;
 }
-
-export const isVector = (value: unknown): value is Vec3 =>
-  Array.isArray(value) && value.length === 3 && value.every((part) => Number.isFinite(part));
 
 /** Whether an untrusted value is a camera. */
 export function isPose(value: unknown): value is ViewPose {

@@ -2,7 +2,7 @@
 // there is no scene, and on request.
 
 import type { Viewer } from '../viewer/types.js';
-import { block, byId, button, input } from './dom.js';
+import { attachPicker, block, byId, button, input } from './dom.js';
 import { sourcesOfDropped, sourcesOfPicked } from './files.js';
 import { fillGallery } from './gallery.js';
 import type { Loading } from './loading.js';
@@ -21,8 +21,8 @@ export class Start {
     window.addEventListener('keydown', (event) => {
       if (event.key === 'Escape' && !event.defaultPrevented && !document.querySelector('dialog[open]')) this.close();
     });
-    this.attachPicker('choose-files', 'files');
-    this.attachPicker('choose-folder', 'folder');
+    for (const kind of ['files', 'folder'])
+      attachPicker(`choose-${kind}`, kind, (files) => void this.leaveFor(this.pick(files)));
     if (!('webkitdirectory' in input('folder'))) button('choose-folder').hidden = true;
     byId('address-form', HTMLFormElement).addEventListener('submit', (event) => {
       event.preventDefault();
@@ -57,31 +57,18 @@ export class Start {
     this.opener.setAttribute('aria-expanded', String(open));
   }
 
-  private attachPicker(buttonId: string, inputId: string): void {
-    const picker = input(inputId);
-    button(buttonId).addEventListener('click', () => picker.click());
-    picker.addEventListener('change', () => {
-      const picked = picker.files;
-      if (picked?.length) void this.leaveFor(this.pick(picked));
-      picker.value = '';  // so that the same file can be picked again
-    });
-  }
-
-  private async pick(list: FileList): Promise<boolean> {
-    try {
-      return await this.openings.openFiles(sourcesOfPicked(list));
-    } catch (error) {
-      this.messages.thrown(error);
-      return false;
-    }
-  }
+  private async pick(list: FileList): Promise<boolean> { return this.openings.openFiles(sourcesOfPicked(list)); }
 
   /** Closes the card while a scene opens; opens it again if that fails. */
   private async leaveFor(opening: Promise<boolean>): Promise<void> {
     const held = this.card.contains(document.activeElement);
     this.show(false);
     if (held) this.viewer.canvas.focus();
-    if (!(await opening)) this.update();
+    const opened = await opening.catch((error: unknown) => {
+      this.messages.thrown(error);
+      return false;
+    });
+    if (!opened) this.update();
     else if (held && document.activeElement === document.body) this.viewer.canvas.focus();  // the canvas was invisible before
   }
 
@@ -107,12 +94,7 @@ export class Start {
   }
 
   private async drop(transfer: DataTransfer): Promise<boolean> {
-    try {
-      const adds = this.viewer.scene !== null, sources = await sourcesOfDropped(transfer);
-      return await (adds ? this.openings.addFiles(sources) : this.openings.openFiles(sources));
-    } catch (error) {
-      this.messages.thrown(error);
-      return false;
-    }
+    const adds = this.viewer.scene !== null, sources = await sourcesOfDropped(transfer);
+    return adds ? this.openings.addFiles(sources) : this.openings.openFiles(sources);
   }
 }

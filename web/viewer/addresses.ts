@@ -20,6 +20,9 @@ export function urlOf({ url }: { readonly url: string }): string {
   return whole.href;
 }
 
+/** Encodes a query, but keeps slashes and colons, which are allowed there, readable. */
+export const queryText = (text: string) => encodeURIComponent(text).replace(/%2F/g, '/').replace(/%3A/g, ':');
+
 /** The last part of an address's path, decoded if possible; empty if the path ends with a slash. */
 export function fileNameOf(url: string): string {
   const path = url.replace(/[?#].*$/s, ''), name = path.slice(path.lastIndexOf('/') + 1);

@@ -8,8 +8,7 @@ export class ArrivingScene {
 
   /** `kept`: keeps the blocks until finish(), because the device still holds another scene. */
   constructor(private readonly engine: Engine, head: ArrayBuffer, private readonly kept: Block[] | null) {
-    engine.setBuffer(new Uint8Array(head));
-    engine.call('take_head');
+    engine.takeHead(head);
   }
 
   /** Returns what has happened to the block. Errors are thrown by finish(). */

@@ -95,8 +95,21 @@ export class Engine {
     return this.module.HEAPU8.subarray(at, at + size);
   }
 
-  /** Sets the blobs of the scene that is being unpacked. */
-  setBlobs(blobs: readonly ArrayBuffer[]): void { this.module.blobs = blobs; }
+  /** Runs a command that takes a prepared scene. An empty head was given before (arriving_scene.ts). */
+  give<T>({ head, blobs }: Parcel, command: string, given: object): T {
+    if (head.byteLength > 0) this.takeHead(head);
+    this.module.blobs = blobs;
+    try {
+      return this.call<T>(command, given);
+    } finally {
+      this.module.blobs = [];
+    }
+  }
+
+  takeHead(head: ArrayBuffer): void {
+    this.setBuffer(new Uint8Array(head));
+    this.call('take_head');
+  }
 
   /** Adds files for the engine below `folder`, without a copy of their bytes. */
   putFiles(folder: string, files: ReadonlyMap<string, Uint8Array>): void {

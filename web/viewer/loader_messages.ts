@@ -1,7 +1,9 @@
 // Messages between the page and its workers: one loads a scene, another sorts splats.
 
 import type { Parcel } from './engine.js';
-import type { LoadProgress, DebugViewChoice, SceneFile, SplatOffer, Vec3, ViewerError } from './types.js';
+import type {
+  LoadProgress, DebugViewChoice, SceneFile, SceneSummary, SplatOffer, Vec3, ViewerError,
+} from './types.js';
 
 export interface FilesToLoad {
   readonly files: readonly SceneFile[];
@@ -11,17 +13,10 @@ export interface FilesToLoad {
 export type SourceToLoad = { readonly url: string; readonly name: string } | FilesToLoad;
 
 /** The loader's description of a scene: web/engine/loader.cpp. */
-export interface SceneDescription {
-  readonly name: string;
-  readonly source: string;
-  readonly notes: readonly string[];
+export interface SceneDescription
+  extends Pick<SceneSummary, 'name' | 'source' | 'notes' | 'triangles' | 'splats' | 'appearance' | 'cameras' | 'background'> {
   /** The names of the layers in the file, which may be empty. */
   readonly layer_names: readonly string[];
-  readonly triangles: number;
-  readonly splats: number;
-  readonly appearance: string;
-  readonly cameras: readonly { readonly name: string; readonly width: number; readonly height: number }[];
-  readonly background: Vec3;
   readonly subject: { readonly low: Vec3; readonly high: Vec3; readonly up: Vec3 };
   readonly up_reason: string;
   readonly debug_views: readonly DebugViewChoice[];

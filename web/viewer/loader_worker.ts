@@ -193,25 +193,21 @@ class Loader {
   }
 }
 
-function post(message: FromLoader): void {
-  const transferred: Transferable[] = [];
-  if (message.kind === 'scene' || message.kind === 'preview') {
-    const { head, blobs } = message.scene.parcel;
-    transferred.push(head, ...blobs);
-  } else if (message.kind === 'head') {
-    transferred.push(message.head);
-  } else if (message.kind === 'block') {
-    transferred.push(message.block.bytes);
-  } else if (message.kind === 'layer') {
-    const { head, blobs } = message.layer.parcel;
-    transferred.push(head, ...blobs);
-  } else if (message.kind === 'sorted') {
-    transferred.push(message.order.buffer);
-  } else if (message.kind === 'inflated') {
-    transferred.push(...message.inflated.map(({ buffer }) => buffer));
+/** The memory that goes to the page with a message. */
+function transferred(message: FromLoader): Transferable[] {
+  switch (message.kind) {
+    case 'scene':
+    case 'preview': return [message.scene.parcel.head, ...message.scene.parcel.blobs];
+    case 'layer': return [message.layer.parcel.head, ...message.layer.parcel.blobs];
+    case 'head': return [message.head];
+    case 'block': return [message.block.bytes];
+    case 'sorted': return [message.order.buffer];
+    case 'inflated': return message.inflated.map(({ buffer }) => buffer);
+    default: return [];
   }
-  self.postMessage(message, { transfer: transferred });
 }
+
+function post(message: FromLoader): void { self.postMessage(message, { transfer: transferred(message) }); }
 
 let sorter: Promise<Engine> | null = null;
 

@@ -6,7 +6,7 @@ import { urlOf } from './addresses.js';
 import { ArrivingScene } from './arriving_scene.js';
 import { assetsAt } from './assets.js';
 import { attachControls } from './controls.js';
-import { compile, Engine, type Parcel } from './engine.js';
+import { compile, Engine } from './engine.js';
 import { FrameTimes } from './frame_times.js';
 import type { LoadRole, PreparedScene, SceneDescription } from './loader_messages.js';
 import { isShortage, Loading } from './loading.js';
@@ -331,7 +331,10 @@ class CanvasViewer implements Viewer {
   }
 
   private forgetScene(): void {
-    if (!this.shown) return;
+    if (this.shown) this.setNoScene();
+  }
+
+  private setNoScene(): void {
     this.setScene(null, [], []);
     this.debugView_ = { ...this.debugView_, name: 'color' };
     this.setLayers([]);
@@ -396,25 +399,10 @@ class CanvasViewer implements Viewer {
     });
   }
 
-  /** Runs a command that takes a prepared scene. */
-  private give({ head, blobs }: Parcel, command: string, given: object): ShownFacts {
-    if (head.byteLength > 0) {
-      this.engine.setBuffer(new Uint8Array(head));
-      this.engine.call('take_head');
-    }
-    this.engine.setBlobs(blobs);
-    try {
-      return this.engine.call<ShownFacts>(command, given);
-    } finally {
-      this.engine.setBlobs([]);
-      this.ask();
-    }
-  }
-
   private unpack({ description, parcel }: Pick<PreparedScene, 'description' | 'parcel'>, role: 'preview' | 'scene'): ShownFacts {
     if (role === 'preview' || !this.previewed) this.background = description.background;
     try {
-      return this.give(parcel, 'show', { scene: description, role });
+      return this.engine.give<ShownFacts>(parcel, 'show', { scene: description, role });
     } finally {
       this.engine.call('gliding', this.gliding_);
       this.engine.call('mode', this.navigation);
@@ -428,11 +416,7 @@ class CanvasViewer implements Viewer {
     this.loading?.cancel();
     if (!this.lost) this.engine.call('clear');
     this.previewed = false;
-    this.setScene(null, [], []);
-    this.debugView_ = { ...this.debugView_, name: 'color' };
-    this.setLayers([]);
-    this.emit('scene', null);
-    this.emit('layers', []);
+    this.setNoScene();
     this.ask();
   }
 
@@ -474,7 +458,7 @@ class CanvasViewer implements Viewer {
           const name = freeName(ownName(description, index), this.records);
           let facts;
           try {
-            facts = this.shown ? this.give(parcel, 'add_layers', {})
+            facts = this.shown ? this.engine.give<ShownFacts>(parcel, 'add_layers', {})
                                : this.unpack({ description: first ?? description, parcel }, 'scene');
           } catch (error) {
             if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');

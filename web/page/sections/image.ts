@@ -1,7 +1,7 @@
 // Saves the image as a file.
 
 import type { Viewer } from '../../viewer/types.js';
-import { button, make, select } from '../dom.js';
+import { button, make, saveFile, select } from '../dom.js';
 
 /** Title, width and height of each choice; 0 x 0 for the size on the page. */
 const sizes: readonly (readonly [string, number, number])[] = [
@@ -32,9 +32,7 @@ export class ImageSection {
     try {
       const png = await (width > 0 ? viewer.screenshot({ width, height }) : viewer.screenshot());
       const name = imageName(viewer.scene.name, viewer.debugView);
-      const url = URL.createObjectURL(png);
-      make('a', { href: url, download: name }).click();
-      setTimeout(() => URL.revokeObjectURL(url), 60_000);  // some browsers start the download late
+      saveFile(name, png);
       this.tell(`Saved as ${name}.`);
     } catch (error) {
       this.failed(error);
