@@ -14,9 +14,6 @@ namespace tureen::oracle {
 
 namespace {
 
-/// Rows of one band of visit_pixels.
-constexpr int band_rows = 16;
-
 /// floor(value), clamped to [low, high] before the conversion to int; NaN becomes low.
 int clamped_floor(double value, int low, int high) {
   return static_cast<int>(std::min(std::max(double(low), std::floor(value)), double(high)));
@@ -225,33 +222,6 @@ void Rays::visit_faces(int first_row, int end_row, const HitVisitor& visit) cons
       visit_snapped(face, first, end, visit);
     else
       visit_exact(face, first, end, visit);
-  }
-}
-
-void Rays::visit_pixels(const PixelVisitor& visit) const {
-  struct Found {
-    int column, row;
-    Hit hit;
-  };
-  std::vector<Found> band;
-  std::vector<Hit> hits;
-  for (int first = 0; first < camera_.height; first += band_rows) {
-    band.clear();
-    visit_faces(first, std::min(first + band_rows, camera_.height),
-                [&](int column, int row, const Hit& hit) {
-                  band.push_back({column, row, hit});
-                });
-    std::sort(band.begin(), band.end(), [](const Found& a, const Found& b) {
-      return std::tie(a.row, a.column, a.hit.depth, a.hit.face) <
-             std::tie(b.row, b.column, b.hit.depth, b.hit.face);
-    });
-    for (std::size_t i = 0; i < band.size();) {
-      const int column = band[i].column, row = band[i].row;
-      hits.clear();
-      for (; i < band.size() && band[i].column == column && band[i].row == row; ++i)
-        hits.push_back(band[i].hit);
-      visit(column, row, hits);
-    }
   }
 }
 

@@ -1,5 +1,5 @@
 // Intersections of camera rays with the triangles of a soup, in double precision: all hits along
-// every ray, in order. This is geometry only; oracle/shade.hpp computes the appearance of a hit.
+// every ray. This is geometry only; oracle/shade.hpp computes the appearance of a hit.
 //
 // One ray passes through each pixel centre (column + 1/2, row + 1/2), rows counted from the top.
 // Let v_k = (x_k, y_k, w_k) be the homogeneous image points in pixels and p = (column + 1/2, row +
@@ -14,7 +14,6 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -76,14 +75,9 @@ class Rays {
        RayOptions options = {}, const std::optional<ClipRange>& range = std::nullopt);
 
   using HitVisitor = std::function<void(int column, int row, const Hit&)>;
-  using PixelVisitor = std::function<void(int column, int row, std::span<const Hit>)>;
 
   /// All hits of the pixels in rows [first_row, end_row), face by face in increasing order.
   void visit_faces(int first_row, int end_row, const HitVisitor& visit) const;
-
-  /// For every pixel with a hit, row by row from the top: its hits sorted by depth, ties by face.
-  /// Works in bands of rows, so memory holds only the hits in one band.
-  void visit_pixels(const PixelVisitor& visit) const;
 
   /// The unit direction from the surface point of a pixel to the eye, in layer coordinates.
   /// Harmonics and color MLPs are functions of this direction, so the look of a layer does not

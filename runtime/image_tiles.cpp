@@ -61,15 +61,6 @@ void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandS
   }
 }
 
-Image8 draw_in_tiles(const FrameInput& input, const ImageTiles& tiles) {
-  Image8 image(input.camera.width, input.camera.height);
-  auto next = image.pixels.begin();
-  draw_in_bands(input, tiles, [&](const Image8& rows) {
-    next = std::copy(rows.pixels.begin(), rows.pixels.end(), next);
-  });
-  return image;
-}
-
 ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
   if (renderer.plan().quality.resolution_scale < 1)
     throw UsageError(

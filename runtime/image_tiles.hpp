@@ -35,9 +35,6 @@ Camera crop(const Camera& camera, glm::ivec2 corner, glm::ivec2 size);
 /// Holds one band and one tile in memory. Exceptions from `draw`, `sink` and `progress` end it.
 void draw_in_bands(const FrameInput& input, const ImageTiles& tiles, const BandSink& sink);
 
-/// The complete image, if memory suffices for its 4 bytes a pixel.
-Image8 draw_in_tiles(const FrameInput& input, const ImageTiles& tiles);
-
 /// Tiles drawn by this renderer, which must outlive them. Throws UsageError if its
 /// plan has a resolution scale: tiles drawn at a lower resolution would not match at their borders.
 ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "oracle/hits.hpp"
+#include "tests/support/hits_of_pixels.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen {
@@ -162,7 +163,7 @@ std::optional<Hit> moeller_trumbore(const TriangleSoup& soup, std::uint32_t face
 void expect_brute_force_agrees(const TriangleSoup& soup, const Camera& camera) {
   const Rays rays(soup, glm::dmat4(1.0), camera);
   std::vector<std::vector<Hit>> found(std::size_t(camera.width) * camera.height);
-  rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
+  test::visit_pixels(rays, camera, [&](int column, int row, std::span<const Hit> hits) {
     found[std::size_t(row) * camera.width + column].assign(hits.begin(), hits.end());
   });
   const glm::dmat3 world_from_view = camera.world_from_view_rotation();

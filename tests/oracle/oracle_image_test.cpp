@@ -10,6 +10,7 @@
 #include "oracle/oracle.hpp"
 #include "oracle/shade.hpp"
 #include "tests/support/cutout_cloud.hpp"
+#include "tests/support/hits_of_pixels.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen {
@@ -57,7 +58,7 @@ TEST_P(OracleImages, ShowTheFirstVisibleHitOfEveryRay) {
   const oracle::Rays rays(soup_, at_origin(no_origin), camera_);
   std::vector<std::uint32_t> expected(image.face.size(), OracleImage::no_face);
   std::size_t skipped = 0;
-  rays.visit_pixels([&](int column, int row, std::span<const oracle::Hit> hits) {
+  test::visit_pixels(rays, camera_, [&](int column, int row, std::span<const oracle::Hit> hits) {
     for (const oracle::Hit& hit : hits) {
       if (!oracle::is_visible(soup_, {hit.face, hit.b0, hit.b1})) {
         ++skipped;
@@ -190,11 +191,11 @@ TEST(OracleImage, CoincidentFacesAreWonByTheLowerIndex) {
     for (const std::uint32_t face : image.face)
       ASSERT_TRUE(face < 40 || face == OracleImage::no_face);
     EXPECT_GT(covered(image), 500u);
-    oracle::Rays(soup, at_origin(no_origin), camera, {.coverage = coverage})
-        .visit_pixels([](int, int, std::span<const oracle::Hit> hits) {
-          for (std::size_t i = 0; i + 1 < hits.size(); i += 2)
-            ASSERT_EQ(hits[i].face + 40, hits[i + 1].face);
-        });
+    const oracle::Rays rays(soup, at_origin(no_origin), camera, {.coverage = coverage});
+    test::visit_pixels(rays, camera, [](int, int, std::span<const oracle::Hit> hits) {
+      for (std::size_t i = 0; i + 1 < hits.size(); i += 2)
+        ASSERT_EQ(hits[i].face + 40, hits[i + 1].face);
+    });
   }
 }
 

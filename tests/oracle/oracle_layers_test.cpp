@@ -13,6 +13,7 @@
 
 #include "oracle/oracle.hpp"
 #include "oracle/shade.hpp"
+#include "tests/support/hits_of_pixels.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen {
@@ -97,12 +98,12 @@ TEST_P(OracleLayer, LooksAsItDoesInItsOwnCoordinates) {
     EXPECT_NEAR(glm::length(rays.eye() - rays_inside.eye()), 0, 1e-12);
 
     std::map<std::pair<int, int>, std::vector<Hit>> hits_inside;
-    rays_inside.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
+    test::visit_pixels(rays_inside, inside, [&](int column, int row, std::span<const Hit> hits) {
       hits_inside[{column, row}].assign(hits.begin(), hits.end());
     });
     std::size_t pixels = 0;
     double color_change = 0, point_change = 0, depth_change = 0;
-    rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
+    test::visit_pixels(rays, camera_, [&](int column, int row, std::span<const Hit> hits) {
       ++pixels;
       const int column_inside = mirror == Mirror::yes ? camera_.width - 1 - column : column;
       const std::vector<Hit>& others = hits_inside[{column_inside, row}];

@@ -20,6 +20,7 @@
 #include "tests/support/contexts.hpp"
 #include "tests/support/debug_view_renderer.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/hits_of_pixels.hpp"
 #include "tests/support/made_once.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/renderer_of.hpp"
@@ -175,7 +176,7 @@ const std::vector<std::vector<Hit>>& all_hits(const Scenery& scenery) {
     std::vector<std::vector<Hit>> result(std::size_t(width) * height);
     const oracle::Rays rays(scenery.soup, glm::dmat4(1.0), scenery.camera,
                             {.coverage = oracle::Coverage::snapped});
-    rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
+    visit_pixels(rays, scenery.camera, [&](int column, int row, std::span<const Hit> hits) {
       result[pixel_index(column, row)].assign(hits.begin(), hits.end());
     });
     return result;

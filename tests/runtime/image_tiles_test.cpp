@@ -18,6 +18,16 @@
 namespace tureen::test {
 namespace image_tiles_test {
 
+/// The complete image.
+Image8 draw_in_tiles(const FrameInput& input, const ImageTiles& tiles) {
+  Image8 image(input.camera.width, input.camera.height);
+  auto next = image.pixels.begin();
+  draw_in_bands(input, tiles, [&](const Image8& rows) {
+    next = std::copy(rows.pixels.begin(), rows.pixels.end(), next);
+  });
+  return image;
+}
+
 // -- cutting an image, without GL ---------------------------------------------------------------
 
 /// For a camera at the origin with a focal length of 1, each pixel encodes the direction of its
