@@ -54,19 +54,16 @@ void Output::write(std::span<const std::byte> bytes) {
 void Output::write(std::string_view text) { write(bytes_of(text)); }
 
 void Output::commit() {
+  std::error_code error, ignored;
   if (std::fflush(file_) != 0) fail("cannot be written");
   if (std::fclose(std::exchange(file_, nullptr)) != 0) {
-    std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
     fail("cannot be written");
   }
-  std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
-    throw OutputError({path_.string()}, "cannot be replaced: " + error.message());
-  }
+  if (!error) return;
+  std::filesystem::remove(temporary_, ignored);
+  throw OutputError({path_.string()}, "cannot be replaced: " + error.message());
 }
 
 void Output::fail(const char* what) const {

@@ -65,11 +65,9 @@ std::string did_you_mean(const std::filesystem::path& path) {
   constexpr std::size_t max_names = 10000;
   std::vector<std::string> names;
   std::error_code error;
-  for (std::filesystem::directory_iterator it(folder_of(path), error), end; !error && it != end;
-       it.increment(error)) {
-    if (names.size() == max_names) break;
+  for (std::filesystem::directory_iterator it(folder_of(path), error), end;
+       !error && it != end && names.size() < max_names; it.increment(error))
     names.push_back(it->path().filename().string());
-  }
   std::sort(names.begin(), names.end());  // a directory_iterator has no fixed order
   const std::string near = nearest(path.filename().string(), names);
   return near.empty() ? "" : "did you mean " + (path.parent_path() / near).string() + "?";

@@ -55,24 +55,22 @@ void TextScanner::skip_blanks() {
 
 bool TextScanner::at_line_end() {
   skip_blanks();
-  if (syntax_.comment && *next_ == syntax_.comment && next_ != end_) {
-    for (;;) {
-      while (next_ != end_ && !is_line_break(*next_)) ++next_;
-      if (next_ != end_) break;
-      refill();
-      if (next_ == end_) return true;
-    }
-  }
+  if (syntax_.comment && *next_ == syntax_.comment && next_ != end_) skip_to_line_break();
   return next_ == end_ || is_line_break(*next_);
 }
 
-bool TextScanner::next_line() {
+void TextScanner::skip_to_line_break() {
   for (;;) {
     while (next_ != end_ && !is_line_break(*next_)) ++next_;
-    if (next_ != end_) break;
+    if (next_ != end_) return;
     refill();
-    if (next_ == end_) return false;
+    if (next_ == end_) return;
   }
+}
+
+bool TextScanner::next_line() {
+  skip_to_line_break();
+  if (next_ == end_) return false;
   look_ahead();  // so that the window holds both bytes of a CR LF
   next_ += next_[0] == '\r' && next_[1] == '\n' ? 2 : 1;
   ++line_;
@@ -143,8 +141,7 @@ void TextScanner::fail_expected(const char* what, const char* kind) {
   const std::string_view word = peek(max_word);
   // Only a NUL is left: every other character is a blank, ends the line or begins a word.
   if (word.empty()) fail(std::string("a NUL byte where ") + what + " is expected");
-  fail(quoted(word) + " where " + what + " is expected" +
-       (*kind ? std::string(": not ") + kind : std::string()));
+  fail(quoted(word) + " where " + what + " is expected: not " + kind);
 }
 
 void TextScanner::fail(const std::string& reason, const std::string& hint) const {

@@ -66,6 +66,8 @@ class TextScanner {
 
  private:
   void skip_blanks();
+  /// To the next line break, or to the end of the text.
+  void skip_to_line_break();
   /// Ensures that the window holds a whole word: max_word characters, or the rest of the text.
   void look_ahead() {
     if (std::size_t(end_ - next_) <= max_word) refill();

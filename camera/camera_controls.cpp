@@ -65,10 +65,6 @@ Camera whole_in(const glm::dvec2& viewport, Camera camera) {
   return camera;
 }
 
-}  // namespace
-
-namespace {
-
 struct NamedBearing {
   const char *name, *key;
   Bearing bearing;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "base/error.hpp"
 #include "base/steady_seconds.hpp"
+#include "base/suggestion.hpp"
 #include "cli/bench/bench_reports.hpp"
 #include "cli/bench/bench_table.hpp"
 #include "cli/commands.hpp"
@@ -14,7 +16,7 @@
 #include "cli/measuring/bench_device.hpp"
 #include "cli/measuring/bench_views.hpp"
 #include "cli/options/arguments.hpp"
-#include "cli/options/bench_case_options.hpp"
+#include "cli/options/drawing_options.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
@@ -29,6 +31,12 @@ namespace tureen::cli {
 
 namespace {
 
+struct BenchCaseArguments {
+  DrawingOptions drawing;
+  std::vector<std::string> only;  // names of cases; empty: the default cases
+  bool ceilings = false;
+};
+
 struct BenchOptions {
   SceneArgument scene;
   BenchViewOptions views;
@@ -39,6 +47,44 @@ struct BenchOptions {
   BenchReportOptions reports;
   std::vector<std::string> arguments;  // of the program, as typed
 };
+
+/// --only, --ceilings and the drawing options that all commands share.
+void add_case_options(Command& command, BenchCaseArguments& options) {
+  add_drawing_options(command, options.drawing);
+  add_drawing_scale(command, options.drawing);
+  command
+      .add_option(
+          "--only NAME,..", options.only,
+          "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
+          "tureen-compute (triangles: the plan with --shading), raster and tiles (splats: the plan "
+          "with --blend), generic (no specialisation), baseline, triangles and copy (upper limits "
+          "of the speed, see --ceilings); ratios are relative to the first case")
+      .comma_list();
+  command.add_flag("--ceilings", options.ceilings,
+                   "also measure two upper limits of the speed: drawing the triangles with an "
+                   "empty fragment shader, and copying the same number of pixels");
+}
+
+/// Throws UsageError for unknown names.
+void check(const BenchCaseArguments& options) {
+  const std::span<const std::string> all_names = bench_case_names();
+  for (std::size_t i = 0; i < options.only.size(); ++i) {
+    const std::string& name = options.only[i];
+    if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
+      throw UsageError(
+          "--only takes tureen, tureen-fragment, tureen-compute, raster, tiles, generic, baseline, "
+          "triangles and copy, not '" +
+              name + "'",
+          did_you_mean(name, all_names));
+    if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=
+        options.only.begin() + std::ptrdiff_t(i))
+      throw UsageError("--only names " + name + " twice");
+  }
+  // Two names for one case.
+  if (std::count(options.only.begin(), options.only.end(), "baseline") > 0 &&
+      std::count(options.only.begin(), options.only.end(), "published") > 0)
+    throw UsageError("--only names the baseline twice: as baseline and as published");
+}
 
 /// "tureen_hemisphere-8_1280x720.png".
 std::string image_name_of(const BenchMeasurement& measurement) {

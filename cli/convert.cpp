@@ -1,4 +1,6 @@
 // `tureen convert`: a scene in another format.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -128,15 +130,19 @@ void apply(const Edits& edits, Scene& scene) {
   scene.info.notes.push_back("reduced by tureen convert: " + describe(changes));
 }
 
+Json figures_of(const Scene& scene, const std::vector<std::string>& lost) {
+  return {{"notes", notes_of(scene.info)},
+          {"remarks", remarks_json(scene.info.remarks)},
+          {"lost", lost}};
+}
+
 /// Writes `file` in the format of its extension. Prints the losses and returns them as JSON.
 Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   if (options.compressed.compressed)
     return convert_compressed(std::move(scene), options.compressed, file);
   const std::vector<std::string> lost = write_scene(scene, file);
   say_list("Lost in " + options.output + ":", lost);
-  return {{"notes", notes_of(scene.info)},
-          {"remarks", remarks_json(scene.info.remarks)},
-          {"lost", lost}};
+  return figures_of(scene, lost);
 }
 
 /// Whether the page can contain the scene's file unchanged.
@@ -151,9 +157,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions
   const std::string name = scene.info.name.empty() ? output.stem().string() : scene.info.name;
   if (is_page_of_file(options)) {
     page.write(options.scene.paths.front(), name, output);
-    return {{"notes", notes_of(scene.info)},
-            {"remarks", remarks_json(scene.info.remarks)},
-            {"lost", Json::array()}};
+    return figures_of(scene, {});
   }
   const Scratch glb(options.output + ".glb", "the scene for the page");
   Json figures;
@@ -195,9 +199,7 @@ std::string written_formats() {
   std::string text;
   for (const FormatInfo& format : known_formats()) {
     if (!format.can_write) continue;
-    std::string extensions;
-    for (const std::string& extension : format.written_extensions)
-      extensions += (extensions.empty() ? "" : ", ") + extension;
+    std::string extensions = fmt::format("{}", fmt::join(format.written_extensions, ", "));
     if (extensions.empty()) extensions = "(folder)";
     extensions.resize(std::max<std::size_t>(extensions.size() + 1, 16), ' ');
     text += "  " + extensions + format.name + ": " + format.description + "\n";

@@ -31,12 +31,7 @@ struct PositionBounds {
     high = glm::max(high, position);
   }
   double diagonal() const { return glm::length(high - low); }
-  std::string text() const {
-    const auto vector = [](glm::dvec3 v) {
-      return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
-    };
-    return vector(low) + " to " + vector(high);
-  }
+  std::string text() const { return vector_text(low) + " to " + vector_text(high); }
   Json json() const { return {{"low", {low.x, low.y, low.z}}, {"high", {high.x, high.y, high.z}}}; }
 };
 
@@ -99,8 +94,7 @@ void say_dataset(const DatasetInfoOptions& options, const DatasetSummary& datase
   table.row({"extent", fmt::format("{:.6g}, the diagonal of this box", facts.eyes.diagonal())});
   table.row({"points", dataset.points.empty() ? "none" : counted(dataset.points.size())});
   if (!dataset.points.empty()) table.row({"points in", facts.points.text()});
-  table.row(
-      {"up", fmt::format("({:.6g}, {:.6g}, {:.6g})", dataset.up.x, dataset.up.y, dataset.up.z)});
+  table.row({"up", vector_text(dataset.up)});
   say_list(options.path + ": a dataset", table.lines());
   say_list("Notes:", notes_of(dataset.remarks));
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
@@ -39,10 +40,6 @@ struct InfoOptions {
 };
 
 Json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-std::string vector_text(const glm::dvec3& v) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
-}
 
 Json mlp_json(const ColorMlp& mlp) {
   Json widths = {mlp.layers.front().inputs};
@@ -131,15 +128,11 @@ struct NamedDevice {
 };
 
 /// GL_MAX_TEXTURE_SIZE and GL_MAX_ARRAY_TEXTURE_LAYERS of common devices.
-const std::vector<NamedDevice>& named_devices() {
-  static const std::vector<NamedDevice> devices{
-      {"minimum of OpenGL ES 3.0 and WebGL 2", {2048, 256, false}},
-      {"older phones", {4096, 512, false}},
-      {"phones, browsers without a GPU", {8192, 2048, false}},
-      {"desktop GPUs, llvmpipe", {16384, 2048, true}},
-  };
-  return devices;
-}
+constexpr std::array named_devices{
+    NamedDevice{"minimum of OpenGL ES 3.0 and WebGL 2", {2048, 256, false}},
+    NamedDevice{"older phones", {4096, 512, false}},
+    NamedDevice{"phones, browsers without a GPU", {8192, 2048, false}},
+    NamedDevice{"desktop GPUs, llvmpipe", {16384, 2048, true}}};
 
 /// The printed facts of one layer.
 struct LayerFacts {
@@ -177,7 +170,7 @@ LayerFacts facts_of(const Scene& scene, std::size_t index) {
     return facts;
   }
   const TriangleSoup& soup = *facts.soup;
-  facts.plan = make_plan(soup, named_devices().back().limits);
+  facts.plan = make_plan(soup, named_devices.back().limits);
   facts.lint = lint(soup);
   // Several layers are all drawn deferred.
   if (several) make_layered(facts.plan.soup(0));
@@ -294,7 +287,7 @@ struct DeviceFit {
         std::max_element(layers.begin(), layers.end(), [](const auto& a, const auto& b) {
           return a.forecast.largest_store_texels < b.forecast.largest_store_texels;
         })->forecast;
-    for (const NamedDevice& device : named_devices()) {
+    for (const NamedDevice& device : named_devices) {
       const std::uint64_t capacity = texel_capacity(device.limits);
       const bool fits = largest.largest_store_texels <= capacity;
       everywhere = everywhere && fits;

@@ -111,4 +111,8 @@ std::string bytes_text(std::uint64_t bytes) {
   return fmt::format("{:.{}f} {}", value, value < 10 ? 1 : 0, units[unit]);
 }
 
+std::string vector_text(const glm::dvec3& vector) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x, vector.y, vector.z);
+}
+
 }  // namespace tureen::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,8 @@ std::string utc_now();
 
 /// "917 bytes", "1.2 KiB", "34 MiB".
 std::string bytes_text(std::uint64_t bytes);
+
+/// "(1, -2.5, 0.333333)".
+std::string vector_text(const glm::dvec3& vector);
 
 }  // namespace tureen::cli

@@ -48,19 +48,17 @@ nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
   if (input.remaining() > max_json_bytes)
     input.fail("the JSON has " + std::to_string(input.remaining()) + " bytes, the limit is " +
                std::to_string(max_json_bytes));
-  const auto bytes = input.read_rest();
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  take_json_memory({text, bytes.size()}, input.name(), 0, input.budget());
+  const std::string text = input.read_text();
+  take_json_memory(text, input.name(), 0, input.budget());
   try {
-    if (repeated == RepeatedKeys::refused)
-      return nlohmann::json::parse(text, text + bytes.size(), KeyWatch(input));
-    return nlohmann::json::parse(text, text + bytes.size());
+    if (repeated == RepeatedKeys::refused) return nlohmann::json::parse(text, KeyWatch(input));
+    return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     // The parser counts bytes from 1. For a truncated text, its byte is one past the end.
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
-    input.fail_at(byte, what_is_wrong({text, bytes.size()}, byte));
+    input.fail_at(byte, what_is_wrong(text, byte));
   } catch (const nlohmann::json::out_of_range& error) {
-    throw json_number_too_large(error.what(), {text, bytes.size()}, input.name());
+    throw json_number_too_large(error.what(), text, input.name());
   }
 }
 

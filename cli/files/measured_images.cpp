@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -38,14 +39,12 @@ std::vector<float> channel(const Values& values, int component, float nothing) {
 
 std::vector<std::byte> exr_of(const Values& values, const Camera& camera, DebugView what) {
   const float nothing = is_depth(what) ? std::numeric_limits<float>::infinity() : 0.0f;
-  std::vector<std::vector<float>> channels;
-  const int components = what == DebugView::normals ? 3 : 1;
-  for (int c = 0; c < components; ++c) channels.push_back(channel(values, c, nothing));
+  const std::string names = what == DebugView::normals ? "RGB" : is_depth(what) ? "Z" : "A";
+  std::array<std::vector<float>, 3> channels;
   std::vector<ExrChannel> named;
-  for (int c = 0; c < components; ++c) {
-    const std::string of_one = is_depth(what) ? "Z" : "A";
-    named.push_back(
-        {components == 3 ? std::string(1, "RGB"[c]) : of_one, channels[std::size_t(c)]});
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    channels[c] = channel(values, int(c), nothing);
+    named.push_back({std::string(1, names[c]), channels[c]});
   }
   return encode_exr(camera.width, camera.height, std::move(named));
 }

@@ -135,15 +135,13 @@ void add_bench_view_options(Command& command, BenchViewOptions& options) {
                   "scene), orbit[:N], adversarial (inside, far, grazing, most overdraw), dataset, "
                   "or a FILE[:N] with cameras as for tureen render --camera; dataset by default if "
                   "DATASET is given, else hemisphere:8")
-      .split_at_commas()
-      .single_argument();
+      .comma_list();
   command
       .add_option(
           "--size,--sizes WxH,..", options.sizes,
           "image sizes, separated by commas: WxH in pixels; recorded cameras also support full, "
           "half and quarter of their own size; default: full for recorded cameras, else 1280x720")
-      .split_at_commas()
-      .single_argument();
+      .comma_list();
   command.add_flag("--sweep", options.sweep,
                    "use the sizes 640x360, 1280x720, 1920x1080, 2560x1440 and 3840x2160; for "
                    "recorded cameras also full, half and quarter");

@@ -142,9 +142,8 @@ std::optional<double> number_from(const std::string& text) {
 
 UsageError unknown_word(const std::string& option, const std::string& word,
                         std::span<const std::string> known) {
-  std::string list;
-  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
-  return UsageError(option + " takes " + list + ", not '" + word + "'", did_you_mean(word, known));
+  return UsageError(fmt::format("{} takes {}, not '{}'", option, fmt::join(known, ", "), word),
+                    did_you_mean(word, known));
 }
 
 Option Option::required(bool is_required) {
@@ -182,9 +181,9 @@ Option Option::split_at_commas() {
   return *this;
 }
 
-Option Option::single_argument() {
+Option Option::comma_list() {
   option_->allow_extra_args(false);
-  return *this;
+  return split_at_commas();
 }
 
 Command Command::add_command(const std::string& name, const std::string& description) {

@@ -59,8 +59,8 @@ class Option {
   Option group(const std::string& heading);
   /// A list: "a,b" is two values.
   Option split_at_commas();
-  /// A list: only one argument follows the option, not all until the next option.
-  Option single_argument();
+  /// The same, and only one argument follows the option, not all until the next option.
+  Option comma_list();
 
  private:
   friend class Command;

@@ -60,8 +60,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
           },
           "do not apply these specialisations (keep the work that they skip): names from "
           "docs/specialisations.md, separated by commas, such as alpha-test,background")
-      .split_at_commas()
-      .single_argument()
+      .comma_list()
       .excludes(no_specialise);
   add_choice<ShadingStage>(
       command, "--shading NAME", options.plan.shading_stage,

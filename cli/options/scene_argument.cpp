@@ -1,5 +1,7 @@
 #include "cli/options/scene_argument.hpp"
 
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -64,26 +66,23 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
       "read at most N splats of each scene, those with the largest opacity times area",
       between(1.0, 4294967295.0));
   std::vector<std::string> names;
-  std::string listed;
-  for (const NamedProfile& each : named_profiles) {
-    names.emplace_back(each.name);
-    listed += (listed.empty() ? "" : ", ") + names.back();
-  }
+  for (const NamedProfile& each : named_profiles) names.emplace_back(each.name);
   add_word_option(
-      command, "--profile NAME", std::move(names),
+      command, "--profile NAME", names,
       [&choice](std::size_t index) { choice.profile = named_profiles[index].name; },
-      "draw splats by the rules of another method: " + listed + "; the scene's own by default");
+      fmt::format("draw splats by the rules of another method: {}; the scene's own by default",
+                  fmt::join(names, ", ")));
 }
 
-void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
-  command.add_option(name, argument.path, scene_help).required();
+void add_scene_argument(Command& command, SceneArgument& argument) {
+  command.add_option("SCENE", argument.path, scene_help).required();
   add_reading_options(command, argument.choice);
 }
 
-void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name) {
+void add_scene_arguments(Command& command, SceneArguments& arguments) {
   command
       .add_option(
-          name, arguments.paths,
+          "SCENE", arguments.paths,
           std::string(scene_help) + ". Several scenes are combined into one, each as a layer")
       .required();
   add_reading_options(command, arguments.choice);
@@ -127,9 +126,7 @@ void say_what_is_hidden(const Scene& scene) {
 }
 
 std::string listed(const SceneArguments& arguments) {
-  std::string text;
-  for (const std::string& path : arguments.paths) text += (text.empty() ? "" : ", ") + path;
-  return text;
+  return fmt::format("{}", fmt::join(arguments.paths, ", "));
 }
 
 std::uint64_t bytes_on_disk(const std::filesystem::path& path) {

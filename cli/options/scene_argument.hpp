@@ -34,8 +34,8 @@ struct SceneArgument {
   ReadingChoice choice = {};
 };
 
-/// Adds the required argument `name`, and the options of add_reading_options().
-void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
+/// Adds the required argument SCENE, and the options of add_reading_options().
+void add_scene_argument(Command& command, SceneArgument& argument);
 
 /// Several scenes, combined into one, each as a layer. The options apply to each of them.
 struct SceneArguments {
@@ -43,8 +43,8 @@ struct SceneArguments {
   ReadingChoice choice = {};
 };
 
-/// Adds the required list of arguments `name`, and the options of add_reading_options().
-void add_scene_arguments(Command& command, SceneArguments& arguments, const char* name = "SCENE");
+/// Adds the required list of arguments SCENE, and the options of add_reading_options().
+void add_scene_arguments(Command& command, SceneArguments& arguments);
 
 /// Throws InputError, with a suggestion if the path does not exist; UsageError for a choice that
 /// does not fit the scene.

@@ -189,7 +189,8 @@ class NewFolder {
     path_ = writable_folder(path_);
 #endif
     temporary_ = temporary_beside(path_);
-    check(fs::create_directory(temporary_, error), "cannot be created", error);
+    if (!fs::create_directory(temporary_, error))
+      throw OutputError({path_.string()}, "cannot be created: " + error.message());
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
@@ -213,10 +214,6 @@ class NewFolder {
   }
 
  private:
-  void check(bool done, const char* what, const std::error_code& error) const {
-    if (!done) throw OutputError({path_.string()}, std::string(what) + ": " + error.message());
-  }
-
   fs::path path_, temporary_;
 };
 

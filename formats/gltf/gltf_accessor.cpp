@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <limits>
 
 namespace tureen {
 
@@ -65,28 +66,25 @@ T load(const std::byte* bytes) {
   return value;
 }
 
+/// Normalised integers are from -1 or 0 to 1.
+template <class Integer>
+float load_integer(const std::byte* bytes, bool normalized) {
+  const auto value = double(load<Integer>(bytes));
+  return float(normalized ? std::max(value / std::numeric_limits<Integer>::max(), -1.0) : value);
+}
+
 float load_float(const std::byte* bytes, int type, bool normalized) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: {
-      const float v = float(load<std::int8_t>(bytes));
-      return normalized ? std::max(v / 127.0f, -1.0f) : v;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: {
-      const float v = float(load<std::uint8_t>(bytes));
-      return normalized ? v / 255.0f : v;
-    }
-    case TINYGLTF_COMPONENT_TYPE_SHORT: {
-      const float v = float(load<std::int16_t>(bytes));
-      return normalized ? std::max(v / 32767.0f, -1.0f) : v;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
-      const float v = float(load<std::uint16_t>(bytes));
-      return normalized ? v / 65535.0f : v;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: {
-      const double v = double(load<std::uint32_t>(bytes));
-      return float(normalized ? v / 4294967295.0 : v);
-    }
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return load_integer<std::int8_t>(bytes, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return load_integer<std::uint8_t>(bytes, normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return load_integer<std::int16_t>(bytes, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return load_integer<std::uint16_t>(bytes, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return load_integer<std::uint32_t>(bytes, normalized);
     default:
       return load<float>(bytes);
   }

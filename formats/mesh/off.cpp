@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -238,10 +239,7 @@ class LineWriter {
   }
   void number(std::uint64_t value) {
     char buffer[20];
-    char* first = buffer + sizeof buffer;
-    do *--first = static_cast<char>('0' + value % 10);
-    while ((value /= 10) > 0);
-    text_.append(first, buffer + sizeof buffer);
+    text_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
   }
   void space() { text_ += ' '; }
   enum class Alpha { always, where_not_opaque };

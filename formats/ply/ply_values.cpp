@@ -1,17 +1,11 @@
 #include "formats/ply/ply_values.hpp"
 
+#include <bit>
 #include <limits>
 
 namespace tureen {
 
 namespace {
-
-bool machine_is_little_endian() {
-  const std::uint16_t one = 1;
-  unsigned char first;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
-}
 
 struct Range {
   std::int64_t low, high;
@@ -47,7 +41,8 @@ PlyValues::PlyValues(Input& input, const PlyHeader& header, const ReadOptions& o
   if (header.encoding == PlyHeader::Encoding::ascii) {
     scanner_.emplace(input_, TextSyntax{.first_line = header.body_line});
   } else {
-    swap_ = machine_is_little_endian() == (header.encoding == PlyHeader::Encoding::big_endian);
+    swap_ = (std::endian::native == std::endian::little) ==
+            (header.encoding == PlyHeader::Encoding::big_endian);
     buffer_.resize(block);
   }
 }

@@ -47,88 +47,46 @@ enum Opcode : unsigned char {
 };
 
 /// Names of rejected opcodes, for the message. Some of them build objects or call named functions.
-const char* refused_opcode_name(unsigned char opcode) {
-  switch (opcode) {
-    case '0':
-      return "POP";
-    case '1':
-      return "POP_MARK";
-    case '2':
-      return "DUP";
-    case 'F':
-      return "FLOAT";
-    case 'I':
-      return "INT";
-    case 'L':
-      return "LONG";
-    case 'P':
-      return "PERSID";
-    case 'S':
-      return "STRING";
-    case 'T':
-      return "BINSTRING";
-    case 'U':
-      return "SHORT_BINSTRING";
-    case 'V':
-      return "UNICODE";
-    case 'B':
-      return "BINBYTES";
-    case 'C':
-      return "SHORT_BINBYTES";
-    case 'd':
-      return "DICT";
-    case 'g':
-      return "GET";
-    case 'i':
-      return "INST";
-    case 'l':
-      return "LIST";
-    case 'o':
-      return "OBJ";
-    case 'p':
-      return "PUT";
-    case 0x80:
-      return "PROTO";
-    case 0x81:
-      return "NEWOBJ";
-    case 0x82:
-      return "EXT1";
-    case 0x83:
-      return "EXT2";
-    case 0x84:
-      return "EXT4";
-    case 0x8b:
-      return "LONG4";
-    case 0x8c:
-      return "SHORT_BINUNICODE";
-    case 0x8d:
-      return "BINUNICODE8";
-    case 0x8e:
-      return "BINBYTES8";
-    case 0x8f:
-      return "EMPTY_SET";
-    case 0x90:
-      return "ADDITEMS";
-    case 0x91:
-      return "FROZENSET";
-    case 0x92:
-      return "NEWOBJ_EX";
-    case 0x93:
-      return "STACK_GLOBAL";
-    case 0x94:
-      return "MEMOIZE";
-    case 0x95:
-      return "FRAME";
-    case 0x96:
-      return "BYTEARRAY8";
-    case 0x97:
-      return "NEXT_BUFFER";
-    case 0x98:
-      return "READONLY_BUFFER";
-    default:
-      return nullptr;
-  }
-}
+constexpr std::pair<unsigned char, const char*> refused_opcodes[] = {
+    {'0', "POP"},
+    {'1', "POP_MARK"},
+    {'2', "DUP"},
+    {'F', "FLOAT"},
+    {'I', "INT"},
+    {'L', "LONG"},
+    {'P', "PERSID"},
+    {'S', "STRING"},
+    {'T', "BINSTRING"},
+    {'U', "SHORT_BINSTRING"},
+    {'V', "UNICODE"},
+    {'B', "BINBYTES"},
+    {'C', "SHORT_BINBYTES"},
+    {'d', "DICT"},
+    {'g', "GET"},
+    {'i', "INST"},
+    {'l', "LIST"},
+    {'o', "OBJ"},
+    {'p', "PUT"},
+    {0x80, "PROTO"},
+    {0x81, "NEWOBJ"},
+    {0x82, "EXT1"},
+    {0x83, "EXT2"},
+    {0x84, "EXT4"},
+    {0x8b, "LONG4"},
+    {0x8c, "SHORT_BINUNICODE"},
+    {0x8d, "BINUNICODE8"},
+    {0x8e, "BINBYTES8"},
+    {0x8f, "EMPTY_SET"},
+    {0x90, "ADDITEMS"},
+    {0x91, "FROZENSET"},
+    {0x92, "NEWOBJ_EX"},
+    {0x93, "STACK_GLOBAL"},
+    {0x94, "MEMOIZE"},
+    {0x95, "FRAME"},
+    {0x96, "BYTEARRAY8"},
+    {0x97, "NEXT_BUFFER"},
+    {0x98, "READONLY_BUFFER"},
+};
 
 /// One run over the opcodes. Values lie in one vector and refer to each other by index, so that
 /// neither deep nesting nor cycles can exhaust the stack or leak memory.
@@ -164,91 +122,64 @@ class Machine {
         marks_.push_back(stack_.size());
         return;
       case op_none:
-        push({});
-        return;
+        return push({});
       case op_newtrue:
-        push({.kind = Kind::boolean, .integer = 1});
-        return;
+        return push({.kind = Kind::boolean, .integer = 1});
       case op_newfalse:
-        push({.kind = Kind::boolean});
-        return;
+        return push({.kind = Kind::boolean});
       case op_binint:
-        push_integer(static_cast<std::int32_t>(little(4, "BININT")));
-        return;
+        return push_integer(static_cast<std::int32_t>(little(4, "BININT")));
       case op_binint1:
-        push_integer(static_cast<std::int64_t>(little(1, "BININT1")));
-        return;
+        return push_integer(static_cast<std::int64_t>(little(1, "BININT1")));
       case op_binint2:
-        push_integer(static_cast<std::int64_t>(little(2, "BININT2")));
-        return;
+        return push_integer(static_cast<std::int64_t>(little(2, "BININT2")));
       case op_long1:
-        push_integer(long1());
-        return;
+        return push_integer(long1());
       case op_binfloat:
-        push({.kind = Kind::real, .real = big_endian_double()});
-        return;
+        return push({.kind = Kind::real, .real = big_endian_double()});
       case op_binunicode: {
         const auto size = little(4, "BINUNICODE");
-        push({.kind = Kind::text, .text = std::string(take(size, "a text"))});
-        return;
+        return push({.kind = Kind::text, .text = std::string(take(size, "a text"))});
       }
       case op_empty_list:
-        push({.kind = Kind::list});
-        return;
+        return push({.kind = Kind::list});
       case op_empty_dict:
-        push({.kind = Kind::dict});
-        return;
+        return push({.kind = Kind::dict});
       case op_empty_tuple:
-        push({.kind = Kind::tuple});
-        return;
+        return push({.kind = Kind::tuple});
       case op_tuple:
-        push({.kind = Kind::tuple, .items = pop_to_mark()});
-        return;
+        return push({.kind = Kind::tuple, .items = pop_to_mark()});
       case op_tuple1:
-        push({.kind = Kind::tuple, .items = pop(1)});
-        return;
+        return push({.kind = Kind::tuple, .items = pop(1)});
       case op_tuple2:
-        push({.kind = Kind::tuple, .items = pop(2)});
-        return;
+        return push({.kind = Kind::tuple, .items = pop(2)});
       case op_tuple3:
-        push({.kind = Kind::tuple, .items = pop(3)});
-        return;
+        return push({.kind = Kind::tuple, .items = pop(3)});
       case op_append:
-        extend(Kind::list, pop(1));
-        return;
+        return extend(Kind::list, pop(1));
       case op_appends:
-        extend(Kind::list, pop_to_mark());
-        return;
+        return extend(Kind::list, pop_to_mark());
       case op_setitem:
-        extend(Kind::dict, pop(2));
-        return;
+        return extend(Kind::dict, pop(2));
       case op_setitems:
-        extend(Kind::dict, pop_to_mark());
-        return;
+        return extend(Kind::dict, pop_to_mark());
       case op_binput:
-        put(little(1, "BINPUT"));
-        return;
+        return put(little(1, "BINPUT"));
       case op_long_binput:
-        put(little(4, "LONG_BINPUT"));
-        return;
+        return put(little(4, "LONG_BINPUT"));
       case op_binget:
-        get(little(1, "BINGET"));
-        return;
+        return get(little(1, "BINGET"));
       case op_long_binget:
-        get(little(4, "LONG_BINGET"));
-        return;
+        return get(little(4, "LONG_BINGET"));
       case op_global:
-        global();
-        return;
+        return global();
       case op_reduce:
-        reduce();
-        return;
+        return reduce();
       case op_build:
         pop(1);
         return;  // attributes of the value below; ignored
       case op_binpersid:
-        push({.kind = Kind::persistent, .items = pop(1)});
-        return;
+        return push({.kind = Kind::persistent, .items = pop(1)});
       default:
         refuse(opcode);
     }
@@ -261,8 +192,10 @@ class Machine {
   [[noreturn]] void refuse(unsigned char opcode) const {
     char code[8];
     std::snprintf(code, sizeof code, "0x%02x", opcode);
-    const char* known = refused_opcode_name(opcode);
-    fail(std::string("the pickle opcode ") + (known ? known : "unknown") + " (" + code +
+    const char* name = "unknown";
+    for (const auto& [refused, its_name] : refused_opcodes)
+      if (refused == opcode) name = its_name;
+    fail(std::string("the pickle opcode ") + name + " (" + code +
          ") is not supported: rejected, nothing was executed");
   }
 

@@ -21,36 +21,24 @@ using Value = Pickle::Value;
 struct StorageType {
   std::string_view global;
   Type type;
+  std::size_t element_size;
 };
 
 constexpr StorageType storage_types[] = {
-    {"torch.FloatStorage", Type::f32}, {"torch.DoubleStorage", Type::f64},
-    {"torch.HalfStorage", Type::f16},  {"torch.BFloat16Storage", Type::bf16},
-    {"torch.ByteStorage", Type::u8},   {"torch.BoolStorage", Type::u8},
-    {"torch.CharStorage", Type::i8},   {"torch.ShortStorage", Type::i16},
-    {"torch.IntStorage", Type::i32},   {"torch.LongStorage", Type::i64},
+    {"torch.FloatStorage", Type::f32, 4}, {"torch.DoubleStorage", Type::f64, 8},
+    {"torch.HalfStorage", Type::f16, 2},  {"torch.BFloat16Storage", Type::bf16, 2},
+    {"torch.ByteStorage", Type::u8, 1},   {"torch.BoolStorage", Type::u8, 1},
+    {"torch.CharStorage", Type::i8, 1},   {"torch.ShortStorage", Type::i16, 2},
+    {"torch.IntStorage", Type::i32, 4},   {"torch.LongStorage", Type::i64, 8},
 };
 
 constexpr std::string_view rebuild_tensor = "torch._utils._rebuild_tensor_v2";
 constexpr std::string_view rebuild_parameter = "torch._utils._rebuild_parameter";
 
 std::size_t element_size(Type type) {
-  switch (type) {
-    case Type::f64:
-    case Type::i64:
-      return 8;
-    case Type::f32:
-    case Type::i32:
-      return 4;
-    case Type::f16:
-    case Type::bf16:
-    case Type::i16:
-      return 2;
-    case Type::u8:
-    case Type::i8:
-      return 1;
-  }
-  return 0;
+  return std::find_if(std::begin(storage_types), std::end(storage_types),
+                      [&](const StorageType& storage) { return storage.type == type; })
+      ->element_size;
 }
 
 /// IEEE 754 binary16.

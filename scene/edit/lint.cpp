@@ -140,10 +140,6 @@ struct NeverVisible {
   }
 };
 
-}  // namespace
-
-namespace {
-
 /// Of a finding, by its id: its name, "vertices", one of them, and what is said of one and of
 /// several.
 struct Wording {

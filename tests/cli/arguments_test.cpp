@@ -23,7 +23,7 @@ struct Program {
     draw.add_option("SCENE", scene, "the scene").required();
     draw.add_option("-o,--output FILE", output, "");
     draw.add_option("--lines", lines, "");
-    draw.add_option("--cases", cases, "").split_at_commas().single_argument();
+    draw.add_option("--cases", cases, "").comma_list();
     const Option width = draw.add_option("--width", width_, "").check(between(1, 100));
     draw.add_option("--steps", steps, "");
     draw.add_option("--seed", seed, "");
