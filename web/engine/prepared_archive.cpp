@@ -15,12 +15,6 @@ namespace {
 // that can be copied by their bytes, such as Quality and SplatProfile, need no function.
 
 template <class Archive, class Value>
-void archive_lattice(Archive& archive, Value& value) {
-  auto& [uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes] = value;
-  archive(uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes);
-}
-
-template <class Archive, class Value>
 void archive_layer_plan(Archive& archive, Value& value) {
   auto& [site, shading_stage, faces, opaque_count, clusters, drops_small_triangles, flat_colors,
          color_mlp, mlp_weights, view_direction, latent_features, depth_rejects_background,
@@ -29,7 +23,8 @@ void archive_layer_plan(Archive& archive, Value& value) {
   archive(site, shading_stage, faces, opaque_count, clusters, drops_small_triangles, flat_colors,
           color_mlp, mlp_weights, view_direction, latent_features, depth_rejects_background,
           harmonics_degree, feature_ranges);
-  archive_lattice(archive, lattice);
+  auto& [uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes] = lattice;
+  archive(uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes);
   archive(applied, appearance, soup_faces, undrawable_faces, zero_weights);
 }
 
@@ -77,13 +72,6 @@ void archive_tiled_splats(Archive& archive, Value& value) {
   if constexpr (!std::is_const_v<Value>) rows = splatting::ParameterRows(row_count, count);
 }
 
-template <class Archive, class Value>
-void archive_network(Archive& archive, Value& value) {
-  auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] =
-      value;
-  archive(text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1);
-}
-
 /// Archives the number of elements, so that reading creates them, and each of them.
 template <class Archive, class List, class Each>
 void archive_list(Archive& archive, List& list, const Each& each) {
@@ -103,7 +91,8 @@ void archive_soup(Archive& archive, Value& value) {
     to(name);
     archive_store(to, source);
   });
-  archive_network(archive, mlp);
+  auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] = mlp;
+  archive(text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1);
   archive(layout);
   auto& [face_count, fill] = geometry;  // `fill` reads a blob
   archive(face_count);
