@@ -255,7 +255,7 @@ void Application::update_gui() {
     gui_scale_ = scale;
     gui_density_ = dense;
   }
-  gui_->set_theme(state_.settings.theme);
+  set_colors(state_.settings.theme);
 }
 
 void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {

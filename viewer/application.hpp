@@ -152,11 +152,15 @@ class Application {
                      const std::shared_ptr<const Reading>& reading);
   bool shows_preview() const;
   bool shows_preview_of(const Reading& reading) const;
-  void show_read(std::unique_ptr<Stage> stage, Relation relation, const Reading& reading);
+  void show_read(Stage stage, Relation relation, const Reading& reading);
   void end_loading(const Reading& files, Relation relation);
   void add(const std::shared_ptr<StageAddition>& addition);
   void prepare_grown(const StageSource& source);
-  void show(std::unique_ptr<Stage> stage, Relation relation);
+  /// Prepares a scene in the background with the wanted options, and passes it to `prepared`.
+  void prepare(JobKind kind, const StageSource& source, bool for_debug_views,
+               const std::function<void(Stage&)>& prepared,
+               const std::function<void(const std::string&)>& failed);
+  void show(Stage stage, Relation relation);
   void after_change_of_layers();
   void show_files_of_scene();
   void report_refused(const std::vector<RefusedLayer>& layers);

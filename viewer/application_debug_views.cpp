@@ -16,30 +16,19 @@ void Application::prepare_debug_view_when_needed() {
   }
   if (preparing_debug_views_ == wanted) return;
   preparing_debug_views_ = wanted;
-  const StageSource source = state_.stage->source();
-  const DrawingChoice choice = state_.wanted;
-  worker_.start(
-      {.kind = JobKind::debug_view,
-       .what = (wanted ? "preparing debug views of " : "preparing ") + short_names(source.paths()),
-       .work =
-           [this, source, choice, wanted](const Worker::Progress& progress) {
-             const auto prepare = wanted ? prepare_debug_stage : prepare_stage;
-             std::shared_ptr<Stage> stage = prepare(source, {window_.context(), choice, progress});
-             return Worker::Completion([this, stage = std::move(stage)] {
-               if (state_.stage && state_.stage->scene == stage->scene)
-                 show(std::make_unique<Stage>(std::move(*stage)), Relation::changed);
-             });
-           },
-       .failed =
-           [this, wanted, left = drawn_debug_view_.what](const std::string& reason) {
-             // Back to the view that the renderer can draw; the user may then try again.
-             if (wanted)
-               state_.debug_view.what = DebugView::color;
-             else if (!why_not(left, *state_.stage))
-               state_.debug_view.what = left;
-             state_.error(wanted ? "The debug view cannot be shown" : "The colours cannot be shown",
-                          reason);
-           }});
+  const auto prepared = [this](Stage& stage) {
+    if (state_.stage && state_.stage->scene == stage.scene)
+      show(std::move(stage), Relation::changed);
+  };
+  const auto failed = [this, wanted, left = drawn_debug_view_.what](const std::string& reason) {
+    // Back to the view that the renderer can draw; the user may then try again.
+    if (wanted)
+      state_.debug_view.what = DebugView::color;
+    else if (!why_not(left, *state_.stage))
+      state_.debug_view.what = left;
+    state_.error(wanted ? "The debug view cannot be shown" : "The colours cannot be shown", reason);
+  };
+  prepare(JobKind::debug_view, *state_.stage, wanted, prepared, failed);
 }
 
 void Application::compare_when_needed() {
@@ -68,23 +57,20 @@ void Application::compare_when_needed() {
   image_is_current_ = false;  // the renderer now has the photograph's view
   auto held = std::make_shared<Image8>(photograph->image);
   const glm::vec3 background = state_.stage->scene->info.background;
-  worker_.start({.kind = JobKind::comparison,
-                 .what = "comparing",
-                 .work =
-                     [this, drawn, held, background, ticket](const Worker::Progress&) {
-                       const ImageF ours = composited(to_float(*drawn), background);
-                       const ImageF theirs = composited(to_float(*held), background);
-                       const Metrics metrics = compare(ours, theirs, {.with_flip = false});
-                       auto map = std::make_shared<Image8>(difference(ours, theirs));
-                       return Worker::Completion([this, metrics, map, ticket] {
-                         if (state_.comparison.ticket != ticket) return;  // the view has changed
-                         state_.comparison.result = Comparison::Result{metrics, ImageTexture(*map)};
-                       });
-                     },
-                 .failed =
-                     [this](const std::string& reason) {
-                       state_.error("The photograph cannot be compared", reason);
-                     }});
+  const auto work = [this, drawn, held, background, ticket](const Worker::Progress&) {
+    const ImageF ours = composited(to_float(*drawn), background);
+    const ImageF theirs = composited(to_float(*held), background);
+    const Metrics metrics = compare(ours, theirs, {.with_flip = false});
+    auto map = std::make_shared<Image8>(difference(ours, theirs));
+    return Worker::Completion([this, metrics, map, ticket] {
+      if (state_.comparison.ticket != ticket) return;  // the view has changed
+      state_.comparison.result = Comparison::Result{metrics, ImageTexture(*map)};
+    });
+  };
+  const auto failed = [this](const std::string& reason) {
+    state_.error("The photograph cannot be compared", reason);
+  };
+  worker_.start({.kind = JobKind::comparison, .what = "comparing", .work = work, .failed = failed});
 }
 
 }  // namespace tureen::viewer

@@ -92,20 +92,19 @@ void Application::carry_out(const WriteAnimation&) {
 
 void Application::write(const fs::path& path, std::function<void(const StageRequest&)> work,
                         const std::string& remark) {
+  const auto job = [this, path, remark, work = std::move(work),
+                    choice = state_.stage->choice](const Worker::Progress& progress) {
+    work({window_.context(), choice, progress});
+    return Worker::Completion(
+        [this, path, remark] { state_.note("Saved as " + path.string() + remark + "."); });
+  };
+  const auto failed = [this, path](const std::string& reason) {
+    state_.error(short_name(path) + " was not written", reason);
+  };
   writer_.start({.kind = JobKind::writing,
                  .what = "writing " + short_name(path),
-                 .work =
-                     [this, path, remark, work = std::move(work),
-                      choice = state_.stage->choice](const Worker::Progress& progress) {
-                       work({window_.context(), choice, progress});
-                       return Worker::Completion([this, path, remark] {
-                         state_.note("Saved as " + path.string() + remark + ".");
-                       });
-                     },
-                 .failed =
-                     [this, path](const std::string& reason) {
-                       state_.error(short_name(path) + " was not written", reason);
-                     }});
+                 .work = job,
+                 .failed = failed});
 }
 
 void Application::carry_out(const StopWriting&) {

@@ -31,18 +31,17 @@ void Application::load(const Loading& loading) {
   const std::vector<fs::path> named =
       loading.relation == Relation::changed ? before->paths() : loading.paths;
   auto files = std::make_shared<Reading>(Reading{.current = named.front(), .failures = {}});
+  const auto work = [this, loading, before, choice, files](const Worker::Progress& progress) {
+    return load_in_background(loading, before, {window_.context(), choice, progress}, files);
+  };
+  const auto failed = [this, files, relation = loading.relation](const std::string& reason) {
+    files->failures.push_back({files->current, reason});
+    end_loading(*files, relation);
+  };
   worker_.start({.kind = JobKind::scene,
                  .what = "reading " + short_names(named),
-                 .work =
-                     [this, loading, before, choice, files](const Worker::Progress& progress) {
-                       return load_in_background(loading, before,
-                                                 {window_.context(), choice, progress}, files);
-                     },
-                 .failed =
-                     [this, files, relation = loading.relation](const std::string& reason) {
-                       files->failures.push_back({files->current, reason});
-                       end_loading(*files, relation);
-                     }});
+                 .work = work,
+                 .failed = failed});
 }
 
 void Application::end_loading(const Reading& files, Relation relation) {
@@ -94,7 +93,7 @@ Worker::Completion Application::load_in_background(const Loading& loading,
     else
       state_.messages.dismiss_opening();
     end_loading(*files, relation);
-    show_read(std::make_unique<Stage>(std::move(*stage)), relation, *files);
+    show_read(std::move(*stage), relation, *files);
     preview_.reset();
   };
 }
@@ -116,7 +115,7 @@ void Application::post_previews(const fs::path& path, const StageRequest& reques
       return;  // if the whole scene is refused too, its preparation reports the reason
     }
     worker_.post([this, stage, reading] {
-      show_read(std::make_unique<Stage>(std::move(*stage)), Relation::other, *reading);
+      show_read(std::move(*stage), Relation::other, *reading);
       preview_ = Preview{reading, state_.stage->scene};
     });
   }
@@ -132,14 +131,13 @@ bool Application::shows_preview_of(const Reading& reading) const {
 
 /// Keeps what the user changed on a preview of the same file. Without changes, the scene is shown
 /// as if there had been no preview.
-void Application::show_read(std::unique_ptr<Stage> stage, Relation relation,
-                            const Reading& reading) {
+void Application::show_read(Stage stage, Relation relation, const Reading& reading) {
   std::optional<DrawingChoice> chosen;
   if (shows_preview_of(reading)) {
     if (!state_.controls.goes_to_first_view() || !state_.stage->is_as_read())
       relation = Relation::changed;
     if (preparing_drawing_) chosen = state_.wanted;
-    preview_->scene = stage->scene;
+    preview_->scene = stage.scene;
   }
   show(std::move(stage), relation);
   if (chosen) state_.ask(ChooseDrawing{*chosen});
@@ -178,27 +176,36 @@ void Application::add(const std::shared_ptr<StageAddition>& addition) {
 void Application::prepare_grown(const StageSource& source) {
   // Colours, if a layer lacks the debug view.
   if (why_not(state_.debug_view.what, source)) state_.debug_view.what = DebugView::color;
-  const auto prepare =
-      state_.debug_view.what == DebugView::color ? prepare_stage : prepare_debug_stage;
   loading_ = Loading{.relation = Relation::grown, .paths = {}};
   for (std::size_t i = state_.stage->files.size(); i < source.files.size(); ++i)
     loading_->paths.push_back(source.files[i].path);
-  worker_.start(
-      {.kind = JobKind::scene,
-       .what = "preparing " + short_names(source.paths()),
-       .work =
-           [this, source, prepare, choice = state_.wanted](const Worker::Progress& progress) {
-             std::shared_ptr<Stage> stage = prepare(source, {window_.context(), choice, progress});
-             return Worker::Completion([this, stage = std::move(stage)] {
-               loading_.reset();
-               show(std::make_unique<Stage>(std::move(*stage)), Relation::grown);
-             });
-           },
-       .failed =
-           [this, name = short_name(source.files.back().path)](const std::string& reason) {
-             loading_.reset();
-             state_.error(name + " cannot be shown", reason, Message::About::opening);
-           }});
+  const auto prepared = [this](Stage& stage) {
+    loading_.reset();
+    show(std::move(stage), Relation::grown);
+  };
+  const auto failed = [this,
+                       name = short_name(source.files.back().path)](const std::string& reason) {
+    loading_.reset();
+    state_.error(name + " cannot be shown", reason, Message::About::opening);
+  };
+  prepare(JobKind::scene, source, state_.debug_view.what != DebugView::color, prepared, failed);
+}
+
+void Application::prepare(JobKind kind, const StageSource& source, bool for_debug_views,
+                          const std::function<void(Stage&)>& prepared,
+                          const std::function<void(const std::string&)>& failed) {
+  const auto make = for_debug_views ? prepare_debug_stage : prepare_stage;
+  const auto work = [this, source, make, prepared,
+                     choice = state_.wanted](const Worker::Progress& progress) {
+    std::shared_ptr<Stage> stage = make(source, {window_.context(), choice, progress});
+    return Worker::Completion([prepared, stage] { prepared(*stage); });
+  };
+  const bool names_debug_views = kind == JobKind::debug_view && for_debug_views;
+  worker_.start({.kind = kind,
+                 .what = (names_debug_views ? "preparing debug views of " : "preparing ") +
+                         short_names(source.paths()),
+                 .work = work,
+                 .failed = failed});
 }
 
 void Application::report_refused(const std::vector<RefusedLayer>& layers) {
@@ -219,17 +226,17 @@ void Application::show_files_of_scene() {
   window_.set_title(short_names(paths) + " - Tureen");
 }
 
-void Application::show(std::unique_ptr<Stage> stage, Relation relation) {
-  const bool same_scene = state_.stage && state_.stage->scene == stage->scene;
+void Application::show(Stage stage, Relation relation) {
+  const bool same_scene = state_.stage && state_.stage->scene == stage.scene;
   const bool keep_view = state_.stage && relation != Relation::other;
   if (keep_view) {
     // The user may have changed layers meanwhile.
-    StageSource now = stage->source();
+    StageSource now = stage.source();
     keep_changes(now, *state_.stage);
-    arrange_layers(*stage, std::move(now.layers));
+    arrange_layers(stage, std::move(now.layers));
   }
   const bool replaces = state_.stage && !keep_view;
-  state_.stage = std::move(stage);
+  state_.stage = std::make_unique<Stage>(std::move(stage));
   state_.wanted = state_.stage->choice;
   image_is_current_ = false;
   worker_.abandon(JobKind::debug_view);

@@ -88,33 +88,31 @@ void Application::after_change_of_layers() {
 
 void Application::carry_out(const OpenPhotographs& request) {
   const fs::path& path = request.path;
-  worker_.start(
-      {.kind = JobKind::dataset,
-       .what = "reading the photographs of " + short_name(path),
-       .work =
-           [this, path](const Worker::Progress& progress) {
-             auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
-             return Worker::Completion([this, path, dataset] {
-               state_.messages.dismiss_opening();
-               Photographs photographs{.path = path,
-                                       .list = std::move(dataset->train),
-                                       .train_count = 0,
-                                       .notes = described(dataset->remarks),
-                                       .stay_is_noted = false};
-               photographs.train_count = photographs.list.size();
-               std::move(dataset->test.begin(), dataset->test.end(),
-                         std::back_inserter(photographs.list));
-               state_.photographs = std::move(photographs);
-               state_.recorded = -1;
-               state_.comparison = {};
-               state_.note(std::to_string(state_.photographs->list.size()) +
-                           " photographs: [ and ] select their cameras, C compares.");
-             });
-           },
-       .failed =
-           [this, path](const std::string& reason) {
-             state_.error(short_name(path) + " cannot be read", reason, Message::About::opening);
-           }});
+  const auto work = [this, path](const Worker::Progress& progress) {
+    auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
+    return Worker::Completion([this, path, dataset] {
+      state_.messages.dismiss_opening();
+      Photographs photographs{.path = path,
+                              .list = std::move(dataset->train),
+                              .train_count = 0,
+                              .notes = described(dataset->remarks),
+                              .stay_is_noted = false};
+      photographs.train_count = photographs.list.size();
+      std::move(dataset->test.begin(), dataset->test.end(), std::back_inserter(photographs.list));
+      state_.photographs = std::move(photographs);
+      state_.recorded = -1;
+      state_.comparison = {};
+      state_.note(std::to_string(state_.photographs->list.size()) +
+                  " photographs: [ and ] select their cameras, C compares.");
+    });
+  };
+  const auto failed = [this, path](const std::string& reason) {
+    state_.error(short_name(path) + " cannot be read", reason, Message::About::opening);
+  };
+  worker_.start({.kind = JobKind::dataset,
+                 .what = "reading the photographs of " + short_name(path),
+                 .work = work,
+                 .failed = failed});
 }
 
 void Application::carry_out(const CloseDataset&) {
@@ -155,27 +153,18 @@ void Application::carry_out(const ChooseDrawing& request) {
   if (!state_.stage) return;
   state_.wanted = request.choice;
   preparing_drawing_ = true;
-  // The job keeps the scene alive, even if the stage changes meanwhile.
-  auto from = std::make_shared<StageSource>(state_.stage->source());
-  worker_.start({.kind = JobKind::drawing,
-                 .what = "preparing " + short_names(state_.stage->paths()),
-                 .work =
-                     [this, from, choice = request.choice](const Worker::Progress& progress) {
-                       std::shared_ptr<Stage> stage =
-                           prepare_stage(*from, {window_.context(), choice, progress});
-                       return Worker::Completion([this, stage]() mutable {
-                         // Another scene may have been loaded meanwhile.
-                         if (!state_.stage || state_.stage->scene != stage->scene) return;
-                         preparing_drawing_ = false;
-                         show(std::make_unique<Stage>(std::move(*stage)), Relation::changed);
-                       });
-                     },
-                 .failed =
-                     [this](const std::string& reason) {
-                       preparing_drawing_ = false;
-                       if (state_.stage) state_.wanted = state_.stage->choice;
-                       state_.error("The drawing options cannot be applied", reason);
-                     }});
+  const auto prepared = [this](Stage& stage) {
+    // Another scene may have been loaded meanwhile.
+    if (!state_.stage || state_.stage->scene != stage.scene) return;
+    preparing_drawing_ = false;
+    show(std::move(stage), Relation::changed);
+  };
+  const auto failed = [this](const std::string& reason) {
+    preparing_drawing_ = false;
+    if (state_.stage) state_.wanted = state_.stage->choice;
+    state_.error("The drawing options cannot be applied", reason);
+  };
+  prepare(JobKind::drawing, *state_.stage, false, prepared, failed);
 }
 
 void Application::carry_out(const ShowRecorded& request) {

@@ -68,8 +68,5 @@ void main() {
     high = origin.xy + vec2(x.y, y.y) + margin;
 #endif
   }
-  gl_Position = corner_around(low, high, splat_corner(), half_size);
-#if OUTPUT == OUTPUT_SAMPLE
-  gl_Position = at_center_depth(gl_Position, plane_w.z, splat);
-#endif
+  gl_Position = at_center_depth(corner_around(low, high, splat_corner(), half_size), plane_w.z, splat);
 }

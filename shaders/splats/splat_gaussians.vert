@@ -68,7 +68,5 @@ void main() {
   gl_Position = is_drawn ? vec4(pixel / half_size - 1.0,
                                 (depth_of_z.x * center.z + depth_of_z.y) / -center.z, 1.0)
                          : nowhere;
-#if OUTPUT == OUTPUT_SAMPLE
-  if (is_drawn) gl_Position = at_center_depth(gl_Position, center_depth, splat);
-#endif
+  if (is_drawn) gl_Position = at_center_depth(gl_Position, -center.z, splat);
 }

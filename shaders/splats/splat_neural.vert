@@ -46,8 +46,5 @@ void main() {
     low = at + vec2(x.x, y.x) - 1.0;
     high = at + vec2(x.y, y.y) + 1.0;
   }
-  gl_Position = corner_around(low, high, splat_corner(), half_size);
-#if OUTPUT == OUTPUT_SAMPLE
-  gl_Position = at_center_depth(gl_Position, unit * depth, splat);
-#endif
+  gl_Position = at_center_depth(corner_around(low, high, splat_corner(), half_size), unit * depth, splat);
 }

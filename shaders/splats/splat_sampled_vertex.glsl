@@ -16,4 +16,7 @@ vec4 at_center_depth(vec4 position, float depth, uint splat) {
                                   : 1.0 - 0.5 / (2.0 - depth / nearest);
   return vec4(position.xy, (stored * ndc_from_stored.x + ndc_from_stored.y) * position.w, position.w);
 }
+#else
+// Other outputs leave the depth as it is.
+vec4 at_center_depth(vec4 position, float depth, uint splat) { return position; }
 #endif

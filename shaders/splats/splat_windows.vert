@@ -23,12 +23,10 @@ flat out vec4 color;
 flat out float sigma;
 #if MEASURES || OUTPUT == OUTPUT_SAMPLE
 flat out float unit;  // layer units in one unit of w
+out float weight;     // of the corners, together
 #endif
 #if COLORS_PER_SPLAT == 3
 out vec4 weighted_color;
-#endif
-#if MEASURES || OUTPUT == OUTPUT_SAMPLE
-out float weight;  // of the corners, together
 #endif
 
 // Whether earlier splats hide a triangle with these corners. None if a corner is not in front.
@@ -113,9 +111,6 @@ void main() {
                        (texels[2].xyz - texels[0].xyz) / size),
                  corners[0]);
 #endif
-#if MEASURES || OUTPUT == OUTPUT_SAMPLE
-  unit = size;
-#endif
   // Behind the eye, or without area in the image.
   bool visible = color.a > 0.0 && total > 0.0 && min(lengths.x, min(lengths.y, lengths.z)) > 0.0;
 #if AS_PUBLISHED
@@ -133,12 +128,11 @@ void main() {
   weights[corner] += 1.0 + shift * total;
   gl_Position = visible ? weights.x * clip[0] + weights.y * clip[1] + weights.z * clip[2] : nowhere;
   distances = visible ? weights * total / lengths : vec3(0.0);
-#if OUTPUT == OUTPUT_SAMPLE
   if (visible)
     gl_Position =
         at_center_depth(gl_Position, size * (clip[0].w + clip[1].w + clip[2].w) / 3.0, splat);
-#endif
 #if MEASURES || OUTPUT == OUTPUT_SAMPLE
+  unit = size;
   weight = weights.x + weights.y + weights.z;
 #endif
 #if COLORS_PER_SPLAT == 3

@@ -101,7 +101,7 @@ Gui::Gui(Window& window, const GuiOptions& options) : context_(ImGui::CreateCont
   const double scale = std::clamp(options.scale, 1.0, 4.0);
   const double density = std::clamp(options.density, 1.0, 4.0);
   set_shapes(scale);
-  set_colors(Theme::dark);  // until set_theme()
+  set_colors(Theme::dark);  // until the first frame
   add_fonts(*io.Fonts, options.font, {.scale = scale * density});
   io.FontGlobalScale = static_cast<float>(1 / density);
   drawing_ = std::make_unique<GuiDrawing>(window.context().capabilities().api);
@@ -113,8 +113,6 @@ void Gui::feed(const Event& event) { std::visit(Feeder{ImGui::GetIO()}, event); 
 
 bool Gui::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::takes_keys() const { return ImGui::GetIO().WantTextInput; }
-
-void Gui::set_theme(Theme theme) { set_colors(theme); }
 
 void Gui::begin(const Frame& frame) {
   ImGuiIO& io = ImGui::GetIO();

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "viewer/gui/font.hpp"
-#include "viewer/gui/theme.hpp"
 #include "viewer/gui/window.hpp"
 #include "viewer/input/event.hpp"
 
@@ -38,8 +37,6 @@ class Gui {
   /// Whether the interface uses the pointer or the keyboard; the scene then ignores their events.
   bool takes_pointer() const;
   bool takes_keys() const;
-
-  void set_theme(Theme theme);
 
   struct Frame {
     glm::ivec2 points, pixels;  // of the window

@@ -1,8 +1,10 @@
 // The card of a window without a scene: opens files, the example and recent scenes.
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include "base/decimal_text.hpp"
-#include "viewer/files/example.hpp"
+#include "base/platform/program_folder.hpp"
 #include "viewer/names.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
@@ -10,6 +12,20 @@
 namespace tureen::viewer {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+/// The example scene that comes with the program; nullopt if it is not near the program.
+std::optional<fs::path> find_example() {
+  const std::optional<fs::path> folder = program_folder();
+  if (!folder) return std::nullopt;
+  std::error_code ignored;
+  // Beside bin/ in builds, beside the program in a portable folder.
+  for (const fs::path& file :
+       {folder->parent_path() / "share/tureen/example.glb", *folder / "examples/soup.glb"})
+    if (fs::is_regular_file(file, ignored)) return file;
+  return std::nullopt;
+}
 
 void recent_rows(State& state) {
   if (state.settings.recent.empty()) return;
@@ -57,7 +73,8 @@ void welcome_overlay(State& state) {
   ImGui::Spacing();
   if (strong_button("Choose a file or a folder")) state.show_files = true;
   tip("O");
-  if (const auto& example = example_scene()) {
+  static const std::optional<fs::path> example = find_example();  // asked in every frame
+  if (example) {
     ImGui::SameLine();
     if (button("Open the example")) state.ask(OpenPath{*example});
   }

@@ -43,9 +43,8 @@ EarlyTexels& early_texels() {
 /// The reason of the first layer without this debug view, or nullopt.
 std::optional<std::string> why_not_all(DebugView what, const Scene& scene) {
   if (what == DebugView::color) return {};
-  for (const Layer& layer : scene.layers) {
+  for (const Layer& layer : scene.layers)
     if (auto reason = why_not(what, layer.primitives)) return reason;
-  }
   return {};
 }
 

@@ -299,14 +299,13 @@ void PageView::clear_canvas(int width, int height) const {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-Image8 PageView::image(int width, int height) { return image(controls().camera(width, height)); }
-
-Image8 PageView::image(const Camera& camera) {
+Image8 PageView::image(int width, int height) {
   // The sums of a larger image would take more than 576 MiB.
   constexpr int max_pixels_at_rest = 1 << 24;
   Renderer& renderer = *current()->renderer;
-  const bool smooth = smooth_at_rest_ && camera.width <= max_pixels_at_rest / camera.height;
-  if (!smooth || !renderer.shows({camera})) renderer.draw({camera});
+  const bool smooth = smooth_at_rest_ && width <= max_pixels_at_rest / height;
+  const FrameInput input{controls().camera(width, height)};
+  if (!smooth || !renderer.shows(input)) renderer.draw(input);
   while (smooth && renderer.can_refine()) renderer.refine();
   return renderer.read_color();
 }

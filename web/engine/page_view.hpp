@@ -112,7 +112,6 @@ class PageView {
   /// The current image, at any size that the device supports: the image at rest, unless it was
   /// switched off or has more than 16.8 million pixels.
   Image8 image(int width, int height);
-  Image8 image(const Camera& camera);
 
  private:
   struct Stage {

@@ -11,19 +11,8 @@ namespace tureen::web {
 namespace {
 
 // One function per type, for both directions. Each names all members of its type in a structured
-// binding, so that a new member does not compile until it is archived or left out on purpose.
-
-template <class Archive, class Value>
-void archive_quality(Archive& archive, Value& value) {
-  auto& [resolution_scale, supersampling, splat_order] = value;
-  archive(resolution_scale, supersampling, splat_order);
-}
-
-template <class Archive, class Value>
-void archive_lattice(Archive& archive, Value& value) {
-  auto& [uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes] = value;
-  archive(uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes);
-}
+// binding, so that a new member does not compile until it is archived or left out on purpose. Types
+// that can be copied by their bytes, such as Quality and SplatProfile, need no function.
 
 template <class Archive, class Value>
 void archive_layer_plan(Archive& archive, Value& value) {
@@ -34,24 +23,17 @@ void archive_layer_plan(Archive& archive, Value& value) {
   archive(site, shading_stage, faces, opaque_count, clusters, drops_small_triangles, flat_colors,
           color_mlp, mlp_weights, view_direction, latent_features, depth_rejects_background,
           harmonics_degree, feature_ranges);
-  archive_lattice(archive, lattice);
+  auto& [uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes] = lattice;
+  archive(uniform_level, levels, alpha_by_cell, refused_alpha_cell_bytes);
   archive(applied, appearance, soup_faces, undrawable_faces, zero_weights);
-}
-
-template <class Archive, class Value>
-void archive_profile(Archive& archive, Value& value) {
-  auto& [projection, low_pass, max_alpha, min_alpha, stop_transmittance, min_center_depth] = value;
-  archive(projection, low_pass, max_alpha, min_alpha, stop_transmittance, min_center_depth);
 }
 
 template <class Archive, class Value>
 void archive_splat_plan(Archive& archive, Value& value) {
   auto& [shaders, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
          chunks, applied, kernel, splats] = value;
-  archive(shaders);
-  archive_profile(archive, profile);
-  archive(as_published, harmonics_degree, colors_per_splat, largest_color, drawn, chunks, applied,
-          kernel, splats);
+  archive(shaders, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
+          chunks, applied, kernel, splats);
 }
 
 template <class Archive, class Value>
@@ -90,20 +72,6 @@ void archive_tiled_splats(Archive& archive, Value& value) {
   if constexpr (!std::is_const_v<Value>) rows = splatting::ParameterRows(row_count, count);
 }
 
-template <class Archive, class Value>
-void archive_network(Archive& archive, Value& value) {
-  auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] =
-      value;
-  archive(text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1);
-}
-
-template <class Archive, class Value>
-void archive_sampler(Archive& archive, Value& value) {
-  auto& [name, source] = value;
-  archive(name);
-  archive_store(archive, source);
-}
-
 /// Archives the number of elements, so that reading creates them, and each of them.
 template <class Archive, class List, class Each>
 void archive_list(Archive& archive, List& list, const Each& each) {
@@ -118,8 +86,13 @@ void archive_soup(Archive& archive, Value& value) {
   auto& [appearance, geometry] = value;
   auto& [glsl, constants, samplers, mlp, layout] = appearance;
   archive(glsl, constants);
-  archive_list(archive, samplers, [](auto& to, auto& sampler) { archive_sampler(to, sampler); });
-  archive_network(archive, mlp);
+  archive_list(archive, samplers, [](auto& to, auto& sampler) {
+    auto& [name, source] = sampler;
+    to(name);
+    archive_store(to, source);
+  });
+  auto& [text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1] = mlp;
+  archive(text, weights, biases, hidden_neurons, dead_neurons, zero_weights, reads_features1);
   archive(layout);
   auto& [face_count, fill] = geometry;  // `fill` reads a blob
   archive(face_count);
@@ -153,9 +126,7 @@ void archive_scene(Archive& archive, Value& value) {
   auto& [plan, layers, make_passes] = value;
   auto& [reversed_depth, quality, specialise, requested_stage, layer_plans, splats_in_tiles,
          description] = plan;
-  archive(reversed_depth);
-  archive_quality(archive, quality);
-  archive(specialise, requested_stage);
+  archive(reversed_depth, quality, specialise, requested_stage);
   archive_list(archive, layer_plans, [](auto& to, auto& layer) {
     if constexpr (std::is_const_v<Value>)
       archive_plan(to, std::as_const(*layer));

@@ -192,19 +192,12 @@ Json draw(const Json& arguments) {
   return int(view().draw(arguments.at("width"), arguments.at("height"), arguments.at("seconds")));
 }
 
-/// Writes the image's pixels to the buffer: RGBA, row 0 on top.
-void keep_pixels(const Image8& image) {
-  buffer().resize(image.pixels.size() * sizeof image.pixels[0]);
-  std::memcpy(buffer().data(), image.pixels.data(), buffer().size());
-}
-
-/// {"width", "height"} for the current view, or {"camera"}.
+/// {"width", "height"}: writes the pixels of the current view to the buffer: RGBA, row 0 on top.
 void image(const Json& arguments) {
   if (!view().shows_scene()) throw UsageError("there is no scene for an image");
-  const auto camera = arguments.find("camera");
-  keep_pixels(camera != arguments.end()
-                  ? view().image(camera_of(*camera))
-                  : view().image(arguments.at("width"), arguments.at("height")));
+  const Image8 image = view().image(arguments.at("width"), arguments.at("height"));
+  buffer().resize(image.pixels.size() * sizeof image.pixels[0]);
+  std::memcpy(buffer().data(), image.pixels.data(), buffer().size());
 }
 
 /// The scenes that "read_for_debug_views" has read, one for each source of the page.
