@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/on_all_cores.hpp"
+#include "base/threads/on_all_cores.hpp"
 
 namespace tureen {
 

@@ -1,6 +1,6 @@
 #include "jobs/tradeoff/study_images.hpp"
 
-#include "base/on_all_cores.hpp"
+#include "base/threads/on_all_cores.hpp"
 
 namespace tureen::tradeoff {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 #include "scene/image_source.hpp"
 #include "scene/scene.hpp"
 #include "splatting/tiles/tile_renderer.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/passes/pass.hpp"
 #include "runtime/splats/splat_target.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 #include "splatting/kernel.hpp"
 #include "trainer/splats/tasks.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 
 namespace tureen::trainer {
 

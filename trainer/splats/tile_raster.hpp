@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 #include "scene/camera.hpp"
 #include "splatting/depth_order.hpp"
 #include "splatting/image_view.hpp"

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 
 namespace tureen::trainer {
 

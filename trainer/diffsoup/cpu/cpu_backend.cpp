@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 #include "scene/triangle_soup.hpp"
 #include "trainer/common/cpu/image_loss.hpp"
 #include "trainer/common/kernels/random.hpp"

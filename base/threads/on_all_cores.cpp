@@ -1,4 +1,4 @@
-#include "base/on_all_cores.hpp"
+#include "base/threads/on_all_cores.hpp"
 
 #include <algorithm>
 #include <atomic>
