@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/image_file.hpp"

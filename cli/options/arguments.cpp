@@ -62,8 +62,9 @@ class HelpFormatter : public CLI::Formatter {
     return wrapped(option->get_description(), 60);
   }
   /// One empty line between groups, where CLI11 has two.
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
-    std::string text = CLI::Formatter::make_groups(app, mode);
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;
   }
@@ -202,12 +203,12 @@ Option Option::added(CLI::Option* option, const std::string& name, const Check& 
   return Option(option);
 }
 
-template <OptionValue T>
-Option Command::add_option(const std::string& name, T& value, const std::string& help,
-                           const Check& check) {
+template <class T>
+requires holds_option<T> Option Command::add_option(const std::string& name, T& value,
+                                                    const std::string& help, const Check& check) {
   const std::string bare = without_value(name);
   CLI::Option* option = nullptr;
-  if constexpr (OneOf<T, double, std::optional<double>>) {
+  if constexpr (is_one_of<T, double, std::optional<double>>) {
     const auto store = [&value, bare](double number) {
       if (!std::isfinite(number)) throw UsageError(bare + " is not a finite number");
       value = number;

@@ -70,15 +70,13 @@ class Option {
 };
 
 template <class T, class... Others>
-concept OneOf = (std::is_same_v<T, Others> || ...);
+inline constexpr bool is_one_of = (std::is_same_v<T, Others> || ...);
 
-/// A type of variable for an option's value.
+/// Whether a variable of this type can hold an option's value.
 template <class T>
-concept OptionValue = OneOf < T,
-        std::string, std::vector<std::string>,
-int, double, std::optional<int>, std::optional<std::int64_t>, std::optional<std::uint64_t>,
-    std::optional < double >>
-    ;
+inline constexpr bool holds_option =
+    is_one_of<T, std::string, std::vector<std::string>, int, double, std::optional<int>,
+              std::optional<std::int64_t>, std::optional<std::uint64_t>, std::optional<double>>;
 
 /// A handle of a command, or of the program itself, valid as long as its CommandLine.
 ///
@@ -94,9 +92,9 @@ class Command {
   void footer(const std::string& text);
 
   /// Numbers of type double: rejects nan and infinities, after the option's checks.
-  template <OptionValue T>
-  Option add_option(const std::string& name, T& value, const std::string& help,
-                    const Check& check = {});
+  template <class T>
+  requires holds_option<T> Option add_option(const std::string& name, T& value,
+                                             const std::string& help, const Check& check = {});
   /// Calls `store` with the value, or with all values; it may throw UsageError.
   Option add_option(const std::string& name, std::function<void(const std::string&)> store,
                     const std::string& help, const Check& check = {});

@@ -21,18 +21,18 @@ struct OwnFact {
 };
 
 struct RunPlan {
-  std::string method;  // as --method takes it
+  std::string method = {};  // as --method takes it
   std::uint64_t train_views = 0, test_views = 0;
   int width = 0, height = 0;  // of the first photograph
   int steps = 0;
   double minutes = 0;  // the steps are fitted to this time; 0: `steps` are done
   trainer::PrimitiveKind kind = trainer::PrimitiveKind::triangles;
   std::uint64_t first = 0, last = 0;  // primitives before the first step; at most at the end
-  std::string device;                 // "CPU, 2 threads"
+  std::string device = {};            // "CPU, 2 threads"
   std::uint64_t bytes = 0;            // of memory, an estimate; 0: unknown
   std::vector<OwnFact> details = {};  // phrases: "textures of level 4"
   std::vector<OwnFact> notes = {};    // sentences: why the constants are as they are, and warnings
-  std::string constants;              // JSON, as --config takes it
+  std::string constants = {};         // JSON, as --config takes it
 };
 
 /// A plan with the views of the dataset, which has a training view.
