@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace tureen {
 
 BlendFormat blend_format(SplatFormat requested, const gl::Capabilities& device, float min_alpha,
