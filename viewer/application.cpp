@@ -1,9 +1,9 @@
 #include "viewer/application.hpp"
 
 #include <algorithm>
-#include <bitset>
 #include <cmath>
 #include <glm/common.hpp>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -12,6 +12,7 @@
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/targets.hpp"
+#include "viewer/gui/colors.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/shortcuts.hpp"
 
@@ -49,18 +50,14 @@ Settings settings_of(const ApplicationOptions& options) {
 /// Takes the events of one frame. No button or key changes twice in a frame: Dear ImGui reads
 /// states once a frame and would miss a click.
 std::vector<Event> take_frame(std::vector<Event>& pending) {
-  std::bitset<key_count> keys;
-  std::bitset<3> buttons;
+  std::set<Key> keys;
+  std::set<Button> buttons;
   std::size_t count = 0;
   for (; count < pending.size(); ++count) {
-    if (const auto* key = std::get_if<KeyChanged>(&pending[count])) {
-      if (keys.test(std::size_t(key->key))) break;
-      keys.set(std::size_t(key->key));
-    }
-    if (const auto* button = std::get_if<ButtonChanged>(&pending[count])) {
-      if (buttons.test(std::size_t(button->button))) break;
-      buttons.set(std::size_t(button->button));
-    }
+    const auto* key = std::get_if<KeyChanged>(&pending[count]);
+    const auto* button = std::get_if<ButtonChanged>(&pending[count]);
+    if (key && !keys.insert(key->key).second) break;
+    if (button && !buttons.insert(button->button).second) break;
     if (std::holds_alternative<WindowScreenshot>(pending[count])) {
       ++count;
       break;
@@ -334,10 +331,8 @@ void Application::draw(const std::vector<Event>& events, double busy_seconds) {
 void Application::draw_image() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gl::use_plain_rasterisation(1, 1);  // clearing depends on masks and scissor, not on the viewport
-  const std::uint32_t page = palette(state_.settings.theme).page;
-  const float empty[4] = {float(page >> 16 & 0xff) / 255, float(page >> 8 & 0xff) / 255,
-                          float(page & 0xff) / 255, 1};
-  glClearBufferfv(GL_COLOR, 0, empty);
+  const ImVec4 empty = color_of(palette(state_.settings.theme).page);
+  glClearBufferfv(GL_COLOR, 0, &empty.x);
   if (!state_.stage) return;
   try {
     draw_scene();

@@ -18,7 +18,14 @@ struct PlacedPhotograph {
 
 /// The rectangle in which the rays of the photograph's camera match those of the view. Both cameras
 /// are pinholes with the same pose. `points_per_pixel`: of the window.
-PlacedPhotograph place(const Camera& photograph, const Camera& view, double points_per_pixel);
+inline PlacedPhotograph place(const Camera& photograph, const Camera& view,
+                              double points_per_pixel) {
+  const auto at = [&](double u, double v) {
+    return points_per_pixel * glm::dvec2(view.cx + view.fx * (u - photograph.cx) / photograph.fx,
+                                         view.cy + view.fy * (v - photograph.cy) / photograph.fy);
+  };
+  return {at(0, 0), at(photograph.width, photograph.height)};
+}
 
 struct Comparison {
   enum class Show { off, split, photograph, difference };

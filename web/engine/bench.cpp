@@ -33,9 +33,12 @@ struct BenchScene {
 
 /// A case of a run: one scene, or several scenes in one frame.
 struct BenchCase {
+  struct Part {
+    Renderer* renderer;
+    const BenchScene* scene;
+  };
   std::string name;
-  std::vector<Renderer*> renderers;
-  std::vector<const BenchScene*> scenes;
+  std::vector<Part> parts;
 };
 
 struct Bench {
@@ -159,21 +162,16 @@ void set_cameras(const Json& arguments) {
 // -- runs ---------------------------------------------------------------------------------------
 
 BenchCase bench_case_of(const Json& benchmark_case) {
-  BenchCase result{
-      .name = benchmark_case.at("name").get<std::string>(), .renderers = {}, .scenes = {}};
+  BenchCase result{.name = benchmark_case.at("name").get<std::string>(), .parts = {}};
   if (const auto grid = benchmark_case.find("grid"); grid != benchmark_case.end()) {
-    for (const Json& index : *grid) {
-      BenchScene& scene = scene_at(index);
-      result.renderers.push_back(&scene.tureen);
-      result.scenes.push_back(&scene);
-    }
+    for (const Json& index : *grid)
+      result.parts.push_back({&scene_at(index).tureen, &scene_at(index)});
     return result;
   }
   BenchScene& scene = scene_at(benchmark_case.at("scene"));
   const bool published = benchmark_case.at("published").get<bool>();
   if (published && !scene.published) throw UsageError("the baseline was not added");
-  result.renderers.push_back(published ? &*scene.published : &scene.tureen);
-  result.scenes.push_back(&scene);
+  result.parts.push_back({published ? &*scene.published : &scene.tureen, &scene});
   return result;
 }
 
@@ -184,12 +182,12 @@ BenchmarkCase benchmark_case_of(const BenchCase& bench_case) {
           .draw =
               [&bench_case](const FrameInput& input) {
                 const std::size_t index = std::stoul(input.camera.name);
-                for (std::size_t i = 0; i < bench_case.renderers.size(); ++i)
-                  bench_case.renderers[i]->draw({bench_case.scenes[i]->cameras[index]});
+                for (const auto& [renderer, scene] : bench_case.parts)
+                  renderer->draw({scene->cameras[index]});
               },
           .finish =
               [&bench_case] {
-                for (const Renderer* renderer : bench_case.renderers) renderer->finish();
+                for (const auto& [renderer, scene] : bench_case.parts) renderer->finish();
               }};
 }
 
@@ -200,7 +198,7 @@ void begin(const Json& arguments) {
   std::size_t views = 0;
   for (const Json& benchmark_case : arguments.at("entrants")) {
     bench().cases.push_back(bench_case_of(benchmark_case));
-    for (const BenchScene* scene : bench().cases.back().scenes) {
+    for (const auto& [renderer, scene] : bench().cases.back().parts) {
       if (scene->cameras.empty()) throw UsageError("a scene has no cameras yet");
       if (views > 0 && scene->cameras.size() != views)
         throw UsageError("all scenes must have the same number of cameras");
@@ -252,7 +250,7 @@ Json to_json(const FrameStatistics& ms) {
 /// The hash of a frame's images, in their order.
 std::string hash_of(const BenchCase& bench_case) {
   Image8 all;
-  for (const Renderer* renderer : bench_case.renderers) {
+  for (const auto& [renderer, scene] : bench_case.parts) {
     const Image8 one = renderer->read_color();
     all.pixels.insert(all.pixels.end(), one.pixels.begin(), one.pixels.end());
   }

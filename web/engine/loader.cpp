@@ -88,6 +88,7 @@ std::string appearances_of(std::span<const PlacedLayer> layers) {
 
 Json describe(const Scene& scene) {
   const std::vector<PlacedLayer> layers = placed_layers(scene);
+  Json names = Json::array(), cameras = Json::array();
   std::size_t triangles = 0, splats = 0;
   int features = layers.empty() ? 0 : std::numeric_limits<int>::max();
   for (const PlacedLayer& layer : layers) {
@@ -96,13 +97,11 @@ Json describe(const Scene& scene) {
     else
       splats += count(*layer.splats);
     features = std::min(features, layer.soup ? feature_count(*layer.soup) : 0);
+    names.push_back(layer.place.name);
   }
   Subject subject = tureen::subject_of(scene);
   const UpGuess up = guess_up(evidence_of(scene, subject));
   subject.up = up.axis;
-  Json names = Json::array();
-  for (const PlacedLayer& layer : layers) names.push_back(layer.place.name);
-  Json cameras = Json::array();
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
   return object({{"name", scene.info.name},
                  {"source", scene.info.source},
