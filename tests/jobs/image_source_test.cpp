@@ -68,7 +68,8 @@ class TrainedImages final : public trainer::Trainable {
 
  private:
   std::vector<trainer::TrainingView> views_ = [] {
-    trainer::TrainingView view{.camera = tureen::test::camera_of_ball(3, 32, 32), .target = {}};
+    trainer::TrainingView view;
+    view.camera = tureen::test::camera_of_ball(3, 32, 32);
     view.target.assign(3 * 32 * 32, 0);
     return std::vector{view};
   }();
@@ -120,17 +121,20 @@ TEST_P(ImageSources, ShowWhatTheOracleShows) {
   ASSERT_EQ(found.height, 47);
   // Rounding to bytes alone gives 59 dB.
   EXPECT_GT(psnr(expected, found), 55);
-  if (GetParam().has_coverage)
+  if (GetParam().has_coverage) {
     EXPECT_GT(psnr(coverage_of(expected), coverage_of(found)), 55);
-  else
+  } else {
     EXPECT_TRUE(std::ranges::all_of(found.pixels, [](auto& pixel) { return pixel.a == 1; }));
+  }
 }
 
 TEST_P(ImageSources, RoundTheirExactImages) {
   const Camera camera = tureen::test::camera_of_ball(3, 33, 20);
   const std::optional<ImageF> exact = source_->exact_image({camera});
   EXPECT_EQ(exact.has_value(), std::string(GetParam().name) != "runtime");
-  if (exact) EXPECT_EQ(quantised(*exact).pixels, source_->image({camera}).pixels);
+  if (exact) {
+    EXPECT_EQ(quantised(*exact).pixels, source_->image({camera}).pixels);
+  }
 }
 
 TEST_P(ImageSources, DrawPartsAsTheyAreInTheWhole) {
@@ -146,7 +150,7 @@ TEST_P(ImageSources, DrawPartsAsTheyAreInTheWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ImageSources, testing::ValuesIn(sources),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& each) { return std::string(each.param.name); });
 
 TEST(OracleImages, ReportProgressAndCanBeCancelled) {
   const Scene drawn = scene();

@@ -65,7 +65,7 @@ TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
   masked[0].ignored.assign(masked[0].image.pixels.size(), 0);
   std::fill_n(masked[0].ignored.begin(), 96, 1);
   EXPECT_NEAR(mean_psnr_db(run, masked), off, 1e-5);
-  const Image8 image = drawn(run, views[0].camera);
+  const Image8 image = run.image({views[0].camera});
   EXPECT_EQ(image.at(15, 11), glm::u8vec4(0, 51, 51, 255));
   const Image8 both = preview(run, views[1]);
   EXPECT_EQ(both.width, 3 * 16);

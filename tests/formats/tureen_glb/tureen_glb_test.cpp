@@ -357,7 +357,7 @@ TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {
   EXPECT_EQ(back.quality, (Quality{.supersampling = 3}));
   ASSERT_EQ(back.info.remarks.size(), 1u);
   EXPECT_EQ(back.info.remarks[0].kind, &remarks::preset_keys_ignored);
-  EXPECT_EQ(std::get<std::vector<std::string>>(back.info.remarks[0]["keys"]),
+  EXPECT_EQ(std::get<std::vector<std::string>>(back.info.remarks[0].fields.at(0).value),
             (std::vector<std::string>{"texel_bits", "color", "feature_storage", "site",
                                       "alpha_to_coverage", "promised_psnr_db"}));
   EXPECT_EQ(std::get<LatticeTexture>(only_soup(back).appearance).texels,
