@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/image_file.hpp"
@@ -228,9 +227,9 @@ ExitCode render(RenderOptions options) {
     say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
     say_what_is_hidden(scene);
     say_list("Cameras:", views.notes);
-    say(fmt::format("{}; {} x {} by {}; {} per image",
+    say(fmt::format("{}; {} x {} by {}; {:.2f} s per image",
                     primitives_text(triangle_count(scene), splat_count(scene)), first.width,
-                    first.height, name, duration_text(median(images.ms) / 1000)));
+                    first.height, name, median(images.ms) / 1000));
     say_written(images, views);
     if (options.json)
       print_json({{"width", first.width},

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <numeric>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "runtime/passes/pass.hpp"
 
@@ -18,9 +19,10 @@ TileImages::TileImages(const Scene& scene, std::optional<glm::vec3> background,
   for (const Layer& layer : scene.layers) {
     if (!layer.visible) continue;
     const auto* splats = std::get_if<Splats>(&layer.primitives);
-    if (!splats) throw UsageError("tiles draw only splats; layer " + layer.name + " is a soup");
+    if (!splats) throw UsageError("tiles draw only splats, but the scene has triangles");
     if (!splatting::has_layer_for(*splats))
-      throw UsageError("layer " + layer.name + " has too many splats for tiles");
+      throw UsageError("a layer has too many splats for tiles: " +
+                       counted(count(*splats), "splat"));
     std::vector<std::uint32_t> all(count(*splats));
     std::iota(all.begin(), all.end(), 0u);
     layers_.push_back({splatting::make_layer(splatting::layer_data(*splats, splats->profile, all,
