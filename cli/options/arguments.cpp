@@ -234,19 +234,19 @@ template Option Command::add_option(const std::string&, std::optional<std::uint6
 template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&,
                                     const Check&);
 
-Option Command::add_option(const std::string& name, std::function<void(const std::string&)> store,
+Option Command::add_option(const std::string& name,
+                           const std::function<void(const std::string&)>& store,
                            const std::string& help, const Check& check) {
-  return Option::added(
-      app_->add_option_function<std::string>(without_value(name), std::move(store), help), name,
-      check);
+  return Option::added(app_->add_option_function<std::string>(without_value(name), store, help),
+                       name, check);
 }
 
 Option Command::add_option(const std::string& name,
-                           std::function<void(const std::vector<std::string>&)> store,
+                           const std::function<void(const std::vector<std::string>&)>& store,
                            const std::string& help, const Check& check) {
-  return Option::added(app_->add_option_function<std::vector<std::string>>(without_value(name),
-                                                                           std::move(store), help),
-                       name, check);
+  return Option::added(
+      app_->add_option_function<std::vector<std::string>>(without_value(name), store, help), name,
+      check);
 }
 
 Option Command::add_flag(const std::string& name, bool& value, const std::string& help) {
@@ -277,9 +277,10 @@ void Command::does_with_rest(std::function<ExitCode(const std::vector<std::strin
   });
 }
 
-Option add_word_option(Command& command, const std::string& name, std::vector<std::string> words,
-                       std::function<void(std::size_t)> choose, const std::string& help,
-                       RemovedWords removed) {
+Option add_word_option(Command& command, const std::string& name,
+                       const std::vector<std::string>& words,
+                       const std::function<void(std::size_t)>& choose, const std::string& help,
+                       const RemovedWords& removed) {
   const auto find = [=, bare = without_value(name)](const std::string& word) {
     for (const auto& [known, hint] : removed)
       if (known == word) throw UsageError(bare + " no longer takes '" + word + "'", hint);

@@ -96,10 +96,10 @@ class Command {
   requires holds_option<T> Option add_option(const std::string& name, T& value,
                                              const std::string& help, const Check& check = {});
   /// Calls `store` with the value, or with all values; it may throw UsageError.
-  Option add_option(const std::string& name, std::function<void(const std::string&)> store,
+  Option add_option(const std::string& name, const std::function<void(const std::string&)>& store,
                     const std::string& help, const Check& check = {});
   Option add_option(const std::string& name,
-                    std::function<void(const std::vector<std::string>&)> store,
+                    const std::function<void(const std::vector<std::string>&)>& store,
                     const std::string& help, const Check& check = {});
 
   /// Sets `value` to true if the flag is given.
@@ -131,21 +131,22 @@ using RemovedWords = std::vector<std::pair<std::string, std::string>>;
 
 /// An option that takes one of a few words; calls `choose` with the word's index. UsageError for
 /// any other word.
-Option add_word_option(Command& command, const std::string& name, std::vector<std::string> words,
-                       std::function<void(std::size_t)> choose, const std::string& help,
-                       RemovedWords removed = {});
+Option add_word_option(Command& command, const std::string& name,
+                       const std::vector<std::string>& words,
+                       const std::function<void(std::size_t)>& choose, const std::string& help,
+                       const RemovedWords& removed = {});
 
 /// The same, but sets `value` to the value of the word.
 template <class T>
 Option add_choice(Command& command, const std::string& name, T& value,
                   std::vector<std::pair<std::string, T>> choices, const std::string& help,
-                  RemovedWords removed = {}) {
+                  const RemovedWords& removed = {}) {
   std::vector<std::string> words;
   for (const auto& choice : choices) words.push_back(choice.first);
   const auto choose = [&value, choices = std::move(choices)](std::size_t index) {
     value = choices[index].second;
   };
-  return add_word_option(command, name, std::move(words), choose, help, std::move(removed));
+  return add_word_option(command, name, words, choose, help, removed);
 }
 
 /// All commands of a program, and the parsed arguments.

@@ -47,7 +47,7 @@ void for_each_run(int x, int y, int width, int height, const Act& act) {
       const int top = y + block_side * (block / blocks_a_side) + row;
       const int pixels = std::min(block_side, width - left);
       if (top >= height || pixels <= 0) continue;
-      act(std::size_t(block * block_pixels + row * block_side),
+      act(std::size_t(block) * block_pixels + std::size_t(row) * block_side,
           std::size_t(top) * std::size_t(width) + std::size_t(left), std::size_t(pixels));
     }
 }
