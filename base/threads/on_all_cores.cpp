@@ -23,13 +23,16 @@ void on_all_cores(
         work(i, check);
       } catch (const Abandoned&) {
         return;
+      } catch (...) {
+        cancelled = true;
+        throw;
       }
   };
   std::vector<std::future<void>> threads;
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  for (std::size_t i = 0; i < std::min(cores, count); ++i)
-    threads.push_back(std::async(std::launch::async, run));
   try {
+    for (std::size_t i = 0; i < std::min(cores, count); ++i)
+      threads.push_back(std::async(std::launch::async, run));
     for (std::future<void>& thread : threads) {
       while (thread.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready)
         progress(double(done) / double(count));
