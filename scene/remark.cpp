@@ -33,7 +33,8 @@ std::string formatted(const RemarkValue& value, std::string_view format) {
   if (const std::size_t bar = format.find('|'); bar != format.npos)
     return std::string(is_one(value) ? format.substr(0, bar) : format.substr(bar + 1));
   if (format == "%") return fixed_decimal(100 * std::get<double>(value), 0) + "%";
-  if (format.starts_with('.')) return fixed_decimal(std::get<double>(value), format[1] - '0');
+  if (format.size() > 1 && format[0] == '.')
+    return fixed_decimal(std::get<double>(value), format[1] - '0');
   return std::visit(ToText{format == "and" ? " and " : ", "}, value);
 }
 
@@ -59,6 +60,7 @@ std::string describe(const Remark& remark) {
   std::string_view rest = remark.kind->text;
   for (std::size_t open = rest.find('{'); open != rest.npos; open = rest.find('{')) {
     const std::size_t close = rest.find('}', open);
+    if (close == rest.npos) break;
     sentence += rest.substr(0, open);
     sentence += filled(remark, rest.substr(open + 1, close - open - 1));
     rest.remove_prefix(close + 1);

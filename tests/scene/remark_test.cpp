@@ -30,6 +30,11 @@ TEST(Remark, KeepsTheBracesOfAFieldThatItLacks) {
   EXPECT_EQ(describe({&kind, {{"n", 0.125}}}), "{m} and 0.12");
 }
 
+TEST(Remark, KeepsABraceThatNothingCloses) {
+  constexpr RemarkKind kind{"kind", RemarkKind::Severity::note, "{n:.} of {all"};
+  EXPECT_EQ(describe({&kind, {{"n", 2u}, {"all", 3u}}}), "2 of {all");
+}
+
 TEST(Remark, RoundsNumbers) {
   EXPECT_EQ(describe({&remarks::soft_triangles_dropped,
                       {{"dropped", 2u}, {"all", 7u}, {"smallest_opacity", 0.01}}}),
