@@ -124,7 +124,7 @@ TEST(GaussianCheckpoint, RejectsInconsistentStates) {
   refused([](auto& c) { c.views.clear(); }, "epoch");
   refused([](auto& c) { c.views[0].width = 0; }, "0 x 33");
   refused([](auto& c) { c.seconds = std::numeric_limits<double>::quiet_NaN(); }, "time");
-  refused([](auto& c) { c.state.fits = -1; }, "fits");
+  refused([](auto& c) { c.state.fits = -2; }, "fits");
   refused([](auto& c) { c.state.memory.moments.pop_back(); }, "match");
   refused([](auto& c) { c.config.degree = 1; }, "degree");
   refused([](auto& c) { c.config.steps = 0; }, "steps");

@@ -60,7 +60,6 @@ TrainingSession::TrainingSession(Trainable& run, SessionOptions options)
       options_(std::move(options)),
       measured_views_(some_of(options_.test_views, measured_views)),
       log_(open_log(options_, run.steps_done())),
-      test_every_(steps_between_tests(run.steps())),
       start_(clock_seconds()),
       last_checkpoint_(options_.seconds_before),
       non_finite_(options_.non_finite_before) {
@@ -138,7 +137,8 @@ void TrainingSession::after_step(const StepReport& report) {
   loss_ = smoothed(loss_, report.loss);
 
   const int step = run_.steps_done();
-  const bool test = step % test_every_ == 0 || at_the_end();
+  // From the steps of now: fits change them.
+  const bool test = step % steps_between_tests(run_.steps()) == 0 || at_the_end();
   if (test) measure();
   if (test || step % record_every == 0) record();
   if (options_.preview_every > 0 && (step % options_.preview_every == 0 || at_the_end()))
@@ -160,7 +160,7 @@ void TrainingSession::record() {
   log_.append({.step = run_.steps_done(),
                .steps = run_.steps(),
                .seconds = now,
-               .seconds_left = status().seconds_left,
+               .seconds_left = seconds_left(),
                .loss = recent_.loss / n,
                .l1 = recent_.l1 / n,
                .ssim = recent_.ssim / n,
@@ -188,13 +188,18 @@ void TrainingSession::save_checkpoint() {
   last_checkpoint_ = seconds();
 }
 
+double TrainingSession::seconds_left() const {
+  if (pace_.work <= 0) return 0;
+  return run_.seconds_left().value_or(pace_.seconds / pace_.work * run_.work_left());
+}
+
 SessionStatus TrainingSession::status(bool paused) const {
   return {.step = run_.steps_done(),
           .steps = run_.steps(),
           .loss = loss_,
           .test_psnr_db = shown_test_psnr_,
           .seconds_per_step = pace_.steps > 0 ? pace_.seconds / pace_.steps : 0,
-          .seconds_left = pace_.work > 0 ? pace_.seconds / pace_.work * run_.work_left() : 0,
+          .seconds_left = seconds_left(),
           .paused = paused};
 }
 

@@ -91,13 +91,13 @@ class TrainingSession {
   void write_preview();
   void save_checkpoint();
   void keep();
+  double seconds_left() const;
   SessionStatus status(bool paused = false) const;
 
   Trainable& run_;
   SessionOptions options_;
   std::vector<Photograph> measured_views_;
   TrainingLog log_;
-  int test_every_;
   double start_ = 0;            // of the clock
   double last_checkpoint_ = 0;  // seconds()
   Recent recent_;

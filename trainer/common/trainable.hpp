@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,8 @@ class Trainable : public ImageSource {
   /// that is left is the time per work so far, times work_left().
   virtual double work_of_step() const { return 1; }
   virtual double work_left() const { return steps() - steps_done(); }
+  /// Where the run itself knows the time that is left.
+  virtual std::optional<double> seconds_left() const { return std::nullopt; }
   virtual StepReport step() = 0;
   virtual PrimitiveCount primitives() const = 0;
 

@@ -99,7 +99,7 @@ std::optional<std::string> defect(const StoredState& state, const SplatConfig& c
   if (state.epoch.size() > views ||
       std::any_of(state.epoch.begin(), state.epoch.end(), [&](auto i) { return i >= views; }))
     return fmt::format("the epoch does not match {} views", views);
-  if (state.fits < 0) return "the number of fits is negative";
+  if (state.fits < -1) return "the number of fits is negative";
   if (!(state.solidity >= 0 && state.solidity < 1)) return "the solidity is not from 0 to 1";
   return std::nullopt;
 }

@@ -16,13 +16,13 @@ namespace tureen::trainer {
 
 namespace {
 
-/// Fractions of the run at which the number of steps is fitted to the time, first after the first
-/// steps. Several, because the number of splats and their sizes change; none late, because a change
-/// of the number disturbs the decay of the rates.
-constexpr std::array<double, 4> fit_at{0, 0.1, 0.3, 0.5};
+/// Fractions of the run at which the number of steps is fitted to the time again. Several, because
+/// the number of splats and their sizes change; none late, because a change of the number disturbs
+/// the decay of the rates.
+constexpr std::array<double, 3> fit_at{0.1, 0.3, 0.5};
 
-/// The first fit: after 20 steps, which the caches and the processor's clock need, but not after
-/// more than a twentieth of the time.
+/// The first fit, which counts as none in SplatState::fits: after 20 steps, which the caches and
+/// the processor's clock need, but not after more than a twentieth of the time.
 constexpr int first_fit_steps = 20;
 constexpr double first_fit_share = 0.05;
 
@@ -51,6 +51,11 @@ class SplatRun final : public Trainable {
 
   int steps() const override { return trainer_.config().steps; }
   int steps_done() const override { return trainer_.steps_done(); }
+  /// Until the last fit, steps() is a guess, but the time is known.
+  std::optional<double> seconds_left() const override {
+    if (!fits_again()) return std::nullopt;
+    return std::max(0.0, run_seconds() - spent_);
+  }
   double work_of_step() const override {
     const double work = remaining_work(trainer_.config(), steps_done());
     return double(trainer_.parameters().count()) *
@@ -106,16 +111,23 @@ class SplatRun final : public Trainable {
   std::uint64_t non_finite() const { return non_finite_; }
 
  private:
-  /// Fits the number of steps to the time that is left, at the fractions of fit_at.
+  double run_seconds() const { return 60 * run_.config.minutes; }
+  bool fits_again() const { return run_seconds() > 0 && fits_ < int(fit_at.size()); }
+  bool fit_is_due() const {
+    if (!fits_again() || recent_work_ == 0) return false;
+    if (fits_ < 0)
+      return steps_done() >= first_fit_steps || spent_ >= first_fit_share * run_seconds();
+    return steps_done() >= fit_at[std::size_t(fits_)] * steps();
+  }
+
+  /// Fits the number of steps to the time that is left.
   void fit() {
-    const double time = 60 * run_.config.minutes;
-    if (!(time > 0) || fits_ >= int(fit_at.size()) || recent_work_ == 0) return;
-    if (steps_done() < fit_at[std::size_t(fits_)] * steps()) return;
-    if (fits_ == 0 && steps_done() < first_fit_steps && spent_ < first_fit_share * time) return;
+    if (!fit_is_due()) return;
     const std::size_t splats = trainer_.parameters().count();
     const double step_seconds = recent_ / recent_work_ * double(splats) *
                                 growth_of_work(trainer_.config(), steps_done(), splats);
-    trainer_.set_steps(fitted_steps(trainer_.config(), steps_done(), time - spent_, step_seconds));
+    trainer_.set_steps(
+        fitted_steps(trainer_.config(), steps_done(), run_seconds() - spent_, step_seconds));
     ++fits_;
     recent_ = recent_work_ = 0;
   }
@@ -127,7 +139,7 @@ class SplatRun final : public Trainable {
   double recent_ = 0;       // seconds of the steps since the last fit
   double recent_work_ = 0;  // their work, in steps of full size with one splat
   std::uint64_t non_finite_ = 0;
-  int fits_ = 0;
+  int fits_ = 0;  // SplatState::fits
   bool has_stepped_ = false;
 };
 
@@ -148,8 +160,11 @@ SplatResult train_by(Dataset& dataset, Request request) {
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
   for (TrainingView& view : views) view.camera = relative_to(view.camera, region.center);
   const Region local{.center = glm::dvec3(0), .half_side = region.half_side};
-  if (request.checkpoint && run.config.minutes > 0)
-    run.config.steps = request.checkpoint->config.steps;
+  if (run.config.minutes > 0) {
+    run.config.steps =
+        request.checkpoint ? request.checkpoint->config.steps : typename Training::Config{}.steps;
+    if (!request.checkpoint) run.state.fits = -1;
+  }
   SplatTrainer<Training> trainer(run.config, views, local, request.run.threads, run.state);
   if (request.begun) request.begun({.splats = splats, .threads = trainer.threads()});
 

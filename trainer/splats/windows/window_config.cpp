@@ -36,7 +36,7 @@ std::span<const WindowConfig::Field> splat_config_fields<WindowConfig>() {
        "If opaque: the opacity below which they are replaced"},
       {"variance_weight", &WindowConfig::variance_weight, weight,
        "If opaque: weight of the variance of the samples in a pixel, for sharp images with one "
-       "sample a pixel"},
+       "sample per pixel"},
   });
   return fields;
 }

@@ -40,7 +40,7 @@ struct WindowConfig : SplatConfig {
   double prune_from = 0.4;
   float min_opacity_before_opaque = 0.2f;
   /// Of VarianceLoss, times the solidity. With photographs of lego at 200x200 that were held back
-  /// from training, 0, 1, 3 and 6 give 24.8, 25.0, 25.4 and 25.3 dB with one sample a pixel, and
+  /// from training, 0, 1, 3 and 6 give 24.8, 25.0, 25.4 and 25.3 dB with one sample per pixel, and
   /// 27.9, 27.9, 27.8 and 27.3 dB with 4x4.
   float variance_weight = 3;
 };

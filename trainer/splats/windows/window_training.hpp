@@ -4,7 +4,7 @@
 // their solidity rises. As in Triangle Splatting+ (arXiv 2509.25122, section 3.3), opacity has an
 // ever higher floor. There, sigma falls to 1e-4, so that only pixels on an edge move it; here, the
 // window becomes a narrow ramp along the edges (splatting/windows/window_plane-inl.hpp), and a
-// VarianceLoss accounts for renderings with one sample a pixel. The authors' variant for game
+// VarianceLoss accounts for renderings with one sample per pixel. The authors' variant for game
 // engines (mean sigma and one over the mean opacity as losses) fixes neither the end nor its time.
 //
 // Not implemented: the losses of normals and of distortion (weights 1e-4 and 0 for scenes without
