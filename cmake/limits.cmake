@@ -37,7 +37,7 @@ set(limits
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 12800: three methods, CPU and CUDA"
-  "code jobs 5500: work that the programs share, and the whole of a training run; what measures and reports grows no further"
+  "code jobs 5506: work that the programs share, and the whole of a training run; what measures and reports grows no further"
   "code viewer 6660: the window"
   "code web 9000: the page"
   "code cli 6360: the command line computes nothing"

@@ -167,6 +167,7 @@ class DiffsoupMethod final : public TrainingMethod {
       plan.first = made.triangles;
       plan.details.push_back({"level", double(made.settled.max_level),
                               fmt::format("textures of level {}", made.settled.max_level)});
+      plan.settled = trainer::config_to_json(made.settled);
       plan.device = made.backend.description();
       if (!made.is_visible)
         plan.notes.push_back(

@@ -26,8 +26,9 @@ std::string steps_text(const RunPlan& plan) {
 
 std::string primitives_text(const RunPlan& plan) {
   const std::string last = counted(plan.last, noun_of(plan.kind));
-  return plan.first == plan.last ? last
-                                 : fmt::format("{} to at most {}", counted(plan.first), last);
+  if (plan.first == plan.last) return last;
+  return counted(plan.first) +
+         (plan.kind == trainer::PrimitiveKind::splats ? " to at most " : " to ") + last;
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ Json to_json(const RunPlan& plan) {
           {"test_views", plan.test_views},
           {"width", plan.width},
           {"height", plan.height},
-          {"steps", plan.steps},
+          {"steps", plan.minutes > 0 ? Json() : Json(plan.steps)},
           {"minutes", plan.minutes},
           {"primitives", name_of(plan.kind)},
           {"first", plan.first},
@@ -70,7 +71,8 @@ Json to_json(const RunPlan& plan) {
           {"details", to_json(plan.details)},
           {"notes", to_json(plan.notes)},
           {"text", describe(plan)},
-          {"constants", Json::parse(plan.constants)}};
+          {"constants", Json::parse(plan.constants)},
+          {"settled", Json::parse(plan.settled.empty() ? plan.constants : plan.settled)}};
 }
 
 }  // namespace tureen
