@@ -15,6 +15,7 @@
 #include "cli/options/drawing_options.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
+#include "cli/options/renderer_option.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/options/values.hpp"
 #include "cli/options/view_options.hpp"
@@ -22,22 +23,17 @@
 #include "image/video_file.hpp"
 #include "jobs/bench/plan_json.hpp"
 #include "jobs/timing/frame_statistics.hpp"
-#include "oracle/oracle_images.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
-#include "runtime/splats/tile_images.hpp"
 
 namespace tureen::cli {
 
 namespace {
 
-/// What draws the images. All but gl need no OpenGL.
-enum class RendererKind { gl, oracle, tiles };
-
 struct RenderOptions {
   SceneArguments scene;
-  RendererKind renderer = RendererKind::gl;
+  const ProcessorRenderer* renderer = nullptr;  // null: OpenGL
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
@@ -93,7 +89,7 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
   WrittenImages images = draw_views(drawer_of(renderer, device), views, options.output);
   const std::string sentence =
       std::string("debug view: ") + name_of(options.show.what) +
-      " with one sample a pixel, without specialisations that can change a colour";
+      " with one sample per pixel, without specialisations that can change a colour";
   return {std::move(images),
           {sentence},
           {},
@@ -101,31 +97,16 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
           renderer.device_bytes()};
 }
 
-/// The images by the oracle or by tiles. Throws UsageError for scenes that they cannot draw.
+/// Throws UsageError for what the renderer does not support.
 WrittenImages draw_without_gl(const Scene& scene, const RenderOptions& options,
                               const glm::vec4& background, const Views& views) {
   const bool opaque = background.a >= 1;
-  const auto behind = opaque ? std::optional(glm::vec3(background)) : std::nullopt;
-  const Quality quality = preferences_for(scene, options.drawing).quality;
-  const bool along_rays = quality.splat_order == Quality::SplatOrder::exact;
-  if (quality.splat_order == Quality::SplatOrder::stochastic)
-    throw UsageError("only --renderer gl draws splats in stochastic order",
-                     "choose another order with --splat-order");
   std::function<void(double)> progress;
-  const auto draw = [&](ImageSource&& source) {
-    return draw_views(drawer_of(source, progress, opaque), views, options.output);
-  };
-  if (options.renderer == RendererKind::oracle)
-    return draw(OracleImages(
-        scene, {.supersampling = quality.supersampling,
-                .splat_order = along_rays ? oracle::SplatOrder::exact : oracle::SplatOrder::center,
-                .background = behind,
-                .progress = [&](double done) { progress(done); }}));
-  if (quality.supersampling > 1)
-    throw UsageError("--renderer tiles has one sample per pixel", "draw with --supersample 1");
-  return draw(
-      TileImages(scene, behind,
-                 along_rays ? splatting::BlendOrder::along_rays : splatting::BlendOrder::centers));
+  const std::unique_ptr<ImageSource> images = options.renderer->make(
+      scene, {.quality = preferences_for(scene, options.drawing).quality,
+              .background = opaque ? std::optional(glm::vec3(background)) : std::nullopt,
+              .progress = [&](double done) { progress(done); }});
+  return draw_views(drawer_of(*images, progress, opaque), views, options.output);
 }
 
 /// Throws UsageError if the scene has no such debug view. Runs before the context is created.
@@ -221,20 +202,19 @@ ExitCode render(RenderOptions options) {
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
   const Camera& first = views.cameras.front();
-  if (options.renderer != RendererKind::gl) {
+  if (options.renderer) {
     const WrittenImages images = draw_without_gl(scene, options, background, views);
-    const char* name = options.renderer == RendererKind::oracle ? "oracle" : "tiles";
     say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
     say_what_is_hidden(scene);
     say_list("Cameras:", views.notes);
     say(fmt::format("{}; {} x {} by {}; {:.2f} s per image",
                     primitives_text(triangle_count(scene), splat_count(scene)), first.width,
-                    first.height, name, median(images.ms) / 1000));
+                    first.height, options.renderer->name, median(images.ms) / 1000));
     say_written(images, views);
     if (options.json)
       print_json({{"width", first.width},
                   {"height", first.height},
-                  {"renderer", name},
+                  {"renderer", options.renderer->name},
                   {"triangles", triangle_count(scene)},
                   {"splats", splat_count(scene)},
                   {"frame_ms", frame_ms_json(images.ms)},
@@ -263,7 +243,7 @@ ExitCode render(RenderOptions options) {
                   primitives_text(triangle_count(scene), splat_count(scene)),
                   bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
                   context.description()));
-  say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", median_ms,
+  say(fmt::format("{:.2f} ms per frame (median of {}, 95 % within {:.2f} ms)", median_ms,
                   images.ms.size(), p95_ms));
   say_written(images, views);
   say_measured(measured);
@@ -303,7 +283,7 @@ Examples:
   tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
   tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
                                                           the frames along a camera path
-  tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
+  tureen render soup.glb --supersample 4 -o smooth.png    16 samples per pixel
   tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
   tureen render soup.glb --renderer oracle -o exact.png   in double precision, without OpenGL
   tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
@@ -338,19 +318,13 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       .add_option("--frames N", options->frames,
                   "after a warm-up, draw N more frames and print their times", between(1, 1000000))
       .excludes(show);
-  Option renderer = add_choice<RendererKind>(
-      command, "--renderer NAME", options->renderer,
-      {{"gl", RendererKind::gl}, {"oracle", RendererKind::oracle}, {"tiles", RendererKind::tiles}},
-      "what draws: gl (default, OpenGL); oracle: the reference in double "
-      "precision, seconds to hours an image; tiles: splats on the "
-      "processor. The last two need no OpenGL");
-  for (const char* other : {"--debug-view", "--scale", "--pipeline", "--shading", "--no-specialise",
-                            "--keep", "--blend", "--context", "--frames", "--as-published",
-                            "--depth", "--median-depth", "--normals", "--alpha"})
-    renderer.excludes(command.option(other));
   command.add_flag("--json", options->json,
                    "print the images, the plan and the frame times as JSON to standard output");
-  command.does([options] { return render(*options); });
+  const auto check_renderer = add_renderer_option(command, options->renderer);
+  command.does([options, check_renderer] {
+    check_renderer();
+    return render(*options);
+  });
 }
 
 }  // namespace tureen::cli

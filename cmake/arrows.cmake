@@ -88,7 +88,7 @@ set(arrows
   "web/report:"
 
   "cli/exit_code.hpp cli/interrupt.* cli/progress.* cli/report.* cli/table.* cli/version.*: base scene"
-  "cli/options: base image scene camera formats/* runtime/* jobs/* cli/exit_code.hpp"
+  "cli/options: base image scene camera oracle formats/* runtime/* jobs/* cli/exit_code.hpp"
   "cli/files: base image scene formats/* runtime/* trainer/common jobs/* cli/exit_code.hpp cli/options"
   "cli/measuring: base scene camera runtime/gl jobs/* cli/exit_code.hpp cli/options"
   "cli/bench: base scene jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"

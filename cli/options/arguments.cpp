@@ -187,6 +187,8 @@ Option Option::comma_list() {
   return split_at_commas();
 }
 
+bool Option::is_given() const { return option_->count() > 0; }
+
 Command Command::add_command(const std::string& name, const std::string& description) {
   app_->require_subcommand(1);
   return {app_->add_subcommand(name, description), chosen_};

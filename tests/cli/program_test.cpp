@@ -252,6 +252,39 @@ TEST_F(Program, RenderDrawsAndReports) {
   EXPECT_THAT(result.err, Names("picture.png"));
 }
 
+TEST_F(Program, RenderNeedsNoOpenGlWithTheOracle) {
+  write_scene();
+  const std::vector<std::string> view = {"render", "scene.off", "--size",   "64x48",
+                                         "--eye",  "0,-5,0",    "--target", "0,0,0"};
+  const auto draw = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = view;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const ChildResult result = draw({"--renderer", "oracle", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  EXPECT_THAT(keys(json), ElementsAre("width", "height", "renderer", "triangles", "splats",
+                                      "frame_ms", "output"));
+  EXPECT_EQ(json["renderer"], "oracle");
+  const Image8 exact = read_png("out.png");
+  ASSERT_EQ(draw({"--renderer", "gl", "--frames", "1", "--context", "osmesa"}).exit_code, 0);
+  const Image8 drawn = read_png("out.png");
+  EXPECT_EQ(exact.at(32, 24), glm::u8vec4(255, 0, 0, 255));
+  // Only pixels whose centres lie on an edge may differ.
+  EXPECT_GT(compare(exact, drawn).psnr_db, 30);
+
+  const auto refused = [&](const std::vector<std::string>& more, const auto&... values) {
+    const ChildResult wrong = draw(more);
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.err, Names(values...));
+  };
+  refused({"--renderer", "oracle", "--frames", "1"}, "--frames needs --renderer gl");
+  refused({"--renderer", "tiles", "--debug-view", "depth"}, "--debug-view needs --renderer gl");
+  refused({"--renderer", "tiles"}, "tiles draw only splats");
+  refused({"--renderer", "rays"}, "gl, oracle, tiles");
+}
+
 TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
   write_scene();
   const auto draw = [&](const std::vector<std::string>& option) {

@@ -1,0 +1,67 @@
+#include "cli/options/renderer_option.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "oracle/oracle_images.hpp"
+#include "runtime/splats/tile_images.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+bool is_along_rays(const Quality& quality) {
+  if (quality.splat_order == Quality::SplatOrder::stochastic)
+    throw UsageError("only --renderer gl draws splats in stochastic order",
+                     "choose another order with --splat-order");
+  return quality.splat_order == Quality::SplatOrder::exact;
+}
+
+std::unique_ptr<ImageSource> oracle_images(const Scene& scene, const ProcessorImages& images) {
+  const auto order =
+      is_along_rays(images.quality) ? oracle::SplatOrder::exact : oracle::SplatOrder::center;
+  return std::make_unique<OracleImages>(scene,
+                                        OracleOptions{.supersampling = images.quality.supersampling,
+                                                      .splat_order = order,
+                                                      .background = images.background,
+                                                      .progress = images.progress});
+}
+
+std::unique_ptr<ImageSource> tile_images(const Scene& scene, const ProcessorImages& images) {
+  if (images.quality.supersampling > 1)
+    throw UsageError("--renderer tiles has one sample per pixel", "draw with --supersample 1");
+  const auto order = is_along_rays(images.quality) ? splatting::BlendOrder::along_rays
+                                                   : splatting::BlendOrder::centers;
+  return std::make_unique<TileImages>(scene, images.background, order);
+}
+
+constexpr ProcessorRenderer renderers[] = {{"oracle", oracle_images}, {"tiles", tile_images}};
+
+/// Options of `render` that OpenGL alone supports.
+constexpr const char* gl_options[] = {
+    "--debug-view", "--scale", "--pipeline",     "--shading", "--no-specialise",
+    "--keep",       "--blend", "--context",      "--frames",  "--as-published",
+    "--depth",      "--alpha", "--median-depth", "--normals"};
+
+}  // namespace
+
+std::function<void()> add_renderer_option(Command& command, const ProcessorRenderer*& renderer) {
+  std::vector<std::pair<std::string, const ProcessorRenderer*>> choices{{"gl", nullptr}};
+  for (const ProcessorRenderer& each : renderers) choices.emplace_back(each.name, &each);
+  add_choice(command, "--renderer NAME", renderer, std::move(choices),
+             "what draws: gl (default); oracle: the reference in double precision, seconds to "
+             "hours per image; tiles: splats on the processor. Only gl needs OpenGL");
+  std::vector<std::pair<std::string, Option>> options;
+  for (const char* name : gl_options) options.emplace_back(name, command.option(name));
+  return [&renderer, options = std::move(options)] {
+    if (!renderer) return;
+    for (const auto& [name, option] : options)
+      if (option.is_given())
+        throw UsageError(name + " needs --renderer gl",
+                         "remove " + name + ", or --renderer " + renderer->name);
+  };
+}
+
+}  // namespace tureen::cli
