@@ -228,7 +228,7 @@ Examples:
   tureen convert soup.glb less.glb --lattice-level 2
                                               coarser textures; tradeoff measures the error
   tureen convert soup.glb smooth.glb --supersample 2
-                                              stores 2 x 2 samples a pixel as a quality setting
+                                              stores 2 x 2 samples per pixel as a quality setting
   tureen convert house.glb fox.glb tree.ply -o garden.glb
                                               one scene with three layers
   tureen convert garden.glb --layer fox -o one.glb

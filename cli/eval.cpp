@@ -161,7 +161,7 @@ pixels of the photograph. Specks are the fraction of pixels that differ from the
 Examples:
   tureen eval soup.glb lego
   tureen eval soup.glb fox --scale 0.25 --split all
-  tureen eval soup.glb lego --supersample 4     with 4x4 samples a pixel
+  tureen eval soup.glb lego --supersample 4     with 4x4 samples per pixel
   tureen eval soup.glb lego -o views            images with heat maps, and a report
   tureen eval soup.glb lego --json              the metrics for scripts
   tureen eval splats.ply fox                    splats, blended as their method does

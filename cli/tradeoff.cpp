@@ -117,7 +117,7 @@ void add_tradeoff(Command& program, std::vector<std::string> arguments) {
   command.footer(
       R"(Measures each edit and quality setting alone, then combinations of those that matter. Each
 measurement has the frame time and E_render, the error against the oracle's image of the
-unchanged scene. The reference for quality settings has 8 x 8 samples a pixel. With photographs,
+unchanged scene. The reference for quality settings has 8 x 8 samples per pixel. With photographs,
 the report also has the error against them (E_model), for the baseline too. The choice is the
 fastest configuration within --least-psnr and --most-mismatch; of equally fast ones, the one with
 the fewest changes. Of the quality settings, it contains only the order of splats.

@@ -90,7 +90,7 @@ struct Renderer::State {
   std::unique_ptr<SplatBlendingPass> splat_pass;  // of all layers of splats
   OrderedSplats* ordered_splats = nullptr;        // of the pass, if the device blends
   Passes passes;                                  // from outside
-  std::optional<FilterPass> filter;               // for other than one sample a pixel
+  std::optional<FilterPass> filter;               // for other than one sample per pixel
   glm::ivec2 size{0};                             // of the last image; 0 before the first
   Frame frame;                                    // the last one
   Camera camera;                                  // of the last frame, at the image's size

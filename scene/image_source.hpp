@@ -16,7 +16,7 @@ class ImageSource {
   /// the source; alpha is the coverage, or 1 if the source does not know it. Throws the errors of
   /// the source.
   virtual Image8 image(const FrameInput& input) = 0;
-  /// The same before it is rounded to bytes; nullopt if the source has only bytes.
+  /// The image before rounding to bytes; nullopt if the source has only bytes.
   virtual std::optional<ImageF> exact_image(const FrameInput&) { return std::nullopt; }
 };
 

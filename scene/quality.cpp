@@ -18,14 +18,14 @@ std::string describe(const Quality& quality) {
     text = short_decimal(100 * quality.resolution_scale, 4) + " % of the rows and columns";
   } else if (quality.supersampling > 1) {
     const std::string n = std::to_string(quality.supersampling);
-    text = n + " x " + n + " samples a pixel";
+    text = n + " x " + n + " samples per pixel";
   }
   const auto add = [&](const char* words) {
     text += (text.empty() ? "" : ", ") + std::string(words);
   };
   if (quality.splat_order == Quality::SplatOrder::exact) add("splats in exact order");
   if (quality.splat_order == Quality::SplatOrder::stochastic) add("stochastic splats");
-  return text.empty() ? "one sample a pixel" : text;
+  return text.empty() ? "one sample per pixel" : text;
 }
 
 std::optional<std::string> defect(const Quality& quality) {

@@ -35,7 +35,7 @@ const char* name_of(Quality::SplatOrder order);
 bool has_one_sample_a_pixel(const Quality& quality);
 
 /// The settings that differ from their defaults: "50 % of the rows and columns", "2 x 2 samples a
-/// pixel, splats in exact order"; without any, "one sample a pixel".
+/// pixel, splats in exact order"; without any, "one sample per pixel".
 std::string describe(const Quality& quality);
 
 /// The reason why rendering with these settings is impossible (a value out of range, or both

@@ -5,7 +5,7 @@
 
 layout(location = 0) in uint splat;  // of the instance
 
-uniform sampler2DArray kernel;  // three texels a splat
+uniform sampler2DArray kernel;  // three texels per splat
 uniform mat3 view_from_layer;   // rotation, perhaps a mirror
 uniform vec2 focal;             // in pixels
 uniform vec2 principal_point;   // in pixels from the lower left corner of the image

@@ -1,4 +1,4 @@
-// The mean of SAMPLES_PER_AXIS x SAMPLES_PER_AXIS samples a pixel.
+// The mean of SAMPLES_PER_AXIS x SAMPLES_PER_AXIS samples per pixel.
 uniform sampler2D samples;
 
 layout(location = 0) out vec4 color;

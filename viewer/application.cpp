@@ -337,7 +337,7 @@ void Application::draw_image() {
   try {
     draw_scene();
   } catch (const DeviceLimitError& error) {
-    // Most likely the window is too large for this number of samples a pixel.
+    // Most likely the window is too large for this number of samples per pixel.
     state_.error("The image cannot be drawn", error.reason());
     image_is_current_ = false;
     DrawingChoice choice = state_.stage->choice;

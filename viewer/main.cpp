@@ -87,7 +87,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       "not need");
   program.add_flag_callback(
       "--no-smooth-at-rest", [&options] { options.smooth_at_rest = false; },
-      "keep one sample a pixel while nothing moves, and in saved images: switches off "
+      "keep one sample per pixel while nothing moves, and in saved images: switches off "
       "\"smooth at rest\" in the panel Drawing");
   std::vector<std::string> profiles;
   for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);

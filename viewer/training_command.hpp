@@ -39,8 +39,8 @@ struct TrainingChoice {
   std::map<std::string, std::string> values = {};  // by MethodOption::name; of a flag, any text
 };
 
-/// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it. From
-/// a checkpoint, its method and constants continue, whatever the choice.
+/// The arguments of `tureen` that train `scene` from the dataset, with a window that shows it. A
+/// run from a checkpoint keeps its method and constants and ignores `choice`.
 std::vector<std::string> training_arguments(const std::filesystem::path& dataset,
                                             const std::filesystem::path& scene,
                                             TrainingStart start = TrainingStart::new_run,

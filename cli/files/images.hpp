@@ -25,13 +25,13 @@ struct Drawer {
 
 /// `renderer` and `device` must outlive the Drawer.
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device);
-/// Images of any size by a slow renderer, which calls `progress`; all must outlive the Drawer.
-/// `opaque`: alpha becomes 1.
+/// Images of any size from a slow renderer, which calls `progress`. `source` and `progress` must
+/// outlive the Drawer. `opaque`: alpha becomes 1.
 Drawer drawer_of(ImageSource& source, std::function<void(double)>& progress, bool opaque);
 
 struct WrittenImages {
   std::vector<std::string> paths;
-  std::vector<double> ms;  // a frame, each from before the draw to after the device has finished
+  std::vector<double> ms;  // per frame, from before the draw to after the device has finished
 };
 
 enum class Sheet { none, of_several };

@@ -50,7 +50,7 @@ void require_measured_sizes(const gl::Capabilities& device, const std::vector<Ca
                             const MeasuredOutputs& outputs);
 
 /// Writes one file for each output and camera; require_measured_sizes() has accepted them. Values
-/// have one sample a pixel. Where nothing is visible: depth infinity (PNG: 0), normal 0, alpha 0.
+/// have one sample per pixel. Where nothing is visible: depth infinity (PNG: 0), normal 0, alpha 0.
 /// Throws OutputError.
 std::vector<MeasuredImage> write_measured(const gl::Context& context, const Scene& scene,
                                           const std::vector<Camera>& cameras,

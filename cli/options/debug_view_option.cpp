@@ -49,7 +49,7 @@ Option add_debug_view_option(Command& command, DebugViewOption& show) {
       "debug view instead of the final colour: depth, normals, triangle-id, texels, alpha, "
       "mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), overdraw, "
       "wireframe, holes, median-depth, opacity, sigma, contributions, order or quarter; drawn with "
-      "one sample a pixel and without specialisations that can change a colour "
+      "one sample per pixel and without specialisations that can change a colour "
       "(docs/debug-views.md)");
 }
 

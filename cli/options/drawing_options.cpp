@@ -80,7 +80,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       "along the pixel's ray; by the processor, several times slower. stochastic: by their "
       "centres, without blending; noisy, but the mean of many samples is right");
   command.add_option("--supersample N", options.supersampling,
-                     "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the "
+                     "N x N samples per pixel for smooth edges, 1 to 8; draws N x N times the "
                      "pixels; the scene's own number by default",
                      between(1, 8));
   command.add_flag("--opaque", options.opaque,

@@ -31,7 +31,7 @@ void add_quality_options(Command& command, QualityOptions& quality) {
       [&quality](const std::string& text) {
         quality.sampling = Quality{.supersampling = int(*number_from(text))};
       },
-      "quality setting stored in OUT: N x N samples a pixel, 1 to 8", between(1, 8));
+      "quality setting stored in OUT: N x N samples per pixel, 1 to 8", between(1, 8));
   command
       .add_option(
           "--resolution-scale S",

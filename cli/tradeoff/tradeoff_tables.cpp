@@ -90,7 +90,7 @@ void say_tables(const TradeoffReport& report) {
                                             "device's subpixel grid alone limits it to {:.2f} dB",
                                             limit));
   say_panel(report, report.study.antialiasing,
-            "E_render of quality settings, against 8 x 8 samples a pixel (* = on the front):");
+            "E_render of quality settings, against 8 x 8 samples per pixel (* = on the front):");
   say_model(report);
   say("Times: " + report.clock + ".");
   say(choice_sentence(report));

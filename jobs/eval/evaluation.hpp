@@ -25,7 +25,7 @@
 namespace tureen {
 
 struct EvaluationOptions {
-  // Of the runtime's images:
+  // Only for images from the runtime:
   gl::Backend backend = gl::Backend::automatic;
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
@@ -55,7 +55,7 @@ struct ViewMetrics {
 struct Evaluation {
   std::vector<ViewMetrics> views;  // in the order of the photographs
   ViewMetrics mean;                // name is empty
-  // Of the runtime's images:
+  // Only for images from the runtime:
   std::string context;  // the method of access to the device, and its name
   std::string renderer;
   std::vector<std::string> plan;                       // describe()
@@ -67,12 +67,12 @@ struct Evaluation {
 /// does not fit in a view, and exceptions from the source and the callbacks.
 Evaluation evaluate(ImageSource& source, std::span<const Photograph> photographs,
                     const EvaluationOptions& options);
-/// The same with the runtime's images. The layers have no defect(). Hidden layers are not drawn.
-/// For the baseline, the scene holds one soup. Throws also ContextError, DeviceLimitError and
-/// UsageError as make_renderer.
+/// Measures images from the runtime. The layers have no defect(). Hidden layers are not drawn. The
+/// baseline needs a scene of one soup. Also throws ContextError, DeviceLimitError and UsageError as
+/// make_renderer does.
 Evaluation evaluate(const Scene& scene, std::span<const Photograph> photographs,
                     const EvaluationOptions& options);
-/// The same for one soup.
+/// Measures images of one soup from the runtime.
 Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options);
 

@@ -113,7 +113,7 @@ class BenchmarkRun {
 
   double elapsed() const;
   double sample(const BenchmarkCase& benchmark_case, const Camera& camera,
-                int frames) const;  // ms a frame
+                int frames) const;  // ms per frame
   bool is_warm() const;
   void warm_up();
   void begin();

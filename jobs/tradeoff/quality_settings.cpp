@@ -144,10 +144,10 @@ std::vector<QualitySetting> antialiasing_settings(int max_samples, bool has_spla
         {factor == 0.5 ? "0.5" : "0.75", percent_text(factor) + " of the rows and columns",
          [factor](Applied& applied) { applied.quality.resolution_scale = factor; }});
   QualitySetting samples{
-      "supersampling", "supersampling", {{"1", "one sample a pixel", unchanged}}};
+      "supersampling", "supersampling", {{"1", "one sample per pixel", unchanged}}};
   for (int n = 2; n <= max_samples; n *= 2)
     samples.values.push_back({std::to_string(n),
-                              std::to_string(n) + " x " + std::to_string(n) + " samples a pixel",
+                              std::to_string(n) + " x " + std::to_string(n) + " samples per pixel",
                               [n](Applied& applied) { applied.quality.supersampling = n; }});
   if (has_splats) return {scale, samples, splat_order()};
   return {scale, samples};

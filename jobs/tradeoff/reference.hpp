@@ -11,14 +11,14 @@ namespace tureen::tradeoff {
 /// The sample points of the reference, and the order of its splats. All kinds use float colours of
 /// unquantised texels.
 enum class Samples {
-  /// One sample a pixel; splats in the order of their centres, triangles at the device's sample
+  /// One sample per pixel; splats in the order of their centres, triangles at the device's sample
   /// points: vertices lie on its subpixel grid
   /// (oracle::Coverage::snapped). The device's rounding is independent of all settings, but on
   /// small images it costs more than most of them (docs/tradeoff.md).
   device,
-  /// One sample a pixel, at its centre, of the exact triangles; splats in exact order.
+  /// One sample per pixel, at its centre, of the exact triangles; splats in exact order.
   exact,
-  /// antialiased_samples^2 samples a pixel, on a regular grid, of the exact triangles; splats in
+  /// antialiased_samples^2 samples per pixel, on a regular grid, of the exact triangles; splats in
   /// the order of their centres.
   antialiased,
 };

@@ -53,7 +53,7 @@ struct StudyOptions {
 /// Reference images of all cameras.
 struct References {
   std::vector<ImageF> judge;
-  /// Exact triangles, one sample a pixel; empty if the device's rounding is not measured.
+  /// Exact triangles, one sample per pixel; empty if the device's rounding is not measured.
   std::vector<ImageF> exact;
 };
 

@@ -16,8 +16,8 @@ using trainer::Config;
 using trainer::GaussianConfig;
 using trainer::TrainingView;
 
-/// Photographs are halved until they have at most this many pixels: places of surfaces need no
-/// more, and a step takes a few milliseconds.
+/// Photographs are halved until they have at most this many pixels. More pixels do not place
+/// surfaces better; with these, a step takes a few milliseconds.
 constexpr std::int64_t max_pixels = 1 << 17;
 
 /// Sides are not halved below this: the training halves them once more at its start, and the loss

@@ -12,14 +12,14 @@
 
 namespace tureen {
 
-/// Whether a run begins with Gaussians: if the configuration has them, and the dataset has no
-/// points from structure from motion.
+/// Whether a run begins with Gaussians: the configuration has them, and the dataset has no points
+/// from structure from motion.
 bool begins_with_gaussians(const trainer::Config& config, const Dataset& dataset);
 
 /// A scene with one layer of Gaussians, at the centre of `region`, the region of interest; they
-/// begin in it, or in the box of the configuration. None may be left in the end. `progress`:
-/// receives the fraction that is done before each photograph and step; may be empty, and may throw.
-/// The result has the same bits with any number of threads; `threads`: 0 for all cores.
+/// begin in it, or in the box of the configuration. The layer may be empty. `progress`: receives
+/// the fraction done before each photograph and step; may be empty, and may throw. The result has
+/// the same bits with any number of threads; `threads`: 0 for all cores.
 Scene first_gaussians(const Dataset& dataset, const trainer::Config& config, Region region,
                       int threads, const std::function<void(double fraction)>& progress);
 

@@ -46,7 +46,7 @@ struct TrainingEvents {
   std::function<void(const std::string&)> failed_aid;
 };
 
-/// The files of the job's output, with its own log.
+/// The files of the run. `job.log`, if given, replaces the default log.
 trainer::TrainingFiles files_of(const TrainingJob& job);
 
 class TrainingRun {

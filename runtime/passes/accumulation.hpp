@@ -14,7 +14,7 @@ namespace tureen {
 /// Samples a pixel at rest along each axis, or more: the largest Quality::supersampling.
 inline constexpr int samples_at_rest = 8;
 
-/// Number of frames at rest, for frames of `supersampling` x `supersampling` samples a pixel: 64,
+/// Number of frames at rest, for frames of `supersampling` x `supersampling` samples per pixel: 64,
 /// 16 or 4, so that the pixel has at least 8 x 8 samples. 0 if one frame has them.
 int frames_at_rest(int supersampling);
 

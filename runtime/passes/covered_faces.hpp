@@ -4,7 +4,7 @@
 // triangle.
 //
 // Conservative: a face is culled only if no rasteriser could find a centre in it. This assumes
-// corners snapped to the grid of GL_SUBPIXEL_BITS and one sample a pixel.
+// corners snapped to the grid of GL_SUBPIXEL_BITS and one sample per pixel.
 #pragma once
 
 #include <array>

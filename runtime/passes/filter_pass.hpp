@@ -24,7 +24,7 @@ glm::ivec2 sample_size(const Quality& quality, glm::ivec2 size);
 /// pixels beyond the outermost centres repeat those samples.
 class FilterPass final : public Pass {
  public:
-  /// The quality must not be one sample a pixel.
+  /// The quality must not be one sample per pixel.
   FilterPass(const Quality& quality, gl::Api api);
 
   const char* name() const override { return "filter"; }

@@ -14,7 +14,7 @@
 
 namespace tureen {
 
-/// Drivers may take more bytes a pixel.
+/// Drivers may take more bytes per pixel.
 using TargetFormat = TexelFormat;
 
 namespace target_formats {

@@ -13,7 +13,7 @@ namespace tureen {
 /// RenderPlan::description, if the plan has one.
 std::vector<std::string> describe(const RenderPlan& plan);
 
-/// A sentence on the resolution scale and one on the samples; none for one sample a pixel.
+/// A sentence on the resolution scale and one on the samples; none for one sample per pixel.
 std::vector<std::string> describe_sampling(const Quality& quality);
 
 /// "alpha-test: 7 of 9 faces are opaque throughout and need no alpha test (exact)".

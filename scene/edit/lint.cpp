@@ -140,8 +140,7 @@ struct NeverVisible {
   }
 };
 
-/// Of a finding, by its id: its name, "vertices", one of them, and what is said of one and of
-/// several.
+/// The words of a finding, by its id: one element, several, and the predicate for each.
 struct Wording {
   const char *name, *one, *many, *of_one, *of_many;
 };

@@ -76,7 +76,7 @@ double psnr(const Image8& a, const Image8& b) {
 /// docs/viewer.md and docs/web.md give this for the image at rest.
 constexpr double min_psnr = 60;
 
-/// The image at rest of one renderer against the frame of another with 8 x 8 samples a pixel.
+/// The image at rest of one renderer against the frame of another with 8 x 8 samples per pixel.
 void expect_as_supersampled(const gl::Context& context, const Scene& scene, const Camera& camera,
                             float background_alpha = 1, Quality quality = {},
                             SplatBlending blending = SplatBlending::automatic) {
@@ -255,7 +255,7 @@ TEST_P(SplatsAtRest, WithoutALowPassAreSmoothed) {
   }
 }
 
-// With a low pass, one sample a pixel is the method's own image.
+// With a low pass, one sample per pixel is the method's own image.
 TEST_P(SplatsAtRest, WithALowPassAreShownAsTheyAre) {
   for (const char* name : {"gaussians_3dgs", "gaussians_mip", "discs_2dgs"}) {
     SCOPED_TRACE(name);
@@ -278,8 +278,8 @@ INSTANTIATE_TEST_SUITE_P(, SplatsAtRest, in_contexts(blendings), name_in_context
 INSTANTIATE_TEST_SUITE_P(Thorough, SplatsAtRest, in_other_contexts(blendings), name_in_context);
 
 // The reason of has_image_at_rest(). The true value of a pixel is the mean over its area of splats
-// without a low pass. Mip's low pass, made for one sample a pixel, comes nearer to it than the mean
-// of its 64 samples, which filters twice: 40.9 dB against 39.4 dB.
+// without a low pass. Mip's low pass, made for one sample per pixel, comes nearer to it than the
+// mean of its 64 samples, which filters twice: 40.9 dB against 39.4 dB.
 TEST(LowPass, OfMipReplacesTheMean) {
   const gl::Context context = gl::Context::create(osmesa);
   // Standard deviations of about half a pixel.

@@ -9,12 +9,12 @@ namespace quality_test {
 
 TEST(Quality, TheDefaultIsOneSampleAPixel) {
   EXPECT_EQ(defect(Quality{}), std::nullopt);
-  EXPECT_EQ(describe(Quality{}), "one sample a pixel");
+  EXPECT_EQ(describe(Quality{}), "one sample per pixel");
   EXPECT_EQ(describe({.resolution_scale = 0.75}), "75 % of the rows and columns");
-  EXPECT_EQ(describe({.supersampling = 3}), "3 x 3 samples a pixel");
+  EXPECT_EQ(describe({.supersampling = 3}), "3 x 3 samples per pixel");
   EXPECT_EQ(describe({.splat_order = Quality::SplatOrder::exact}), "splats in exact order");
   EXPECT_EQ(describe({.supersampling = 2, .splat_order = Quality::SplatOrder::stochastic}),
-            "2 x 2 samples a pixel, stochastic splats");
+            "2 x 2 samples per pixel, stochastic splats");
 }
 
 TEST(Quality, WhatCannotBeDrawnHasADefect) {
