@@ -80,11 +80,11 @@ set(arrows
   "web/engine: base image scene splatting/* camera formats/* runtime runtime/gl runtime/plan runtime/splats runtime/debug_views jobs/baseline jobs/timing"
   "web/viewer:"
   "web/package: web/viewer"
-  "web/page: web/viewer"
-  "web/page/sections: web/viewer web/page"
-  "web/page/viewer_page.ts web/page/page.ts web/page/single_file.ts: web/viewer web/page web/page/sections"
-  # To go: the page of benchmarks uses elements and messages of the viewer's page.
-  "web/bench: web/viewer web/page"
+  "web/common: web/viewer"
+  "web/page: web/viewer web/common"
+  "web/page/sections: web/viewer web/common web/page"
+  "web/page/viewer_page.ts web/page/page.ts web/page/single_file.ts: web/viewer web/common web/page web/page/sections"
+  "web/bench: web/viewer web/common"
   "web/report:"
 
   "cli/exit_code.hpp cli/interrupt.* cli/progress.* cli/report.* cli/table.* cli/version.*: base scene"

@@ -70,7 +70,8 @@ file(GLOB_RECURSE paths LIST_DIRECTORIES true RELATIVE "${ROOT}"
   "${ROOT}/base/*" "${ROOT}/image/*" "${ROOT}/scene/*" "${ROOT}/camera/*" "${ROOT}/formats/*"
   "${ROOT}/oracle/*" "${ROOT}/splatting/*" "${ROOT}/shaders/*" "${ROOT}/runtime/*" "${ROOT}/trainer/*"
   "${ROOT}/jobs/*" "${ROOT}/viewer/*" "${ROOT}/cli/*" "${ROOT}/examples/*" "${ROOT}/cmake/*"
-  "${ROOT}/docs/*" "${ROOT}/tests/*" "${ROOT}/web/engine/*" "${ROOT}/web/viewer/*" "${ROOT}/web/page/*"
+  "${ROOT}/docs/*" "${ROOT}/tests/*" "${ROOT}/web/engine/*" "${ROOT}/web/viewer/*" "${ROOT}/web/common/*"
+  "${ROOT}/web/page/*"
   "${ROOT}/web/bench/*" "${ROOT}/web/report/*")
 set(folders "")
 foreach(path IN LISTS paths)

@@ -3,7 +3,7 @@
 file(GLOB_RECURSE checked_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
   base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp splatting/*.?pp
   runtime/*.?pp trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp cli/*.?pp shaders/* web/engine/*.?pp
-  web/viewer/* web/page/* web/bench/* web/package/* web/report/*)
+  web/viewer/* web/common/* web/page/* web/bench/* web/package/* web/report/*)
 file(GLOB_RECURSE measured_by_limits CONFIGURE_DEPENDS LIST_DIRECTORIES false
   README.md docs/* cli/* examples/* cmake/* tests/*)
 foreach(check arrows limits)

@@ -2,8 +2,8 @@
 // A link can set everything (request.ts). The result is also in window.tureenBench, for programs that
 // drive the page.
 
-import { block, button, fillFacts, make, saveFile } from '../page/dom.js';
-import { Messages } from '../page/messages.js';
+import { block, button, fillFacts, make, saveFile } from '../common/dom.js';
+import { Messages } from '../common/messages.js';
 import { BenchEngine } from './bench_engine.js';
 import { benchCsv, benchFile, type BenchFile } from './bench_file.js';
 import { Measuring, type MeasuredScene } from './measure.js';

@@ -1,7 +1,7 @@
 // Results on the page: a sentence for each scene, two tables, and notes.
 
-import { block, fillSentences, make } from '../page/dom.js';
-import { bytesText, millisecondsText } from '../page/numbers.js';
+import { block, fillSentences, make } from '../common/dom.js';
+import { bytesText, millisecondsText } from '../common/numbers.js';
 import type { CaseResult } from './bench_engine.js';
 import { clockSentence } from './clock.js';
 import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';

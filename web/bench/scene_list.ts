@@ -1,12 +1,12 @@
 // The list of available scenes with check boxes: from the gallery, from addresses, and from files that
 // were picked or dropped.
 
-import { attachPicker, block, button, input, make } from '../page/dom.js';
-import { sourcesOfDropped, sourcesOfPicked } from '../page/files.js';
-import { readModels } from '../page/gallery.js';
+import { attachPicker, block, button, input, make } from '../common/dom.js';
+import { sourcesOfDropped, sourcesOfPicked } from '../common/files.js';
+import { readModels } from '../common/gallery.js';
 import { nameOf } from '../viewer/addresses.js';
-import type { Messages } from '../page/messages.js';
-import { bytesText, trianglesText } from '../page/numbers.js';
+import type { Messages } from '../common/messages.js';
+import { bytesText, trianglesText } from '../common/numbers.js';
 import type { SceneSource } from '../viewer/types.js';
 
 export class SceneList {

@@ -1,7 +1,7 @@
 // The form with the settings. The page's address sets the initial values.
 
-import { attachPicker, block, button, byId, input, make, select } from '../page/dom.js';
-import type { Messages } from '../page/messages.js';
+import { attachPicker, block, button, byId, input, make, select } from '../common/dom.js';
+import type { Messages } from '../common/messages.js';
 import { ViewerError } from '../viewer/types.js';
 import {
   countOf, most, sizeKey, sizesOf, sizeText, type AddressRequest, type BenchRequest, type CameraChoice, type Size,

@@ -3,7 +3,7 @@
 
 import { queryText } from '../viewer/addresses.js';
 import { splatBlendings, type SplatBlending, type ViewPose } from '../viewer/types.js';
-import { readFragment, writeFragment, type LinkedView } from './camera_link.js';
+import { readFragment, writeFragment, type LinkedView } from '../common/camera_link.js';
 
 export class AddressBar {
   /** `still`: do not change the address, for a page in a frame. */

@@ -7,7 +7,7 @@ import {
   type SceneSource, type Vec3, type Viewer, type ViewerEvents, type ViewPose,
 } from '../viewer/types.js';
 import type { Loading } from './loading.js';
-import { isVector } from './numbers.js';
+import { isVector } from '../common/numbers.js';
 import { isPose } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =

@@ -1,6 +1,6 @@
 // Full screen for the page, if the browser supports it (an iPhone does not).
 
-import { button } from './dom.js';
+import { button } from '../common/dom.js';
 
 export class FullScreen {
   private readonly toggler = button('full-screen');

@@ -3,10 +3,10 @@
 
 import { nameOf } from '../viewer/addresses.js';
 import type { LoadProgress, LoadStage, SceneLayer, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
-import { block, button } from './dom.js';
-import { hasPhotographs } from './files.js';
-import type { Messages } from './messages.js';
-import { bytesText, primitivesText } from './numbers.js';
+import { block, button } from '../common/dom.js';
+import { hasPhotographs } from '../common/files.js';
+import type { Messages } from '../common/messages.js';
+import { bytesText, primitivesText } from '../common/numbers.js';
 
 const photographsHint =
   'The desktop program trains scenes from photographs, and compares scenes with them: tureen view FOLDER.';

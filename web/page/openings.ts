@@ -4,10 +4,10 @@
 import { urlOf } from '../viewer/addresses.js';
 import type { SceneLayer, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import type { AddressBar } from './address_bar.js';
-import type { LinkedView } from './camera_link.js';
-import { writeLayers } from './layer_link.js';
+import type { LinkedView } from '../common/camera_link.js';
+import { writeLayers } from '../common/layer_link.js';
 import type { Loading } from './loading.js';
-import type { Messages } from './messages.js';
+import type { Messages } from '../common/messages.js';
 
 /** The origin of a scene. */
 export type Origin =

@@ -1,7 +1,7 @@
 // The panel next to the image, or a sheet below it on an upright phone. Its sections are <details>; the
 // page stores which are open.
 
-import { block, button } from './dom.js';
+import { block, button } from '../common/dom.js';
 import { recall, remember } from './memory.js';
 
 const upright = matchMedia('(max-width: 720px) and (max-aspect-ratio: 1/1)');

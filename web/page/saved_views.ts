@@ -3,7 +3,7 @@
 
 import type { ViewPose } from '../viewer/types.js';
 import { recall, remember } from './memory.js';
-import { isVector } from './numbers.js';
+import { isVector } from '../common/numbers.js';
 
 export interface SavedView {
   readonly name: string;

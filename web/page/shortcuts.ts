@@ -1,7 +1,7 @@
 // Keys of the page: the same as in the desktop window (viewer/shortcuts.cpp), unless browsers use
 // them. Keys that move the view belong to the canvas (viewer/controls.ts) and have priority.
 
-import { block, byId, input, make, takesText } from './dom.js';
+import { block, byId, input, make, takesText } from '../common/dom.js';
 import { recall, remember } from './memory.js';
 
 export interface Shortcut {

@@ -1,8 +1,8 @@
 // The question how many splats to load, if the memory probably does not hold all.
 
 import { type SplatOffer, ViewerError } from '../viewer/types.js';
-import { button, byId, block } from './dom.js';
-import { bytesText, countText } from './numbers.js';
+import { button, byId, block } from '../common/dom.js';
+import { bytesText, countText } from '../common/numbers.js';
 
 /** Resolves to the chosen number. Rejects if the user cancels. */
 export function chooseSplats({ name, splats, bytes, memory, fitting }: SplatOffer, signal: AbortSignal): Promise<number> {

@@ -2,11 +2,11 @@
 // there is no scene, and on request.
 
 import type { Viewer } from '../viewer/types.js';
-import { attachPicker, block, byId, button, input } from './dom.js';
-import { sourcesOfDropped, sourcesOfPicked } from './files.js';
-import { fillGallery } from './gallery.js';
+import { attachPicker, block, byId, button, input } from '../common/dom.js';
+import { sourcesOfDropped, sourcesOfPicked } from '../common/files.js';
+import { fillGallery } from '../common/gallery.js';
 import type { Loading } from './loading.js';
-import type { Messages } from './messages.js';
+import type { Messages } from '../common/messages.js';
 import type { Openings } from './openings.js';
 
 export class Start {

@@ -1,7 +1,7 @@
 // The list of recorded cameras from the scene's file.
 
 import type { Viewer } from '../../viewer/types.js';
-import { block, button, make, select } from '../dom.js';
+import { block, button, make, select } from '../../common/dom.js';
 
 export class CamerasSection {
   private readonly list = select('cameras');

@@ -1,8 +1,8 @@
 // The debug view instead of the final colours, and its legend.
 
 import type { Viewer } from '../../viewer/types.js';
-import { block, fillSentences, input, make, select } from '../dom.js';
-import { hexColor } from '../numbers.js';
+import { block, fillSentences, input, make, select } from '../../common/dom.js';
+import { hexColor } from '../../common/numbers.js';
 
 export class DebugViewSection {
   private readonly list = select('debug-view');

@@ -1,9 +1,9 @@
 // Drawing settings: background, resolution and smoothing; and the plan's sentences.
 
 import type { Resolution, Viewer } from '../../viewer/types.js';
-import { block, button, fillSentences, input, make, select } from '../dom.js';
+import { block, button, fillSentences, input, make, select } from '../../common/dom.js';
 import { recall, remember } from '../memory.js';
-import { colorFromHex, hexColor } from '../numbers.js';
+import { colorFromHex, hexColor } from '../../common/numbers.js';
 
 const resolutions: readonly { readonly key: string; readonly text: string; readonly value: Resolution }[] = [
   { key: '0.25', text: '0.25 × screen', value: 0.25 },

@@ -1,7 +1,7 @@
 // Saves the image as a file.
 
 import type { Viewer } from '../../viewer/types.js';
-import { button, make, saveFile, select } from '../dom.js';
+import { button, make, saveFile, select } from '../../common/dom.js';
 
 /** Title, width and height of each choice; 0 x 0 for the size on the page. */
 const sizes: readonly (readonly [string, number, number])[] = [

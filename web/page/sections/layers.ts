@@ -1,8 +1,8 @@
 // The layers of a scene with several: visibility, order, removal, and the place of the selected one.
 
 import type { Placement, SceneLayer, Vec3, Viewer } from '../../viewer/types.js';
-import { block, icon, input, make } from '../dom.js';
-import { bytesText, degreesPerRadian, plainNumber, primitivesText } from '../numbers.js';
+import { block, icon, input, make } from '../../common/dom.js';
+import { bytesText, degreesPerRadian, plainNumber, primitivesText } from '../../common/numbers.js';
 
 const axes = ['x', 'y', 'z'] as const;
 /** Decimals of the shown numbers: enough for a place on the screen, few enough to read. */

@@ -2,7 +2,7 @@
 
 import type { Viewer } from '../../viewer/types.js';
 import type { AddressBar } from '../address_bar.js';
-import { block, button, input } from '../dom.js';
+import { block, button, input } from '../../common/dom.js';
 import type { Openings } from '../openings.js';
 
 export class LinkSection {

@@ -1,7 +1,7 @@
 // The list of saved views for each scene.
 
 import type { Viewer } from '../../viewer/types.js';
-import { block, byId, icon, input, make } from '../dom.js';
+import { block, byId, icon, input, make } from '../../common/dom.js';
 import { SavedViews } from '../saved_views.js';
 
 export class SavedSection {

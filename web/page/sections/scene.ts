@@ -1,9 +1,9 @@
 // Facts and notes about the scene.
 
 import type { SceneSummary, Viewer } from '../../viewer/types.js';
-import { block, fillFacts, fillSentences } from '../dom.js';
+import { block, fillFacts, fillSentences } from '../../common/dom.js';
 import type { Loading } from '../loading.js';
-import { bytesText, primitivesText } from '../numbers.js';
+import { bytesText, primitivesText } from '../../common/numbers.js';
 
 export class SceneSection {
   private notices: string[] = [];

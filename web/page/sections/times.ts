@@ -1,9 +1,9 @@
 // Frame times, in the panel and over the image. The page draws no frames while the view is idle.
 
 import type { FrameStats, Viewer } from '../../viewer/types.js';
-import { block, fillFacts, input } from '../dom.js';
+import { block, fillFacts, input } from '../../common/dom.js';
 import { recall, remember } from '../memory.js';
-import { bytesText, millisecondsText } from '../numbers.js';
+import { bytesText, millisecondsText } from '../../common/numbers.js';
 
 /** Time between updates: short enough to follow, long enough to read. */
 const everyMs = 250;

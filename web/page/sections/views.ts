@@ -1,8 +1,8 @@
 // The view of the scene: drag mode, named views, up axis and angle.
 
 import { namedViews, type NamedView, type NavigationMode, type Vec3, type Viewer } from '../../viewer/types.js';
-import { block, button, input, make, select } from '../dom.js';
-import { degreesPerRadian } from '../numbers.js';
+import { block, button, input, make, select } from '../../common/dom.js';
+import { degreesPerRadian } from '../../common/numbers.js';
 
 const viewTitles: Readonly<Record<NamedView, string>> = {
   front: 'Front', back: 'Back', left: 'Left', right: 'Right', top: 'Top', bottom: 'Bottom',
