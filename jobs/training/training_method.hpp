@@ -1,6 +1,6 @@
 // One training run by any method, for a program that offers several: its constants, its checkpoint
 // and the run itself. The program reads the dataset and stores the scene. A method is a folder in
-// trainer/, a file in this folder and a line in methods.cpp.
+// trainer/, a file in this folder, a declaration in methods.hpp and a line in methods.cpp.
 #pragma once
 
 #include <array>
