@@ -34,8 +34,8 @@ void on_all_cores(
     for (std::size_t i = 0; i < std::min(cores, count); ++i)
       threads.push_back(std::async(std::launch::async, run));
     for (std::future<void>& thread : threads) {
-      while (thread.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready)
-        progress(double(done) / double(count));
+      do progress(double(done) / double(count));
+      while (thread.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready);
       thread.get();
     }
   } catch (...) {

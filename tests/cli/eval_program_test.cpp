@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/cli/photographs_fixture.hpp"
 #include "tests/support/errors.hpp"

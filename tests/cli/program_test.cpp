@@ -6,6 +6,7 @@
 
 #include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
+#include "image/metrics.hpp"
 #include "scene/camera.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/support/errors.hpp"
@@ -272,7 +273,7 @@ TEST_F(Program, RenderNeedsNoOpenGlWithTheOracle) {
   const Image8 drawn = read_png("out.png");
   EXPECT_EQ(exact.at(32, 24), glm::u8vec4(255, 0, 0, 255));
   // Only pixels whose centres lie on an edge may differ.
-  EXPECT_GT(compare(exact, drawn).psnr_db, 30);
+  EXPECT_GT(psnr_from_mse(mean_squared_error(to_float(exact), to_float(drawn))), 30);
 
   const auto refused = [&](const std::vector<std::string>& more, const auto&... values) {
     const ChildResult wrong = draw(more);

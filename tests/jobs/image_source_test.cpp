@@ -12,6 +12,8 @@
 #include "runtime/image_tiles.hpp"
 #include "runtime/renderer_images.hpp"
 #include "runtime/splats/tile_images.hpp"
+#include "scene/similarity.hpp"
+#include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
 #include "trainer/common/trainable.hpp"
 #include "trainer/common/training_views.hpp"
@@ -162,6 +164,48 @@ TEST(OracleImages, ReportProgressAndCanBeCancelled) {
                         throw Stop();
                       }});
   EXPECT_THROW(images.image({tureen::test::camera_of_ball(3, 640, 480)}), Stop);
+}
+
+/// Splats before, in and behind a soup. Strips of rows must not show.
+TEST(OracleImages, EqualTheOracleInOnePiece) {
+  Scene drawn = scene();
+  drawn.layers.push_back({.primitives = tureen::test::random_soup(7, {.faces = 60})});
+  const Camera camera = tureen::test::camera_of_ball(3, 41, 37);
+  for (const auto& behind : {std::optional<glm::vec3>(), std::optional(background)}) {
+    const OracleOptions options{.supersampling = 2, .background = behind};
+    const ImageF expected = oracle_image(drawn, {camera}, options, camera.height);
+    const ImageF found = OracleImages(drawn, options).exact_image({camera}).value();
+    EXPECT_EQ(expected.pixels, found.pixels);
+    if (!behind) {
+      EXPECT_EQ(expected.pixels, render_oracle(drawn, {camera}, options).color.pixels);
+    }
+  }
+}
+
+TEST(TileImages, ShowPlacedLayersWithoutABackground) {
+  Scene drawn = scene();
+  drawn.layers[0].world_from_layer = matrix_of({.position = {0.4, -0.3, 0.2}, .scale = 0.7});
+  for (int kind : {0, 6})  // windows, neural densities
+    drawn.layers.push_back(
+        {.world_from_layer =
+             matrix_of({.position = {-0.5, 0.5, 0.1}, .scale = 0.5, .mirror = true}),
+         .primitives = tureen::test::random_splats(tureen::test::splat_kinds[kind], 200, 0.1, 5)});
+  drawn.layers.push_back(drawn.layers[0]);
+  drawn.layers.back().visible = false;
+  const Camera camera = tureen::test::camera_of_ball(3, 65, 47);
+  const ImageF expected =
+      oracle_image(drawn, {camera}, {.background = std::nullopt}, camera.height);
+  const ImageF found = TileImages(drawn, std::nullopt).exact_image({camera}).value();
+  EXPECT_GT(psnr(coverage_of(expected), coverage_of(found)), 55);
+  // Colours count where there is coverage.
+  double error = 0, weight = 0;
+  for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+    const glm::vec3 difference = glm::vec3(expected.pixels[i]) - glm::vec3(found.pixels[i]);
+    error += expected.pixels[i].a * glm::dot(difference, difference) / 3;
+    weight += expected.pixels[i].a;
+  }
+  EXPECT_GT(weight, 300);
+  EXPECT_GT(psnr_from_mse(error / weight), 55);
 }
 
 TEST(TileImages, RefuseSoups) {
