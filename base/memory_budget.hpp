@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+
 namespace tureen {
 
 /// 4 GiB: enough for the largest published MobileNeRF scenes (16 shapes, two images of 4096 x 4096
@@ -26,6 +28,11 @@ std::uint64_t max_memory();
 
 /// The hint in every error about this limit.
 inline constexpr const char* max_memory_hint = "raise the limit with --max-memory";
+
+/// Whether the error reports this limit.
+inline bool is_about_memory(const Error& error) {
+  return error.hint().starts_with(max_memory_hint);
+}
 
 /// Parses "512MiB", "4 GB", "1.5g" or a number of bytes. Units are powers of 1024, with or without
 /// the "i". Throws UsageError for any other text, below 1 byte and above 2^62 bytes.

@@ -27,6 +27,9 @@ TextScanner::TextScanner(Input& input, TextSyntax syntax)
       buffer_(static_cast<std::size_t>(std::min<std::uint64_t>(window, input.remaining())) + 1),
       line_(syntax.first_line) {
   next_ = end_ = buffer_.data();
+  if (input_.position() > 0) return;
+  refill();
+  if (std::string_view(next_, std::size_t(end_ - next_)).starts_with("\xef\xbb\xbf")) next_ += 3;
 }
 
 void TextScanner::refill() {
@@ -108,6 +111,18 @@ std::int64_t TextScanner::read_integer(const char* what, std::int64_t low, std::
     fail(std::string(what) + " of " + std::to_string(value) + " is outside " + std::to_string(low) +
          ".." + std::to_string(high));
   return value;
+}
+
+std::string TextScanner::read_line() {
+  if (at_line_end()) return {};
+  look_ahead();
+  std::size_t size = 0;
+  while (next_ + size != end_ && !is_line_break(next_[size])) ++size;
+  if (size > max_word) fail("the line has more than " + std::to_string(max_word) + " characters");
+  std::string line(next_, size);
+  next_ += size;
+  while (is_blank(line.back())) line.pop_back();
+  return line;
 }
 
 std::string TextScanner::read_word(const char* what) {

@@ -29,7 +29,8 @@ class TextScanner {
   /// Longest word or number in characters; longer ones are rejected.
   static constexpr std::size_t max_word = 1024;
 
-  /// Reads `input` from its position on. The input must outlive the scanner, which reads ahead.
+  /// Reads `input` from its position on, without the byte order mark that a text may begin with.
+  /// The input must outlive the scanner, which reads ahead.
   explicit TextScanner(Input& input, TextSyntax syntax = {});
 
   std::uint64_t line() const { return line_; }
@@ -56,6 +57,8 @@ class TextScanner {
   /// read_integer, rejected outside [low, high] with the value and the bounds.
   std::int64_t read_integer(const char* what, std::int64_t low, std::int64_t high);
   std::string read_word(const char* what);
+  /// The rest of this line, without blanks around it, at most max_word characters; "" at its end.
+  std::string read_line();
 
   /// The next word, cut to `count` characters, without consuming it.
   std::string_view peek(std::size_t count);

@@ -1,11 +1,16 @@
 #include "image/png.hpp"
 
+#include <algorithm>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <string_view>
+#include <utility>
 
+#include "image/codecs/webp.hpp"
 #include "image/decoder_memory.hpp"
 #include "image/jpeg_tables.hpp"
 #include "image/png_chunks.hpp"
@@ -85,6 +90,20 @@ void refuse_damaged(std::span<const std::byte> bytes, const std::string& name) {
                      std::string("the image is damaged: ") + damage->reason);
 }
 
+/// The name of a kind of image that people have, and that needs another program; null for others.
+const char* other_kind(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 16));
+  if (text.starts_with("II*") || text.starts_with(std::string_view("MM\0*", 4))) return "TIFF";
+  if (text.substr(std::min<std::size_t>(4, text.size())).starts_with("ftyp")) {
+    const std::string_view brand = text.substr(8, 4);
+    if (brand == "avif" || brand == "avis") return "AVIF";
+    if (brand.starts_with("hei") || brand.starts_with("hev") || brand.starts_with("mif"))
+      return "HEIC";
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
@@ -93,6 +112,11 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     throw InputError({name}, reason, hint);
   };
   if (bytes.size() > std::size_t(INT_MAX)) fail("the image file exceeds 2 GiB");
+  if (is_webp(bytes)) return decode_webp(bytes, name, std::move(budget));
+  if (const char* kind = other_kind(bytes))
+    fail("a " + std::string(kind) + " image is not supported",
+         "convert it, for example with: magick " + name + " " +
+             std::filesystem::path(name).replace_extension(".png").string());
   if (const auto table = oversized_huffman_table(bytes)) {
     if (table->in_header)
       throw InputError({name, table->byte, {}},
@@ -113,7 +137,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
            std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
         fail(beyond(side(16), side(20)));
       refuse_damaged(bytes, name);
-      fail("not a PNG or JPEG image: " + reason_of_stb());
+      fail("not a PNG, JPEG or WebP image: " + reason_of_stb());
     }
   }
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||

@@ -17,9 +17,10 @@ inline constexpr int max_image_side = 65536;
 /// Largest number of pixels; larger images are rejected. 2^28 RGBA pixels are 1 GiB.
 inline constexpr std::size_t max_image_pixels = std::size_t(1) << 28;
 
-/// Decodes a PNG or a JPEG to RGBA. Missing alpha becomes 255; 16 bits become 8 (the high byte).
-/// Throws InputError, with `name` as the file, if decoding fails, exceeds the budget, or needs more
-/// memory than a valid image of this size can need. Charges the image's memory to the budget.
+/// Decodes a PNG, a JPEG or a WebP image to RGBA. Missing alpha becomes 255; 16 bits become 8 (the
+/// high byte). Throws InputError, with `name` as the file, if decoding fails, exceeds the budget,
+/// or needs more memory than a valid image of this size can need. Charges the image's memory to the
+/// budget.
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                     MemoryBudget budget = MemoryBudget());
 

@@ -1,5 +1,8 @@
 #include "base/json/json_file.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +26,39 @@ std::string what_is_wrong(std::string_view text, std::size_t byte) {
   return "not valid JSON";
 }
 
+/// The text with null for what no double holds.
+std::string without_non_finite(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    std::size_t end = i + 1;
+    if (c == '"') {
+      while (end < text.size() && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+      end = std::min(end + 1, text.size());
+    } else if (std::isalnum(static_cast<unsigned char>(c)) || c == '-') {
+      while (end < text.size() &&
+             (std::isalnum(static_cast<unsigned char>(text[end])) ||
+              std::string_view("+-.").find(text[end]) != std::string_view::npos))
+        ++end;
+      double value = 0;
+      const char* last = text.data() + end;
+      const auto [read, error] = std::from_chars(text.data() + i, last, value);
+      // from_chars also reads "inf" and "nan", in any case. An underflow is 0.
+      const std::string_view token = text.substr(i, end - i);
+      const bool is_tiny = token.find("e-") != token.npos || token.find("E-") != token.npos;
+      const bool is_large = error == std::errc::result_out_of_range && !is_tiny;
+      if (read == last && (is_large || (error == std::errc() && !std::isfinite(value)))) {
+        result += "null";
+        i = end;
+        continue;
+      }
+    }
+    result += text.substr(i, end - i);
+    i = end;
+  }
+  return result;
+}
+
 /// Rejects a repeated key in an object.
 class KeyWatch {
  public:
@@ -44,11 +80,12 @@ class KeyWatch {
 
 }  // namespace
 
-nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
+nlohmann::json read_json(Input& input, RepeatedKeys repeated, NonFinite non_finite) {
   if (input.remaining() > max_json_bytes)
     input.fail("the JSON has " + std::to_string(input.remaining()) + " bytes, the limit is " +
                std::to_string(max_json_bytes));
-  const std::string text = input.read_text();
+  std::string text = input.read_text();
+  if (non_finite == NonFinite::null) text = without_non_finite(text);
   take_json_memory(text, input.name(), 0, input.budget());
   try {
     if (repeated == RepeatedKeys::refused) return nlohmann::json::parse(text, KeyWatch(input));

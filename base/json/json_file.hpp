@@ -18,9 +18,17 @@ enum class RepeatedKeys {
   refused,      // for files written by hand
 };
 
+/// The treatment of NaN, infinities and numbers that no double holds, which programs write without
+/// a JSON library.
+enum class NonFinite {
+  refused,
+  null,  // one bad number must not cost the file
+};
+
 /// Parses the whole input. Throws InputError with the byte if the text is not JSON or exceeds the
 /// limits of base/json/json_limits.hpp.
-nlohmann::json read_json(Input& input, RepeatedKeys repeated = RepeatedKeys::last_counts);
+nlohmann::json read_json(Input& input, RepeatedKeys repeated = RepeatedKeys::last_counts,
+                         NonFinite non_finite = NonFinite::refused);
 
 /// A finite float. Otherwise throws an InputError that names `what`.
 float json_float(const nlohmann::json& value, const std::string& file, const std::string& what);

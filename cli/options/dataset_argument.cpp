@@ -42,6 +42,17 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
                      "use every N-th photograph in name order as a test view, starting with the "
                      "first, if the dataset has no split; 8 by default",
                      between(2, 1000000));
+  add_choice<std::optional<AlphaMeaning>>(
+      command, "--alpha MEANING", argument.options.alpha,
+      {{"background", AlphaMeaning::background},
+       {"mask", AlphaMeaning::mask},
+       {"ignore", AlphaMeaning::ignore}},
+      "what transparent pixels of photographs are: background (of an object that was cut out), "
+      "mask "
+      "(not used) or ignore (opaque); by default decided by all photographs");
+  command.add_flag(
+      "--strict", argument.options.is_strict,
+      "refuse a dataset with a photograph that cannot be used, instead of skipping it");
   return dataset;
 }
 

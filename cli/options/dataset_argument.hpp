@@ -14,8 +14,8 @@ struct DatasetArgument {
   DatasetOptions options;  // except `part` and `progress`, which are not arguments
 };
 
-/// Adds DATASET, --scale, --images and --test-every. Returns DATASET, which is required. `argument`
-/// must live until the arguments are parsed.
+/// Adds DATASET, --scale, --images, --test-every, --alpha and --strict. Returns DATASET, which is
+/// required. `argument` must live until the arguments are parsed.
 Option add_dataset_argument(Command& command, DatasetArgument& argument);
 
 /// --scale alone.

@@ -49,8 +49,10 @@ BundlerCamera read_bundler_camera(TextScanner& text) {
   BundlerCamera camera;
   camera.focal = read_finite(text, "a focal length");
   if (camera.focal < 0) text.fail("a focal length is negative");
-  camera.lens.k1 = read_finite(text, "a camera's k1");
-  camera.lens.k2 = read_finite(text, "a camera's k2");
+  LensNumbers numbers;
+  numbers.k1 = read_finite(text, "a camera's k1");
+  numbers.k2 = read_finite(text, "a camera's k2");
+  camera.lens = brown(numbers);
   glm::dmat4 view(1.0);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) view[column][row] = read_finite(text, "a rotation");

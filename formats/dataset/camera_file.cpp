@@ -14,6 +14,7 @@
 #endif
 #include "base/json/json_file.hpp"
 #include "formats/dataset/dataset_remarks.hpp"
+#include "formats/dataset/skipped.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
 namespace tureen {
@@ -28,12 +29,19 @@ CameraFile from_transforms(const Json& root, const std::string& file) {
   constexpr int assumed_side = 800;
   CameraFile result;
   bool size_assumed = false, distorted = false;
+  SkippedPhotographs skipped;
   for (const TransformsFrame& frame : read_transforms(root, file)) {
+    if (!frame.defect.empty()) {
+      skipped.add(frame.file_path, frame.defect);
+      continue;
+    }
     size_assumed = size_assumed || !frame.width || !frame.height;
-    distorted = distorted || !frame.lens.is_pinhole() || !frame.other_lens.empty();
+    distorted = distorted || frame.is_distorted();
     result.cameras.push_back(
         pinhole(frame, frame.width.value_or(assumed_side), frame.height.value_or(assumed_side)));
   }
+  skipped.require_enough(file, result.cameras.size(), false);
+  skipped.add_remarks(result.remarks, result.cameras.size());
   if (size_assumed)
     result.remarks.push_back(
         {&remarks::image_size_missing, {{"width", assumed_side}, {"height", assumed_side}}});
@@ -167,8 +175,11 @@ CameraPathData our_path(const Json& root, const std::string& file) {
 /// The folder of the COLMAP model at `path` (see read_cameras), or nullopt.
 std::optional<fs::path> colmap_model(const fs::path& path) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored))
-    return is_colmap_model(path) ? std::optional(path) : colmap_folder(path);
+  if (fs::is_directory(path, ignored)) {
+    if (is_colmap_model(path)) return path;
+    if (const auto folders = colmap_folders(path); !folders.empty()) return folders.front();
+    return {};
+  }
   const std::string name = path.filename().string();
   for (const char* file : {"cameras.bin", "cameras.txt", "images.bin", "images.txt"})
     if (name == file && is_colmap_model(path.parent_path())) return path.parent_path();
@@ -181,13 +192,24 @@ CameraFile from_colmap(const fs::path& folder) {
             [](const ColmapImage& a, const ColmapImage& b) { return a.name < b.name; });
   CameraFile result;
   bool distorted = false;
+  SkippedPhotographs skipped;
   for (const ColmapImage& image : model.images) {
+    if (!image.defect.empty()) {
+      skipped.add(image.name, image.defect);
+      continue;
+    }
     const ColmapCamera& taken_by = model.cameras.at(image.camera);
+    if (taken_by.is_panorama) {
+      skipped.add(image.name, "a photograph of the whole sphere has no pinhole camera");
+      continue;
+    }
     distorted = distorted || !taken_by.lens.is_pinhole();
     Camera& camera = result.cameras.emplace_back(taken_by.pinhole);
     camera.name = image.name;
     camera.view_from_world = image.view_from_world;
   }
+  skipped.require_enough(folder.string(), result.cameras.size(), false);
+  skipped.add_remarks(result.remarks, result.cameras.size());
   if (distorted) result.remarks.push_back({&remarks::lens_dropped});
   return result;
 }

@@ -1,5 +1,7 @@
 #include "formats/dataset/colmap.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -11,31 +13,32 @@ namespace tureen {
 
 namespace {
 
-constexpr std::array<ColmapLensModel, 11> lens_models{{
-    {"SIMPLE_PINHOLE", 3, true},         // f, cx, cy
-    {"PINHOLE", 4, true},                // fx, fy, cx, cy
-    {"SIMPLE_RADIAL", 4, true},          // f, cx, cy, k1
-    {"RADIAL", 5, true},                 // f, cx, cy, k1, k2
-    {"OPENCV", 8, true},                 // fx, fy, cx, cy, k1, k2, p1, p2
-    {"OPENCV_FISHEYE", 8, true},         // fx, fy, cx, cy, k1, k2, k3, k4
-    {"FULL_OPENCV", 12, false},          //
-    {"FOV", 5, false},                   //
-    {"SIMPLE_RADIAL_FISHEYE", 4, true},  // f, cx, cy, k1
-    {"RADIAL_FISHEYE", 5, true},         // f, cx, cy, k1, k2
-    {"THIN_PRISM_FISHEYE", 12, false},
+/// The simpler models have the first coefficients of another one, and the others are 0.
+constexpr std::array<ColmapLensModel, 18> lens_models{{
+    {"SIMPLE_PINHOLE", 1, 0, nullptr},
+    {"PINHOLE", 2, 0, nullptr},
+    {"SIMPLE_RADIAL", 1, 1, &brown_model},
+    {"RADIAL", 1, 2, &brown_model},
+    {"OPENCV", 2, 4, &brown_model},
+    {"OPENCV_FISHEYE", 2, 4, &fisheye_model},
+    {"FULL_OPENCV", 2, 8, &brown_model},
+    {"FOV", 2, 1, &fov_model},
+    {"SIMPLE_RADIAL_FISHEYE", 1, 1, &fisheye_model},
+    {"RADIAL_FISHEYE", 1, 2, &fisheye_model},
+    {"THIN_PRISM_FISHEYE", 2, 8, &thin_prism_model},
+    {"RAD_TAN_THIN_PRISM_FISHEYE", 2, 12, &rad_tan_thin_prism_model},
+    {"SIMPLE_DIVISION", 1, 1, &division_model},
+    {"DIVISION", 2, 1, &division_model},
+    {"SIMPLE_FISHEYE", 1, 0, &fisheye_model},
+    {"FISHEYE", 2, 0, &fisheye_model},
+    {"EUCM", 2, 2, &eucm_model},
+    {"EQUIRECTANGULAR", 0, 0, nullptr},
 }};
 
 bool all_finite(std::span<const double> numbers) {
   for (const double number : numbers)
     if (!std::isfinite(number)) return false;
   return true;
-}
-
-int side(std::uint64_t value) {
-  if (value < 1 || value > std::uint64_t(max_image_side))
-    throw ColmapRefusal{"an image side of " + std::to_string(value) + " pixels is outside 1.." +
-                        std::to_string(max_image_side)};
-  return int(value);
 }
 
 /// The binary file if it exists, otherwise the text file, which may be missing.
@@ -56,69 +59,90 @@ ModelFile model_file(const std::filesystem::path& folder, const std::string& nam
 
 std::span<const ColmapLensModel> colmap_lens_models() { return lens_models; }
 
-void require_undoable(const ColmapLensModel& model) {
-  if (model.can_be_undone) return;
+std::string unsupported_model(const std::string& name) {
   std::string read;
   for (const ColmapLensModel& other : lens_models)
-    if (other.can_be_undone) read += (read.empty() ? "" : ", ") + std::string(other.name);
-  throw ColmapRefusal{
-      "the camera model " + std::string(model.name) + " is not supported (supported: " + read + ")",
-      "undistort the images first, with colmap image_undistorter"};
+    read += (read.empty() ? "" : ", ") + std::string(other.name);
+  return "the camera model " + name.substr(0, 40) + " is not supported (supported: " + read +
+         "); undistort the images first, with colmap image_undistorter";
 }
 
 ColmapCamera to_camera(const ColmapCameraRecord& record) {
-  require_undoable(*record.model);
   const std::vector<double>& p = record.parameters;
-  if (!all_finite(p)) throw ColmapRefusal{"a camera's number is not finite"};
+  const auto defective = [](std::string defect) {
+    return ColmapCamera{.defect = std::move(defect)};
+  };
+  if (!all_finite(p)) return defective("a number of its camera is not finite");
+  for (const std::uint64_t side : {record.width, record.height})
+    if (side < 1 || side > std::uint64_t(max_image_side))
+      return defective("its camera has a side of " + std::to_string(side) +
+                       " pixels, which is outside 1.." + std::to_string(max_image_side));
   ColmapCamera result;
   Camera& camera = result.pinhole;
-  camera.width = side(record.width);
-  camera.height = side(record.height);
-  // PINHOLE, OPENCV and OPENCV_FISHEYE begin with two focal lengths, the others with one.
-  const std::string_view name = record.model->name;
-  const std::size_t focal_lengths =
-      name == "PINHOLE" || name == "OPENCV" || name == "OPENCV_FISHEYE" ? 2 : 1;
+  camera.width = int(record.width);
+  camera.height = int(record.height);
+  result.is_panorama = record.model->is_panorama();
+  if (result.is_panorama) return result;
+  const std::size_t focal_lengths = record.model->focal_lengths;
   camera.fx = p[0];
   camera.fy = p[focal_lengths - 1];
-  if (!(camera.fx > 0 && camera.fy > 0)) throw ColmapRefusal{"a focal length is not positive"};
+  if (!(camera.fx > 0 && camera.fy > 0))
+    return defective("a focal length of its camera is not positive");
   camera.cx = p[focal_lengths];
   camera.cy = p[focal_lengths + 1];
-  Lens& lens = result.lens;
-  if (name.ends_with("_FISHEYE")) lens.model = LensModel::fisheye;
-  const bool fisheye = lens.model == LensModel::fisheye;
-  double* const coefficients[] = {&lens.k1, &lens.k2, fisheye ? &lens.k3 : &lens.p1,
-                                  fisheye ? &lens.k4 : &lens.p2};
-  for (std::size_t i = focal_lengths + 2; i < p.size(); ++i)
-    *coefficients[i - focal_lengths - 2] = p[i];
+  if (record.model->lens)
+    result.lens = lens_of(*record.model->lens, std::span(p).subspan(focal_lengths + 2));
   return result;
 }
 
-glm::dmat4 to_view_from_world(const ColmapPoseRecord& record) {
+void set_pose(ColmapImage& image, const ColmapPoseRecord& record) {
   const auto& [w, x, y, z] = record.rotation;
   const double length = std::sqrt(w * w + x * x + y * y + z * z);
-  // COLMAP writes normalised quaternions with 6 digits or more. An infinity or NaN fails, too.
-  if (!(std::abs(length - 1) < 1e-3))
-    throw ColmapRefusal{"the pose is not a rotation: its quaternion is not of unit length"};
   const auto& [tx, ty, tz] = record.translation;
-  if (!all_finite(record.translation)) throw ColmapRefusal{"the pose is not finite"};
-  glm::dmat4 camera_from_world =
-      glm::dmat4(glm::mat3_cast(glm::dquat(w / length, x / length, y / length, z / length)));
-  camera_from_world[3] = glm::dvec4(tx, ty, tz, 1);
-  // COLMAP's cameras have y down and look along +z, ours have y up and look along -z.
-  glm::dmat4 view_from_camera(1.0);
-  view_from_camera[1][1] = view_from_camera[2][2] = -1;
-  return view_from_camera * camera_from_world;
+  // COLMAP writes normalised quaternions with 6 digits or more.
+  if (!all_finite(record.rotation) || !all_finite(record.translation)) {
+    image.defect = "its pose is not finite";
+  } else if (!(std::abs(length - 1) < 1e-3)) {
+    image.defect = "its pose is not a rotation: the quaternion is not of unit length";
+  } else {
+    glm::dmat4 camera_from_world =
+        glm::dmat4(glm::mat3_cast(glm::dquat(w / length, x / length, y / length, z / length)));
+    camera_from_world[3] = glm::dvec4(tx, ty, tz, 1);
+    // COLMAP's cameras have y down and look along +z, ours have y up and look along -z.
+    glm::dmat4 view_from_camera(1.0);
+    view_from_camera[1][1] = view_from_camera[2][2] = -1;
+    image.view_from_world = view_from_camera * camera_from_world;
+  }
 }
 
-DatasetPoint to_point(glm::dvec3 position, glm::u8vec3 color) {
-  if (!all_finite(std::array{position.x, position.y, position.z}))
-    throw ColmapRefusal{"a point's position is not finite"};
-  return {position, color};
+void add_point(ColmapPoints& points, glm::dvec3 position, glm::u8vec3 color) {
+  if (all_finite(std::array{position.x, position.y, position.z}))
+    points.points.push_back({position, color});
+  else
+    ++points.skipped;
 }
 
-std::optional<std::filesystem::path> colmap_folder(const std::filesystem::path& dataset) {
-  for (const char* name : {"sparse/0", "sparse", "colmap/sparse/0"})
-    if (model_file(dataset / name, "cameras").exists) return dataset / name;
+std::vector<std::filesystem::path> colmap_folders(const std::filesystem::path& dataset) {
+  namespace fs = std::filesystem;
+  for (const char* name : {"sparse", "colmap/sparse", "undistorted/sparse"}) {
+    std::vector<std::pair<int, fs::path>> numbered;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(dataset / name, ignored)) {
+      const std::string text = entry.path().filename().string();
+      int number = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+      if (error == std::errc() && end == text.data() + text.size() &&
+          model_file(entry.path(), "cameras").exists)
+        numbered.push_back({number, entry.path()});
+    }
+    std::ranges::sort(numbered);
+    std::vector<fs::path> folders;
+    for (auto& [number, path] : numbered) folders.push_back(std::move(path));
+    if (folders.empty() && model_file(dataset / name, "cameras").exists)
+      folders.push_back(dataset / name);
+    if (!folders.empty()) return folders;
+  }
+  if (is_colmap_model(dataset)) return {dataset};
   return {};
 }
 
@@ -136,16 +160,17 @@ ColmapModel read_colmap_poses(const std::filesystem::path& folder, const MemoryB
   Input image_input = Input::open(images.path, budget);
   model.images =
       images.binary ? read_colmap_images_binary(image_input) : read_colmap_images_text(image_input);
-  for (const ColmapImage& image : model.images)
-    if (!model.cameras.contains(image.camera))
-      throw InputError({image_input.name()}, "the image " + image.name + " was taken by camera " +
-                                                 std::to_string(image.camera) + ", which " +
-                                                 camera_input.name() + " does not have");
+  for (ColmapImage& image : model.images) {
+    const auto camera = model.cameras.find(image.camera);
+    if (!image.defect.empty()) continue;
+    image.defect = camera != model.cameras.end()
+                       ? camera->second.defect
+                       : "its camera " + std::to_string(image.camera) + " is missing";
+  }
   return model;
 }
 
-std::vector<DatasetPoint> read_colmap_points(const std::filesystem::path& folder,
-                                             const MemoryBudget& budget) {
+ColmapPoints read_colmap_points(const std::filesystem::path& folder, const MemoryBudget& budget) {
   const ModelFile points = model_file(folder, "points3D");
   if (!points.exists) return {};
   Input input = Input::open(points.path, budget);

@@ -19,36 +19,45 @@ namespace tureen {
 /// Intrinsics, possibly shared by several images. `pinhole` has neither name nor pose. Its
 /// principal point is measured from the corner of the image, as in COLMAP.
 struct ColmapCamera {
-  Camera pinhole;
-  Lens lens;
+  Camera pinhole = {};
+  Lens lens = {};
+  bool is_panorama = false;  // EQUIRECTANGULAR: `pinhole` has only its size
+  std::string defect = {};   // why its images cannot be used; empty: they can
 };
 
 struct ColmapImage {
   std::string name;  // relative to the folder of images, as spelled in the file
   std::uint32_t camera = 0;
   glm::dmat4 view_from_world{1.0};
+  std::string defect = {};  // of its pose; empty: none
 };
 
 using ColmapCameras = std::map<std::uint32_t, ColmapCamera>;  // by COLMAP's id
 
-struct ColmapModel {
-  ColmapCameras cameras;
-  std::vector<ColmapImage> images;   // in file order; each image's camera is in `cameras`
-  std::vector<DatasetPoint> points;  // in file order; empty if the file is missing
+struct ColmapPoints {
+  std::vector<DatasetPoint> points;  // in file order
+  std::size_t skipped = 0;           // points with a position that is not finite
 };
 
-/// The folder of a dataset's model: sparse/0, sparse or colmap/sparse/0 in `dataset`, or nullopt if
-/// no such folder has a file of cameras.
-std::optional<std::filesystem::path> colmap_folder(const std::filesystem::path& dataset);
+struct ColmapModel {
+  ColmapCameras cameras;
+  std::vector<ColmapImage> images;  // in file order
+  ColmapPoints points;              // empty if the file is missing
+};
+
+/// The folders of a dataset's models, in order: those in sparse, colmap/sparse and
+/// undistorted/sparse with a number, those folders themselves, and the dataset's own folder. Only
+/// the first place with files of cameras counts; COLMAP writes several models if it cannot join the
+/// photographs.
+std::vector<std::filesystem::path> colmap_folders(const std::filesystem::path& dataset);
 
 /// Whether `folder` itself contains a model: files of cameras and of images.
 bool is_colmap_model(const std::filesystem::path& folder);
 
-/// Reads cameras, images and points3D from `folder`, binary if both variants exist. Throws
-/// InputError with the file and the byte or line: an unsupported camera model, by its name
-/// (supported: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, OPENCV_FISHEYE,
-/// SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE), a pose that is not a rotation, counts that do not match
-/// the bytes, or an image with a missing camera.
+/// Reads cameras, images and points3D from `folder`, binary if both variants exist. An image whose
+/// pose is not a rotation, or whose camera is missing or has an unsupported model, has a defect.
+/// Points may be in points3D.ply instead. Throws InputError with the file and the byte or line:
+/// counts that do not match the bytes, or text that is no record.
 ColmapModel read_colmap(const std::filesystem::path& folder,
                         const MemoryBudget& budget = MemoryBudget());
 
@@ -57,8 +66,8 @@ ColmapModel read_colmap_poses(const std::filesystem::path& folder,
                               const MemoryBudget& budget = MemoryBudget());
 
 /// Only the points; none if their file is missing.
-std::vector<DatasetPoint> read_colmap_points(const std::filesystem::path& folder,
-                                             const MemoryBudget& budget = MemoryBudget());
+ColmapPoints read_colmap_points(const std::filesystem::path& folder,
+                                const MemoryBudget& budget = MemoryBudget());
 
 // The individual files, from untrusted bytes.
 
@@ -66,7 +75,7 @@ ColmapCameras read_colmap_cameras_binary(Input& input);
 ColmapCameras read_colmap_cameras_text(Input& input);
 std::vector<ColmapImage> read_colmap_images_binary(Input& input);
 std::vector<ColmapImage> read_colmap_images_text(Input& input);
-std::vector<DatasetPoint> read_colmap_points_binary(Input& input);
-std::vector<DatasetPoint> read_colmap_points_text(Input& input);
+ColmapPoints read_colmap_points_binary(Input& input);
+ColmapPoints read_colmap_points_text(Input& input);
 
 }  // namespace tureen

@@ -43,9 +43,7 @@ const ColmapLensModel& read_lens_model(Input& input) {
   const auto models = colmap_lens_models();
   if (number < 0 || std::size_t(number) >= models.size())
     throw ColmapRefusal{"the camera model number " + std::to_string(number) + " is unknown"};
-  const ColmapLensModel& model = models[std::size_t(number)];
-  require_undoable(model);
-  return model;
+  return models[std::size_t(number)];
 }
 
 std::string read_name(Input& input) {
@@ -72,7 +70,7 @@ ColmapCameras read_colmap_cameras_binary(Input& input) {
       record.model = &read_lens_model(input);
       record.width = input.read_value<std::uint64_t>("a camera");
       record.height = input.read_value<std::uint64_t>("a camera");
-      record.parameters = input.read_values<double>(record.model->parameters, "a camera");
+      record.parameters = input.read_values<double>(record.model->parameters(), "a camera");
       return to_camera(record);
     });
     input.take_memory(1, colmap_camera_bytes, "the cameras");
@@ -88,12 +86,11 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
   const std::uint64_t count = read_count(input, 4 + 7 * 8 + 4 + 1 + 8, "images");
   for (std::uint64_t i = 0; i < count; ++i) {
     ColmapImage image;
-    const std::uint64_t begin = input.position();
     skip(input, std::min<std::uint64_t>(4, input.remaining()));  // the image's number
     ColmapPoseRecord pose;
     pose.rotation = input.read_value<std::array<double, 4>>("an image");
     pose.translation = input.read_value<std::array<double, 3>>("an image");
-    image.view_from_world = convert_at(input, begin, [&] { return to_view_from_world(pose); });
+    set_pose(image, pose);
     image.camera = input.read_value<std::uint32_t>("an image");
     image.name = read_name(input);
     // The features: x, y, and the point's number.
@@ -106,24 +103,21 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
   return images;
 }
 
-std::vector<DatasetPoint> read_colmap_points_binary(Input& input) {
-  std::vector<DatasetPoint> points;
+ColmapPoints read_colmap_points_binary(Input& input) {
+  ColmapPoints read;
   const std::uint64_t count = read_count(input, 8 + 3 * 8 + 3 + 8 + 8, "points");
-  input.make_room_in(points, count, "the points");
+  input.make_room_in(read.points, count, "the points");
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t begin = input.position();
     input.read_value<std::uint64_t>("a point");  // its number
     const auto position = input.read_value<std::array<double, 3>>("a point");
     const auto color = input.read_value<std::array<std::uint8_t, 3>>("a point");
     input.read_value<double>("a point");  // the mean error of its projections
-    points.push_back(convert_at(input, begin, [&] {
-      return to_point({position[0], position[1], position[2]}, {color[0], color[1], color[2]});
-    }));
+    add_point(read, {position[0], position[1], position[2]}, {color[0], color[1], color[2]});
     // The images that show it: an image number and a feature number each.
     skip(input, 8 * read_count(input, 8, "sightings"));
   }
   expect_end(input, "points");
-  return points;
+  return read;
 }
 
 }  // namespace tureen

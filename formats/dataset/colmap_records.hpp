@@ -13,11 +13,15 @@
 
 namespace tureen {
 
-/// A known camera model: its name and number of parameters.
+/// A known camera model: the focal lengths (one or two) precede the principal point and the lens.
 struct ColmapLensModel {
   std::string_view name;
-  std::size_t parameters;
-  bool can_be_undone;
+  std::size_t focal_lengths;
+  std::size_t coefficients;
+  const LensModel* lens;  // null: none
+  /// A panorama has no focal length and no principal point: its width and height again.
+  bool is_panorama() const { return focal_lengths == 0; }
+  std::size_t parameters() const { return focal_lengths + 2 + coefficients; }
 };
 
 /// COLMAP's models, in the order of their ids in binary files.
@@ -43,17 +47,17 @@ struct ColmapRefusal {
   std::string hint = {};
 };
 
-/// Throws ColmapRefusal if the model's distortion cannot be undone.
-void require_undoable(const ColmapLensModel& model);
+/// ColmapCamera::defect of a model whose distortion cannot be undone; lists the supported ones.
+std::string unsupported_model(const std::string& name);
 
-/// Throws ColmapRefusal for sides or focal lengths out of range and non-finite numbers.
+/// A camera with numbers out of range, or of an unsupported model, has a defect.
 ColmapCamera to_camera(const ColmapCameraRecord& record);
 
-/// The pose in the OpenGL convention. Throws ColmapRefusal if the quaternion is not of unit length
-/// to three digits.
-glm::dmat4 to_view_from_world(const ColmapPoseRecord& record);
+/// Sets the pose, in the OpenGL convention, or the defect: the quaternion is not of unit length to
+/// three digits, or a number is not finite.
+void set_pose(ColmapImage& image, const ColmapPoseRecord& record);
 
-/// Throws ColmapRefusal if the position is not finite.
-DatasetPoint to_point(glm::dvec3 position, glm::u8vec3 color);
+/// Counts a position that is not finite as skipped.
+void add_point(ColmapPoints& points, glm::dvec3 position, glm::u8vec3 color);
 
 }  // namespace tureen

@@ -1,17 +1,19 @@
 // Reads posed photographs:
 //   transforms.json
-//       instant-ngp, Nerfstudio: one file, intrinsics for all frames or frame by frame
+//       instant-ngp, Nerfstudio, ScanNet++: one file, intrinsics for all frames or frame by frame
 //   transforms_{train,test}.json
-//       NeRF-synthetic: one file per split (transforms_val.json is not read)
-//   sparse/0, sparse or colmap/sparse/0 with cameras, images and points3D as .bin or .txt, and
-//   images/
+//       NeRF-synthetic: one file per split; transforms_val.json counts if the test file is missing
+//   sparse/N, sparse, colmap/sparse/N or the folder itself with cameras, images and points3D as
+//   .bin or .txt, and images/
 //       COLMAP, https://colmap.github.io/format.html
 //   bundle.out and list.txt
 //       Bundler, see formats/dataset/bundler.hpp
+// docs/datasets.md has the rules.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "scene/photographs.hpp"
@@ -20,6 +22,13 @@ namespace tureen {
 
 /// The photographs to read; others are not opened. `all`: a dataset may have no test views.
 enum class DatasetPart { train, test, all };
+
+/// What transparent pixels of photographs are.
+enum class AlphaMeaning {
+  background,  // behind an object that was cut out
+  mask,        // pixels that training and evaluation ignore
+  ignore,      // nothing: photographs are opaque
+};
 
 struct DatasetOptions {
   /// Scale of the width and height of the stored images, in (0, 1], default 1. 0.5 halves both, by
@@ -31,18 +40,22 @@ struct DatasetOptions {
   /// is a test view. The only photograph of a dataset is a training view, unless `part` is test.
   int test_every = 8;
   DatasetPart part = DatasetPart::all;
+  std::optional<AlphaMeaning> alpha = {};  // by default, alpha_of() decides
+  /// One photograph that cannot be used is an error, instead of being skipped.
+  bool is_strict = false;
   /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = nullptr;
 };
 
 /// Reads a folder, or a transforms.json. Photographs are sorted by the bytes of their names: r_10
-/// precedes r_2. Their names are relative to the dataset's folder; ".." and symbolic links may lead
-/// out of it. JPEG's EXIF orientation is not applied, since cameras refer to the stored pixels.
+/// precedes r_2. Their names are relative to the dataset's folder, or absolute; ".." and symbolic
+/// links may lead out of it.
 ///
-/// Throws InputError with the file and the reason: missing images (all are named, up to a dozen),
-/// an image size that differs from the camera's, a camera model whose distortion cannot be removed,
-/// a pose whose matrix differs from a rotation by more than about 0.001, a part without
-/// photographs, or photographs that exceed the memory budget (base/memory_budget.hpp).
+/// A photograph is skipped, with a remark, if it is missing, cannot be decoded, has another size
+/// than its camera, an unsupported lens, a pose whose matrix differs from a rotation by more than
+/// about 0.001, or a named mask that is missing. Throws InputError with the file and the reason:
+/// fewer than three photographs are then left, or more are skipped than left; a part without
+/// photographs; or photographs that exceed the memory budget (base/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 /// The lens of a photograph before read_dataset() resamples it to a pinhole image.
@@ -63,7 +76,7 @@ struct DatasetSummary {
 
 /// Finds all photographs, but decodes only those whose size the dataset does not store; of images
 /// that must be of equal size, the first. Ignores `options.scale` and `options.progress`. Throws
-/// InputError for missing images and the reasons of read_dataset() that need no pixels.
+/// InputError for the reasons of read_dataset() that need no pixels.
 DatasetSummary read_dataset_summary(const std::filesystem::path& path,
                                     const DatasetOptions& options = {});
 

@@ -4,63 +4,127 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 namespace tureen {
 
 namespace {
 
-/// theta_d(theta) / theta, for a squared angle.
-double fisheye_radial(const Lens& lens, double t2) {
-  return 1 + t2 * (lens.k1 + t2 * (lens.k2 + t2 * (lens.k3 + t2 * lens.k4)));
+using Coefficients = std::span<const double>;
+
+double squared_length(glm::dvec2 point) { return glm::dot(point, point); }
+
+/// 1 + c[0] s + c[1] s^2 + ..
+double polynomial(Coefficients c, double s) {
+  double sum = 0;
+  for (std::size_t i = c.size(); i > 0; --i) sum = s * (c[i - 1] + sum);
+  return 1 + sum;
 }
 
-glm::dvec2 distorted_by_fisheye(const Lens& lens, glm::dvec2 point) {
-  const double r = std::hypot(point.x, point.y);
-  if (r == 0) return point;
-  const double theta = std::atan(r);
-  return point * (theta * fisheye_radial(lens, theta * theta) / r);
+/// The tangential terms: 2 p1 x y + p2 (r^2 + 2 x^2), and with x and y, p1 and p2 exchanged.
+glm::dvec2 tangential(glm::dvec2 p, double p1, double p2) {
+  const double r2 = squared_length(p);
+  return {2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x),
+          2 * p2 * p.x * p.y + p1 * (r2 + 2 * p.y * p.y)};
 }
 
-/// Whether theta_d increases from the axis to the point, and stays positive with it.
-bool fisheye_sees(const Lens& lens, glm::dvec2 point) {
-  const double theta = std::atan(std::hypot(point.x, point.y));
-  // The derivative has at most four changes of sign.
-  constexpr int steps = 16;
-  for (int i = 1; i <= steps; ++i) {
-    const double t2 = theta * theta * i * i / (steps * steps);
-    const double slope =
-        1 + t2 * (3 * lens.k1 + t2 * (5 * lens.k2 + t2 * (7 * lens.k3 + t2 * 9 * lens.k4)));
-    if (!(slope > 0)) return false;
-  }
-  return true;
+glm::dvec2 by_brown(Coefficients c, glm::dvec2 point) {
+  const double r2 = squared_length(point);
+  const double above[] = {c[0], c[1], c[4]}, below[] = {c[5], c[6], c[7]};
+  return point * (polynomial(above, r2) / polynomial(below, r2)) + tangential(point, c[2], c[3]);
+}
+
+/// (x, y) theta / r.
+glm::dvec2 by_angle(glm::dvec2 point) {
+  const double r = glm::length(point);
+  return r == 0 ? point : point * (std::atan(r) / r);
+}
+
+glm::dvec2 by_fisheye(Coefficients c, glm::dvec2 point) {
+  const glm::dvec2 angle = by_angle(point);
+  return angle * polynomial(c.first(4), squared_length(angle));
+}
+
+glm::dvec2 by_fov(Coefficients c, glm::dvec2 point) {
+  const double r = glm::length(point), slope = 2 * std::tan(c[0] / 2);
+  return point * (r == 0 ? slope / c[0] : std::atan(r * slope) / (r * c[0]));
+}
+
+glm::dvec2 by_thin_prism(Coefficients c, glm::dvec2 point) {
+  const glm::dvec2 angle = by_angle(point);
+  const double r2 = squared_length(angle), radial[] = {c[0], c[1], c[4], c[5]};
+  return angle * polynomial(radial, r2) + tangential(angle, c[2], c[3]) +
+         r2 * glm::dvec2(c[6], c[7]);
+}
+
+glm::dvec2 by_rad_tan_thin_prism(Coefficients c, glm::dvec2 point) {
+  const glm::dvec2 angle = by_angle(point);
+  const glm::dvec2 radial = angle * polynomial(c.first(6), squared_length(angle));
+  const double r2 = squared_length(radial);
+  // Its p0 is p2 of OpenCV.
+  return radial + tangential(radial, c[7], c[6]) +
+         glm::dvec2(r2 * (c[8] + c[9] * r2), r2 * (c[10] + c[11] * r2));
+}
+
+glm::dvec2 by_division(Coefficients c, glm::dvec2 point) {
+  // The smaller root of k r r'^2 - r' + r = 0; NaN where there is none.
+  return point * (2 / (1 + std::sqrt(1 - 4 * c[0] * squared_length(point))));
+}
+
+glm::dvec2 by_eucm(Coefficients c, glm::dvec2 point) {
+  return point / (c[0] * std::sqrt(c[1] * squared_length(point) + 1) + 1 - c[0]);
 }
 
 }  // namespace
 
+const LensModel brown_model{"FULL_OPENCV", 8, by_brown};
+const LensModel fisheye_model{"OPENCV_FISHEYE", 4, by_fisheye, true};
+const LensModel fov_model{"FOV", 1, by_fov};
+const LensModel thin_prism_model{"THIN_PRISM_FISHEYE", 8, by_thin_prism, true};
+const LensModel rad_tan_thin_prism_model{"RAD_TAN_THIN_PRISM_FISHEYE", 12, by_rad_tan_thin_prism,
+                                         true};
+const LensModel division_model{"DIVISION", 1, by_division};
+const LensModel eucm_model{"EUCM", 2, by_eucm};
+
+Lens lens_of(const LensModel& model, Coefficients coefficients) {
+  assert(coefficients.size() <= model.coefficients);
+  Lens lens{.model = &model};
+  std::ranges::copy(coefficients, lens.coefficients.begin());
+  // Without its first coefficient, EUCM is a pinhole; the others need all to be 0.
+  const auto first = &model == &eucm_model ? coefficients.first(1) : coefficients;
+  const bool is_plain = std::ranges::all_of(first, [](double c) { return c == 0; });
+  return is_plain && !model.is_fisheye ? Lens{} : lens;
+}
+
+Lens brown(const LensNumbers& n) {
+  return lens_of(brown_model, std::array{n.k1, n.k2, n.p1, n.p2, n.k3, n.k4, n.k5, n.k6});
+}
+
+Lens fisheye(const LensNumbers& n) {
+  return lens_of(fisheye_model, std::array{n.k1, n.k2, n.k3, n.k4});
+}
+
 glm::dvec2 Lens::distorted(glm::dvec2 point) const {
-  if (model == LensModel::fisheye) return distorted_by_fisheye(*this, point);
-  const double x = point.x, y = point.y, r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
-          y * radial + 2 * p2 * x * y + p1 * (r2 + 2 * y * y)};
+  return model ? model->distorted(coefficients, point) : point;
 }
 
 bool Lens::sees(glm::dvec2 point) const {
-  if (model == LensModel::fisheye) return fisheye_sees(*this, point);
-  // The image folds where the determinant of the Jacobian is not positive. Its radial part
-  // along r is 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6, whose first root may lie anywhere between the
-  // axis and the point. This polynomial changes direction at most three times, so a few steps find
-  // the root.
-  constexpr int steps = 8;
+  if (!model) return true;
+  // The image folds where the Jacobian has no positive determinant and trace. The first such place
+  // may lie anywhere between the axis and the point. The polynomials change direction a few times,
+  // so a few steps find it.
+  constexpr int steps = 16;
+  // Balances the errors of the third derivative and of rounding, 1e-10 each.
+  constexpr double h = 1e-5;
   for (int i = 1; i <= steps; ++i) {
-    const double x = point.x * i / steps, y = point.y * i / steps, r2 = x * x + y * y;
-    const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    const double slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // of radial, by r^2, twice
-    const double xx = radial + x * x * slope + 2 * p1 * y + 6 * p2 * x;
-    const double yy = radial + y * y * slope + 2 * p2 * x + 6 * p1 * y;
-    const double xy = x * y * slope + 2 * p1 * x + 2 * p2 * y;  // the Jacobian is symmetric
-    if (!(xx * yy - xy * xy > 0 && xx + yy > 0)) return false;
+    const glm::dvec2 at = point * (double(i) / steps);
+    const double step = h * (1 + glm::length(at));
+    const auto slope = [&](glm::dvec2 along) {
+      return (distorted(at + step * along) - distorted(at - step * along)) / (2 * step);
+    };
+    const glm::dvec2 by_x = slope({1, 0}), by_y = slope({0, 1});
+    if (!(by_x.x * by_y.y - by_x.y * by_y.x > 0 && by_x.x + by_y.y > 0)) return false;
   }
   return true;
 }

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "base/decimal.hpp"
-#include "formats/common/uri.hpp"
 #include "image/box_scale.hpp"
+#include "image/codecs/exif.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -17,18 +17,30 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// The camera for an image from a folder whose images are `shrunk` times smaller than the dataset's
-/// full size. Throws InputError if the sizes do not match.
-Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
-                  const std::string& file) {
-  const glm::ivec2 full =
-      frame.size.value_or(glm::ivec2(image.width * shrunk, image.height * shrunk));
-  // Sizes that are not divisible may have been rounded up or down.
-  const auto fits = [&](int have, int want) { return std::abs(have * shrunk - want) < shrunk; };
-  if (!fits(image.width, full.x) || !fits(image.height, full.y))
-    throw InputError({file}, "the image is " + size_text(image.width, image.height) +
-                                 ", but its camera's is " + size_text(full.x, full.y) +
-                                 (shrunk > 1 ? " / " + std::to_string(shrunk) : ""));
+glm::ivec2 exchanged(glm::ivec2 size) { return {size.y, size.x}; }
+
+/// Sizes that are not divisible may have been rounded up or down.
+bool is_part(glm::ivec2 image, glm::ivec2 full, int factor) {
+  return std::abs(image.x * factor - full.x) < factor &&
+         std::abs(image.y * factor - full.y) < factor;
+}
+
+/// How many times smaller the image is than the dataset's full size, beyond the `shrunk` of its
+/// folder. Throws InputError if the sizes do not match.
+int factor_of(const DatasetFrame& frame, const Image8& image, int shrunk, const std::string& file) {
+  // Smaller images would not be worth a training; a larger factor would hide other mistakes.
+  constexpr int most = 16;
+  const glm::ivec2 size(image.width, image.height), full = frame.size.value_or(size * shrunk);
+  for (int factor = 1; factor <= most; ++factor)
+    if (is_part(size, full, shrunk * factor)) return factor;
+  throw InputError(
+      {file}, "the image is " + size_text(image.width, image.height) + ", but its camera's is " +
+                  size_text(full.x, full.y) + (shrunk > 1 ? " / " + std::to_string(shrunk) : "") +
+                  (exchanged(size) == full / shrunk ? ", with the sides exchanged" : ""));
+}
+
+/// The camera of an image of this size.
+Camera camera_for(const DatasetFrame& frame, const Image8& image, glm::ivec2 full) {
   return resampled(frame.camera(full.x, full.y), image.width, image.height);
 }
 
@@ -53,20 +65,6 @@ Image8 cropped(const Image8& image, const PixelRectangle& area) {
 
 /// A value for each pixel of an image: 1 if a mask excludes it, otherwise 0.
 using Marks = std::vector<std::uint8_t>;
-
-/// Throws InputError if the size of the mask differs.
-Marks read_mask(const std::filesystem::path& file, glm::ivec2 size, const MemoryBudget& budget) {
-  Input input = Input::open(file, budget);
-  const Image8 mask = read_image(input);
-  if (mask.width != size.x || mask.height != size.y)
-    throw InputError({input.name()}, "the mask is " + size_text(mask.width, mask.height) +
-                                         ", but its image is " + size_text(size.x, size.y));
-  input.take_memory(mask.pixels.size(), 2, "the mask");
-  Marks marks(mask.pixels.size());
-  std::transform(mask.pixels.begin(), mask.pixels.end(), marks.begin(),
-                 [](const glm::u8vec4& pixel) { return !(pixel.r | pixel.g | pixel.b); });
-  return marks;
-}
 
 /// The pixels of box_scaled() that have a marked pixel in their area.
 Marks scaled_marks(const Marks& marks, glm::ivec2 from, glm::ivec2 to) {
@@ -93,6 +91,23 @@ Marks scaled_marks(const Marks& marks, glm::ivec2 from, glm::ivec2 to) {
   return result;
 }
 
+/// The marks of a mask, for an image of this size. Throws InputError if the mask is neither as
+/// large nor larger by an integer factor.
+Marks read_mask(const std::filesystem::path& file, glm::ivec2 size, const MemoryBudget& budget) {
+  Input input = Input::open(file, budget);
+  const Image8 mask = read_image(input);
+  const glm::ivec2 found(mask.width, mask.height);
+  const int factor = std::max(1, int(std::lround(double(found.x) / size.x)));
+  if (!is_part(size, found, factor))
+    throw InputError({input.name()}, "the mask is " + size_text(mask.width, mask.height) +
+                                         ", but its image is " + size_text(size.x, size.y));
+  input.take_memory(mask.pixels.size(), 2, "the mask");
+  Marks marks(mask.pixels.size());
+  std::transform(mask.pixels.begin(), mask.pixels.end(), marks.begin(),
+                 [](const glm::u8vec4& pixel) { return !(pixel.r | pixel.g | pixel.b); });
+  return scaled_marks(marks, found, size);
+}
+
 /// Photograph::ignored: the marks within `area`. Throws InputError if they leave no pixel.
 Marks ignored_pixels(const Marks& marks, int width, const PixelRectangle& area,
                      const std::string& file) {
@@ -110,46 +125,66 @@ Marks ignored_pixels(const Marks& marks, int width, const PixelRectangle& area,
 
 }  // namespace
 
-std::optional<std::filesystem::path> find_mask(const DatasetFrame& frame) {
-  if (frame.mask.empty()) return {};
-  const std::filesystem::path path = resolve_name_from_folder(frame.folder, frame.mask);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw InputError({path.string()}, "the mask of " + frame.name + " is missing");
-  return path;
+std::optional<NearFiles::Found> find_image(const DatasetFrame& frame, int images_folder,
+                                           NearFiles& files) {
+  std::optional<NearFiles::Found> found = files.find(frame.folder, frame.file);
+  if (found && images_folder > 1)
+    found->is_exact = found->is_exact ||
+                      std::filesystem::path(found->path).replace_extension().lexically_normal() ==
+                          (frame.folder / frame.file).replace_extension().lexically_normal();
+  return found;
 }
 
-std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int images_folder) {
-  std::error_code ignored;
-  if (!frame.folder.empty() && !std::filesystem::is_directory(frame.folder, ignored)) return {};
-  const auto exists = [&](const std::string& name) -> std::optional<std::filesystem::path> {
-    const std::filesystem::path path = resolve_name_from_folder(frame.folder, name);
-    if (std::filesystem::is_regular_file(path, ignored)) return path;
-    return {};
-  };
-  if (auto path = exists(frame.file)) return path;
-  const std::string bare = std::filesystem::path(frame.file).replace_extension().string();
-  for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"}) {
-    if (auto path = exists(frame.file + extension)) return path;
-    if (images_folder == 1) continue;
-    if (auto path = exists(bare + extension)) return path;
+std::optional<std::filesystem::path> find_mask(const DatasetFrame& frame, int images_folder,
+                                               NearFiles& files) {
+  if (!frame.mask.empty()) {
+    if (const auto found = files.find(frame.folder, frame.mask)) return found->path;
+    throw InputError({(frame.folder / frame.mask).string()},
+                     "the mask of " + frame.name + " is missing");
   }
-  return {};
+  std::string name = frame.file;
+  for (const std::string& images :
+       {"images_" + std::to_string(images_folder), std::string("images")})
+    if (const std::string prefix = images + "/"; name.starts_with(prefix))
+      name.erase(0, prefix.size());
+  for (const std::string& masks :
+       {"masks_" + std::to_string(images_folder), std::string("masks")}) {
+    std::error_code ignored;
+    const std::filesystem::path folder = frame.dataset / masks;
+    if (!std::filesystem::is_directory(folder, ignored)) continue;
+    for (const std::string& wanted : {name + ".png", name})
+      if (const auto found = files.find(folder, wanted)) return found->path;
+  }
+  return std::nullopt;
 }
 
 int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
 
-ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& file,
+ReadPhotograph read_photograph(const DatasetFrame& frame, const FoundPhotograph& found,
                                const DatasetOptions& options, const MemoryBudget& budget) {
   PassingMemory passing(budget);
-  Input input = Input::open(file, budget);
-  Image8 image = read_image(input);
-  Camera camera = camera_for(frame, image, options.images_folder, input.name());
+  Input input = Input::open(found.image, budget);
+  ReadPhotograph result;
+  const std::vector<std::byte> bytes = input.read_rest();
+  Image8 image = decode_image(bytes, input.name(), budget);
+  if (const int orientation = exif_orientation(bytes); orientation > 1) {
+    const glm::ivec2 stored(image.width, image.height);
+    result.was_turned = frame.size && stored.x != stored.y && swaps_sides(orientation) &&
+                        is_part(exchanged(stored), *frame.size, options.images_folder);
+    result.ignores_orientation = !result.was_turned;
+    if (result.was_turned) image = turned(image, orientation);
+  }
+  result.shrunk = factor_of(frame, image, options.images_folder, input.name());
+  const glm::ivec2 stored(image.width, image.height);
+  Marks mask;
+  if (found.mask) mask = read_mask(*found.mask, stored, budget);
+  if (frame.face) {
+    image = face_image(image, *frame.face);
+    if (found.mask) mask = face_marks(mask, stored, *frame.face);
+  }
+  Camera camera = camera_for(frame, image, frame.size.value_or(stored * options.images_folder));
   const glm::ivec2 full(image.width, image.height);
   PixelRectangle known{0, 0, full.x, full.y};
-  const std::optional<std::filesystem::path> mask_file = find_mask(frame);
-  Marks mask;
-  if (mask_file) mask = read_mask(*mask_file, full, budget);
   if (!frame.lens.is_pinhole()) {
     // The image in floats with a border, and the undistorted image.
     input.take_memory(std::uint64_t(full.x + 4) * std::uint64_t(full.y + 4),
@@ -157,7 +192,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
     Undistorted without_lens = undistorted(image, camera, frame.lens);
     image = std::move(without_lens.image);
     known = without_lens.known;
-    if (mask_file) mask = undistorted_marks(mask, camera, frame.lens);
+    if (found.mask) mask = undistorted_marks(mask, camera, frame.lens);
     if (known.right == 0)
       throw InputError({input.name()},
                        "the distortion of its lens cannot be undone: less than half of the "
@@ -173,9 +208,8 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
                     "the scaled image");
   image = box_scaled(image, size.x, size.y);
-  if (mask_file) mask = scaled_marks(mask, full, size);
+  if (found.mask) mask = scaled_marks(mask, full, size);
 
-  ReadPhotograph result;
   Photograph& photograph = result.photograph;
   photograph.camera = std::move(camera);
   photograph.camera.name = frame.name;
@@ -187,7 +221,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   result.lost_rows = size.y - photograph.camera.height;
   const bool crop = result.lost_columns + result.lost_rows > 0;
   photograph.image = crop ? cropped(image, known) : std::move(image);
-  if (mask_file) photograph.ignored = ignored_pixels(mask, size.x, known, mask_file->string());
+  if (found.mask) photograph.ignored = ignored_pixels(mask, size.x, known, found.mask->string());
   passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0] +
                photograph.ignored.size());
   return result;

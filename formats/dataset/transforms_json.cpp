@@ -26,12 +26,15 @@ std::optional<double> angle(const CameraJson& json, const char* key) {
 }
 
 /// Models that Lens describes, as nerfstudio names them.
-constexpr std::array described{"",       "OPENCV",        "PINHOLE",     "SIMPLE_PINHOLE",
-                               "RADIAL", "SIMPLE_RADIAL", "PERSPECTIVE", "OPENCV_FISHEYE"};
+constexpr std::array described{"",           "OPENCV",        "PINHOLE",     "SIMPLE_PINHOLE",
+                               "RADIAL",     "SIMPLE_RADIAL", "PERSPECTIVE", "OPENCV_FISHEYE",
+                               "FULL_OPENCV"};
 
 bool is_fisheye(const CameraJson& json) {
   return json.truth("is_fisheye") || json.text("camera_model") == "OPENCV_FISHEYE";
 }
+
+bool is_full(const CameraJson& json) { return json.text("camera_model") == "FULL_OPENCV"; }
 
 std::string other_lens(const CameraJson& json) {
   for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
@@ -40,10 +43,11 @@ std::string other_lens(const CameraJson& json) {
   if (std::find(described.begin(), described.end(), model) == described.end()) return model;
   // The fourth radial number is ambiguous: in OpenCV it belongs to a quotient of polynomials,
   // elsewhere to r^8.
-  if (!is_fisheye(json) && json.maybe_number("k4").value_or(0) != 0) return "k4";
+  if (!is_fisheye(json) && !is_full(json) && json.maybe_number("k4").value_or(0) != 0) return "k4";
   return {};
 }
 
+/// Throws InputError.
 TransformsFrame read_frame(const CameraJson& json) {
   TransformsFrame frame;
   frame.file_path = json.text("file_path");
@@ -58,15 +62,16 @@ TransformsFrame read_frame(const CameraJson& json) {
   frame.cx = json.maybe_number("cx");
   frame.cy = json.maybe_number("cy");
   const auto coefficient = [&](const char* key) { return json.maybe_number(key).value_or(0); };
-  frame.lens = {.k1 = coefficient("k1"),
-                .k2 = coefficient("k2"),
-                .k3 = coefficient("k3"),
-                .p1 = coefficient("p1"),
-                .p2 = coefficient("p2")};
-  if (is_fisheye(json)) {
-    frame.lens.model = LensModel::fisheye;
-    frame.lens.k4 = coefficient("k4");
-    frame.lens.p1 = frame.lens.p2 = 0;
+  frame.is_fisheye = is_fisheye(json);
+  frame.lens = {.k1 = coefficient("k1"), .k2 = coefficient("k2"), .k3 = coefficient("k3")};
+  if (frame.is_fisheye || is_full(json)) frame.lens.k4 = coefficient("k4");
+  if (is_full(json)) {
+    frame.lens.k5 = coefficient("k5");
+    frame.lens.k6 = coefficient("k6");
+  }
+  if (!frame.is_fisheye) {
+    frame.lens.p1 = coefficient("p1");
+    frame.lens.p2 = coefficient("p2");
   }
   frame.mask_path = json.text("mask_path");
   frame.other_lens = other_lens(json);
@@ -76,14 +81,24 @@ TransformsFrame read_frame(const CameraJson& json) {
 
 }  // namespace
 
-std::vector<TransformsFrame> read_transforms(const Json& root, const std::string& file) {
-  const Json& frames = json_list(root, "frames", file);
+std::vector<TransformsFrame> read_transforms(const Json& root, const std::string& file,
+                                             const char* key) {
+  const Json& frames = json_list(root, key, file);
   std::vector<TransformsFrame> result;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    result.push_back(read_frame(CameraJson({.object = frames[i],
-                                            .common = &root,
-                                            .file = file,
-                                            .where = "frame " + std::to_string(i) + ": "})));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    try {
+      result.push_back(read_frame(
+          CameraJson({.object = frames[i], .common = &root, .file = file, .where = ""})));
+    } catch (const InputError& error) {
+      TransformsFrame& bad = result.emplace_back();
+      const Json* name = frames[i].is_object() && frames[i].contains("file_path")
+                             ? &frames[i]["file_path"]
+                             : nullptr;
+      bad.file_path =
+          name && name->is_string() ? name->get<std::string>() : "frame " + std::to_string(i);
+      bad.defect = error.reason();
+    }
+  }
   return result;
 }
 

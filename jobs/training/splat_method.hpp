@@ -10,6 +10,7 @@
 #include "base/existing_path.hpp"
 #include "base/memory_budget.hpp"
 #include "jobs/training/methods.hpp"
+#include "jobs/training/training_scale.hpp"
 #include "trainer/common/plain_background.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_start.hpp"
@@ -31,6 +32,25 @@ inline const MethodOption minutes_option{
         "the steps of --config",
     .instead = "--steps sets the length of the training",
     .value_name = "N"};
+
+/// A run on a dataset that was scaled: its callbacks receive scenes in the units of the world, and
+/// the evaluation finds the dataset in them.
+inline trainer::RunRequest in_world_units(trainer::RunRequest run, Dataset& dataset, double scale) {
+  const auto scaled_back = [scale](const std::function<void(const Scene&)>& act) {
+    if (!act) return act;
+    return std::function<void(const Scene&)>(
+        [=](const Scene& scene) { act(scaled_scene(scene, 1 / scale)); });
+  };
+  run.snapshot = scaled_back(run.snapshot);
+  run.finished = scaled_back(run.finished);
+  if (run.evaluate)
+    run.evaluate = [=, &dataset, evaluate = scaled_back(run.evaluate)](const Scene& scene) {
+      scale_dataset(dataset, 1 / scale);
+      evaluate(scene);
+      scale_dataset(dataset, scale);
+    };
+  return run;
+}
 
 template <class Config, class Parameters>
 class SplatMethod : public TrainingMethod {
@@ -91,8 +111,22 @@ class SplatMethod : public TrainingMethod {
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
                         const std::function<void(const RunPlan&)>& begun) override {
+    const double scale = training_scale(dataset);
+    std::optional<Scene> scaled_start;
+    if (scale != 1) {
+      scale_dataset(dataset, scale);
+      if (start) start = &scaled_start.emplace(scaled_scene(*start, scale));
+      run = in_world_units(std::move(run), dataset, scale);
+    }
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     RunPlan plan = plan_for(dataset);
+    if (scale != 1)
+      plan.notes.push_back(
+          {"scale", scale,
+           fmt::format(
+               "The cameras are {} what they show: it is trained at {:g} times its size, and "
+               "scaled back",
+               scale > 1 ? "nearer than usual to" : "farther than usual from", scale)});
     plan.steps = config_.steps;
     plan.minutes = config_.minutes;
     plan.kind = trainer::PrimitiveKind::splats;

@@ -95,6 +95,26 @@ TEST(TextScanner, NamesLineAndReason) {
               ErrorAt("test.file:10", 2));
 }
 
+TEST(TextScanner, ReadsTheRestOfALineAndNoByteOrderMark) {
+  const std::string text =
+      "\xef\xbb\xbf"
+      "7  a  b \t\r\n\r\n x\n" +
+      std::string(2000, 'y');
+  Input input = input_of(text);
+  TextScanner scanner(input);
+  EXPECT_EQ(scanner.read_integer("a number"), 7);
+  EXPECT_EQ(scanner.read_line(), "a  b");
+  EXPECT_TRUE(scanner.next_line());
+  EXPECT_EQ(scanner.read_line(), "");
+  EXPECT_TRUE(scanner.next_line());
+  EXPECT_EQ(scanner.read_line(), "x");
+  EXPECT_TRUE(scanner.next_line());
+  EXPECT_THAT(error_of([&] { scanner.read_line(); }), ErrorAt("test.file:4", 1024));
+  // A mark in the middle is text.
+  Input later = input_of("x\xef\xbb\xbf");
+  EXPECT_EQ(TextScanner(later).read_line(), "x\xef\xbb\xbf");
+}
+
 TEST(TextScanner, SeesTheSameNumbersAsAStreamAcrossWindows_seed4) {
   // Blanks, comments and line breaks of random length put window borders at all positions.
   std::mt19937 random(4);

@@ -9,7 +9,9 @@ void colmap_binary(Bytes bytes) {
   Input input = Input::memory("fuzz.bin", bytes.subspan(1));
   switch (std::to_integer<int>(bytes[0]) % 3) {
     case 0:
-      read_colmap_cameras_binary(input);
+      // Readers of datasets skip the photographs of a camera with a defect.
+      for (const auto& [number, camera] : read_colmap_cameras_binary(input))
+        if (!camera.defect.empty()) throw InputError({input.name()}, camera.defect);
       return;
     case 1:
       read_colmap_images_binary(input);

@@ -34,7 +34,7 @@ TEST(Bundler, ReadsCamerasAndPoints) {
   const BundlerModel result = read(model);
   ASSERT_EQ(result.cameras.size(), 3u);
   EXPECT_EQ(result.cameras[0].focal, 10.5);
-  EXPECT_EQ(result.cameras[0].lens, (Lens{.k1 = -0.02, .k2 = 0.001}));
+  EXPECT_EQ(result.cameras[0].lens, brown({.k1 = -0.02, .k2 = 0.001}));
   EXPECT_EQ(result.cameras[0].view_from_world[3], glm::dvec4(0, 0, -5, 1));
   EXPECT_EQ(result.cameras[1].focal, 0);
   // The point ahead of the second camera is at negative z in its view.

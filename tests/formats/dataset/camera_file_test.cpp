@@ -253,12 +253,20 @@ TEST(CameraFile, OtherFilesAndFoldersAreNoCameraFiles) {
   EXPECT_THAT(error_of([&] { read_cameras(folder / "cameras.json"); }), ErrorAt("cameras.json@3"));
 }
 
-TEST(CameraFile, AModelByColmapIsRefusedWithItsFile) {
+TEST(CameraFile, SkipsPosesThatCannotBeUsed) {
   const test::TemporaryFolder folder;
   test::ColmapFixture model = colmap_fixture();
   model.images[0].camera = 9;
   test::write_text(folder / "model", model);
-  EXPECT_THAT(error_of([&] { read_cameras(folder / "model"); }), ErrorAt("model/images.txt", 9));
+  // Two would be left.
+  EXPECT_THAT(error_of([&] { read_cameras(folder / "model"); }), ErrorIn("model", 9));
+  model.images.push_back(model.images[1]);
+  model.images.back().name = "d.png";
+  test::write_text(folder / "model", model);
+  const CameraFile cameras = read_cameras(folder / "model");
+  EXPECT_EQ(cameras.cameras.size(), 3u);
+  EXPECT_THAT(described(cameras.remarks),
+              ::testing::Contains(::testing::HasSubstr("its camera 9 is missing")));
 }
 
 TEST(CameraFile, TransformsSurviveDamage) {

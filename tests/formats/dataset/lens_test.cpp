@@ -59,30 +59,30 @@ Image8 photograph_of(const Camera& camera, const Lens& lens) {
   return image;
 }
 
-const Lens barrel{.k1 = -0.12, .k2 = 0.03, .p1 = 0.004, .p2 = -0.003};
-const Lens pincushion{.k1 = 0.06, .k2 = 0.02, .k3 = -0.01, .p1 = -0.002, .p2 = 0.003};
+const Lens barrel = brown({.k1 = -0.12, .k2 = 0.03, .p1 = 0.004, .p2 = -0.003});
+const Lens pincushion = brown({.k1 = 0.06, .k2 = 0.02, .k3 = -0.01, .p1 = -0.002, .p2 = 0.003});
 
 TEST(Lens, DistortsByTheFormula) {
-  const Lens lens{.k1 = 0.1, .k2 = -0.2, .k3 = 0.3, .p1 = 0.01, .p2 = 0.02};
+  const Lens lens = brown({.k1 = 0.1, .k2 = -0.2, .k3 = 0.3, .p1 = 0.01, .p2 = 0.02});
   // x = 0.5, y = -1, r^2 = 1.25: radial = 1 + 0.125 - 0.3125 + 0.5859375 = 1.3984375.
   const glm::dvec2 place = lens.distorted({0.5, -1});
   // 2 p1 x y = -0.01, p2 (r^2 + 2 x^2) = 0.035; 2 p2 x y = -0.02, p1 (r^2 + 2 y^2) = 0.0325.
   EXPECT_NEAR(place.x, 0.69921875 - 0.01 + 0.035, 1e-15);
   EXPECT_NEAR(place.y, -1.3984375 - 0.02 + 0.0325, 1e-15);
   EXPECT_TRUE(Lens{}.is_pinhole());
-  EXPECT_FALSE(Lens{.p1 = 1e-9}.is_pinhole());
+  EXPECT_FALSE(brown({.p1 = 1e-9}).is_pinhole());
 }
 
 TEST(Lens, SeesNothingBeyondItsFold) {
-  const Lens lens{.k1 = -0.5};  // r (1 - r^2 / 2) decreases beyond r^2 = 2 / 3
+  const Lens lens = brown({.k1 = -0.5});  // r (1 - r^2 / 2) decreases beyond r^2 = 2 / 3
   EXPECT_TRUE(lens.sees({0.81, 0}));
   EXPECT_FALSE(lens.sees({0, 0.83}));
   // With k2 it increases again, but nearer points hide the part beyond the fold.
-  const Lens twice{.k1 = -0.5, .k2 = 0.08};
+  const Lens twice = brown({.k1 = -0.5, .k2 = 0.08});
   EXPECT_FALSE(twice.sees({1.2, 0}));
   EXPECT_FALSE(twice.sees({2.5, 0}));
   EXPECT_TRUE(Lens{}.sees({100, 100}));
-  EXPECT_FALSE(Lens{.k1 = std::numeric_limits<double>::quiet_NaN()}.sees({0.1, 0}));
+  EXPECT_FALSE(brown({.k1 = std::numeric_limits<double>::quiet_NaN()}).sees({0.1, 0}));
 }
 
 void expect_the_scene(const Lens& lens) {
@@ -114,11 +114,11 @@ void expect_the_scene(const Lens& lens) {
 TEST(Lens, ABarrelIsUndone) { expect_the_scene(barrel); }
 TEST(Lens, APincushionIsUndone) { expect_the_scene(pincushion); }
 
-const Lens fisheye{.model = LensModel::fisheye, .k1 = -0.03, .k2 = 0.01, .k3 = -0.004, .k4 = 0.001};
+const Lens wide = fisheye({.k1 = -0.03, .k2 = 0.01, .k3 = -0.004, .k4 = 0.001});
 
 TEST(Lens, AFisheyeMapsAnglesByTheFormula) {
   // Without coefficients, the distance from the axis is the angle: atan(3/4) in direction (3, 4)/5.
-  const Lens plain{.model = LensModel::fisheye};
+  const Lens plain = fisheye({});
   EXPECT_FALSE(plain.is_pinhole());
   const glm::dvec2 place = plain.distorted({0.45, 0.6});
   EXPECT_NEAR(place.x, 0.6 * std::atan(0.75), 1e-15);
@@ -127,23 +127,81 @@ TEST(Lens, AFisheyeMapsAnglesByTheFormula) {
   EXPECT_TRUE(plain.sees({1e6, 0}));
   // At 45 degrees along x, term by term.
   const double t = std::atan(1.0), t2 = t * t;
-  EXPECT_NEAR(fisheye.distorted({1, 0}).x,
+  EXPECT_NEAR(wide.distorted({1, 0}).x,
               t - 0.03 * t * t2 + 0.01 * t * t2 * t2 - 0.004 * t * std::pow(t2, 3) +
                   0.001 * t * std::pow(t2, 4),
               1e-15);
   // theta - theta^3 / 3 decreases beyond 1 radian.
-  const Lens folds{.model = LensModel::fisheye, .k1 = -1.0 / 3};
+  const Lens folds = fisheye({.k1 = -1.0 / 3});
   EXPECT_TRUE(folds.sees({std::tan(0.97), 0}));
   EXPECT_FALSE(folds.sees({0, std::tan(1.05)}));
 }
 
+/// The formulas of COLMAP's other models at one point, term by term.
+TEST(Lens, OtherModelsMapByTheirFormulas) {
+  const glm::dvec2 point(0.3, -0.4);  // r = 0.5
+  const auto at = [&](const LensModel& model, std::vector<double> c) {
+    return lens_of(model, c).distorted(point);
+  };
+  const auto expect = [](glm::dvec2 found, double x, double y) {
+    EXPECT_NEAR(found.x, x, 1e-14);
+    EXPECT_NEAR(found.y, y, 1e-14);
+  };
+  // k4 to k6 divide: (1 + 0.1 / 4) / (1 + 0.2 / 4 + 0.3 / 16 + 0.4 / 64).
+  const double quotient = 1.025 / 1.075;
+  expect(at(brown_model, {0.1, 0, 0, 0, 0, 0.2, 0.3, 0.4}), 0.3 * quotient, -0.4 * quotient);
+  const double fov = std::atan(std::tan(0.4)) / 0.8 / 0.5;  // 2 r tan(omega / 2) = tan(0.4)
+  expect(at(fov_model, {0.8}), 0.3 * fov, -0.4 * fov);
+  EXPECT_NEAR(lens_of(fov_model, std::array{0.8}).distorted({1e-9, 0}).x,
+              1e-9 * 2 * std::tan(0.4) / 0.8, 1e-22);
+  // The division model gives r of r': 0.5 = r' / (1 + k r'^2).
+  const glm::dvec2 divided = at(division_model, {-0.2});
+  const double r = glm::length(divided);
+  EXPECT_NEAR(r / (1 - 0.2 * r * r), 0.5, 1e-14);
+  EXPECT_NEAR(divided.x / divided.y, -0.75, 1e-14);
+  const double eucm = 0.6 * std::sqrt(1.1 * 0.25 + 1) + 0.4;
+  expect(at(eucm_model, {0.6, 1.1}), 0.3 / eucm, -0.4 / eucm);
+  // Fisheyes: (a, b) is the point at its angle.
+  const double t = std::atan(0.5), a = 0.6 * t, b = -0.8 * t, t2 = t * t;
+  const double radial =
+      1 + 0.01 * t2 + 0.02 * t2 * t2 + 0.03 * std::pow(t, 6) + 0.04 * std::pow(t, 8);
+  expect(at(thin_prism_model, {0.01, 0.02, 0.5, 0.6, 0.03, 0.04, 0.7, 0.8}),
+         a * radial + 2 * 0.5 * a * b + 0.6 * (t2 + 2 * a * a) + 0.7 * t2,
+         b * radial + 2 * 0.6 * a * b + 0.5 * (t2 + 2 * b * b) + 0.8 * t2);
+  double six = 1;
+  const double k[] = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
+  for (int i = 0; i < 6; ++i) six += k[i] * std::pow(t, 2 * i + 2);
+  const double u = a * six, v = b * six, s = u * u + v * v;
+  expect(at(rad_tan_thin_prism_model,
+            {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6}),
+         u + 2 * 0.2 * u * v + 0.1 * (s + 2 * u * u) + 0.3 * s + 0.4 * s * s,
+         v + 2 * 0.1 * u * v + 0.2 * (s + 2 * v * v) + 0.5 * s + 0.6 * s * s);
+}
+
+TEST(Lens, OtherModelsAreUndone) {
+  for (const Lens& lens :
+       {lens_of(fov_model, std::array{0.6}), lens_of(division_model, std::array{-0.1}),
+        lens_of(division_model, std::array{0.05}), lens_of(eucm_model, std::array{0.4, 1.1}),
+        lens_of(thin_prism_model, std::array{-0.03, 0.01, 0.001, -0.002, 0.0, 0.0, 0.003, 0.002}),
+        brown({.k1 = -0.1, .k4 = 0.02})}) {
+    SCOPED_TRACE(lens.model->name);
+    expect_the_scene(lens);
+  }
+}
+
+TEST(Lens, SeesNothingWhereTheDivisionModelHasNoImage) {
+  const Lens lens = lens_of(division_model, std::array{0.5});  // up to r^2 = 1 / 2
+  EXPECT_TRUE(lens.sees({0.7, 0}));
+  EXPECT_FALSE(lens.sees({0, 0.72}));
+}
+
 TEST(Lens, AFisheyeIsUndone) {
-  expect_the_scene(fisheye);
+  expect_the_scene(wide);
   // A camera of about 180 degrees: the pinhole image is a part of it, of 115 degrees, all known.
   Camera camera = a_camera();
   camera.fx = camera.fy = 200 / 3.14;
   const Image8 photograph(camera.width, camera.height, glm::u8vec4(10, 20, 30, 255));
-  const PixelRectangle known = undistorted(photograph, camera, {.model = LensModel::fisheye}).known;
+  const PixelRectangle known = undistorted(photograph, camera, fisheye({})).known;
   EXPECT_EQ(known.left, 0);
   EXPECT_EQ(known.top, 0);
   EXPECT_EQ(known.right, camera.width);
@@ -226,11 +284,10 @@ TEST(Lens, WhatLeavesTooLittleKnowsNothing) {
   const Image8 photograph(camera.width, camera.height, glm::u8vec4(255));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Lens& lens :
-       {Lens{.k1 = 30}, Lens{.k1 = -8}, Lens{.k1 = 1e300, .k2 = -1e300}, Lens{.p1 = 40},
-        Lens{.k3 = nan}, Lens{.model = LensModel::fisheye, .k1 = -40},
-        Lens{.model = LensModel::fisheye, .k4 = nan}}) {
+       {brown({.k1 = 30}), brown({.k1 = -8}), brown({.k1 = 1e300, .k2 = -1e300}), brown({.p1 = 40}),
+        brown({.k3 = nan}), fisheye({.k1 = -40}), fisheye({.k4 = nan})}) {
     const PixelRectangle known = undistorted(photograph, camera, lens).known;
-    EXPECT_EQ(known.right - known.left, 0) << lens.k1 << ' ' << lens.p1;
+    EXPECT_EQ(known.right - known.left, 0) << lens.coefficients[0];
     EXPECT_EQ(known.right, 0);
   }
 }

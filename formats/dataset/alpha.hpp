@@ -1,0 +1,28 @@
+// What the transparent pixels of a dataset's photographs are: the background of an object that was
+// cut out, or a mask.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "formats/dataset/dataset.hpp"
+
+namespace tureen {
+
+/// Photographs whose transparent pixels can be told from damage: more than one in a thousand.
+struct AlphaUse {
+  AlphaMeaning meaning = AlphaMeaning::ignore;
+  std::size_t photographs = 0;
+};
+
+/// Decides by all photographs. Transparent pixels are background if, in at least half of the
+/// photographs, they are at least a quarter of the image and at least half of its border: around an
+/// object that was cut out. Otherwise they are a mask: people, dirt, borders without lens. If no
+/// photograph has more than one transparent pixel in a thousand, alpha is ignored.
+AlphaUse alpha_of(const std::vector<const Photograph*>& photographs);
+
+/// Makes the photograph opaque; for a mask, first marks its transparent pixels as ignored. A
+/// photograph whose pixels would all be ignored keeps them. Nothing for a background.
+void apply_alpha(AlphaMeaning meaning, Photograph& photograph);
+
+}  // namespace tureen

@@ -1,0 +1,20 @@
+// The orientation that a JPEG's EXIF data give (CIPA DC-008, tag 274).
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "image/image.hpp"
+
+namespace tureen {
+
+/// 1 to 8; 1, as the pixels are stored, if the file has none or is no JPEG. Any bytes are safe.
+int exif_orientation(std::span<const std::byte> file);
+
+/// The image as a viewer shows it with this orientation, 1 to 8.
+Image8 turned(const Image8& image, int orientation);
+
+/// Whether the orientation exchanges width and height.
+inline bool swaps_sides(int orientation) { return orientation >= 5; }
+
+}  // namespace tureen

@@ -1,0 +1,58 @@
+#include "image/codecs/webp.hpp"
+
+#ifndef __EMSCRIPTEN__
+#include <webp/decode.h>
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "image/png.hpp"
+
+namespace tureen {
+
+namespace {
+
+bool has_text(std::span<const std::byte> bytes, std::size_t at, std::string_view text) {
+  return bytes.size() >= at + text.size() &&
+         std::equal(text.begin(), text.end(), bytes.begin() + std::ptrdiff_t(at),
+                    [](char c, std::byte b) { return std::byte(c) == b; });
+}
+
+}  // namespace
+
+bool is_webp(std::span<const std::byte> bytes) {
+  return has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP");
+}
+
+Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget budget) {
+  const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
+    throw InputError({name}, reason, hint);
+  };
+#ifdef __EMSCRIPTEN__
+  fail("WebP images are not supported here");
+  return {};
+#else
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
+    fail("the WebP image is damaged");
+  if (features.has_animation) fail("the WebP file is an animation, not an image");
+  const std::string what =
+      "an image of " + std::to_string(features.width) + " x " + std::to_string(features.height);
+  // The result, and as much for the decoder, which holds the whole image of lossless files.
+  const std::uint64_t size = std::uint64_t(features.width) * std::uint64_t(features.height) * 4;
+  PassingMemory passing(budget);
+  if (!budget.take(size, 2)) fail(budget.refusal(what), max_memory_hint);
+  Image8 image(features.width, features.height);
+  if (!WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(image.pixels.data()),
+                          size, features.width * 4))
+    fail("the WebP image is damaged");
+  passing.keep(size);
+  return image;
+#endif
+}
+
+}  // namespace tureen
