@@ -13,6 +13,9 @@ namespace tureen::splatting {
 
 struct TileHits;
 
+/// In Kernel::texel_rows: a value that is 0 for all splats.
+inline constexpr std::size_t no_row = ~std::size_t(0);
+
 /// The hot loops of a kernel, for the vectors of the processor, chosen at run time. `Kernel` is a
 /// struct of
 ///   Entry        a projected splat, as the blending loop reads it
@@ -23,6 +26,11 @@ struct TileHits;
 ///                drawn
 ///   list(entry, outline, splat, lists)    adds `splat` to all tiles where alpha reaches the
 ///                smallest at a pixel centre, and to few others
+///   draws(splats, profile)    whether the kernel draws these splats by this profile
+///   shaders      the name of its shaders (runtime/splats/device_splats.cpp)
+///   texel_rows   the layout of a splat's texels on the device: the row of each component
+///   points       of which the centre is the mean: the first rows are their coordinates
+///   colors       of a splat
 template <class Kernel>
 struct KernelFunctions {
   using Entry = typename Kernel::Entry;

@@ -13,7 +13,7 @@ namespace tureen {
 
 /// Texels per splat in the store `kernel`: KERNEL_TEXELS of
 /// shaders/splats/splat_kernel_texels.glsl.
-int kernel_texels(SplatShaders shaders);
+int kernel_texels(splatting::LayerKind kind);
 
 struct SplatSource {
   TexelLayout layout;              // of both stores

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/splats.hpp"
 #include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
@@ -54,6 +55,18 @@ struct ProjectedGaussians {
 
 /// See KernelFunctions.
 struct GaussianKernel {
+  static constexpr const char shaders[] = "gaussians";
+  static constexpr std::size_t texel_rows[] = {gaussian_row::x,          gaussian_row::y,
+                                               gaussian_row::z,          gaussian_row::opacity,
+                                               gaussian_row::scale_x,    gaussian_row::scale_y,
+                                               gaussian_row::scale_z,    no_row,
+                                               gaussian_row::rotation_x, gaussian_row::rotation_y,
+                                               gaussian_row::rotation_z, gaussian_row::rotation_w};
+  static constexpr std::size_t points = 1, colors = 1;
+  static bool draws(const Splats& splats, const SplatProfile& profile) {
+    return std::holds_alternative<Gaussians>(splats.kernel) &&
+           profile.projection == SplatProfile::Projection::ewa;
+  }
   using Entry = GaussianEntry;
   struct Outline {};  // the entry has it
   using Projected = ProjectedGaussians;

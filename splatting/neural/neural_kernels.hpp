@@ -2,6 +2,7 @@
 // processor, chosen at run time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,6 +27,28 @@ enum : std::size_t {
   offset = amplitudes + neurons,  // b2
   harmonics
 };
+}
+
+/// Centre, semi-axes with the offset, rotation; then the frequencies of each neuron with its phase,
+/// and the amplitudes.
+constexpr std::array<std::size_t, 12 + 5 * neurons> neural_texel_rows() {
+  namespace row = neural_row;
+  std::array<std::size_t, 12 + 5 * neurons> rows{};
+  auto next = rows.begin();
+  const auto add = [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) *next++ = first + k;
+  };
+  add(row::center, 3);
+  add(no_row, 1);
+  add(row::semi_axes, 3);
+  add(row::offset, 1);
+  add(row::rotation, 4);
+  for (std::size_t k = 0; k < neurons; ++k) {
+    add(row::frequencies + 3 * k, 3);
+    add(row::phases + k, 1);
+  }
+  add(row::amplitudes, neurons);
+  return rows;
 }
 
 /// Rows of projected neural densities: first the members of NeuralEntry, in their order.
@@ -65,6 +88,12 @@ struct alignas(64) NeuralEntry {
 
 /// See KernelFunctions. x of an outline is NaN if the splat may cover any pixel.
 struct NeuralKernel {
+  static constexpr const char shaders[] = "neural";
+  static constexpr auto texel_rows = neural_texel_rows();
+  static constexpr std::size_t points = 1, colors = 1;
+  static bool draws(const Splats& splats, const SplatProfile&) {
+    return std::holds_alternative<NeuralDensities>(splats.kernel);
+  }
   using Entry = NeuralEntry;
   using Outline = Ellipse;
   using Projected = ProjectedRows<projected_neural_row::count, projected_neural_row::depth>;
