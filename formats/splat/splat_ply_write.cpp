@@ -1,15 +1,17 @@
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <optional>
+#include <span>
 
 #include "base/output.hpp"
 #include "formats/common/splat_activation.hpp"
 #include "formats/ply/ply_bytes.hpp"
-#include "formats/splat/splat_builder.hpp"
 #include "formats/splat/splat_ply.hpp"
+#include "formats/splat/splat_ply_layout.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/moved_splats.hpp"
-#include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
@@ -82,94 +84,53 @@ class SplatPlyWriter {
   void write() {
     const auto* gaussians = std::get_if<Gaussians>(&splats_.kernel);
     // The authors' reader of neural primitives expects degree 3.
-    const int least = gaussians ? 0 : 3;
-    rest_ = std::size_t(harmonics::count(std::max(least, splats_.color.degree))) - 1;
-    write_header(gaussians);
+    const int degree = std::max(gaussians ? 0 : 3, splats_.color.degree);
+    const std::vector<SplatPlyProperty> properties =
+        splat_ply_properties(splats_.kernel, gaussians && gaussians->flat ? 2 : 3, degree);
+    std::string text = "ply\nformat binary_little_endian 1.0\n" + marks_.comments +
+                       "element vertex " + std::to_string(count(splats_)) + "\n";
+    for (const SplatPlyProperty& each : properties) text += "property float " + each.name + "\n";
+    output_.write(std::string_view(text + "end_header\n"));
     for (std::size_t i = 0; i < count(splats_); ++i) {
-      if (gaussians)
-        write_gaussian(*gaussians, i);
-      else
-        write_density(std::get<NeuralDensities>(splats_.kernel), i);
+      fill_row(i);
+      for (const SplatPlyProperty& each : properties)
+        bytes_.real(each.slot == splat_slot::none ? 0.0f : row_[std::size_t(each.slot)]);
     }
     bytes_.flush();
   }
 
  private:
-  void write_header(const Gaussians* gaussians) {
-    std::string text = "ply\nformat binary_little_endian 1.0\n" + marks_.comments +
-                       "element vertex " + std::to_string(count(splats_)) + "\n";
-    const auto name = [&](const std::string& property) {
-      text += "property float " + property + "\n";
-    };
-    const auto names = [&](const char* prefix, std::size_t number) {
-      for (std::size_t i = 0; i < number; ++i) name(prefix + std::to_string(i));
-    };
-    for (const char* property : {"x", "y", "z", "nx", "ny", "nz"}) name(property);
-    names("f_dc_", 3);
-    names("f_rest_", 3 * rest_);
-    name("opacity");
-    if (!gaussians) name("opacity_volr");
-    names("scale_", gaussians && gaussians->flat ? 2 : 3);
-    names("rot_", 4);
-    if (!gaussians) {
-      names("frequencies_", 3 * NeuralDensities::width);
-      names("phases_", NeuralDensities::width);
-      names("amplitudes_", NeuralDensities::width);
-      name("offsets");
-    }
-    output_.write(std::string_view(text + "end_header\n"));
-  }
-
-  void write_vector(const glm::vec3& v) {
-    for (int k = 0; k < 3; ++k) bytes_.real(v[k]);
-  }
-
-  /// The centre, a normal of zeros as the authors write it, and the colour.
-  void write_start(const glm::vec3& center, std::size_t i) {
-    write_vector(center);
-    write_vector(glm::vec3(0.0f));
-    const auto own = std::size_t(harmonics::count(splats_.color.degree));
-    const glm::vec3* coefficients = &splats_.color.coefficients[i * own];
-    write_vector(coefficients[0]);
-    for (int channel = 0; channel < 3; ++channel)
-      for (std::size_t k = 1; k <= rest_; ++k)
-        bytes_.real(k < own ? coefficients[k][channel] : 0.0f);
-  }
-
-  void write_rotation(const glm::quat& q) {
-    for (const float part : {q.w, q.x, q.y, q.z}) bytes_.real(part);
-  }
-
-  void write_gaussian(const Gaussians& gaussians, std::size_t i) {
-    write_start(gaussians.centers[i], i);
-    bytes_.real(stored_opacity(double(gaussians.opacity[i])));
-    for (int k = 0; k < (gaussians.flat ? 2 : 3); ++k)
-      bytes_.real(stored_scale(double(gaussians.scales[i][k])));
-    glm::dquat rotation(gaussians.rotations[i]);
-    // The inverse of the reader's exchange of axes.
-    if (marks_.normal_first) rotation = rotation * glm::dquat(0.5, -0.5, -0.5, -0.5);
-    write_rotation(glm::quat(rotation));
-  }
-
-  void write_density(const NeuralDensities& densities, std::size_t i) {
-    write_start(densities.centers[i], i);
-    bytes_.real(0.0f);  // opacity and opacity_volr, which the method does not use
-    bytes_.real(0.0f);
-    for (int k = 0; k < 3; ++k) bytes_.real(stored_scale(double(densities.semi_axes[i][k])));
-    write_rotation(densities.rotations[i]);
-    constexpr std::size_t width = NeuralDensities::width;
-    const float* network = &densities.networks[i * NeuralDensities::parameters];
-    for (std::size_t dimension = 0; dimension < 3; ++dimension)
-      for (std::size_t neuron = 0; neuron < width; ++neuron)
-        bytes_.real(network[3 * neuron + dimension]);
-    for (std::size_t k = 3 * width; k < NeuralDensities::parameters; ++k) bytes_.real(network[k]);
+  /// Sets the slots of splat `i`; coefficients beyond its degree stay 0.
+  void fill_row(std::size_t i) {
+    namespace slot = splat_slot;
+    for_each_column(splats_.kernel, [&](const auto& column) {
+      const std::span<const float> values = column.of_splat(i);
+      if (column.role == ColumnRole::position)
+        std::copy(values.begin(), values.end(), &row_[slot::center]);
+      else if (column.role == ColumnRole::scale)
+        std::transform(values.begin(), values.end(), &row_[slot::scale], stored_scale);
+      else if (column.role == ColumnRole::opacity)
+        row_[slot::opacity] = stored_opacity(double(values[0]));
+      else if (column.role == ColumnRole::value)
+        std::copy(values.begin(), values.end(), &row_[slot::network]);
+      else if (column.role == ColumnRole::rotation) {
+        glm::dquat rotation(values[3], values[0], values[1], values[2]);
+        // The inverse of the reader's exchange of axes.
+        if (marks_.normal_first) rotation = rotation * glm::dquat(0.5, -0.5, -0.5, -0.5);
+        const double wxyz[] = {rotation.w, rotation.x, rotation.y, rotation.z};
+        std::copy(std::begin(wxyz), std::end(wxyz), &row_[slot::rotation]);
+      }
+    });
+    const std::size_t each = coefficients_per_splat(splats_.color);
+    const glm::vec3* coefficients = &splats_.color.coefficients[i * each];
+    std::copy_n(&coefficients[0].x, 3 * each, &row_[slot::color]);
   }
 
   Output& output_;
   PlyBytes bytes_;
   const Splats& splats_;
   SplatPlyMarks marks_;
-  std::size_t rest_ = 0;  // coefficients a channel beyond degree 0
+  std::array<float, splat_slot::count> row_{};
 };
 
 }  // namespace
@@ -177,7 +138,8 @@ class SplatPlyWriter {
 bool fits_splat_ply(const Scene& scene) {
   if (scene.layers.size() != 1) return false;
   const auto* splats = std::get_if<Splats>(&scene.layers[0].primitives);
-  return splats && !std::holds_alternative<TriangleWindows>(splats->kernel);
+  return splats && (std::holds_alternative<Gaussians>(splats->kernel) ||
+                    std::holds_alternative<NeuralDensities>(splats->kernel));
 }
 
 std::vector<std::string> write_splat_ply(const Scene& scene, const std::filesystem::path& path) {
