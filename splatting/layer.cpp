@@ -41,7 +41,11 @@ constexpr KernelFacts facts{Kernel::shaders,
                             Kernel::texel_rows,
                             Kernel::points,
                             Kernel::colors,
-                            &Kernel::draws,
+                            [](const Splats& splats, const SplatProfile& profile) {
+                              return std::holds_alternative<typename Kernel::Of>(splats.kernel) &&
+                                     profile.projection == Kernel::projection &&
+                                     splats.color.per_corner == (Kernel::colors > 1);
+                            },
                             [](LayerData&& data) -> std::unique_ptr<Layer> {
                               return std::make_unique<KernelLayer<Kernel>>(std::move(data));
                             }};

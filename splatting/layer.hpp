@@ -80,7 +80,7 @@ class Layer {
   LayerData data_;
 };
 
-/// Facts about a kernel, which stand in its struct (KernelFunctions).
+/// Facts about a kernel, which stand in its struct (KernelFunctions, KernelOf).
 struct KernelFacts {
   std::string_view shaders;
   std::span<const std::size_t> texel_rows;

@@ -72,7 +72,7 @@ DeviceSplats::Constants DeviceSplats::constants() const {
       low_pass == SplatProfile::LowPass::dilation || low_pass == SplatProfile::LowPass::mip;
   return {{"TEXEL_ROW_BITS", std::to_string(layout_.row_bits)},
           {"TEXEL_LAYER_BITS", std::to_string(layout_.layer_bits)},
-          {"KERNEL_TEXELS", std::to_string(kernel_texels(kind_))},
+          {"KERNEL_TEXELS", std::to_string(splatting::facts_of(kind_).texel_rows.size() / 4)},
           {"HARMONICS_DEGREE", std::to_string(harmonics_degree_)},
           {"COLORS_PER_SPLAT", std::to_string(colors_per_splat_)},
           {"PROJECTED_COLUMNS", std::to_string(projected_columns)},

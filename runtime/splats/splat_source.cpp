@@ -89,10 +89,6 @@ glm::vec3 center(const splatting::LayerData& layer, std::size_t i) {
 
 }  // namespace
 
-int kernel_texels(splatting::LayerKind kind) {
-  return int(splatting::facts_of(kind).texel_rows.size() / 4);
-}
-
 SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const TexelLayout& layout) {
   SplatSource source;
   source.kernel = kernel_source(splats, plan);

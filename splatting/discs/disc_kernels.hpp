@@ -46,14 +46,10 @@ struct alignas(64) DiscEntry {
 };
 
 /// See KernelFunctions. The rows are those of gaussian_row.
-struct DiscKernel {
+struct DiscKernel : KernelOf<Gaussians> {
   static constexpr const char shaders[] = "discs";
   static constexpr const auto& texel_rows = GaussianKernel::texel_rows;
-  static constexpr std::size_t points = 1, colors = 1;
-  static bool draws(const Splats& splats, const SplatProfile& profile) {
-    return std::holds_alternative<Gaussians>(splats.kernel) &&
-           profile.projection == SplatProfile::Projection::plane;
-  }
+  static constexpr auto projection = SplatProfile::Projection::plane;
   using Entry = DiscEntry;
   using Outline = Box;
   using Projected = ProjectedRows<projected_disc_row::count, projected_disc_row::depth>;

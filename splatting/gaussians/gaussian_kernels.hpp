@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "scene/splats.hpp"
 #include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
@@ -54,19 +53,11 @@ struct ProjectedGaussians {
 };
 
 /// See KernelFunctions.
-struct GaussianKernel {
+struct GaussianKernel : KernelOf<Gaussians> {
   static constexpr const char shaders[] = "gaussians";
-  static constexpr std::size_t texel_rows[] = {gaussian_row::x,          gaussian_row::y,
-                                               gaussian_row::z,          gaussian_row::opacity,
-                                               gaussian_row::scale_x,    gaussian_row::scale_y,
-                                               gaussian_row::scale_z,    no_row,
-                                               gaussian_row::rotation_x, gaussian_row::rotation_y,
-                                               gaussian_row::rotation_z, gaussian_row::rotation_w};
-  static constexpr std::size_t points = 1, colors = 1;
-  static bool draws(const Splats& splats, const SplatProfile& profile) {
-    return std::holds_alternative<Gaussians>(splats.kernel) &&
-           profile.projection == SplatProfile::Projection::ewa;
-  }
+  /// The centre with the opacity, the scales, the rotation.
+  static constexpr std::size_t texel_rows[] = {0, 1, 2, gaussian_row::opacity, 3, 4, 5, no_row, 6,
+                                               7, 8, 9};
   using Entry = GaussianEntry;
   struct Outline {};  // the entry has it
   using Projected = ProjectedGaussians;
