@@ -17,34 +17,27 @@ namespace tureen {
 
 namespace {
 
-/// How a file marks the profile.
+/// How a file marks the profile, and the name of the profile that readers find.
 struct SplatPlyMarks {
-  std::string comments;
-  bool normal_first = false;
+  const char* comments;
+  bool normal_first;
+  const char* profile;
 };
 
 SplatPlyMarks marks_of(const Splats& splats) {
   using Profile = SplatProfile;
   const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
-  if (!gaussians) return {};
+  if (!gaussians) return {"", false, "splatnet"};
   const Profile& profile = splats.profile;
-  if (profile.projection == Profile::Projection::ewa)
-    return {profile.low_pass == Profile::LowPass::mip ? "comment SplatRenderMode: mip\n"
-                                                      : "comment SplatRenderMode: default\n",
-            gaussians->flat};
-  if (profile.low_pass == Profile::LowPass::screen)
-    return {"comment SplatRenderMode: 2dgs\n", false};
-  return {"comment SplatRenderMode: default\ncomment TureenSplatProfile: redisplats\n", true};
-}
-
-/// The profile that the reader finds.
-SplatProfile stored_profile(const Splats& splats) {
-  using Profile = SplatProfile;
-  if (!std::holds_alternative<Gaussians>(splats.kernel)) return *profile_named("splatnet");
-  if (splats.profile.projection == Profile::Projection::ewa)
-    return *profile_named(splats.profile.low_pass == Profile::LowPass::mip ? "mip" : "3dgs");
-  return *profile_named(splats.profile.low_pass == Profile::LowPass::screen ? "2dgs"
-                                                                            : "redisplats");
+  if (profile.projection == Profile::Projection::plane) {
+    if (profile.low_pass == Profile::LowPass::screen)
+      return {"comment SplatRenderMode: 2dgs\n", false, "2dgs"};
+    return {"comment SplatRenderMode: default\ncomment TureenSplatProfile: redisplats\n", true,
+            "redisplats"};
+  }
+  if (profile.low_pass == Profile::LowPass::mip)
+    return {"comment SplatRenderMode: mip\n", gaussians->flat, "mip"};
+  return {"comment SplatRenderMode: default\n", gaussians->flat, "3dgs"};
 }
 
 /// Moves the splats into world coordinates; relative to the layer's origin if that is so far away
@@ -61,9 +54,10 @@ void place_in_world(Layer& layer) {
 std::vector<std::string> splat_ply_losses(const Scene& scene, const Layer& layer,
                                           const Splats& splats) {
   std::vector<std::string> lost;
-  if (!(splats.profile == stored_profile(splats)))
-    lost.push_back("PLY cannot hold this profile; readers use " +
-                   std::string(name_of(stored_profile(splats))) + ".");
+  const SplatProfile stored = *profile_named(marks_of(splats).profile);
+  if (splats.profile != stored)
+    lost.push_back("PLY cannot hold this profile; readers use " + std::string(name_of(stored)) +
+                   ".");
   const auto* densities = std::get_if<NeuralDensities>(&splats.kernel);
   if (densities && densities->omega != NeuralDensities{}.omega)
     lost.push_back("PLY holds no omega; readers use 30.");
@@ -76,62 +70,49 @@ std::vector<std::string> splat_ply_losses(const Scene& scene, const Layer& layer
   return lost;
 }
 
-class SplatPlyWriter {
- public:
-  SplatPlyWriter(Output& output, const Splats& splats)
-      : output_(output), bytes_(output), splats_(splats), marks_(marks_of(splats)) {}
+/// Sets the slots of splat `i`; coefficients beyond its degree stay as they are.
+void fill_row(const Splats& splats, std::size_t i, bool normal_first,
+              std::array<float, splat_slot::count>& row) {
+  namespace slot = splat_slot;
+  for_each_column(splats.kernel, [&](const auto& column) {
+    const std::span<const float> values = column.of_splat(i);
+    const auto put = [&](int first) { std::copy(values.begin(), values.end(), &row[first]); };
+    if (column.role == ColumnRole::position) put(slot::center);
+    if (column.role == ColumnRole::value) put(slot::network);
+    if (column.role == ColumnRole::opacity) row[slot::opacity] = stored_opacity(double(values[0]));
+    if (column.role == ColumnRole::scale)
+      std::transform(values.begin(), values.end(), &row[slot::scale], stored_scale);
+    if (column.role != ColumnRole::rotation) return;
+    glm::dquat rotation(values[3], values[0], values[1], values[2]);
+    // The inverse of the reader's exchange of axes.
+    if (normal_first) rotation = rotation * glm::dquat(0.5, -0.5, -0.5, -0.5);
+    const double wxyz[] = {rotation.w, rotation.x, rotation.y, rotation.z};
+    std::copy(std::begin(wxyz), std::end(wxyz), &row[slot::rotation]);
+  });
+  const std::size_t each = coefficients_per_splat(splats.color);
+  std::copy_n(&splats.color.coefficients[i * each].x, 3 * each, &row[slot::color]);
+}
 
-  void write() {
-    const auto* gaussians = std::get_if<Gaussians>(&splats_.kernel);
-    // The authors' reader of neural primitives expects degree 3.
-    const int degree = std::max(gaussians ? 0 : 3, splats_.color.degree);
-    const std::vector<SplatPlyProperty> properties =
-        splat_ply_properties(splats_.kernel, gaussians && gaussians->flat ? 2 : 3, degree);
-    std::string text = "ply\nformat binary_little_endian 1.0\n" + marks_.comments +
-                       "element vertex " + std::to_string(count(splats_)) + "\n";
-    for (const SplatPlyProperty& each : properties) text += "property float " + each.name + "\n";
-    output_.write(std::string_view(text + "end_header\n"));
-    for (std::size_t i = 0; i < count(splats_); ++i) {
-      fill_row(i);
-      for (const SplatPlyProperty& each : properties)
-        bytes_.real(each.slot == splat_slot::none ? 0.0f : row_[std::size_t(each.slot)]);
-    }
-    bytes_.flush();
+void write_vertices(const Splats& splats, Output& output) {
+  const SplatPlyMarks marks = marks_of(splats);
+  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  // The authors' reader of neural primitives expects degree 3.
+  const std::vector<SplatPlyProperty> properties =
+      splat_ply_properties(splats.kernel, gaussians && gaussians->flat ? 2 : 3,
+                           std::max(gaussians ? 0 : 3, splats.color.degree));
+  std::string text = std::string("ply\nformat binary_little_endian 1.0\n") + marks.comments +
+                     "element vertex " + std::to_string(count(splats)) + "\n";
+  for (const SplatPlyProperty& each : properties) text += "property float " + each.name + "\n";
+  output.write(std::string_view(text + "end_header\n"));
+  PlyBytes bytes(output);
+  std::array<float, splat_slot::count> row{};
+  for (std::size_t i = 0; i < count(splats); ++i) {
+    fill_row(splats, i, marks.normal_first, row);
+    for (const SplatPlyProperty& each : properties)
+      bytes.real(each.slot == splat_slot::none ? 0.0f : row[std::size_t(each.slot)]);
   }
-
- private:
-  /// Sets the slots of splat `i`; coefficients beyond its degree stay 0.
-  void fill_row(std::size_t i) {
-    namespace slot = splat_slot;
-    for_each_column(splats_.kernel, [&](const auto& column) {
-      const std::span<const float> values = column.of_splat(i);
-      if (column.role == ColumnRole::position)
-        std::copy(values.begin(), values.end(), &row_[slot::center]);
-      else if (column.role == ColumnRole::scale)
-        std::transform(values.begin(), values.end(), &row_[slot::scale], stored_scale);
-      else if (column.role == ColumnRole::opacity)
-        row_[slot::opacity] = stored_opacity(double(values[0]));
-      else if (column.role == ColumnRole::value)
-        std::copy(values.begin(), values.end(), &row_[slot::network]);
-      else if (column.role == ColumnRole::rotation) {
-        glm::dquat rotation(values[3], values[0], values[1], values[2]);
-        // The inverse of the reader's exchange of axes.
-        if (marks_.normal_first) rotation = rotation * glm::dquat(0.5, -0.5, -0.5, -0.5);
-        const double wxyz[] = {rotation.w, rotation.x, rotation.y, rotation.z};
-        std::copy(std::begin(wxyz), std::end(wxyz), &row_[slot::rotation]);
-      }
-    });
-    const std::size_t each = coefficients_per_splat(splats_.color);
-    const glm::vec3* coefficients = &splats_.color.coefficients[i * each];
-    std::copy_n(&coefficients[0].x, 3 * each, &row_[slot::color]);
-  }
-
-  Output& output_;
-  PlyBytes bytes_;
-  const Splats& splats_;
-  SplatPlyMarks marks_;
-  std::array<float, splat_slot::count> row_{};
-};
+  bytes.flush();
+}
 
 }  // namespace
 
@@ -152,7 +133,7 @@ std::vector<std::string> write_splat_ply(const Scene& scene, const std::filesyst
   }
   const auto& splats = std::get<Splats>(layer->primitives);
   Output output(path);
-  SplatPlyWriter(output, splats).write();
+  write_vertices(splats, output);
   output.commit();
   return splat_ply_losses(scene, *layer, splats);
 }
