@@ -58,4 +58,8 @@ class EwaInView {
   ImageBox box_;
 };
 
+/// Declared only: the class that splat_kernels.cpp uses for this kernel unless the profile projects
+/// them on their plane.
+EwaInView in_view(const Gaussians&);
+
 }  // namespace tureen::oracle

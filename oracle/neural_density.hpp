@@ -47,4 +47,7 @@ class NeuralDensityInView {
   ImageBox box_;
 };
 
+/// Declared only: the class that splat_kernels.cpp uses for this kernel.
+NeuralDensityInView in_view(const NeuralDensities&);
+
 }  // namespace tureen::oracle

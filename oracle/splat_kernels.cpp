@@ -10,26 +10,24 @@ namespace tureen::oracle {
 
 std::optional<SplatInView> project(const Splats& splats, std::size_t i, const SplatView& view) {
   const SplatProfile& profile = splats.profile;
-  if (const auto* windows = std::get_if<TriangleWindows>(&splats.kernel))
-    return WindowInView::project(*windows, i, profile, view);
-  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
-    return NeuralDensityInView::project(*densities, i, profile, view);
-  const auto& gaussians = std::get<Gaussians>(splats.kernel);
   if (profile.projection == SplatProfile::Projection::plane)
-    return DiscInView::project(gaussians, i, profile, view);
-  return EwaInView::project(gaussians, i, profile, view);
+    return DiscInView::project(std::get<Gaussians>(splats.kernel), i, profile, view);
+  return std::visit(
+      [&](const auto& kernel) -> std::optional<SplatInView> {
+        return decltype(in_view(kernel))::project(kernel, i, profile, view);
+      },
+      splats.kernel);
 }
 
 SplatSample sample(const SplatInView& splat, const glm::dvec2& pixel, double opaque_depth) {
-  SplatSample result;
-  if (const auto* density = std::get_if<NeuralDensityInView>(&splat))
-    result = density->at(pixel, opaque_depth);
-  else if (const auto* ewa = std::get_if<EwaInView>(&splat))
-    result = ewa->at(pixel);
-  else if (const auto* disc = std::get_if<DiscInView>(&splat))
-    result = disc->at(pixel);
-  else
-    result = std::get<WindowInView>(splat).at(pixel);
+  const SplatSample result = std::visit(
+      [&](const auto& each) {
+        if constexpr (requires { each.at(pixel, opaque_depth); })
+          return each.at(pixel, opaque_depth);
+        else
+          return each.at(pixel);
+      },
+      splat);
   // The negations also remove NaN, which only overflow can give.
   if (!(result.depth < opaque_depth) || !(result.alpha > 0) || !(result.order <= result.order))
     return {};

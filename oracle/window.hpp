@@ -55,4 +55,7 @@ class WindowInView {
   ImageBox box_;
 };
 
+/// Declared only: the class that splat_kernels.cpp uses for this kernel.
+WindowInView in_view(const TriangleWindows&);
+
 }  // namespace tureen::oracle

@@ -83,9 +83,12 @@ SplatDefect find_kernel_defect(const SplatKernel& kernel) {
   if (SplatDefect reason = find_size_defect(kernel, splats)) return reason;
   for (std::size_t i = 0; i < splats; ++i)
     if (SplatDefect reason = find_kernel_defect(kernel, i)) return reason;
-  const auto* densities = std::get_if<NeuralDensities>(&kernel);
-  if (densities && !std::isfinite(densities->omega)) return "omega is not finite";
-  return {};
+  SplatDefect result;
+  const auto check = [&](const char* name, float value) {
+    if (!std::isfinite(value)) result = std::string(name) + " is not finite";
+  };
+  std::visit([&](const auto& each) { for_each_constant(each, check); }, kernel);
+  return result;
 }
 
 SplatDefect find_splat_defect(const SplatColor& color, const SplatKernel& kernel,
@@ -111,18 +114,19 @@ std::size_t coefficients_per_splat(const SplatColor& color) {
   return std::size_t(harmonics::count(color.degree)) * (color.per_corner ? 3 : 1);
 }
 
-const std::array<NamedProfile, 8> named_profiles{{
+constexpr NamedProfile all_profiles[] = {
     {"3dgs", gaussians_3d},
     {"mip", {.low_pass = Profile::LowPass::mip, .min_center_depth = published_center_depth}},
     {"2dgs", gaussians_2d},
-    {"games", gaussians_3d},
+    {"games", gaussians_3d, "flat Gaussians"},
     // It traces rays.
     {"redisplats",
      {.projection = Profile::Projection::plane, .max_alpha = 1.0f, .stop_transmittance = 0.0f}},
     {"triangle-splatting", triangle_splatting},
     {"mesh-splatting", {.max_alpha = 0.999f, .min_center_depth = published_center_depth}},
-    {"splatnet", triangle_splatting},
-}};
+    {"splatnet", triangle_splatting, "neural densities"},
+};
+constinit const std::span<const NamedProfile> named_profiles(all_profiles);
 
 std::optional<SplatProfile> profile_named(std::string_view name) {
   for (const NamedProfile& each : named_profiles)
@@ -206,11 +210,9 @@ std::string describe(const Splats& splats) {
 }
 
 std::string_view profile_name(const SplatKernel& kernel, const SplatProfile& profile) {
-  const std::string_view name = name_of(profile);
-  if (std::holds_alternative<NeuralDensities>(kernel) && name == "triangle-splatting")
-    return "splatnet";
-  const auto* gaussians = std::get_if<Gaussians>(&kernel);
-  return gaussians && gaussians->flat && name == "3dgs" ? "games" : name;
+  for (const NamedProfile& each : named_profiles)
+    if (each.profile == profile && each.kernel == kernel_name(kernel)) return each.name;
+  return name_of(profile);
 }
 
 std::string_view profile_name(const Splats& splats) {

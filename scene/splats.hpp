@@ -6,7 +6,6 @@
 // Index i of the kernel is also splat i of the colour: never reorder one without the other.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -25,10 +24,17 @@ namespace tureen {
 
 using SplatKernel = std::variant<TriangleWindows, Gaussians, NeuralDensities>;
 
-/// Calls act(Column) for each array of the kernel, in the order of its file in kernels/.
+/// Calls act(Column) for each array that the kernel can have, in the order of its file in kernels/.
+template <MaybeConst<SplatKernel> Kernel>
+void for_each_possible_column(Kernel& kernel, auto&& act) {
+  std::visit([&](auto& each) { for_each_column(each, act); }, kernel);
+}
+/// The same for the arrays that it has.
 template <MaybeConst<SplatKernel> Kernel>
 void for_each_column(Kernel& kernel, auto&& act) {
-  std::visit([&](auto& each) { for_each_column(each, act); }, kernel);
+  for_each_possible_column(kernel, [&](const auto& column) {
+    if (!column.is_absent()) act(column);
+  });
 }
 
 /// Colour max(0, 1/2 + sum_i Y_i(d) c_i), where d is the unit direction from the eye to the splat's
@@ -92,10 +98,12 @@ inline constexpr double screen_variance = 0.5;
 struct NamedProfile {
   std::string_view name;  // in files and options
   SplatProfile profile;
+  /// kernel_name() of the splats that have this name rather than another one of an equal profile.
+  std::string_view kernel = {};
 };
 /// "3dgs", "mip", "2dgs", "games", "redisplats", "triangle-splatting", "mesh-splatting",
 /// "splatnet".
-extern const std::array<NamedProfile, 8> named_profiles;
+extern const std::span<const NamedProfile> named_profiles;
 /// The profile of this name, or nullopt.
 std::optional<SplatProfile> profile_named(std::string_view name);
 /// The first name of this profile, or "custom".

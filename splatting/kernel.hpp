@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "scene/splats.hpp"
 #include "splatting/image_view.hpp"
 #include "splatting/parameter_rows.hpp"
 #include "splatting/tiles/tile_lists.hpp"
@@ -12,6 +13,9 @@
 namespace tureen::splatting {
 
 struct TileHits;
+
+/// In Kernel::texel_rows: a value that is 0 for all splats.
+inline constexpr std::size_t no_row = ~std::size_t(0);
 
 /// The hot loops of a kernel, for the vectors of the processor, chosen at run time. `Kernel` is a
 /// struct of
@@ -23,6 +27,9 @@ struct TileHits;
 ///                drawn
 ///   list(entry, outline, splat, lists)    adds `splat` to all tiles where alpha reaches the
 ///                smallest at a pixel centre, and to few others
+///   shaders      the name of its shaders (runtime/splats/device_splats.cpp)
+///   texel_rows   the layout of a splat's texels on the device: the row of each component
+/// and the members of KernelOf.
 template <class Kernel>
 struct KernelFunctions {
   using Entry = typename Kernel::Entry;
@@ -39,6 +46,15 @@ struct KernelFunctions {
   void (*collect)(const ImageView& view, const ParameterRows& rows,
                   std::span<const std::uint32_t> order, std::span<const Entry> entries,
                   std::span<const std::uint32_t> tile, const TilePixels& pixels, TileHits& hits);
+};
+
+/// What a kernel draws: splats of a kernel of scene/kernels/, by profiles with this projection.
+template <class SceneKernel>
+struct KernelOf {
+  using Of = SceneKernel;
+  static constexpr auto projection = SplatProfile::Projection::ewa;
+  static constexpr std::size_t points = 1;  // whose mean is the centre; they are the first rows
+  static constexpr std::size_t colors = 1;
 };
 
 /// Kernel::Projected of `row_count` rows. `depth_row` has the view depth of each centre in layer

@@ -11,6 +11,7 @@ namespace tureen::splatting {
 void write_kernel_rows(const SplatKernel& kernel, std::size_t i, std::span<float> out) {
   auto next = out.begin();
   for_each_column(kernel, [&](const auto& column) {
+    if (column.role == ColumnRole::label) return;
     const std::span<const float> values = column.of_splat(i);
     next = std::copy(values.begin(), values.end(), next);
   });
@@ -21,10 +22,16 @@ void write_kernel_rows(const SplatKernel& kernel, std::size_t i, std::span<float
       out[row] *= densities->omega;
 }
 
+std::size_t kernel_rows(const SplatKernel& kernel) {
+  std::size_t rows = 0;
+  for_each_column(kernel, [&](const auto& column) {
+    if (column.role != ColumnRole::label) rows += column.of_splat(0).size();
+  });
+  return rows;
+}
+
 ParameterRows rows_of(const Splats& splats, std::span<const std::uint32_t> which, int degree) {
-  std::size_t of_kernel = 0;
-  for_each_column(splats.kernel,
-                  [&](const auto& column) { of_kernel += column.of_splat(0).size(); });
+  const std::size_t of_kernel = kernel_rows(splats.kernel);
   const SplatColor& color = splats.color;
   const std::size_t colors = color.per_corner ? 3 : 1, of_color = harmonics_rows(degree);
   const std::size_t stored = harmonics::count(color.degree);

@@ -36,18 +36,25 @@ bool has_nan(const Splats& splats, std::size_t i) {
                               [](const glm::vec3& each) { return glm::any(glm::isnan(each)); });
 }
 
-LayerKind kind_of(const Splats& splats, const SplatProfile& profile) {
-  if (std::holds_alternative<TriangleWindows>(splats.kernel))
-    return splats.color.per_corner ? LayerKind::corner_color_windows : LayerKind::windows;
-  if (std::holds_alternative<NeuralDensities>(splats.kernel)) return LayerKind::densities;
-  const bool on_plane = profile.projection == SplatProfile::Projection::plane;
-  return on_plane ? LayerKind::discs : LayerKind::gaussians;
-}
-
 template <class Kernel>
-std::unique_ptr<Layer> layer_of(LayerData&& data) {
-  return std::make_unique<KernelLayer<Kernel>>(std::move(data));
-}
+constexpr KernelFacts facts{Kernel::shaders,
+                            Kernel::texel_rows,
+                            Kernel::points,
+                            Kernel::colors,
+                            [](const Splats& splats, const SplatProfile& profile) {
+                              return std::holds_alternative<typename Kernel::Of>(splats.kernel) &&
+                                     profile.projection == Kernel::projection &&
+                                     splats.color.per_corner == (Kernel::colors > 1);
+                            },
+                            [](LayerData&& data) -> std::unique_ptr<Layer> {
+                              return std::make_unique<KernelLayer<Kernel>>(std::move(data));
+                            }};
+
+/// The kernels, by LayerKind.
+constexpr KernelFacts kernels[] = {
+    facts<WindowKernel>,   facts<CornerWindowKernel>, facts<DiscKernel>,
+    facts<GaussianKernel>, facts<NeuralKernel>,
+};
 
 }  // namespace
 
@@ -65,15 +72,17 @@ LayerData layer_data(const Splats& splats, const SplatProfile& profile,
   return {kind_of(splats, profile), degree, rows_of(splats, kept, degree)};
 }
 
+LayerKind kind_of(const Splats& splats, const SplatProfile& profile) {
+  const auto* found = std::find_if(std::begin(kernels), std::end(kernels),
+                                   [&](const auto& each) { return each.draws(splats, profile); });
+  assert(found != std::end(kernels));
+  return LayerKind(found - std::begin(kernels));
+}
+
+const KernelFacts& facts_of(LayerKind kind) { return kernels[kind]; }
+
 std::unique_ptr<Layer> make_layer(LayerData data) {
-  constexpr std::unique_ptr<Layer> (*makers[])(LayerData &&) = {
-      &layer_of<WindowKernel>,        // windows
-      &layer_of<CornerWindowKernel>,  // corner_color_windows
-      &layer_of<DiscKernel>,          // discs
-      &layer_of<GaussianKernel>,      // gaussians
-      &layer_of<NeuralKernel>,        // densities
-  };
-  return makers[std::size_t(data.kind)](std::move(data));
+  return facts_of(data.kind).make(std::move(data));
 }
 
 }  // namespace tureen::splatting

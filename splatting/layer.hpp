@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,13 +21,14 @@ namespace tureen::splatting {
 inline constexpr int place_bits = 24;
 inline constexpr std::uint32_t place_mask = (1u << place_bits) - 1;
 
-/// Kernels; discs and Gaussians are the projections of Gaussians by SplatProfile::projection.
-enum class LayerKind { windows, corner_color_windows, discs, gaussians, densities };
+/// The place of a kernel in the list of layer.cpp. Discs and Gaussians are the projections of
+/// Gaussians by SplatProfile::projection.
+using LayerKind = std::uint8_t;
 
-/// Everything that a layer is made from. The rows are those of window_row, gaussian_row or
-/// neural_row, by kind; `degree` is that of their harmonics.
+/// Everything that a layer is made from. The rows are those of the kernel's file; `degree` is that
+/// of their harmonics.
 struct LayerData {
-  LayerKind kind = LayerKind::windows;
+  LayerKind kind = 0;
   int degree = 0;
   ParameterRows rows;
 };
@@ -77,6 +79,19 @@ class Layer {
  private:
   LayerData data_;
 };
+
+/// Facts about a kernel, which stand in its struct (KernelFunctions, KernelOf).
+struct KernelFacts {
+  std::string_view shaders;
+  std::span<const std::size_t> texel_rows;
+  std::size_t points, colors;
+  bool (*draws)(const Splats& splats, const SplatProfile& profile);
+  std::unique_ptr<Layer> (*make)(LayerData&& data);
+};
+
+/// The kernel that draws the splats by this profile.
+LayerKind kind_of(const Splats& splats, const SplatProfile& profile);
+const KernelFacts& facts_of(LayerKind kind);
 
 /// Whether make_layer() supports the splats: at most place_mask.
 bool has_layer_for(const Splats& splats);

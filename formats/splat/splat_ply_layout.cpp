@@ -2,36 +2,41 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "formats/splat/splat_remarks.hpp"
 
 namespace tureen {
 
-namespace {
-
-/// All properties of a file of this layout, which are all required.
-PlySlots required_slots(const SplatPlyLayout& layout) {
+std::vector<SplatPlyProperty> splat_ply_properties(const SplatKernel& kernel, int scales,
+                                                   int degree) {
   namespace slot = splat_slot;
-  PlySlots slots{{"x", slot::center}, {"y", slot::center + 1}, {"z", slot::center + 2}};
-  add_slots(slots, "scale_", slot::scale, layout.scales);
-  add_slots(slots, "rot_", slot::rotation, 4);
-  add_slots(slots, "f_dc_", slot::color, 3);
-  for (int k = 0; k < 3 * (harmonics::count(layout.degree) - 1); ++k)
-    slots["f_rest_" + std::to_string(k)] = slot::color + 3 + place_of_rest(k, layout.degree);
-  if (opacity_of(layout.kernel)) {
-    slots["opacity"] = slot::opacity;
-    return slots;
-  }
+  std::vector<SplatPlyProperty> properties;
+  const auto add = [&](const char* prefix, int first, int count) {
+    for (int i = 0; i < count; ++i) properties.push_back({prefix + std::to_string(i), first + i});
+  };
+  for (const int axis : {0, 1, 2})
+    properties.push_back({std::string(1, "xyz"[axis]), slot::center + axis});
+  for (const char* normal : {"nx", "ny", "nz"}) properties.push_back({normal, slot::none});
+  add("f_dc_", slot::color, 3);
+  for (int k = 0; k < 3 * (harmonics::count(degree) - 1); ++k)
+    properties.push_back(
+        {"f_rest_" + std::to_string(k), slot::color + 3 + place_of_rest(k, degree)});
+  const bool has_opacity = opacity_of(kernel);
+  properties.push_back({"opacity", has_opacity ? slot::opacity : slot::none});
+  if (!has_opacity) properties.push_back({"opacity_volr", slot::none});
+  add("scale_", slot::scale, scales);
+  add("rot_", slot::rotation, 4);
+  if (has_opacity) return properties;
   constexpr int width = NeuralDensities::width;
   for (int k = 0; k < 3 * width; ++k)
-    slots["frequencies_" + std::to_string(k)] = slot::network + 3 * (k % width) + k / width;
-  add_slots(slots, "phases_", slot::network + 3 * width, width);
-  add_slots(slots, "amplitudes_", slot::network + 4 * width, width);
-  slots["offsets"] = slot::network + 5 * width;
-  return slots;
+    properties.push_back(
+        {"frequencies_" + std::to_string(k), slot::network + 3 * (k % width) + k / width});
+  add("phases_", slot::network + 3 * width, width);
+  add("amplitudes_", slot::network + 4 * width, width);
+  properties.push_back({"offsets", slot::network + 5 * width});
+  return properties;
 }
-
-}  // namespace
 
 void add_slots(PlySlots& slots, const char* prefix, int first, int count) {
   for (int i = 0; i < count; ++i) slots[prefix + std::to_string(i)] = first + i;
@@ -85,7 +90,10 @@ SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
     layout.scales = 2;
   }
   layout.degree = degree_of_rest(input, vertex, count_rest(vertex));
-  layout.slots = find_slots(input, vertex, required_slots(layout));
+  PlySlots required;
+  for (const auto& [name, slot] : splat_ply_properties(layout.kernel, layout.scales, layout.degree))
+    if (slot != splat_slot::none) required[name] = slot;
+  layout.slots = find_slots(input, vertex, std::move(required));
   return layout;
 }
 

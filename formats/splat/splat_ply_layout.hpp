@@ -42,6 +42,14 @@ inline constexpr int center = 0, opacity = 3, scale = 4, rotation = 7, color = 1
                      count = network + int(NeuralDensities::parameters), none = -1;
 }  // namespace splat_slot
 
+struct SplatPlyProperty {
+  std::string name;
+  int slot;  // or none, if readers need no such property and we write 0
+};
+/// The properties of the vertices, in the order of the authors' programs.
+std::vector<SplatPlyProperty> splat_ply_properties(const SplatKernel& kernel, int scales,
+                                                   int degree);
+
 struct SplatPlyLayout {
   SplatKernel kernel = Gaussians{};  // without splats
   int degree = 0;

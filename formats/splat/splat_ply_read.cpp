@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -64,12 +65,9 @@ class SplatPlyReader {
       const double* rgb = &row_[slot::color + 3 * i];
       coefficients[i] = {rgb[0], rgb[1], rgb[2]};
     }
-    std::array<float, NeuralDensities::parameters> parameters{};
-    const bool is_neural = std::holds_alternative<NeuralDensities>(layout.kernel);
-    for (std::size_t i = 0; is_neural && i < parameters.size(); ++i)
-      parameters[i] = static_cast<float>(row_[slot::network + i]);
-    builder.add(splat, std::span(coefficients).first(used),
-                std::span(parameters).first(is_neural ? parameters.size() : 0));
+    std::array<float, NeuralDensities::parameters> values;  // Gaussians ignore them
+    std::copy_n(&row_[slot::network], values.size(), values.begin());
+    builder.add(splat, std::span(coefficients).first(used), values);
   }
 
   bool has_doubles(const PlyElement& vertex, const SplatPlyLayout& layout) const {

@@ -25,7 +25,6 @@ inline constexpr std::uint32_t strip_texels = strip_width * strip_rows;
 inline constexpr const char* domains[] = {"face", "vertex"};
 inline constexpr const char* wraps[] = {"repeat", "mirror", "clamp"};
 inline constexpr const char* filters[] = {"nearest", "linear"};
-inline constexpr const char* splat_kernels[] = {"gaussian", "flat_gaussian", "neural_density"};
 inline constexpr const char* splat_projections[] = {"ewa", "plane"};
 inline constexpr const char* splat_low_passes[] = {"none", "dilation", "mip", "screen"};
 inline constexpr const char* colors[] = {"network", "harmonics", "base"};

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "scene/spherical_harmonics.hpp"
 #include "scene/splats.hpp"
@@ -41,9 +42,30 @@ nlohmann::json add_splats(BinaryPlan& plan, nlohmann::json& extension, const Spl
 /// "KHR_gaussian_splatting:SH_DEGREE_1_COEF_2". Degree 4 has the prefix of TUREEN_splats.
 std::string harmonics_attribute(int degree, int order);
 
-/// The key of an array: an attribute of the primitive, or for the role ColumnRole::value a key of
-/// TUREEN_splats.
-std::string column_key(ColumnRole role, const char* name);
+/// Kernels without splats, by their names in TUREEN_splats.
+struct StoredKernel {
+  const char* name;
+  SplatKernel kernel;
+};
+inline const StoredKernel stored_kernels[] = {
+    {"gaussian", Gaussians{}},
+    {"flat_gaussian", Gaussians{.flat = true}},
+    {"neural_density", NeuralDensities{}},
+};
+
+/// The attribute of a column with this role.
+std::string attribute_key(ColumnRole role);
+/// Whether KHR_gaussian_splatting has an attribute for the column. TUREEN_splats has the others.
+template <class Values>
+constexpr bool is_attribute(const Column<Values>& column) {
+  if (column.role == ColumnRole::scale)
+    return std::is_same_v<typename Values::value_type, glm::vec3>;
+  return column.role != ColumnRole::value && column.role != ColumnRole::label;
+}
+template <class Values>
+std::string column_key(const Column<Values>& column) {
+  return is_attribute(column) ? attribute_key(column.role) : plural(column.name);
+}
 
 SplatProfile read_splat_profile(const JsonView& view);
 

@@ -35,9 +35,9 @@ struct SplatLayout {
 
 /// The kernel that `ours` names.
 SplatKernel kernel_without_splats(const JsonView& ours) {
-  const std::size_t stored = ours["kernel"].one_of(splat_layout::splat_kernels);
-  if (stored == 2) return NeuralDensities{};
-  return Gaussians{.flat = stored == 1};
+  std::vector<const char*> names;
+  for (const StoredKernel& each : stored_kernels) names.push_back(each.name);
+  return stored_kernels[ours["kernel"].one_of(names)].kernel;
 }
 
 template <class Value>
@@ -57,10 +57,12 @@ SplatLayout splat_layout_of(const GlbArrays& arrays, const JsonView& node,
   const JsonView primitive = primitive_of(arrays, node), attributes = primitive["attributes"];
   const JsonView ours = ours_of(primitive);
   SplatLayout layout{.ours = ours, .kernel = kernel_without_splats(ours), .splats = splats};
-  for_each_column(layout.kernel, [&]<class Values>(const Column<Values>& column) {
-    layout.columns.push_back(arrays.location(column.role == ColumnRole::value ? ours : attributes,
-                                             column_key(column.role, column.name).c_str(),
-                                             column.per_splat * splats,
+  for_each_possible_column(layout.kernel, [&]<class Values>(const Column<Values>& column) {
+    const std::string key = column_key(column);
+    const JsonView& holder = is_attribute(column) ? attributes : ours;
+    const bool exists = column.role != ColumnRole::label || holder.find(key.c_str());
+    layout.columns.push_back(arrays.location(holder, key.c_str(),
+                                             exists ? column.per_splat * splats : 0,
                                              format_of<typename Values::value_type>));
   });
   const int degree = std::min(int(ours["degree"].natural(harmonics::max_degree)), max_degree);
@@ -75,13 +77,15 @@ SplatKernel read_kernel(GlbArrays& arrays, const SplatLayout& layout) {
   SplatKernel kernel = layout.kernel;
   auto location = layout.columns.begin();
   if (layout.splats > 0)
-    for_each_column(kernel, [&]<class Values>(const Column<Values>& column) {
-      const std::string key = column_key(column.role, column.name);
+    for_each_possible_column(kernel, [&]<class Values>(const Column<Values>& column) {
+      const std::string key = column_key(column);
       column.values = arrays.read_at<typename Values::value_type>(
           *location++, key.substr(key.find(':') + 1).c_str());
     });
-  if (auto* densities = std::get_if<NeuralDensities>(&kernel))
-    densities->omega = layout.ours["omega"].number_float();
+  const auto read = [&](const char* name, float& value) {
+    value = layout.ours[name].number_float();
+  };
+  std::visit([&](auto& each) { for_each_constant(each, read); }, kernel);
   return kernel;
 }
 

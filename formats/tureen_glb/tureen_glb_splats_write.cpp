@@ -1,7 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
@@ -17,9 +19,8 @@ std::string harmonics_attribute(int degree, int order) {
          std::to_string(order);
 }
 
-std::string column_key(ColumnRole role, const char* name) {
+std::string attribute_key(ColumnRole role) {
   if (role == ColumnRole::position) return "POSITION";
-  if (role == ColumnRole::value) return plural(name);
   const char* attribute = role == ColumnRole::scale      ? ":SCALE"
                           : role == ColumnRole::rotation ? ":ROTATION"
                                                          : ":OPACITY";
@@ -38,46 +39,46 @@ constexpr const BinaryPlan::Format& format_of = sizeof(Value) == sizeof(glm::qua
                                                 : sizeof(Value) == sizeof(glm::vec3) ? vec3_float
                                                                                      : scalar_float;
 
-/// KHR_gaussian_splatting requires an opacity. Viewers without our kernel use that of a sphere
-/// with the constant part of the density, along its diameter of 2.
-std::vector<float> mean_opacity(const NeuralDensities& densities) {
-  std::vector<float> opacity(densities.centers.size());
-  for (std::size_t i = 0; i < opacity.size(); ++i) {
-    const float constant =
-        densities.networks[NeuralDensities::parameters * i + NeuralDensities::parameters - 1];
-    opacity[i] = static_cast<float>(1.0 - std::exp(-2.0 * std::max(double(constant), 0.0)));
-  }
+/// KHR_gaussian_splatting requires an opacity, also of a kernel without.
+std::vector<float> plain_opacities(const SplatKernel& kernel) {
+  std::vector<float> opacity(count(kernel));
+  std::visit(
+      [&](const auto& each) {
+        if constexpr (requires { plain_opacity(each, 0); })
+          for (std::size_t i = 0; i < opacity.size(); ++i) opacity[i] = plain_opacity(each, i);
+      },
+      kernel);
   return opacity;
 }
 
 /// Adds the arrays of a primitive of points. `ours` is TUREEN_splats.
 void add_columns(BinaryPlan& plan, json& attributes, json& ours, const SplatKernel& kernel) {
+  bool lacks_opacity = !opacity_of(kernel);
   for_each_column(kernel, [&]<class Values>(const Column<Values>& column) {
     using Value = typename Values::value_type;
-    const std::string key = column_key(column.role, column.name);
-    if (column.role == ColumnRole::value)
-      if (const auto* densities = std::get_if<NeuralDensities>(&kernel)) {
-        plan.owned_accessor(attributes, column_key(ColumnRole::opacity, "").c_str(),
-                            mean_opacity(*densities), scalar_float);
-        ours["omega"] = densities->omega;
-      }
-    plan.accessor(column.role == ColumnRole::value ? ours : attributes, key.c_str(),
-                  bytes_of(column.values), format_of<Value>);
+    const std::string key = column_key(column);
+    if (!is_attribute(column) && std::exchange(lacks_opacity, false))
+      plan.owned_accessor(attributes, attribute_key(ColumnRole::opacity).c_str(),
+                          plain_opacities(kernel), scalar_float);
+    plan.accessor(is_attribute(column) ? attributes : ours, key.c_str(), bytes_of(column.values),
+                  format_of<Value>);
     if constexpr (std::is_same_v<Value, glm::vec3>)
       if (column.role == ColumnRole::position && !column.values.empty())
         add_range(plan.accessors[attributes[key].template get<std::size_t>()], column.values);
   });
+  const auto add = [&](const char* name, float value) { ours[name] = value; };
+  std::visit([&](const auto& each) { for_each_constant(each, add); }, kernel);
 }
 
 /// The colours for other viewers: the constant part of the harmonics, and the opacity.
 std::vector<glm::u16vec4> point_colors(const Splats& splats) {
-  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  const std::vector<float>* opacity = opacity_of(splats.kernel);
   const std::size_t stride = harmonics::count(splats.color.degree);
   std::vector<glm::u16vec4> colors(count(splats));
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const glm::vec3 constant = 0.5f + float(harmonics::y00) * splats.color.coefficients[stride * i];
-    colors[i] = linear_unorm16(glm::clamp(constant, 0.0f, 1.0f),
-                               gaussians ? double(gaussians->opacity[i]) : 1.0);
+    colors[i] =
+        linear_unorm16(glm::clamp(constant, 0.0f, 1.0f), opacity ? double((*opacity)[i]) : 1.0);
   }
   return colors;
 }
@@ -97,8 +98,10 @@ void add_coefficients(BinaryPlan& plan, json& attributes, const SplatColor& colo
 }
 
 const char* stored_kernel(const SplatKernel& kernel) {
-  const auto* gaussians = std::get_if<Gaussians>(&kernel);
-  return layout::splat_kernels[!gaussians ? 2 : gaussians->flat ? 1 : 0];
+  const std::string_view name = kernel_name(kernel);
+  return std::find_if(std::begin(stored_kernels), std::end(stored_kernels),
+                      [&](const StoredKernel& each) { return kernel_name(each.kernel) == name; })
+      ->name;
 }
 
 }  // namespace

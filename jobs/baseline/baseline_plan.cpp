@@ -54,7 +54,8 @@ RenderPlan make_baseline_plan(const Splats& splats, const PlanPreferences& prefe
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   SplatPlan layer =
       make_splat_plan(splats, {.specialise = false, .profile = preferences.splat_profile});
-  if (layer.shaders != SplatShaders::windows && layer.shaders != SplatShaders::gaussians)
+  const std::string_view shaders = splatting::facts_of(layer.kind).shaders;
+  if (shaders != "windows" && shaders != "gaussians")
     throw UsageError(
         "the baseline supports triangle windows, and Gaussians by EWA splatting; this scene has " +
         layer.kernel);

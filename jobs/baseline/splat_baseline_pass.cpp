@@ -14,7 +14,7 @@ namespace tureen {
 namespace {
 
 gl::Program program_of(const SplatPlan& plan, const TexelLayout& layout, gl::Api api) {
-  const bool windows = plan.shaders == SplatShaders::windows;
+  const bool windows = splatting::facts_of(plan.kind).shaders == "windows";
   const bool keeps = plan.profile.low_pass == SplatProfile::LowPass::mip;
   return gl::Program(
       assemble({.file = windows ? "baseline_windows.vert" : "baseline_gaussians.vert",

@@ -14,13 +14,6 @@ namespace tureen {
 
 namespace {
 
-SplatShaders shaders_of(const SplatKernel& kernel, const SplatProfile& profile) {
-  if (std::holds_alternative<TriangleWindows>(kernel)) return SplatShaders::windows;
-  if (std::holds_alternative<NeuralDensities>(kernel)) return SplatShaders::neural_density;
-  return profile.projection == SplatProfile::Projection::plane ? SplatShaders::discs
-                                                               : SplatShaders::gaussians;
-}
-
 /// SplatPlan::largest_color. The squares of the functions of band l add up to (2 l + 1) / (4 pi) in
 /// every direction, which bounds the band by Cauchy's inequality.
 float largest_color(const SplatColor& color, std::span<const std::uint32_t> drawn, int degree) {
@@ -69,7 +62,7 @@ SplatPlan make_splat_plan(const Splats& splats, const SplatPreferences& preferen
   plan.profile = preferences.profile.value_or(splats.profile);
   if (const auto reason = profile_defect(splats.kernel, plan.profile))
     throw UsageError("the splats cannot be drawn by this profile: " + *reason);
-  plan.shaders = shaders_of(splats.kernel, plan.profile);
+  plan.kind = splatting::kind_of(splats, plan.profile);
   plan.as_published = preferences.as_published;
   plan.kernel = std::string(kernel_name(splats.kernel)) + ", profile " +
                 std::string(profile_name(splats.kernel, plan.profile)) +

@@ -11,16 +11,9 @@
 #include "runtime/plan/specialisation.hpp"
 #include "scene/quality.hpp"
 #include "scene/splats.hpp"
+#include "splatting/layer.hpp"
 
 namespace tureen {
-
-/// The shaders that draw a kernel.
-enum class SplatShaders {
-  windows,         // TriangleWindows
-  gaussians,       // Gaussians by EWA, flat or not
-  discs,           // flat Gaussians on their plane
-  neural_density,  // NeuralDensities
-};
 
 /// The way to blend splats.
 enum class SplatBlending {
@@ -44,7 +37,7 @@ inline constexpr std::size_t splats_per_chunk = 65'536;
 
 /// The method of drawing one layer of splats.
 struct SplatPlan {
-  SplatShaders shaders = SplatShaders::windows;
+  splatting::LayerKind kind = 0;
   SplatProfile profile;
   /// Whether splats are also culled by the rules of the authors' code that depend on the resolution
   /// (oracle/published_culls.hpp states them).

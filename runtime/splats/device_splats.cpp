@@ -26,37 +26,31 @@ std::string constant(double value) {
   return text;
 }
 
-struct Files {
-  const char *projection, *vertex, *fragment;
+/// shaders/splats/splat_project_NAME.glsl, splat_NAME.vert and splat_NAME.frag.
+struct Shaders {
+  std::string_view name;
+  /// DeviceSplats::tests_depth().
+  bool test_depth = false;
   /// Samplers of the further targets of splat_project.frag, from location 1 on.
-  std::vector<const char*> projected;
+  std::vector<const char*> projected = {};
 };
 
-Files files_of(SplatShaders shaders) {
-  switch (shaders) {
-    case SplatShaders::windows:
-      return {"splat_project_windows.glsl", "splat_windows.vert", "splat_windows.frag", {}};
-    case SplatShaders::gaussians:
-      return {"splat_project_gaussians.glsl",
-              "splat_gaussians.vert",
-              "splat_gaussians.frag",
-              {"places", "axes_of_splats"}};
-    case SplatShaders::discs:
-      return {"splat_project_discs.glsl",
-              "splat_discs.vert",
-              "splat_discs.frag",
-              {"planes_xy", "planes_w", "places"}};
-    case SplatShaders::neural_density:
-      return {"splat_project_neural.glsl", "splat_neural.vert", "splat_neural.frag", {}};
-  }
-  assert(!"a kind of splats without shaders");
-  return {};
+const Shaders& shaders_of(splatting::LayerKind kind) {
+  static const Shaders all[] = {
+      {"windows"},
+      {"gaussians", false, {"places", "axes_of_splats"}},
+      {"discs", true, {"planes_xy", "planes_w", "places"}},
+      {"neural", true},
+  };
+  return *std::find_if(std::begin(all), std::end(all), [&](const Shaders& each) {
+    return each.name == splatting::facts_of(kind).shaders;
+  });
 }
 
 }  // namespace
 
 std::size_t projected_bytes(const SplatPlan& plan) {
-  return (1 + files_of(plan.shaders).projected.size()) * std::size_t(plan.colors_per_splat) *
+  return (1 + shaders_of(plan.kind).projected.size()) * std::size_t(plan.colors_per_splat) *
          projected_format.bytes;
 }
 
@@ -64,15 +58,12 @@ std::size_t DeviceSplats::projected_rows() const {
   return (projected_texels() + projected_columns - 1) / projected_columns;
 }
 
-bool DeviceSplats::tests_depth() const {
-  return shaders_ == SplatShaders::discs || shaders_ == SplatShaders::neural_density;
-}
+bool DeviceSplats::tests_depth() const { return shaders_of(kind_).test_depth; }
 
-/// REdiSplats traces rays. The tiles of Splat the Net are larger than its splats.
+/// Methods that trace rays have none: REdiSplats, and Splat the Net, whose tiles are larger than
+/// its splats.
 bool DeviceSplats::has_published_culls() const {
-  if (shaders_ == SplatShaders::discs)
-    return as_published_ && profile_.low_pass == SplatProfile::LowPass::screen;
-  return as_published_ && shaders_ != SplatShaders::neural_density;
+  return as_published_ && (profile_.low_pass == SplatProfile::LowPass::screen || !tests_depth());
 }
 
 DeviceSplats::Constants DeviceSplats::constants() const {
@@ -81,7 +72,7 @@ DeviceSplats::Constants DeviceSplats::constants() const {
       low_pass == SplatProfile::LowPass::dilation || low_pass == SplatProfile::LowPass::mip;
   return {{"TEXEL_ROW_BITS", std::to_string(layout_.row_bits)},
           {"TEXEL_LAYER_BITS", std::to_string(layout_.layer_bits)},
-          {"KERNEL_TEXELS", std::to_string(kernel_texels(shaders_))},
+          {"KERNEL_TEXELS", std::to_string(splatting::facts_of(kind_).texel_rows.size() / 4)},
           {"HARMONICS_DEGREE", std::to_string(harmonics_degree_)},
           {"COLORS_PER_SPLAT", std::to_string(colors_per_splat_)},
           {"PROJECTED_COLUMNS", std::to_string(projected_columns)},
@@ -99,7 +90,7 @@ DeviceSplats::Constants DeviceSplats::constants() const {
 
 DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
                            const SplatPlan& plan)
-    : shaders_(plan.shaders),
+    : kind_(plan.kind),
       profile_(plan.profile),
       as_published_(plan.as_published),
       harmonics_degree_(plan.harmonics_degree),
@@ -116,13 +107,13 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
     throw DeviceLimitError(
         "splats need textures of floats as targets (EXT_color_buffer_float), which this device "
         "lacks");
-  const Files files = files_of(shaders_);
-  projection_ =
-      full_screen_program({.file = "splat_project.frag",
-                           .constants = constants(),
-                           .generated = {{"splat_project_kernel.glsl",
-                                          "#include \"" + std::string(files.projection) + "\"\n"}}},
-                          device.api);
+  const Shaders& shaders = shaders_of(kind_);
+  projection_ = full_screen_program(
+      {.file = "splat_project.frag",
+       .constants = constants(),
+       .generated = {{"splat_project_kernel.glsl",
+                      "#include \"splat_project_" + std::string(shaders.name) + ".glsl\"\n"}}},
+      device.api);
   drawings_[std::size_t(SplatOutput::color)] = make_program(SplatOutput::color);
   const auto rows = static_cast<int>(projected_rows());
   if (rows > device.max_texture_size)
@@ -131,13 +122,13 @@ DeviceSplats::DeviceSplats(const gl::Capabilities& device, SplatSource source,
             std::to_string(std::size_t(device.max_texture_size) * std::size_t(projected_columns) /
                            std::size_t(colors_per_splat_)),
         "read fewer splats: --max-splats N");
-  for (std::size_t i = 0; i < 1 + files.projected.size(); ++i)
+  for (std::size_t i = 0; i < 1 + shaders.projected.size(); ++i)
     projected_.push_back(make_target(projected_format, projected_columns, std::max(rows, 1)));
   gl::check("DeviceSplats");
 }
 
 gl::Program DeviceSplats::make_program(SplatOutput output) const {
-  const Files files = files_of(shaders_);
+  const Shaders& shaders = shaders_of(kind_);
   Constants with_output = constants();
   constexpr const char* names[splat_outputs] = {"OUTPUT_COLOR",    "OUTPUT_SUMS",
                                                 "OUTPUT_PREFIXES", "OUTPUT_DEPTH_FOUND",
@@ -148,8 +139,11 @@ gl::Program DeviceSplats::make_program(SplatOutput output) const {
       output == SplatOutput::color || output == SplatOutput::sample ? "0" : "1";
   with_output["HIDDEN_TILE_SIDE"] = std::to_string(HiddenTiles::side);
   with_output["HIDDEN_LEVELS"] = std::to_string(HiddenTiles::levels);
-  return gl::Program(assemble({.file = files.vertex, .constants = with_output}, device_.api),
-                     assemble({.file = files.fragment, .constants = with_output}, device_.api));
+  const auto stage = [&](const char* extension) {
+    const std::string file = "splat_" + std::string(shaders.name) + extension;
+    return assemble({.file = file, .constants = with_output}, device_.api);
+  };
+  return gl::Program(stage(".vert"), stage(".frag"));
 }
 
 void DeviceSplats::project(const Frame& frame, float color_unit) {
@@ -200,7 +194,7 @@ void DeviceSplats::begin_runs(const Frame& frame, const FrameTarget& target, GLu
   program.set_texture("kernel", 1, kernel_.texture(), GL_TEXTURE_2D_ARRAY);
   program.set_texture("colors", 2, projected_[0].id());
   int unit = 3;
-  for (const char* name : files_of(shaders_).projected) {
+  for (const char* name : shaders_of(kind_).projected) {
     program.set_texture(name, unit, projected_[std::size_t(unit - 2)].id());
     ++unit;
   }

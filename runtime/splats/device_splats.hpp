@@ -46,7 +46,7 @@ class DeviceSplats {
   /// Columns of the texture with the order of the splats: ORDER_COLUMNS.
   static constexpr int order_columns = 2048;
 
-  /// Uploads; of the plan, only `shaders`, `profile`, `as_published`, `harmonics_degree`,
+  /// Uploads; of the plan, only `kind`, `profile`, `as_published`, `harmonics_degree`,
   /// `colors_per_splat`, `largest_color`, `applied`, `chunks` and the number of drawn splats are
   /// used. The source's texels are not needed afterwards. Throws DeviceLimitError.
   DeviceSplats(const gl::Capabilities& device, SplatSource source, const SplatPlan& plan);
@@ -95,7 +95,7 @@ class DeviceSplats {
   std::size_t projected_texels() const { return centers_.size() * std::size_t(colors_per_splat_); }
   std::size_t projected_rows() const;
 
-  SplatShaders shaders_;
+  splatting::LayerKind kind_;
   SplatProfile profile_;
   bool as_published_;
   int harmonics_degree_, colors_per_splat_;

@@ -1,7 +1,6 @@
 #include "runtime/splats/splat_source.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstring>
 #include <glm/vec4.hpp>
@@ -11,82 +10,22 @@
 
 #include "base/error.hpp"
 #include "scene/spherical_harmonics.hpp"
-#include "splatting/gaussians/gaussian_kernels.hpp"
+#include "splatting/kernel.hpp"
 #include "splatting/kernel_rows.hpp"
-#include "splatting/neural/neural_kernels.hpp"
-#include "splatting/windows/window_kernels.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// Kernels, by the rows of their layers.
-enum class RowsOf { windows, gaussians, densities };
-
-RowsOf rows_of(SplatShaders shaders) {
-  if (shaders == SplatShaders::windows) return RowsOf::windows;
-  return shaders == SplatShaders::neural_density ? RowsOf::densities : RowsOf::gaussians;
-}
-
-RowsOf rows_of(splatting::LayerKind kind) {
-  using Kind = splatting::LayerKind;
-  if (kind == Kind::windows || kind == Kind::corner_color_windows) return RowsOf::windows;
-  return kind == Kind::densities ? RowsOf::densities : RowsOf::gaussians;
-}
-
-/// Where a value that is 0 for all splats is read.
-constexpr std::size_t no_row = ~std::size_t(0);
-
-/// The layout of a splat's kernel texels: the row of each component.
-std::vector<std::size_t> kernel_rows(RowsOf kernel) {
-  namespace window = splatting::window_row;
-  namespace gaussian = splatting::gaussian_row;
-  namespace neural = splatting::neural_row;
-  std::vector<std::size_t> rows;
-  const auto add = [&](std::size_t first, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) rows.push_back(first + k);
-  };
-  switch (kernel) {
-    case RowsOf::windows:
-      add(window::corners, 3);
-      rows.push_back(window::sigma);
-      add(window::corners + 3, 3);
-      rows.push_back(window::opacity);
-      add(window::corners + 6, 3);
-      rows.push_back(no_row);
-      break;
-    case RowsOf::gaussians:
-      add(gaussian::x, 3);
-      rows.push_back(gaussian::opacity);
-      add(gaussian::scale_x, 3);
-      rows.push_back(no_row);
-      add(gaussian::rotation_x, 4);
-      break;
-    case RowsOf::densities:
-      add(neural::center, 3);
-      rows.push_back(no_row);
-      add(neural::semi_axes, 3);
-      rows.push_back(neural::offset);
-      add(neural::rotation, 4);
-      for (std::size_t k = 0; k < NeuralDensities::width; ++k) {
-        add(neural::frequencies + 3 * k, 3);
-        rows.push_back(neural::phases + k);
-      }
-      add(neural::amplitudes, NeuralDensities::width);
-      break;
-  }
-  return rows;
-}
-
 TexelSource kernel_source(const Splats& splats, const SplatPlan& plan) {
-  std::vector<std::size_t> rows = kernel_rows(rows_of(plan.shaders));
+  const std::span<const std::size_t> rows = splatting::facts_of(plan.kind).texel_rows;
   const std::uint32_t* drawn = plan.drawn.data();  // stays when the plan is moved
   return {.format = texel_formats::rgba32f,
           .count = rows.size() / 4 * plan.drawn.size(),
           .what = "splats",
-          .fill = [&kernel = splats.kernel, drawn, rows = std::move(rows)](
-                      std::uint64_t first, std::span<std::byte> out) {
-            std::array<float, splatting::neural_row::harmonics> values{};  // the longest
+          .fill = [&kernel = splats.kernel, drawn, rows](std::uint64_t first,
+                                                         std::span<std::byte> out) {
+            std::vector<float> values(splatting::kernel_rows(kernel));
             std::uint64_t written = ~std::uint64_t(0);
             const std::size_t each = rows.size() / 4;
             for (std::size_t at = 0; at < out.size(); at += sizeof(glm::vec4), ++first) {
@@ -96,7 +35,7 @@ TexelSource kernel_source(const Splats& splats, const SplatPlan& plan) {
               glm::vec4 texel;
               for (int k = 0; k < 4; ++k) {
                 const std::size_t row = rows[first % each * 4 + std::size_t(k)];
-                texel[k] = row == no_row ? 0.0f : values[row];
+                texel[k] = row == splatting::no_row ? 0.0f : values[row];
               }
               std::memcpy(&out[at], &texel, sizeof texel);
             }
@@ -132,25 +71,23 @@ TexelSource row_source(const splatting::ParameterRows& values, std::vector<std::
             std::uint64_t at = first * components;
             for (std::size_t i = 0; i < out.size(); i += sizeof(float), ++at) {
               const std::size_t row = rows[at % rows.size()];
-              const float value = row == no_row ? 0.0f : values.row(row)[at / rows.size()];
+              const float value =
+                  row == splatting::no_row ? 0.0f : values.row(row)[at / rows.size()];
               std::memcpy(&out[i], &value, sizeof value);
             }
           }};
 }
 
-/// The centre of splat `i`: the first rows of every kernel have points.
+/// The centre of splat `i`: the mean of its points.
 glm::vec3 center(const splatting::LayerData& layer, std::size_t i) {
-  const auto point = [&](std::size_t row) {
-    return glm::dvec3(layer.rows.row(row)[i], layer.rows.row(row + 1)[i],
-                      layer.rows.row(row + 2)[i]);
-  };
-  if (rows_of(layer.kind) != RowsOf::windows) return point(0);
-  return (point(0) + point(3) + point(6)) / 3.0;
+  const std::size_t points = splatting::facts_of(layer.kind).points;
+  glm::dvec3 sum(0.0);
+  for (std::size_t row = 0; row < 3 * points; ++row)
+    sum[int(row % 3)] += double(layer.rows.row(row)[i]);
+  return sum / double(points);
 }
 
 }  // namespace
-
-int kernel_texels(SplatShaders shaders) { return int(kernel_rows(rows_of(shaders)).size() / 4); }
 
 SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const TexelLayout& layout) {
   SplatSource source;
@@ -163,12 +100,12 @@ SplatSource prepare_splats(const Splats& splats, const SplatPlan& plan, const Te
 }
 
 SplatSource prepare_splats(const splatting::LayerData& layer, const TexelLayout& layout) {
-  const std::size_t colors = layer.kind == splatting::LayerKind::corner_color_windows ? 3 : 1;
-  std::vector<std::size_t> harmonics(colors * splatting::harmonics_rows(layer.degree));
+  const splatting::KernelFacts& facts = splatting::facts_of(layer.kind);
+  std::vector<std::size_t> harmonics(facts.colors * splatting::harmonics_rows(layer.degree));
   std::iota(harmonics.begin(), harmonics.end(), layer.rows.rows() - harmonics.size());
   SplatSource source;
-  source.kernel =
-      row_source(layer.rows, kernel_rows(rows_of(layer.kind)), texel_formats::rgba32f, "splats");
+  source.kernel = row_source(layer.rows, {facts.texel_rows.begin(), facts.texel_rows.end()},
+                             texel_formats::rgba32f, "splats");
   source.coefficients =
       row_source(layer.rows, std::move(harmonics), texel_formats::rgb32f, "harmonics");
   source.layout = layout.fitted(std::max(source.kernel.count, source.coefficients.count));

@@ -11,13 +11,9 @@
 
 namespace tureen {
 
-/// Texels per splat in the store `kernel`: KERNEL_TEXELS of
-/// shaders/splats/splat_kernel_texels.glsl.
-int kernel_texels(SplatShaders shaders);
-
 struct SplatSource {
   TexelLayout layout;              // of both stores
-  TexelSource kernel;              // kernel_texels() RGBA texels a drawn splat
+  TexelSource kernel;              // texel_rows / 4 RGBA texels a drawn splat
   TexelSource coefficients;        // harmonics::count(degree) RGB texels a colour of a drawn splat
   std::vector<glm::vec3> centers;  // of the drawn splats, in layer coordinates
 };

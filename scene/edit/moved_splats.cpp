@@ -57,15 +57,6 @@ class HarmonicsMap {
   std::array<std::array<double, 25>, 25> to_{};
 };
 
-void turn_networks(NeuralDensities& densities, const glm::dmat3& turn) {
-  for (std::size_t i = 0; i < densities.networks.size(); i += NeuralDensities::parameters)
-    for (std::size_t k = i; k < i + 3 * std::size_t(NeuralDensities::width); k += 3) {
-      float* w = &densities.networks[k];
-      const glm::vec3 moved(turn * glm::dvec3(w[0], w[1], w[2]));
-      for (int axis = 0; axis < 3; ++axis) w[axis] = moved[axis];
-    }
-}
-
 }  // namespace
 
 void move_splats(Splats& splats, const glm::dmat4& place) {
@@ -83,10 +74,10 @@ void move_splats(Splats& splats, const glm::dmat4& place) {
           value = glm::vec3(scale * glm::dvec3(value));
         else
           value = glm::vec3(place * glm::dvec4(glm::dvec3(value), 1));
-      }
+      } else if (column.role == ColumnRole::scale)
+        value = float(scale * double(value));
   });
-  if (auto* densities = std::get_if<NeuralDensities>(&splats.kernel))
-    turn_networks(*densities, turn);
+  std::visit([&](auto& kernel) { turn_values(kernel, turn); }, splats.kernel);
   splats.profile.min_center_depth *= float(scale);
   if (splats.color.degree == 0) return;
   const HarmonicsMap map(turn, splats.color.degree);

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstddef>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
@@ -19,8 +20,9 @@
 namespace tureen {
 
 /// `position` and `corner` are points, `scale` lengths along the local axes of `rotation`. A
-/// rotation is its quaternion's x, y, z, w. Other data are `value`s.
-enum class ColumnRole { position, corner, scale, rotation, opacity, value };
+/// rotation is its quaternion's x, y, z, w. Other data are `value`s. A `label` is carried along,
+/// but no renderer reads it; its array may be empty.
+enum class ColumnRole { position, corner, scale, rotation, opacity, value, label };
 
 /// `unit_length` is for quaternions.
 enum class ColumnRange { finite, positive, not_negative, fraction, unit_length };
@@ -34,6 +36,7 @@ struct Column {
   ColumnRole role;
   ColumnRange range;
 
+  bool is_absent() const { return role == ColumnRole::label && values.empty(); }
   /// The values of splat `i`. They are only floats: glm::vec3 and glm::quat have no padding.
   std::span<const float> of_splat(std::size_t i) const {
     return {reinterpret_cast<const float*>(values.data() + per_splat * i),
@@ -43,6 +46,14 @@ struct Column {
 
 template <class Values>
 Column(Values&, const char*, std::size_t, ColumnRole, ColumnRange) -> Column<Values>;
+
+/// Calls act(name, value) for each number that all splats of a kernel share. The file of a kernel
+/// with such numbers overloads it, and likewise turn_values().
+void for_each_constant(auto& /*kernel*/, auto&& /*act*/) {}
+
+/// Turns the values of a kernel that are vectors, as `turn`, orthogonal, turns the splats. The
+/// columns of other roles are turned already.
+void turn_values(auto& /*kernel*/, const glm::dmat3& /*turn*/) {}
 
 /// The plural of a column's name: "scales", "opacities", "semi-axes".
 std::string plural(std::string name);

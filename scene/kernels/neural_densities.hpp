@@ -1,6 +1,9 @@
 // Neural densities: ellipsoids with a small network each.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/kernels/column.hpp"
 
 namespace tureen {
@@ -27,6 +30,28 @@ void for_each_column(Kernel& kernel, auto&& act) {
   act(Column{kernel.rotations, "rotation", 1, ColumnRole::rotation, ColumnRange::unit_length});
   act(Column{kernel.networks, "network", NeuralDensities::parameters, ColumnRole::value,
              ColumnRange::finite});
+}
+
+template <MaybeConst<NeuralDensities> Kernel>
+void for_each_constant(Kernel& kernel, auto&& act) {
+  act("omega", kernel.omega);
+}
+
+/// The frequencies are vectors in layer coordinates.
+inline void turn_values(NeuralDensities& densities, const glm::dmat3& turn) {
+  for (std::size_t i = 0; i < densities.networks.size(); i += NeuralDensities::parameters)
+    for (std::size_t k = i; k < i + 3 * std::size_t(NeuralDensities::width); k += 3) {
+      float* w = &densities.networks[k];
+      const glm::vec3 moved(turn * glm::dvec3(w[0], w[1], w[2]));
+      for (int axis = 0; axis < 3; ++axis) w[axis] = moved[axis];
+    }
+}
+
+/// The opacity of splat `i` for programs without this kernel: that of a sphere with the constant
+/// part of the density, along its diameter of 2.
+inline float plain_opacity(const NeuralDensities& densities, std::size_t i) {
+  const float constant = densities.networks[NeuralDensities::parameters * (i + 1) - 1];
+  return static_cast<float>(1.0 - std::exp(-2.0 * std::max(double(constant), 0.0)));
 }
 
 // One splat, for splats.hpp, splat_limit.hpp and lint.hpp.

@@ -1,4 +1,4 @@
-// The stored values of splats: KERNEL_TEXELS texels each (runtime/splats/splat_source.cpp).
+// The stored values of splats: KERNEL_TEXELS texels each (texel_rows in splatting/).
 #include "texel_store.glsl"
 
 uniform sampler2DArray kernel;

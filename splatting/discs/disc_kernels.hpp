@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "splatting/gaussians/gaussian_kernels.hpp"
 #include "splatting/kernel.hpp"
 
 namespace tureen::splatting {
@@ -45,7 +46,10 @@ struct alignas(64) DiscEntry {
 };
 
 /// See KernelFunctions. The rows are those of gaussian_row.
-struct DiscKernel {
+struct DiscKernel : KernelOf<Gaussians> {
+  static constexpr const char shaders[] = "discs";
+  static constexpr const auto& texel_rows = GaussianKernel::texel_rows;
+  static constexpr auto projection = SplatProfile::Projection::plane;
   using Entry = DiscEntry;
   using Outline = Box;
   using Projected = ProjectedRows<projected_disc_row::count, projected_disc_row::depth>;

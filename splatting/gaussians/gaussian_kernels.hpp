@@ -53,7 +53,11 @@ struct ProjectedGaussians {
 };
 
 /// See KernelFunctions.
-struct GaussianKernel {
+struct GaussianKernel : KernelOf<Gaussians> {
+  static constexpr const char shaders[] = "gaussians";
+  /// The centre with the opacity, the scales, the rotation.
+  static constexpr std::size_t texel_rows[] = {0, 1, 2, gaussian_row::opacity, 3, 4, 5, no_row, 6,
+                                               7, 8, 9};
   using Entry = GaussianEntry;
   struct Outline {};  // the entry has it
   using Projected = ProjectedGaussians;

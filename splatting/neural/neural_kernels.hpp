@@ -2,11 +2,11 @@
 // processor, chosen at run time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "scene/splats.hpp"
 #include "splatting/ellipse.hpp"
 #include "splatting/kernel.hpp"
 
@@ -27,6 +27,17 @@ enum : std::size_t {
   harmonics
 };
 }
+
+/// The centre, the semi-axes with the offset, the rotation; then the frequencies of each neuron
+/// with its phase, and the amplitudes.
+inline constexpr auto neural_texel_rows = [] {
+  namespace row = neural_row;
+  std::array<std::size_t, 12 + 5 * neurons> rows{0, 1, 2, no_row, 3, 4, 5, row::offset, 6, 7, 8, 9};
+  for (std::size_t k = 0; k < 4 * neurons; ++k)
+    rows[12 + k] = k % 4 < 3 ? row::frequencies + k / 4 * 3 + k % 4 : row::phases + k / 4;
+  for (std::size_t k = 0; k < neurons; ++k) rows[12 + 4 * neurons + k] = row::amplitudes + k;
+  return rows;
+}();
 
 /// Rows of projected neural densities: first the members of NeuralEntry, in their order.
 namespace projected_neural_row {
@@ -64,7 +75,9 @@ struct alignas(64) NeuralEntry {
 };
 
 /// See KernelFunctions. x of an outline is NaN if the splat may cover any pixel.
-struct NeuralKernel {
+struct NeuralKernel : KernelOf<NeuralDensities> {
+  static constexpr const char shaders[] = "neural";
+  static constexpr const auto& texel_rows = neural_texel_rows;
   using Entry = NeuralEntry;
   using Outline = Ellipse;
   using Projected = ProjectedRows<projected_neural_row::count, projected_neural_row::depth>;

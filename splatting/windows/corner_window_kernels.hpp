@@ -29,7 +29,10 @@ struct alignas(16) CornerWindowEntry : WindowShape {
 };
 
 /// See KernelFunctions.
-struct CornerWindowKernel {
+struct CornerWindowKernel : KernelOf<TriangleWindows> {
+  static constexpr const auto& shaders = WindowKernel::shaders;
+  static constexpr const auto& texel_rows = WindowKernel::texel_rows;
+  static constexpr std::size_t points = 3, colors = 3;
   using Entry = CornerWindowEntry;
   using Outline = WindowOutline;
   using Projected = ProjectedRows<projected_corner_row::count, projected_window_row::depth>;

@@ -62,7 +62,12 @@ using WindowOutline = std::array<float, 6>;
 void list_window(const WindowOutline& outline, std::uint32_t splat, TileLists& lists);
 
 /// See KernelFunctions.
-struct WindowKernel {
+struct WindowKernel : KernelOf<TriangleWindows> {
+  static constexpr const char shaders[] = "windows";
+  static constexpr std::size_t points = 3;
+  /// Each texel has a corner.
+  static constexpr std::size_t texel_rows[] = {
+      0, 1, 2, window_row::sigma, 3, 4, 5, window_row::opacity, 6, 7, 8, no_row};
   using Entry = WindowEntry;
   using Outline = WindowOutline;
   using Projected = ProjectedRows<projected_window_row::count, projected_window_row::depth>;

@@ -271,23 +271,26 @@ struct SamePrimitives {
            std::visit(SameAppearance{}, a.appearance, b.appearance);
   }
   bool operator()(const Splats& a, const Splats& b) {
-    return std::visit(*this, a.kernel, b.kernel) && a.color.degree == b.color.degree &&
+    return all_of(a.kernel) == all_of(b.kernel) && a.color.degree == b.color.degree &&
            a.color.per_corner == b.color.per_corner &&
            same_bits(a.color.coefficients, b.color.coefficients) && a.profile == b.profile;
   }
-  bool operator()(const TriangleWindows& a, const TriangleWindows& b) {
-    return same_bits(a.corners, b.corners) && same_bits(a.sigma, b.sigma) &&
-           same_bits(a.opacity, b.opacity);
-  }
-  bool operator()(const Gaussians& a, const Gaussians& b) {
-    return same_bits(a.centers, b.centers) && same_bits(a.scales, b.scales) &&
-           same_bits(a.rotations, b.rotations) && same_bits(a.opacity, b.opacity) &&
-           a.flat == b.flat;
-  }
-  bool operator()(const NeuralDensities& a, const NeuralDensities& b) {
-    return same_bits(a.centers, b.centers) && same_bits(a.semi_axes, b.semi_axes) &&
-           same_bits(a.rotations, b.rotations) && same_bits(a.networks, b.networks) &&
-           same_bits(a.omega, b.omega);
+  /// The bits of a kernel, and the numbers of its values.
+  static std::vector<std::uint32_t> all_of(const SplatKernel& kernel) {
+    std::vector<std::uint32_t> result{std::uint32_t(kernel.index())};
+    const auto add = [&](const void* values, std::size_t bytes) {
+      result.push_back(std::uint32_t(bytes));
+      result.resize(result.size() + bytes / 4);
+      if (bytes > 0) std::memcpy(&result[result.size() - bytes / 4], values, bytes);
+    };
+    for_each_column(kernel, [&](const auto& column) {
+      add(column.values.data(), column.values.size() * sizeof column.values[0]);
+    });
+    const auto constant = [&](const char*, float value) { add(&value, sizeof value); };
+    std::visit([&](const auto& each) { for_each_constant(each, constant); }, kernel);
+    const std::string name = kernel_name(kernel);  // also for Gaussians::flat
+    result.insert(result.end(), name.begin(), name.end());
+    return result;
   }
   template <class A, class B>
   bool operator()(const A&, const B&) {

@@ -175,19 +175,11 @@ TEST(Numerics, E5_ScalesWhoseSquaresUnderflow) {
 
 /// The splats with all lengths times `unit`, and no rule for near centres.
 Splats in_unit(Splats splats, double unit) {
-  const auto scale = [factor = float(unit)](std::vector<glm::vec3>& lengths) {
-    for (glm::vec3& each : lengths) each *= factor;
-  };
-  if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-    scale(windows->corners);
-  } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
-    scale(gaussians->centers);
-    scale(gaussians->scales);
-  } else {
-    auto& densities = std::get<NeuralDensities>(splats.kernel);
-    scale(densities.centers);
-    scale(densities.semi_axes);
-  }
+  for_each_column(splats.kernel, [&](const auto& column) {
+    if (column.role == ColumnRole::position || column.role == ColumnRole::corner ||
+        column.role == ColumnRole::scale)
+      for (auto& each : column.values) each *= float(unit);
+  });
   splats.profile.min_center_depth *= float(unit);
   return splats;
 }

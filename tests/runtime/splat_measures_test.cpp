@@ -60,11 +60,13 @@ struct Ordered {
 /// The normal of a surface of splat `i` towards the eye, in layer coordinates.
 glm::dvec3 normal_in_layer(const Splats& splats, std::size_t i, const glm::dvec3& eye,
                            const glm::dvec3& ray) {
-  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel)) {
-    const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(densities->rotations[i]));
-    const glm::dvec3 axes(densities->semi_axes[i]);
+  // Splats without an opacity are solid ellipsoids.
+  if (!tureen::opacity_of(splats.kernel)) {
+    const SplatEllipsoid ellipsoid = *ellipsoid_of(splats.kernel, i);
+    const glm::dmat3 rotation = glm::mat3_cast(ellipsoid.rotation);
+    const glm::dvec3& axes = ellipsoid.axes;
     const auto in_sphere = [&](const glm::dvec3& v) { return glm::transpose(rotation) * v / axes; };
-    const glm::dvec3 from = in_sphere(eye - glm::dvec3(densities->centers[i]));
+    const glm::dvec3 from = in_sphere(eye - ellipsoid.center);
     const glm::dvec3 along = in_sphere(ray);
     const double a = glm::dot(along, along), b = glm::dot(from, along);
     const double t = (-b - std::sqrt(b * b - a * (glm::dot(from, from) - 1))) / a;
@@ -88,11 +90,8 @@ glm::dvec3 normal_in_layer(const Splats& splats, std::size_t i, const glm::dvec3
 
 double opacity_of(const Ordered& splat) {
   if (const auto* ewa = std::get_if<oracle::EwaInView>(&*splat.in_view)) return ewa->opacity();
-  if (const auto* windows = std::get_if<TriangleWindows>(&splat.splats->kernel))
-    return double(windows->opacity[splat.index]);
-  if (const auto* gaussians = std::get_if<Gaussians>(&splat.splats->kernel))
-    return double(gaussians->opacity[splat.index]);
-  return 0;
+  const std::vector<float>* opacity = tureen::opacity_of(splat.splats->kernel);
+  return opacity ? double((*opacity)[splat.index]) : 0;
 }
 
 double sigma_of(const Ordered& splat) {
@@ -358,7 +357,7 @@ TEST_P(MeasuredSplats, HaveTheExpectedValuesAlone) {
   });
   compared.expect(DebugView::order, 0,
                   [&](const Measured& m, std::size_t) { return when(m.count > 0, m.first); });
-  if (kind.kernel != SplatKind::Kernel::neural)
+  if (tureen::opacity_of(std::get<Splats>(scene.layers[0].primitives).kernel))
     compared.expect(DebugView::opacity, 1e-4, [&](const Measured& m, std::size_t) {
       return when(m.count > 0, m.opacity_sum / m.alpha);
     });
@@ -490,8 +489,7 @@ TEST(DebugViewsOfSplats, AreRefusedWithAReason) {
     const Splats splats = random_splats(kind, 3, 0.1, 1);
     const bool windows = kind.kernel == SplatKind::Kernel::windows;
     EXPECT_EQ(why_not(DebugView::sigma, splats).has_value(), !windows) << kind.name;
-    EXPECT_EQ(why_not(DebugView::opacity, splats).has_value(),
-              kind.kernel == SplatKind::Kernel::neural)
+    EXPECT_EQ(why_not(DebugView::opacity, splats).has_value(), !tureen::opacity_of(splats.kernel))
         << kind.name;
     EXPECT_TRUE(why_not(DebugView::triangle_id, splats));
     EXPECT_FALSE(why_not(DebugView::median_depth, splats));

@@ -162,8 +162,8 @@ TEST_P(SplatsOfKind, AsPublishedAgreeWithTheOracle) {
     });
     expect_agreement(renderer, expected, camera);
     without.draw({camera});
-    const bool has_culls =
-        std::string(kind.profile) != "redisplats" && kind.kernel != SplatKind::Kernel::neural;
+    const bool has_culls = std::string(kind.profile) != "redisplats" &&
+                           opacity_of(std::get<Splats>(scene.layers[0].primitives).kernel);
     EXPECT_EQ(renderer.read_splats() != without.read_splats(), has_culls);
   }
 }
@@ -292,20 +292,13 @@ std::pair<double, double> extent(const Splats& splats, std::size_t i, const glm:
     }
     return {0.5 * (low + high), 0.5 * (high - low)};
   }
-  glm::dvec3 axes(0);
-  glm::dquat rotation;
-  if (const auto* densities = std::get_if<NeuralDensities>(&splats.kernel)) {
-    axes = densities->semi_axes[i];
-    rotation = densities->rotations[i];
-  } else {
-    const auto& gaussians = std::get<Gaussians>(splats.kernel);
-    const double deviations = std::sqrt(
-        2 * std::log(std::max(1.0, double(gaussians.opacity[i] / splats.profile.min_alpha))));
-    axes = deviations * glm::dvec3(gaussians.scales[i]);
-    if (gaussians.flat) axes.z = 0;
-    rotation = gaussians.rotations[i];
+  auto [middle, axes, rotation] = *ellipsoid_of(splats.kernel, i);
+  if (const auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
+    axes *= std::sqrt(
+        2 * std::log(std::max(1.0, double(gaussians->opacity[i] / splats.profile.min_alpha))));
+    if (gaussians->flat) axes.z = 0;
   }
-  return {glm::dot(axis, center(splats, i)), glm::length(axes * (glm::inverse(rotation) * axis))};
+  return {glm::dot(axis, middle), glm::length(axes * (glm::inverse(rotation) * axis))};
 }
 
 /// The fraction of the splats with parts in front of the near plane and beyond it. The near plane

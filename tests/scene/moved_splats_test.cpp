@@ -31,24 +31,7 @@ bool same(const std::vector<Value>& a, std::size_t i, const std::vector<Value>& 
 bool same_splat(const Splats& a, std::size_t i, const Splats& b, std::size_t j) {
   if (!same(a.color.coefficients, i, b.color.coefficients, j, coefficients_per_splat(a.color)))
     return false;
-  if (const auto* windows = std::get_if<TriangleWindows>(&a.kernel)) {
-    const auto& others = std::get<TriangleWindows>(b.kernel);
-    return same(windows->corners, i, others.corners, j, 3) &&
-           same(windows->sigma, i, others.sigma, j) && same(windows->opacity, i, others.opacity, j);
-  }
-  if (const auto* gaussians = std::get_if<Gaussians>(&a.kernel)) {
-    const auto& others = std::get<Gaussians>(b.kernel);
-    return same(gaussians->centers, i, others.centers, j) &&
-           same(gaussians->scales, i, others.scales, j) &&
-           same(gaussians->rotations, i, others.rotations, j) &&
-           same(gaussians->opacity, i, others.opacity, j);
-  }
-  const auto& densities = std::get<NeuralDensities>(a.kernel);
-  const auto& others = std::get<NeuralDensities>(b.kernel);
-  return same(densities.centers, i, others.centers, j) &&
-         same(densities.semi_axes, i, others.semi_axes, j) &&
-         same(densities.rotations, i, others.rotations, j) &&
-         same(densities.networks, i, others.networks, j, NeuralDensities::parameters);
+  return values_of(a.kernel, i) == values_of(b.kernel, j);
 }
 
 TEST_P(SplatsOfEachKernel, HaveMovedCenters) {

@@ -55,28 +55,19 @@ TEST_P(LayersOfKind, OmitSplatsWithANaN) {
   const auto floats = [](auto& values) { return reinterpret_cast<float*>(values.data()); };
   spoil([&](Splats& s) { return floats(s.color.coefficients); },
         3 * coefficients_per_splat(whole.color));
-  if (std::holds_alternative<TriangleWindows>(whole.kernel)) {
-    const auto of = [](Splats& s) -> TriangleWindows& {
-      return std::get<TriangleWindows>(s.kernel);
+  std::size_t columns = 0;
+  for_each_column(whole.kernel, [&](const auto& of_whole) {
+    const auto values_in = [&](Splats& s) {
+      float* values = nullptr;
+      std::size_t k = 0;
+      for_each_column(s.kernel, [&](const auto& column) {
+        if (k++ == columns) values = floats(column.values);
+      });
+      return values;
     };
-    spoil([&](Splats& s) { return floats(of(s).corners); }, 9);
-    spoil([&](Splats& s) { return floats(of(s).sigma); }, 1);
-    spoil([&](Splats& s) { return floats(of(s).opacity); }, 1);
-  } else if (std::holds_alternative<NeuralDensities>(whole.kernel)) {
-    const auto of = [](Splats& s) -> NeuralDensities& {
-      return std::get<NeuralDensities>(s.kernel);
-    };
-    spoil([&](Splats& s) { return floats(of(s).centers); }, 3);
-    spoil([&](Splats& s) { return floats(of(s).semi_axes); }, 3);
-    spoil([&](Splats& s) { return floats(of(s).rotations); }, 4);
-    spoil([&](Splats& s) { return floats(of(s).networks); }, NeuralDensities::parameters);
-  } else {
-    const auto of = [](Splats& s) -> Gaussians& { return std::get<Gaussians>(s.kernel); };
-    spoil([&](Splats& s) { return floats(of(s).centers); }, 3);
-    spoil([&](Splats& s) { return floats(of(s).scales); }, 3);
-    spoil([&](Splats& s) { return floats(of(s).rotations); }, 4);
-    spoil([&](Splats& s) { return floats(of(s).opacity); }, 1);
-  }
+    spoil(values_in, of_whole.of_splat(0).size());
+    ++columns;
+  });
 }
 
 TEST_P(LayersOfKind, ProjectTheDepthOfEachCenter) {

@@ -115,28 +115,61 @@ Splats hostile_splats(const SplatKind& kind) {
     const auto which = random.below(4);
     if (which == 0) {
       splats.color.coefficients[i * harmonics::count(2) + random.below(9)][axis] = signed_limit();
-    } else if (auto* windows = std::get_if<TriangleWindows>(&splats.kernel)) {
-      if (which == 1) windows->sigma[i] = limit(1e-38f, 3e38f);
-      if (which == 2) windows->opacity[i] = float(random.below(2));
-      if (which == 3 && random.below(2))
-        windows->corners[3 * i] = windows->corners[3 * i + 1 + random.below(2)];
-      else if (which == 3)
-        windows->corners[3 * i + random.below(3)][axis] = signed_limit();
-    } else if (auto* gaussians = std::get_if<Gaussians>(&splats.kernel)) {
-      if (which == 1) gaussians->scales[i][axis] = limit(0, 3e38f);
-      if (which == 2) gaussians->opacity[i] = float(random.below(2));
-      if (which == 3) gaussians->centers[i][axis] = signed_limit();
-    } else {
-      auto& densities = std::get<NeuralDensities>(splats.kernel);
-      if (which == 1) densities.semi_axes[i][axis] = limit(1e-38f, 3e38f);
-      if (which == 2)
-        densities
-            .networks[i * NeuralDensities::parameters + random.below(NeuralDensities::parameters)] =
-            signed_limit();
-      if (which == 3) densities.centers[i][axis] = signed_limit();
+      continue;
     }
+    auto* windows = std::get_if<TriangleWindows>(&splats.kernel);
+    if (windows && which == 3 && random.below(2)) {
+      windows->corners[3 * i] = windows->corners[3 * i + 1 + random.below(2)];
+      continue;
+    }
+    // One of the columns that have limits.
+    const auto has_limits = [](const auto& column) {
+      return column.range != ColumnRange::unit_length;
+    };
+    std::size_t columns = 0, at = 0;
+    for_each_column(splats.kernel, [&](const auto& column) { columns += has_limits(column); });
+    for_each_column(splats.kernel, [&](const auto& column) {
+      if (!has_limits(column) || at++ != which % columns) return;
+      const float value = column.range == ColumnRange::fraction   ? float(random.below(2))
+                          : column.range == ColumnRange::finite   ? signed_limit()
+                          : column.range == ColumnRange::positive ? limit(1e-38f, 3e38f)
+                                                                  : limit(0, 3e38f);
+      auto& element =
+          column.values[column.per_splat * i +
+                        (column.per_splat > 1 ? random.below(unsigned(column.per_splat)) : 0)];
+      if constexpr (requires { element[axis]; })
+        element[axis] = value;
+      else if constexpr (requires { element = value; })
+        element = value;
+    });
   }
   return splats;
+}
+
+std::vector<float> values_of(const SplatKernel& kernel, std::size_t i) {
+  std::vector<float> values;
+  for_each_column(kernel, [&](const auto& column) {
+    const std::span<const float> own = column.of_splat(i);
+    values.insert(values.end(), own.begin(), own.end());
+  });
+  return values;
+}
+
+std::optional<SplatEllipsoid> ellipsoid_of(const SplatKernel& kernel, std::size_t i) {
+  std::optional<SplatEllipsoid> result;
+  SplatEllipsoid ellipsoid;
+  for_each_column(kernel, [&](const auto& column) {
+    const auto& value = column.values[column.per_splat * i];
+    if (column.role == ColumnRole::scale) {
+      if constexpr (requires { ellipsoid.axes = value; }) ellipsoid.axes = glm::dvec3(value);
+      result.emplace();
+    }
+    if constexpr (std::is_same_v<decltype(value), const glm::vec3&>)
+      if (column.role == ColumnRole::position) ellipsoid.center = value;
+    if constexpr (std::is_same_v<decltype(value), const glm::quat&>) ellipsoid.rotation = value;
+  });
+  if (result) *result = ellipsoid;
+  return result;
 }
 
 Camera camera_of_ball(double distance, int width, int height) {

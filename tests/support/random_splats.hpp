@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,17 @@ Splats random_splats(const SplatKind& kind, std::size_t count, double size, std:
 /// of 0 and 1, sizes and sigmas from 1e-38 to 1e38, windows without area, centres and colours far
 /// out.
 Splats hostile_splats(const SplatKind& kind);
+
+/// The values of splat `i`, column by column.
+std::vector<float> values_of(const SplatKernel& kernel, std::size_t i);
+
+/// The axes are those of the column with the role ColumnRole::scale.
+struct SplatEllipsoid {
+  glm::dvec3 center{0}, axes{0};
+  glm::dquat rotation{1, 0, 0, 0};
+};
+/// Of splat `i`; nullopt for kernels without such a column.
+std::optional<SplatEllipsoid> ellipsoid_of(const SplatKernel& kernel, std::size_t i);
 
 /// A camera that sees the ball from `distance` of its centre; below 1 it is inside.
 Camera camera_of_ball(double distance, int width, int height);

@@ -59,6 +59,7 @@ struct AddTriangle {
     discs.rotations.emplace_back(ellipse.rotation);
     discs.opacity.push_back(0.95f);
   }
+  void operator()(auto& /*kernel*/) const { assert(!"no such splats of triangles"); }
   void operator()(NeuralDensities& densities) const {
     const Ellipse ellipse = ellipse_of(corners);
     densities.centers.emplace_back(ellipse.center);

@@ -30,9 +30,9 @@ void archive_layer_plan(Archive& archive, Value& value) {
 
 template <class Archive, class Value>
 void archive_splat_plan(Archive& archive, Value& value) {
-  auto& [shaders, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
+  auto& [kind, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
          chunks, applied, kernel, splats] = value;
-  archive(shaders, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
+  archive(kind, profile, as_published, harmonics_degree, colors_per_splat, largest_color, drawn,
           chunks, applied, kernel, splats);
 }
 
