@@ -31,7 +31,7 @@ set(limits
   "code image 2080: images, metrics, video files"
   "code scene 4150: the model and its edits"
   "code camera 1500: navigation"
-  "code formats 13700: a reader per format with its remarks, checked against hostile files"
+  "code formats 13760: a reader per format with its remarks, checked against hostile files"
   "code oracle 1710: the reference stays readable"
   "code splatting 3250: loops in vectors, per kernel"
   "code shaders 1770: GLSL"

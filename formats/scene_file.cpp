@@ -106,7 +106,8 @@ const std::vector<Format>& formats() {
       {.name = ".splat",
        .description = "Gaussians of one colour in records of 32 bytes, without a header",
        .read_extensions = {".splat"},
-       .recognises = [](const Candidate& c) { return !c.is_folder && is_splat_records(c.path); },
+       .recognises =
+           [](const Candidate& c) { return !c.is_folder && is_splat_records(c.path, c.head); },
        .read = read_splat_records},
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file in it",

@@ -34,11 +34,12 @@ class HeaderReader {
     input_.seek(0);
     bytes.resize(input_.read_some(std::as_writable_bytes(std::span(bytes))));
     text_.assign(bytes.begin(), bytes.end());
-    // All lines end like the first. Other line ends are not searched for, because a body may begin
-    // with a line feed.
+    // A line ends with LF, before which a CR is a blank, or with CR if the first line does. Other
+    // line ends are not searched for, because a body may begin with a line feed.
     const std::size_t first = text_.find_first_of("\r\n");
-    if (first != std::string::npos && text_[first] == '\r')
-      line_break_ = first + 1 < text_.size() && text_[first + 1] == '\n' ? "\r\n" : "\r";
+    if (first != std::string::npos && text_[first] == '\r' &&
+        !(first + 1 < text_.size() && text_[first + 1] == '\n'))
+      line_break_ = "\r";
   }
 
   PlyHeader read() {

@@ -11,10 +11,33 @@
 #include "formats/splat/splat_remarks.hpp"
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_limit.hpp"
+#include "scene/middle_bounds.hpp"
 #include "scene/scene_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
+
+namespace {
+
+/// Of most of the splats, which a few strays do not change.
+double radius_of(const Splats& splats) {
+  const Bounds box = middle_bounds(splats);
+  return 0.5 * glm::distance(glm::dvec3(box.min), glm::dvec3(box.max));
+}
+
+/// See SplatBuilder::finish().
+std::optional<Remark> lower_near_limit(Splats& splats) {
+  float& limit = splats.profile.min_center_depth;
+  if (!(limit > 0) || count(splats) == 0) return std::nullopt;
+  const double radius = radius_of(splats), published = double(limit);
+  if (!(radius > 0 && radius < 2 * published)) return std::nullopt;
+  // A usual view is from more than the radius away; a tenth still leaves room to come near.
+  limit = float(radius / 10);
+  return Remark{&remarks::near_limit_lowered,
+                {{"radius", radius}, {"published", published}, {"limit", double(limit)}}};
+}
+
+}  // namespace
 
 SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, SplatKernel kernel, int degree,
                            std::uint64_t count)
@@ -68,7 +91,8 @@ void SplatBuilder::add(const SplatValues& splat, std::span<const glm::vec3> coef
     if constexpr (std::is_same_v<Each, std::vector<glm::quat>>)
       column.values.push_back(*rotation);
     else if constexpr (std::is_same_v<Each, std::vector<glm::vec3>>)
-      column.values.emplace_back(column.role == ColumnRole::scale ? splat.scales : splat.center);
+      column.values.emplace_back(column.role == ColumnRole::scale ? splat.scales
+                                                                  : splat.center - origin_);
     else if (column.role == ColumnRole::opacity)
       column.values.push_back(static_cast<float>(splat.opacity));
     else
@@ -91,12 +115,14 @@ Scene SplatBuilder::finish(const SplatProfile& profile, const std::string& forma
     sort_in_morton_order(splats_);
   }
   const std::uint64_t kept = count(splats_), valid = added_ - dropped_;
-  Scene scene = scene_of(std::move(splats_));
+  const std::optional<Remark> lowered = lower_near_limit(splats_);
+  Scene scene = scene_of(std::move(splats_), origin_);
   scene.info.name = std::filesystem::path(input_.name()).stem().string();
   scene.info.source = format;
   scene.info.up = splat_up;
   scene.info.up_is_assumed = true;
   scene.info.remarks.push_back({&remarks::up_unknown_to_splats, {{"format", format}}});
+  if (lowered) scene.info.remarks.push_back(*lowered);
   if (dropped_ > 0)
     scene.info.remarks.push_back(
         {&remarks::splats_dropped, {{"dropped", dropped_}, {"all", added_}}});

@@ -28,8 +28,13 @@ class SplatBuilder {
   void add(const SplatValues& splat, std::span<const glm::vec3> coefficients,
            std::span<const float> values = {});
 
+  /// Centres are stored relative to this point, the origin of the layer: before the first add().
+  void set_origin(const glm::dvec3& origin) { origin_ = origin; }
+
   /// A scene with the splats in Morton order, up -y (assumed, as in COLMAP), and remarks.
-  /// `profile` must fit the kernel. `format` is its name in sentences.
+  /// `profile` must fit the kernel; its min_center_depth is lowered if the splats lie within twice
+  /// that distance, since it would then remove most of them from a usual view. `format` is its name
+  /// in sentences.
   Scene finish(const SplatProfile& profile, const std::string& format);
 
  private:
@@ -46,6 +51,7 @@ class SplatBuilder {
   std::uint64_t fitting_ = 0;  // number of splats that the budget holds
   std::uint64_t added_ = 0, dropped_ = 0;
   Splats splats_;
+  glm::dvec3 origin_{0.0};
 };
 
 /// The up axis of splat files: y points down in COLMAP.

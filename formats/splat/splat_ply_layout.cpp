@@ -81,6 +81,34 @@ int place_of_rest(int k, int degree) {
   return 3 * (k % per_channel) + k / per_channel;
 }
 
+namespace {
+
+/// Files with plain colours, such as Nerfstudio's with --ply-color-mode rgb, have no harmonics.
+void take_colors(const PlyElement& vertex, SplatPlyLayout& layout, PlySlots& required) {
+  constexpr const char* channels[] = {"red", "green", "blue"};
+  if (vertex.find("f_dc_0") || layout.degree > 0) return;
+  const std::optional<std::size_t> red = vertex.find("red");
+  if (!red || !vertex.find("green") || !vertex.find("blue")) return;
+  for (int c = 0; c < 3; ++c) {
+    required.erase("f_dc_" + std::to_string(c));
+    required[channels[c]] = splat_slot::color + c;
+  }
+  const PlyType type = vertex.properties[*red].type;
+  layout.full_channel = !is_integer(type) ? 1 : type == PlyType::uint16 ? 65535 : 255;
+}
+
+/// The axis that "x", "-x", "y" and so on name.
+std::optional<glm::vec3> axis_of(std::string_view name) {
+  const float sign = name.starts_with('-') ? -1.0f : 1.0f;
+  if (name.starts_with('-') || name.starts_with('+')) name.remove_prefix(1);
+  if (name.size() != 1 || name[0] < 'x' || name[0] > 'z') return std::nullopt;
+  glm::vec3 axis(0.0f);
+  axis[name[0] - 'x'] = sign;
+  return axis;
+}
+
+}  // namespace
+
 SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
   SplatPlyLayout layout;
   if (vertex.find("frequencies_0")) {
@@ -93,6 +121,10 @@ SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
   PlySlots required;
   for (const auto& [name, slot] : splat_ply_properties(layout.kernel, layout.scales, layout.degree))
     if (slot != splat_slot::none) required[name] = slot;
+  take_colors(vertex, layout, required);
+  layout.has_filter = layout.scales == 3 && vertex.find("filter_3D") &&
+                      std::holds_alternative<Gaussians>(layout.kernel);
+  if (layout.has_filter) required["filter_3D"] = splat_slot::filter;
   layout.slots = find_slots(input, vertex, std::move(required));
   return layout;
 }
@@ -100,8 +132,9 @@ SplatPlyLayout splat_ply_layout(const Input& input, const PlyElement& vertex) {
 SplatPlyProfile splat_ply_profile(const PlyHeader& header, const SplatKernel& kernel) {
   const auto* gaussians = std::get_if<Gaussians>(&kernel);
   if (!gaussians) return {.profile = *profile_named("splatnet")};
-  constexpr std::string_view render_mode = "SplatRenderMode: ";
+  constexpr std::string_view render_mode = "SplatRenderMode: ", vertical = "Vertical Axis: ";
   std::string_view mode, unknown;
+  std::optional<glm::vec3> up;
   for (std::string_view rest = header.comments; !rest.empty();) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
@@ -110,12 +143,13 @@ SplatPlyProfile splat_ply_profile(const PlyHeader& header, const SplatKernel& ke
       const bool is_known = value == "default" || value == "mip" || value == "2dgs";
       (is_known ? mode : unknown) = value;
     }
+    if (line.starts_with(vertical)) up = axis_of(line.substr(vertical.size()));
     if (line == "antialiased 0") mode = "default";
     if (line == "antialiased 1") mode = "mip";
     if (line == "TureenSplatProfile: redisplats") mode = "redisplats";
   }
   const bool is_flat = gaussians->flat;
-  SplatPlyProfile result{.is_flat = is_flat, .unknown_mode = std::string(unknown)};
+  SplatPlyProfile result{.is_flat = is_flat, .unknown_mode = std::string(unknown), .up = up};
   if (mode == "2dgs" || (is_flat && mode.empty())) {
     result.is_flat = true;
     if (mode.empty() && unknown.empty()) result.assumed = "2dgs";
@@ -131,6 +165,7 @@ SplatPlyProfile splat_ply_profile(const PlyHeader& header, const SplatKernel& ke
 }
 
 void add_profile_remarks(const SplatPlyProfile& profile, Scene& scene) {
+  if (profile.up) choose_up(scene.info, *profile.up);
   std::vector<Remark>& remarks = scene.info.remarks;
   if (!profile.assumed.empty())
     remarks.push_back({&remarks::profile_assumed, {{"profile", profile.assumed}}});

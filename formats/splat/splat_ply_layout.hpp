@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ int place_of_rest(int k, int degree);
 namespace splat_slot {
 inline constexpr int center = 0, opacity = 3, scale = 4, rotation = 7, color = 11,
                      network = color + 3 * harmonics::count(harmonics::max_degree),
-                     count = network + int(NeuralDensities::parameters), none = -1;
+                     filter = network + int(NeuralDensities::parameters),  // of Mip-Splatting
+    count = filter + 1, none = -1;
 }  // namespace splat_slot
 
 struct SplatPlyProperty {
@@ -57,6 +59,9 @@ struct SplatPlyLayout {
   std::vector<int> slots;
   /// Number of scales in the file: 2 or 3.
   int scales = 3;
+  /// Colours are red, green and blue with this value of a full channel; 0: harmonics.
+  double full_channel = 0;
+  bool has_filter = false;
 };
 
 /// Throws InputError with the element's line: a property is missing, occurs twice or is a list, or
@@ -70,6 +75,8 @@ struct SplatPlyProfile {
   std::string assumed = {};   // name of a profile that no comment selects, or empty
   /// The SplatRenderMode of the last comment that names no known one, or empty.
   std::string unknown_mode = {};
+  /// Of Nerfstudio's comment "Vertical Axis: z".
+  std::optional<glm::vec3> up = {};
 };
 
 /// The profile that the header's comments select; `kernel` is that of the properties.

@@ -1,6 +1,7 @@
 #include "formats/splat/splat_records.hpp"
 
 #include <array>
+#include <cmath>
 #include <system_error>
 
 #include "base/extension.hpp"
@@ -20,11 +21,31 @@ double byte_fraction(std::byte byte) { return std::to_integer<int>(byte) / 255.0
 
 }  // namespace
 
-bool is_splat_records(const std::filesystem::path& path) {
-  if (extension_of(path) != ".splat") return false;
+namespace {
+
+/// Whether the bytes are those of a splat in use: a finite centre, scales above 0, a rotation of
+/// unit length up to the rounding of its bytes.
+bool is_plausible(std::span<const std::byte> record) {
+  double length = 0;
+  for (std::size_t i = 0; i < 4; ++i) length += std::pow(rotation_part(record[28 + i]), 2);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float center = little_float(record, 4 * i), scale = little_float(record, 12 + 4 * i);
+    if (!std::isfinite(center) || !(scale > 0 && std::isfinite(scale))) return false;
+  }
+  return std::abs(std::sqrt(length) - 1) < 0.05;
+}
+
+}  // namespace
+
+bool is_splat_records(const std::filesystem::path& path, std::span<const std::byte> head) {
   std::error_code failed;
   const auto size = std::filesystem::file_size(path, failed);
-  return !failed && size > 0 && size % splat_record_size == 0;
+  if (failed || size == 0 || size % splat_record_size != 0) return false;
+  if (extension_of(path) == ".splat") return true;
+  const std::size_t records = head.size() / splat_record_size;
+  for (std::size_t i = 0; i < records; ++i)
+    if (!is_plausible(head.subspan(i * splat_record_size, splat_record_size))) return false;
+  return records > 0;
 }
 
 Scene read_splat_records(Input& input, const ReadOptions& options) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 
 #include "base/input.hpp"
 #include "formats/read_options.hpp"
@@ -16,9 +17,10 @@ namespace tureen {
 
 inline constexpr std::size_t splat_record_size = 32;
 
-/// Whether the path is a file with the extension .splat whose size is a multiple of 32, and not 0.
-/// The content has no signature.
-bool is_splat_records(const std::filesystem::path& path);
+/// Whether the path is a file whose size is a multiple of 32, and not 0, and either has the
+/// extension .splat, or all records in its `head`, the first bytes, have the values of splats. The
+/// content has no signature: other formats are recognised first.
+bool is_splat_records(const std::filesystem::path& path, std::span<const std::byte> head);
 
 /// Gaussians of degree 0 with the profile 3dgs. Throws InputError if the size is not a multiple of
 /// 32.

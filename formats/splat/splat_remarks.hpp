@@ -16,6 +16,14 @@ inline constexpr RemarkKind profile_assumed{
 inline constexpr RemarkKind render_mode_unknown{
     "render_mode_unknown", Severity::assumption,
     "the render mode '{mode}' of the file is unknown: the profile {profile} is used", "profile"};
+inline constexpr RemarkKind near_limit_lowered{
+    "near_limit_lowered", Severity::assumption,
+    "The splats lie within {radius} units: the published limit of {published} units, before which "
+    "no splat is drawn, is lowered to {limit}.",
+    "profile"};
+inline constexpr RemarkKind filter_applied{
+    "filter_applied", Severity::note,
+    "The filter of Mip-Splatting (filter_3D) was applied to scales and opacities."};
 inline constexpr RemarkKind octagon_q_assumed{"octagon_q_assumed", Severity::assumption,
                                               "the file does not store the radius of its octagons, "
                                               "sqrt(Q) standard deviations: Q = {q} is assumed",

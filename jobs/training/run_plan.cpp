@@ -19,6 +19,16 @@ Json to_json(const std::vector<OwnFact>& facts) {
   return list;
 }
 
+/// The constants that the dataset changes.
+Json settled_json(const RunPlan& plan) {
+  Json changed = Json::object();
+  if (plan.settled.empty()) return changed;
+  const Json given = Json::parse(plan.constants), settled = Json::parse(plan.settled);
+  for (const auto& [key, value] : settled.items())
+    if (value != given.at(key)) changed[key] = value;
+  return changed;
+}
+
 std::string steps_text(const RunPlan& plan) {
   if (plan.minutes > 0) return fmt::format("as many steps as {} min allow", plan.minutes);
   return counted(std::uint64_t(plan.steps), "step");
@@ -72,7 +82,7 @@ Json to_json(const RunPlan& plan) {
           {"notes", to_json(plan.notes)},
           {"text", describe(plan)},
           {"constants", Json::parse(plan.constants)},
-          {"settled", Json::parse(plan.settled.empty() ? plan.constants : plan.settled)}};
+          {"settled", settled_json(plan)}};
 }
 
 }  // namespace tureen

@@ -45,7 +45,8 @@ RunPlan plan_for(const Dataset& dataset);
 /// The notes, then one line about the run.
 std::vector<std::string> describe(const RunPlan& plan);
 
-/// With describe() as "text". "steps" is null with minutes.
+/// With describe() as "text". "steps" is null with minutes. Of `settled`, only what differs from
+/// `constants`.
 Json to_json(const RunPlan& plan);
 
 }  // namespace tureen

@@ -115,11 +115,11 @@ TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   photograph("near.glb", 8);
   EXPECT_EQ(lost().first["training_cameras"], 8);
   // The photographs are optional: without them, the search uses the scene alone.
-  fs::remove(folder / "data/train/r_3.png");
+  fs::remove_all(folder / "data/train");
   const auto [json, said] = lost();
   EXPECT_EQ(json["training_cameras"], 0);
-  EXPECT_THAT(json["lost"].dump(), Not(HasSubstr("r_3.png"))) << "the file stores this text";
-  EXPECT_THAT(said, HasSubstr("r_3.png"));
+  EXPECT_THAT(json["lost"].dump(), Not(HasSubstr("r_3"))) << "the file stores this text";
+  EXPECT_THAT(said, HasSubstr("r_3"));
 }
 
 }  // namespace convert_compressed_program_test

@@ -242,7 +242,7 @@ TEST_F(ThoroughTrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHad
 
 TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   // Messages and log take less than this, in bytes; a checkpoint, an image and a soup take more.
-  constexpr rlim_t little = 4000;
+  constexpr rlim_t little = 2000;
   const auto expect_full = [&](const std::vector<std::string>& more, const std::string& file,
                                rlim_t room) {
     SCOPED_TRACE(file);

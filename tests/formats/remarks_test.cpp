@@ -72,6 +72,8 @@ const std::vector<Remark> every_kind{
     {&remarks::profile_assumed, {{"profile", "2dgs"}}},
     {&remarks::render_mode_unknown, {{"mode", "other"}, {"profile", "3dgs"}}},
     {&remarks::octagon_q_assumed, {{"q", 4.0}}},
+    {&remarks::near_limit_lowered, {{"radius", 0.1}, {"published", 0.2}, {"limit", 0.01}}},
+    {&remarks::filter_applied},
     {&remarks::splat_extensions_ignored, {{"extensions", Counts{3, 258}}}},
     {&remarks::preset_applied, {{"edits", Names{"seal", "sort"}}}},
     {&remarks::preset_keys_ignored, {{"keys", Names{"a"}}}},

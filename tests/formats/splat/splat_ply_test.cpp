@@ -265,6 +265,99 @@ TEST(SplatPly, RejectsByElementAndProperty) {
               ErrorAt("folder/guitar.ply:3", "f_rest_8"));
 }
 
+/// A file with these columns instead of f_dc, and a row for each centre.
+std::string file_with(const PlyFixture::Columns& colors, const Row& values,
+                      const std::vector<glm::dvec3>& centers, const std::string& real = "float",
+                      const PlyFixture::Columns& more = {}, const Row& extra = {}) {
+  PlyFixture::Columns columns{real + " x", real + " y", real + " z"};
+  columns.insert(columns.end(), colors.begin(), colors.end());
+  for (const char* name :
+       {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    columns.push_back(std::string("float ") + name);
+  columns.insert(columns.end(), more.begin(), more.end());
+  std::vector<Row> rows;
+  for (const glm::dvec3& center : centers) {
+    Row row{center.x, center.y, center.z};
+    row.insert(row.end(), values.begin(), values.end());
+    row.insert(row.end(), {0.25, -1, -2, -3, 1, 0, 0, 0});
+    row.insert(row.end(), extra.begin(), extra.end());
+    rows.push_back(row);
+  }
+  return PlyFixture("binary_little_endian").element("vertex", columns, rows).text();
+}
+const PlyFixture::Columns harmonic_columns{"float f_dc_0", "float f_dc_1", "float f_dc_2"};
+
+TEST(SplatPly, ReadsPlainColours) {
+  const Scene scene =
+      read_text(file_with({"uchar red", "uchar green", "uchar blue"}, {0, 51, 255}, {{1, 2, 3}}));
+  const glm::vec3 color = std::get<Splats>(only_layer(scene).primitives).color.coefficients.at(0);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(0.5 + harmonics::y00 * color[c], (std::array{0.0, 0.2, 1.0})[std::size_t(c)], 1e-6);
+}
+
+TEST(SplatPly, AppliesTheFilterOfMipSplatting) {
+  const Scene scene = read_text(
+      file_with(harmonic_columns, {0, 0, 0}, {{1, 2, 3}}, "float", {"float filter_3D"}, {0.2}));
+  const Gaussians& g = only_gaussians(scene);
+  double ratio = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double s = std::exp(-1.0 - axis), wide = std::sqrt(s * s + 0.04);
+    EXPECT_NEAR(g.scales.at(0)[axis], wide, 1e-6);
+    ratio *= s / wide;
+  }
+  EXPECT_NEAR(g.opacities.at(0), ratio / (1 + std::exp(-0.25)), 1e-6);
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::filter_applied}));
+}
+
+TEST(SplatPly, TakesTheUpAxisOfNerfstudio) {
+  const auto up = [](const char* comment) {
+    const Scene scene = read_text(gaussian_file({splat_row(1)}, 0, 3, comment));
+    EXPECT_EQ(scene.info.up_is_assumed, std::string(comment).ends_with("w"));
+    return scene.info.up;
+  };
+  EXPECT_EQ(up("Vertical Axis: z"), glm::vec3(0, 0, 1));
+  EXPECT_EQ(up("Vertical Axis: -y"), glm::vec3(0, -1, 0));
+  EXPECT_EQ(up("Vertical Axis: w"), glm::vec3(0, -1, 0));
+}
+
+TEST(SplatPly, KeepsTheDigitsOfMapCoordinates) {
+  const glm::dvec3 far(512345.625, 5398765.5, 123.25);
+  std::vector<glm::dvec3> centers;
+  for (int i = 0; i < 5; ++i) centers.push_back(far + glm::dvec3(0.001 * i, 0.5 * i, -0.25 * i));
+  const Scene scene = read_text(file_with(harmonic_columns, {0, 0, 0}, centers, "double"));
+  const glm::dvec3 origin = origin_of(only_layer(scene));
+  const Gaussians& g = only_gaussians(scene);
+  for (const glm::dvec3& center : centers) {
+    double nearest = 1;
+    for (const glm::vec3& read : g.centers)
+      nearest = std::min(nearest, glm::length(origin + glm::dvec3(read) - center));
+    EXPECT_LT(nearest, 1e-7);
+  }
+  EXPECT_THAT(scene.info.remarks, Not(Contains(Remark{&remarks::coordinates_rounded})));
+}
+
+TEST(SplatPly, LowersTheNearLimitOfSmallScenes) {
+  for (const double unit : {0.01, 1.0, 1000.0}) {
+    std::vector<glm::dvec3> centers;
+    for (int i = 0; i < 100; ++i)
+      centers.push_back(unit * glm::dvec3(std::cos(i), std::sin(i), 0.01 * i));
+    const Scene scene = read_text(file_with(harmonic_columns, {0, 0, 0}, centers));
+    const float limit = std::get<Splats>(only_layer(scene).primitives).profile.min_center_depth;
+    if (unit < 1) {
+      EXPECT_GT(limit, 0.05 * unit);
+      EXPECT_LT(limit, 0.5 * unit);
+    } else {
+      EXPECT_EQ(limit, 0.2f);
+    }
+  }
+}
+
+TEST(SplatPly, ReadsCrLfInTheFirstLineAlone) {
+  std::string text = gaussian_file({splat_row(1)});
+  text.insert(3, "\r");
+  EXPECT_EQ(only_gaussians(read_text(text)).centers.at(0), glm::vec3(1, 2, 3));
+}
+
 TEST(SplatPly, AFileWithFacesHoldsTriangles) {
   const std::string text =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
