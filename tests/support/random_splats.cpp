@@ -161,7 +161,7 @@ std::optional<SplatEllipsoid> ellipsoid_of(const SplatKernel& kernel, std::size_
   for_each_column(kernel, [&](const auto& column) {
     const auto& value = column.values[column.per_splat * i];
     if (column.role == ColumnRole::scale) {
-      if constexpr (requires { ellipsoid.axes = value; }) ellipsoid.axes = glm::dvec3(value);
+      if constexpr (requires { glm::dvec3(value); }) ellipsoid.axes = glm::dvec3(value);
       result.emplace();
     }
     if constexpr (std::is_same_v<decltype(value), const glm::vec3&>)
