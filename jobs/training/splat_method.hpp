@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
@@ -20,7 +21,9 @@ namespace tureen {
 inline const MethodOption max_splats_option{
     .name = "max-splats",
     .type = MethodOption::Type::whole,
-    .help = "largest number of Gaussians or soft triangles; 60,000 by default",
+    .help =
+        "largest number of splats; by default 60,000 Gaussians or soft triangles, or 10,000 neural "
+        "densities",
     .instead = "--triangles sets the number of triangles",
     .value_name = "N"};
 inline const MethodOption minutes_option{
@@ -80,10 +83,10 @@ class SplatMethod : public TrainingMethod {
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
     const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
     if (!splats || trainer::can_begin_with(*splats, config_)) return std::nullopt;
-    const char* own = trainer::kernel_of(config_);
     return UnsuitableStart{
         fmt::format("the scene has {} ({}), but {} begin with {} or triangles",
-                    counted(splat_count(start), "splat"), kernel_name(splats->kernel), own, own),
+                    counted(splat_count(start), "splat"), kernel_name(splats->kernel),
+                    trainer::kernel_of(config_), trainer::starts_of(config_)),
         hint_for(splats->kernel)};
   }
 
@@ -109,6 +112,10 @@ class SplatMethod : public TrainingMethod {
                                                       .start = start,
                                                       .checkpoint = std::move(checkpoint_),
                                                       .run = std::move(run)};
+    request.first_scene = [&, threads = request.run.threads,
+                           preparing = request.run.preparing](const Region& region) {
+      return first_scene(dataset, region, threads, preparing);
+    };
     request.begun = [&](const trainer::SplatStart& made) {
       plan.first = made.splats;
       plan.device = "CPU, " + counted(std::uint64_t(made.threads), "thread");
@@ -124,6 +131,11 @@ class SplatMethod : public TrainingMethod {
  protected:
   /// Sets the constants of options that only this method has.
   virtual void set_own(Config& config) const = 0;
+  /// SplatRequest::first_scene. `preparing`: as RunRequest's.
+  virtual std::optional<Scene> first_scene(const Dataset&, const Region&, int,
+                                           const std::function<void(double)>&) const {
+    return std::nullopt;
+  }
   /// The hint of unsuitable().
   virtual std::string hint_for(const SplatKernel&) const { return random_start; }
 
@@ -174,13 +186,15 @@ class SplatMethod : public TrainingMethod {
   double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 
-/// The info of a method of splats: `own`: its own option. `Method`: a SplatMethod.
+/// The info of a method of splats. `own`: its own options. `Method`: a SplatMethod.
 template <class Method, class Config>
-TrainingMethodInfo splat_method_info(const char* name, const char* summary, const MethodOption& own,
+TrainingMethodInfo splat_method_info(const char* name, const char* summary,
+                                     std::vector<const MethodOption*> own,
                                      trainer::CheckpointMagic magic) {
+  own.insert(own.begin(), {&max_splats_option, &minutes_option});
   return {.name = name,
           .summary = summary,
-          .options = {&max_splats_option, &minutes_option, &own},
+          .options = std::move(own),
           .constants = [] { return names_of_fields(trainer::splat_config_fields<Config>()); },
           .reference = &trainer::splat_config_reference<Config>,
           .magic = magic,

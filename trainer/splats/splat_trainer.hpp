@@ -186,6 +186,8 @@ class SplatTrainer {
     for (std::size_t k = 0; k < Training::kinds.size(); ++k) {
       const ParameterKind& kind = Training::kinds[k];
       step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
+      if constexpr (requires { Training::rate_factor(config_, k, count); })
+        step.rates[k] *= Training::rate_factor(config_, k, count);
     }
     step.rates[0] *= float(region_.half_side) * Training::position_rate(parameters());
     std::atomic<std::size_t> quarantined = 0;
