@@ -35,7 +35,10 @@ class NeuralMethod final : public SplatMethod<NeuralConfig, trainer::NeuralParam
     std::ranges::copy(own.background, constants.background);
     constants.far_splats = own.far_splats;
     constants.far_extent = own.far_extent;
-    return train_first_gaussians(dataset, first, region, threads, preparing);
+    Scene scene = train_first_gaussians(dataset, first, region, threads, preparing);
+    // Without a Gaussian that a viewer can draw, the densities begin as if there were none.
+    if (splat_count(scene) == 0) return std::nullopt;
+    return scene;
   }
 };
 

@@ -12,6 +12,7 @@
 #include "base/memory_budget.hpp"
 #include "jobs/training/methods.hpp"
 #include "trainer/common/plain_background.hpp"
+#include "trainer/splats/splat_bytes.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_start.hpp"
 #include "trainer/splats/splat_training.hpp"
@@ -25,6 +26,14 @@ inline const MethodOption max_splats_option{
         "largest number of splats; by default 60,000 Gaussians or soft triangles, or 10,000 neural "
         "densities",
     .instead = "--triangles sets the number of triangles",
+    .value_name = "N"};
+inline const MethodOption max_bytes_option{
+    .name = "max-bytes",
+    .type = MethodOption::Type::whole,
+    .help =
+        "instead of --max-splats: largest number of bytes of all splats, as 32-bit floats; also "
+        "chooses the degree of their harmonics",
+    .instead = "--triangles and --level set the size of a soup",
     .value_name = "N"};
 inline const MethodOption minutes_option{
     .name = "minutes",
@@ -104,6 +113,12 @@ class SplatMethod : public TrainingMethod {
     if (is_limited_)
       plan.notes.push_back({"max_memory", double(config_.max_splats),
                             "--max-memory allows at most " + counted(config_.max_splats, "splat")});
+    if (const auto& bytes = options_[max_bytes_option].whole)
+      plan.notes.push_back(
+          {"max_bytes", double(*bytes),
+           fmt::format("--max-bytes {} allows {} with harmonics of degree {}, of {} bytes each",
+                       *bytes, counted(config_.max_splats, "splat"), config_.degree,
+                       trainer::bytes_of_splat<Parameters>(config_.degree))});
     if (replaced_minutes_ > 0)
       plan.notes.push_back(
           {"replaced_minutes", replaced_minutes_,
@@ -152,6 +167,7 @@ class SplatMethod : public TrainingMethod {
     set_whole(config.steps, options_.steps, "steps", fields);
     if (options_.steps) config.minutes = 0;
     set_whole(config.max_splats, options_[max_splats_option].whole, "max_splats", fields);
+    if (const auto& bytes = options_[max_bytes_option].whole) set_bytes(config, *bytes);
     if (const auto& minutes = options_[minutes_option].number) {
       // In a file, 0 means a fixed number of steps; on the command line, --steps does.
       if (!(*minutes > 0))
@@ -165,6 +181,20 @@ class SplatMethod : public TrainingMethod {
     if (const std::optional<std::string> reason = trainer::splat_config_defect(config))
       throw UsageError(*reason);
     return config;
+  }
+
+  /// The number of splats and their degree by --max-bytes.
+  void set_bytes(Config& config, std::int64_t bytes) const {
+    if (options_[max_splats_option].whole)
+      throw UsageError("--max-splats and --max-bytes exclude each other",
+                       "--max-bytes chooses the number of splats");
+    const auto fitting =
+        trainer::splats_in_bytes<Parameters>(std::uint64_t(std::max<std::int64_t>(bytes, 0)));
+    if (fitting.splats == 0)
+      throw UsageError(fmt::format("--max-bytes: {} is out of range; one splat has {} bytes", bytes,
+                                   trainer::bytes_of_splat<Parameters>(0)));
+    config.degree = fitting.degree;
+    config.max_splats = fitting.splats;
   }
 
   /// Lowers max_splats so that the run fits in --max-memory.
@@ -191,7 +221,7 @@ template <class Method, class Config>
 TrainingMethodInfo splat_method_info(const char* name, const char* summary,
                                      std::vector<const MethodOption*> own,
                                      trainer::CheckpointMagic magic) {
-  own.insert(own.begin(), {&max_splats_option, &minutes_option});
+  own.insert(own.begin(), {&max_splats_option, &max_bytes_option, &minutes_option});
   return {.name = name,
           .summary = summary,
           .options = std::move(own),

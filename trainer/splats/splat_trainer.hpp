@@ -86,7 +86,7 @@ class SplatTrainer {
     VarianceLoss variance{.ignored = view.ignored};
     if constexpr (TileRaster<Training>::has_variance)
       variance.weight = Training::variance_weight(config_, parameters());
-    raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_,
+    raster_.forward(state_.parameters, camera_of_step(view), degree_now(), background(), planes_,
                     variance.weight > 0);
     SplatStepReport report;
     {
@@ -176,6 +176,19 @@ class SplatTrainer {
     const TrainingView& view = half ? half_views_[epoch.back()] : views_[epoch.back()];
     epoch.pop_back();
     return view;
+  }
+
+  /// With Config::jitter, the rays of the step pass through a random point of each pixel, the same
+  /// in all.
+  Camera camera_of_step(const TrainingView& view) {
+    Camera camera = view.camera;
+    if constexpr (requires { config_.jitter; }) {
+      if (config_.jitter > 0) {
+        camera.cx += config_.jitter * state_.random.uniform(-0.5, 0.5);
+        camera.cy += config_.jitter * state_.random.uniform(-0.5, 0.5);
+      }
+    }
+    return camera;
   }
 
   /// Returns the number of splats that are not finite.

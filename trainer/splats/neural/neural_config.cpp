@@ -17,6 +17,8 @@ std::span<const NeuralConfig::Field> splat_config_fields<NeuralConfig>() {
       {"min_axis", &NeuralConfig::min_axis, length,
        "Smallest semi-axis, relative to the half side of the region of interest"},
       {"max_axis", &NeuralConfig::max_axis, length, "Largest semi-axis, in the same unit"},
+      {"jitter", &NeuralConfig::jitter, fraction,
+       "Width of the part of each pixel, in pixels, through which rays pass at random"},
       {"anisotropy_weight", &NeuralConfig::anisotropy_weight, weight,
        "Weight of the mean standard deviation of the semi-axes of a splat, over the smallest"},
   });

@@ -28,6 +28,8 @@ struct NeuralConfig : SplatConfig {
   double gaussian_share = 0.2;
   /// Semi-axes have at least and at most this length, relative to the region's half side.
   float min_axis = 1e-3f, max_axis = 2;
+  /// Width of the part of a pixel, in pixels, in which a step draws the point of its rays.
+  double jitter = 0;
   /// Of the mean standard deviation of the semi-axes over the smallest.
   float anisotropy_weight = 1e-3f;
 };

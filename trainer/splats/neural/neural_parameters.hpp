@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "scene/splats.hpp"
 #include "splatting/neural/neural_kernels.hpp"
@@ -27,6 +28,9 @@ struct NeuralParameters
   using SplatParameters::SplatParameters;
   /// Of neural densities. Semi-axes are limited to 1e-30 or more.
   NeuralParameters(const Splats& splats, int degree);
+
+  /// For splats_in_bytes().
+  static constexpr std::array<std::uint64_t, 3> least_of_degree{1, 1, 1};
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
