@@ -290,11 +290,12 @@ void add_train(Command& program) {
   Command command = program.add_command("train", "Train a scene from photographs");
   command.footer(
       R"(Trains a scene to match the photographs: triangles with lattice textures and a color MLP
-(--method diffsoup), Gaussians or, with --flat, discs (--method gaussians), or soft or opaque
-triangles with one color each, which depends on the direction (--method triangles). Writes the scene
-as OUT.glb and a log as OUT.jsonl, and measures the scene on the test views. Ctrl-C writes a
-checkpoint; --resume continues from it. Equal seeds give equal scenes on a CPU, with any number of
-threads. For gaussians and triangles, --max-memory also limits the number of splats.
+(--method diffsoup), Gaussians or, with --flat, discs (--method gaussians), soft or opaque triangles
+with one color each, which depends on the direction (--method triangles), or ellipsoids with a small
+network each (--method neural). Writes the scene as OUT.glb and a log as OUT.jsonl, and measures the
+scene on the test views. Ctrl-C writes a checkpoint; --resume continues from it. Equal seeds give
+equal scenes on a CPU, with any number of threads. For all methods but diffsoup, --max-memory also
+limits the number of splats.
 
 Examples:
   tureen train lego -o lego.glb
@@ -302,6 +303,7 @@ Examples:
   tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
   tureen train lego -o lego.glb --method gaussians --minutes 5   as much as 5 minutes allow
   tureen train lego -o lego.glb --method triangles --opaque    a soup with one color each
+  tureen train lego -o lego.glb --method neural --max-bytes 100000   a very small scene
   tureen train lego -o lego.glb --preview-every 500          write previews
   tureen train lego -o lego.glb --watch                      show the training in a window
   tureen train lego -o better.glb --init lego.glb            continue from a trained soup

@@ -55,10 +55,11 @@ set(arrows
   "trainer/splats/gaussians: base scene splatting/* trainer/common trainer/splats"
   # To go: discs are stepped as Gaussians.
   "trainer/splats/discs: base scene splatting/* trainer/common trainer/splats trainer/splats/gaussians"
+  "trainer/splats/neural: base scene splatting/* trainer/common trainer/splats"
   "trainer/splats/windows: base scene splatting/* trainer/common trainer/splats"
   # A state and its trainer know all kernels; the methods of training derive from the trainer.
   "trainer/splats/splat_state.* trainer/splats/splat_start.hpp trainer/splats/splat_initialise.hpp trainer/splats/splat_trainer.*: base scene splatting/* trainer/common trainer/splats/*"
-  "trainer/splats/gaussians/gaussian_training.* trainer/splats/windows/window_training.*: base scene splatting/* trainer/common trainer/splats/*"
+  "trainer/splats/gaussians/gaussian_training.* trainer/splats/neural/neural_training.* trainer/splats/windows/window_training.*: base scene splatting/* trainer/common trainer/splats/*"
   "trainer/splats/splat_initialise.cpp trainer/splats/splat_forecast.* trainer/splats/splat_training.*: base scene splatting/* trainer/common trainer/splats/*"
   "trainer/diffsoup: base image scene trainer/common"
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats"

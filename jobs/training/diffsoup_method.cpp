@@ -10,6 +10,7 @@
 #include "jobs/training/diffsoup_options.hpp"
 #include "jobs/training/first_gaussians.hpp"
 #include "jobs/training/methods.hpp"
+#include "jobs/training/training_scale.hpp"
 #include "trainer/common/plain_background.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
@@ -158,10 +159,15 @@ class DiffsoupMethod final : public TrainingMethod {
                                      .checkpoint = std::move(checkpoint_),
                                      .device = device_,
                                      .run = std::move(run)};
-    request.first_scene = [&](const Config& settled, const Region& region) {
-      return begins_with_gaussians(settled, dataset)
-                 ? std::optional(first_gaussians(dataset, settled, region, threads, preparing))
-                 : std::nullopt;
+    request.first_scene = [&](Config settled, Region region) -> std::optional<Scene> {
+      if (!begins_with_gaussians(settled, dataset)) return std::nullopt;
+      const double scale = training_scale(dataset);
+      scale_dataset(dataset, scale);
+      settled.box *= float(scale);
+      region = {region.center * scale, region.half_side * scale};
+      Scene gaussians = first_gaussians(dataset, settled, region, threads, preparing);
+      scale_dataset(dataset, 1 / scale);
+      return scaled_scene(std::move(gaussians), 1 / scale);
     };
     request.begun = [&](const trainer::SoupStart& made) {
       plan.first = made.triangles;

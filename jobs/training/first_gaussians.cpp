@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
+#include "trainer/splats/splat_forecast.hpp"
 
 namespace tureen {
 
@@ -31,14 +33,29 @@ constexpr std::uint64_t max_gaussians = 20'000;
 /// its time here. Less than 1,500 steps are too few for surfaces in the distance.
 constexpr int max_steps_ratio = 3;
 
-TrainingView small_view(const Photograph& photograph, const Config& config, const Region& region) {
+TrainingView small_view(const Photograph& photograph, const FirstGaussians& first,
+                        const Region& region) {
   TrainingView view =
-      trainer::training_view(photograph, std::span<const float, 3>(config.background));
-  while (std::int64_t(view.camera.width) * view.camera.height > max_pixels &&
+      trainer::training_view(photograph, std::span<const float, 3>(first.constants.background));
+  while (first.max_pixels > 0 &&
+         std::int64_t(view.camera.width) * view.camera.height > first.max_pixels &&
          std::min(view.camera.width, view.camera.height) >= 2 * min_side)
     view = trainer::halved(view);
   view.camera = trainer::relative_to(view.camera, region.center);
   return view;
+}
+
+/// Lowers the number of steps so that the training takes this time: after 20 steps, which the
+/// caches and the processor's clock need, and at each tenth up to the middle.
+void fit_steps(trainer::GaussianTrainer& trainer, double seconds, double spent, double work) {
+  const GaussianConfig& config = trainer.config();
+  const int done = trainer.steps_done(), tenth = std::max(1, config.steps / 10);
+  if (done != 20 && (done % tenth != 0 || done < 20 || done > 5 * tenth)) return;
+  const std::size_t splats = trainer.parameters().count();
+  const double step_seconds =
+      spent / work * double(splats) * trainer::growth_of_work(config, done, splats);
+  trainer.set_steps(
+      std::min(config.steps, trainer::fitted_steps(config, done, seconds - spent, step_seconds)));
 }
 
 GaussianConfig constants(const Config& config) {
@@ -59,23 +76,36 @@ bool begins_with_gaussians(const Config& config, const Dataset& dataset) {
          dataset.points.empty();
 }
 
-Scene first_gaussians(const Dataset& dataset, const Config& config, Region region, int threads,
-                      const std::function<void(double fraction)>& progress) {
-  if (config.box > 0) region.half_side = config.box;
+Scene train_first_gaussians(const Dataset& dataset, const FirstGaussians& first,
+                            const Region& region, int threads,
+                            const std::function<void(double fraction)>& progress) {
   std::vector<TrainingView> views;
   for (const Photograph& photograph : dataset.train) {
     if (progress) progress(0);
-    views.push_back(small_view(photograph, config, region));
+    views.push_back(small_view(photograph, first, region));
   }
-  const GaussianConfig settings = constants(config);
   trainer::GaussianTrainer trainer(
-      settings, views, {.center = glm::dvec3(0), .half_side = region.half_side}, threads,
-      trainer::first_splats<trainer::GaussianTraining>(dataset, settings, region));
+      first.constants, views, {.center = glm::dvec3(0), .half_side = region.half_side}, threads,
+      trainer::first_splats<trainer::GaussianTraining>(dataset, first.constants, region));
+  double spent = 0, work = 0;  // work: in steps of full size with one splat
   while (!trainer.done()) {
-    if (progress) progress(double(trainer.steps_done()) / settings.steps);
+    if (progress) progress(double(trainer.steps_done()) / trainer.config().steps);
+    if (first.seconds > 0 && work > 0) fit_steps(trainer, first.seconds, spent, work);
+    const int done = trainer.steps_done();
+    work += double(trainer.parameters().count()) *
+            (trainer::remaining_work(trainer.config(), done) -
+             trainer::remaining_work(trainer.config(), done + 1));
+    const trainer::Stopwatch watch(spent);
     trainer.step();
   }
   return scene_of(trainer.primitives(), region.center);
+}
+
+Scene first_gaussians(const Dataset& dataset, const Config& config, Region region, int threads,
+                      const std::function<void(double fraction)>& progress) {
+  if (config.box > 0) region.half_side = config.box;
+  return train_first_gaussians(dataset, {.constants = constants(config), .max_pixels = max_pixels},
+                               region, threads, progress);
 }
 
 }  // namespace tureen

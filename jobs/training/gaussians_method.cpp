@@ -32,6 +32,7 @@ class GaussiansMethod final : public SplatMethod<GaussianConfig, trainer::Gaussi
 }  // namespace
 
 const TrainingMethodInfo gaussians_method = splat_method_info<GaussiansMethod, GaussianConfig>(
-    "gaussians", "3D Gaussian Splatting, on the processor", flat_option, trainer::gaussians_magic);
+    "gaussians", "3D Gaussian Splatting, on the processor", {&flat_option},
+    trainer::gaussians_magic);
 
 }  // namespace tureen

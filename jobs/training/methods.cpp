@@ -12,6 +12,7 @@ std::span<const TrainingMethodInfo* const> training_methods() {
       &diffsoup_method,
       &gaussians_method,
       &triangles_method,
+      &neural_method,
   };
   return methods;
 }

@@ -17,7 +17,7 @@
 
 namespace tureen {
 
-extern const TrainingMethodInfo diffsoup_method, gaussians_method, triangles_method;
+extern const TrainingMethodInfo diffsoup_method, gaussians_method, triangles_method, neural_method;
 
 /// Throws UsageError if the first primitives should be those of a scene, but the options name none.
 void require_scene(trainer::Initialisation initialisation, const TrainingOptions& options);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
@@ -12,6 +13,7 @@
 #include "jobs/training/methods.hpp"
 #include "jobs/training/training_scale.hpp"
 #include "trainer/common/plain_background.hpp"
+#include "trainer/splats/splat_bytes.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/splat_start.hpp"
 #include "trainer/splats/splat_training.hpp"
@@ -21,8 +23,18 @@ namespace tureen {
 inline const MethodOption max_splats_option{
     .name = "max-splats",
     .type = MethodOption::Type::whole,
-    .help = "largest number of Gaussians or soft triangles; 60,000 by default",
+    .help =
+        "largest number of splats; by default 60,000 Gaussians or soft triangles, or 10,000 neural "
+        "densities",
     .instead = "--triangles sets the number of triangles",
+    .value_name = "N"};
+inline const MethodOption max_bytes_option{
+    .name = "max-bytes",
+    .type = MethodOption::Type::whole,
+    .help =
+        "instead of --max-splats: largest number of bytes of all splats, as 32-bit floats; also "
+        "chooses the degree of their harmonics",
+    .instead = "--triangles and --level set the size of a soup",
     .value_name = "N"};
 inline const MethodOption minutes_option{
     .name = "minutes",
@@ -100,10 +112,10 @@ class SplatMethod : public TrainingMethod {
   std::optional<UnsuitableStart> unsuitable(const Scene& start) const override {
     const auto* splats = std::get_if<Splats>(&only_layer(start).primitives);
     if (!splats || trainer::can_begin_with(*splats, config_)) return std::nullopt;
-    const char* own = trainer::kernel_of(config_);
     return UnsuitableStart{
         fmt::format("the scene has {} ({}), but {} begin with {} or triangles",
-                    counted(splat_count(start), "splat"), kernel_name(splats->kernel), own, own),
+                    counted(splat_count(start), "splat"), kernel_name(splats->kernel),
+                    trainer::kernel_of(config_), trainer::starts_of(config_)),
         hint_for(splats->kernel)};
   }
 
@@ -135,6 +147,12 @@ class SplatMethod : public TrainingMethod {
     if (is_limited_)
       plan.notes.push_back({"max_memory", double(config_.max_splats),
                             "--max-memory allows at most " + counted(config_.max_splats, "splat")});
+    if (const auto& bytes = options_[max_bytes_option].whole)
+      plan.notes.push_back(
+          {"max_bytes", double(*bytes),
+           fmt::format("--max-bytes {} allows {} with harmonics of degree {}, of {} bytes each",
+                       *bytes, counted(config_.max_splats, "splat"), config_.degree,
+                       trainer::bytes_of_splat<Parameters>(config_.degree))});
     if (replaced_minutes_ > 0)
       plan.notes.push_back(
           {"replaced_minutes", replaced_minutes_,
@@ -143,6 +161,10 @@ class SplatMethod : public TrainingMethod {
                                                       .start = start,
                                                       .checkpoint = std::move(checkpoint_),
                                                       .run = std::move(run)};
+    request.first_scene = [&, threads = request.run.threads,
+                           preparing = request.run.preparing](const Region& region) {
+      return first_scene(dataset, region, threads, preparing);
+    };
     request.begun = [&](const trainer::SplatStart& made) {
       plan.first = made.splats;
       plan.device = "CPU, " + counted(std::uint64_t(made.threads), "thread");
@@ -158,6 +180,11 @@ class SplatMethod : public TrainingMethod {
  protected:
   /// Sets the constants of options that only this method has.
   virtual void set_own(Config& config) const = 0;
+  /// SplatRequest::first_scene. `preparing`: as RunRequest's.
+  virtual std::optional<Scene> first_scene(const Dataset&, const Region&, int,
+                                           const std::function<void(double)>&) const {
+    return std::nullopt;
+  }
   /// The hint of unsuitable().
   virtual std::string hint_for(const SplatKernel&) const { return random_start; }
 
@@ -174,6 +201,7 @@ class SplatMethod : public TrainingMethod {
     set_whole(config.steps, options_.steps, "steps", fields);
     if (options_.steps) config.minutes = 0;
     set_whole(config.max_splats, options_[max_splats_option].whole, "max_splats", fields);
+    if (const auto& bytes = options_[max_bytes_option].whole) set_bytes(config, *bytes);
     if (const auto& minutes = options_[minutes_option].number) {
       // In a file, 0 means a fixed number of steps; on the command line, --steps does.
       if (!(*minutes > 0))
@@ -187,6 +215,20 @@ class SplatMethod : public TrainingMethod {
     if (const std::optional<std::string> reason = trainer::splat_config_defect(config))
       throw UsageError(*reason);
     return config;
+  }
+
+  /// The number of splats and their degree by --max-bytes.
+  void set_bytes(Config& config, std::int64_t bytes) const {
+    if (options_[max_splats_option].whole)
+      throw UsageError("--max-splats and --max-bytes exclude each other",
+                       "--max-bytes chooses the number of splats");
+    const auto fitting =
+        trainer::splats_in_bytes<Parameters>(std::uint64_t(std::max<std::int64_t>(bytes, 0)));
+    if (fitting.splats == 0)
+      throw UsageError(fmt::format("--max-bytes: {} is out of range; one splat has {} bytes", bytes,
+                                   trainer::bytes_of_splat<Parameters>(0)));
+    config.degree = fitting.degree;
+    config.max_splats = fitting.splats;
   }
 
   /// Lowers max_splats so that the run fits in --max-memory.
@@ -208,13 +250,15 @@ class SplatMethod : public TrainingMethod {
   double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 
-/// The info of a method of splats: `own`: its own option. `Method`: a SplatMethod.
+/// The info of a method of splats. `own`: its own options. `Method`: a SplatMethod.
 template <class Method, class Config>
-TrainingMethodInfo splat_method_info(const char* name, const char* summary, const MethodOption& own,
+TrainingMethodInfo splat_method_info(const char* name, const char* summary,
+                                     std::vector<const MethodOption*> own,
                                      trainer::CheckpointMagic magic) {
+  own.insert(own.begin(), {&max_splats_option, &max_bytes_option, &minutes_option});
   return {.name = name,
           .summary = summary,
-          .options = {&max_splats_option, &minutes_option, &own},
+          .options = std::move(own),
           .constants = [] { return names_of_fields(trainer::splat_config_fields<Config>()); },
           .reference = &trainer::splat_config_reference<Config>,
           .magic = magic,

@@ -24,6 +24,11 @@ struct DensityChord {
   Vector3 middle;  // from the centre
   Floats half;     // of the depth between begin and end
   Mask exists;
+  // Of the whole chord, in the unit sphere's space; for derivatives.
+  Vector3 in_sphere, direction;  // its middle, and the ray's change with the depth
+  Floats by_speed;               // 1 / direction . direction
+  Floats half_chord;             // of its depth
+  Mask begins_near;              // the near plane cuts it
 
   HWY_INLINE DensityChord(const NeuralEntry& entry, Floats ray_x, Floats ray_y,
                           Floats inverse_behind)
@@ -42,26 +47,28 @@ struct DensityChord {
     const auto along = [&](const float* row) {
       return hn::MulAdd(constant(row[0]), x, hn::MulAdd(constant(row[1]), y, constant(row[2])));
     };
-    const Vector3 direction{along(m), along(m + 3), along(m + 6)};
+    direction = {along(m), along(m + 3), along(m + 6)};
     const Vector3 from{start(m), start(m + 3), start(m + 6)};
-    const Floats by_speed = hn::Div(constant(1.0f), dot(direction, direction));
+    by_speed = hn::Div(constant(1.0f), dot(direction, direction));
     const auto step_to_middle = [&](const Vector3& point) {
       return hn::Neg(hn::Mul(dot(point, direction), by_speed));
     };
     const Floats first = step_to_middle(from);
     const Vector3 near_middle = sum(from, product(direction, first));
     const Floats second = step_to_middle(near_middle);
-    const Vector3 in_sphere = sum(near_middle, product(direction, second));
+    in_sphere = sum(near_middle, product(direction, second));
     // False for NaN.
     const Floats discriminant = hn::Sub(constant(1.0f), dot(in_sphere, in_sphere));
     exists = hn::Gt(discriminant, hn::Zero(d));
     if (none(exists)) return;
 
     // Depths from the middle of the chord: only the parts that are cut depend on the distance.
-    const Floats half_chord = hn::Sqrt(hn::Mul(hn::ZeroIfNegative(discriminant), by_speed));
+    half_chord = hn::Sqrt(hn::Mul(hn::ZeroIfNegative(discriminant), by_speed));
     const Floats to_middle = hn::Add(first, second), depth = hn::Add(center_z, to_middle);
     const Floats behind = hn::Div(constant(entry.by_unit), inverse_behind);  // perhaps infinity
-    const Floats begin = hn::Max(hn::Neg(half_chord), hn::Sub(constant(entry.near), depth));
+    const Floats near = hn::Sub(constant(entry.near), depth);
+    begins_near = hn::Gt(near, hn::Neg(half_chord));
+    const Floats begin = hn::Max(hn::Neg(half_chord), near);
     const Floats end = hn::Min(half_chord, hn::Sub(behind, depth));
     exists = hn::And(exists, hn::Gt(end, begin));
     half = hn::Mul(constant(0.5f), hn::Sub(end, begin));

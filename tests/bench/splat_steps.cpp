@@ -2,7 +2,7 @@
 // over the time of the image loss in the same run. Prints ten JSON lines: means over tenths of the
 // run. `tureen train` measures quality.
 //
-//   splat_steps gaussians|triangles DATASET SCALE [CONFIG.json]
+//   splat_steps gaussians|triangles|neural DATASET SCALE [CONFIG.json]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +15,7 @@
 #include "base/existing_path.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
+#include "trainer/splats/neural/neural_training.hpp"
 #include "trainer/splats/splat_config.hpp"
 #include "trainer/splats/windows/window_training.hpp"
 
@@ -76,6 +77,9 @@ void run(int count, char** values) {
   } else if (method == "triangles") {
     const auto config = config_of<WindowConfig>(count, values);
     train<WindowTraining>(config, dataset, views(config));
+  } else if (method == "neural") {
+    const auto config = config_of<NeuralConfig>(count, values);
+    train<NeuralTraining>(config, dataset, views(config));
   } else {
     throw std::runtime_error(method + ": no such method");
   }

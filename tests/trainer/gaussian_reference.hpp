@@ -32,9 +32,12 @@ struct Dual {
 };
 inline double value_of(double x) { return x; }
 inline double value_of(Dual x) { return x.value; }
+inline double value_of(long double x) { return double(x); }
 inline double root(double x) { return std::sqrt(x); }
+inline long double root(long double x) { return std::sqrt(x); }
 inline Dual root(Dual x) { return {std::sqrt(x.value), 0.5 / std::sqrt(x.value) * x.slope}; }
 inline double power(double x) { return std::exp(x); }
+inline long double power(long double x) { return std::exp(x); }
 inline Dual power(Dual x) { return {std::exp(x.value), std::exp(x.value) * x.slope}; }
 
 /// The branches that a drawing took, in order: one letter each. n: nearer than the profile allows;
@@ -42,6 +45,33 @@ inline Dual power(Dual x) { return {std::exp(x.value), std::exp(x.value) * x.slo
 /// the largest; s: the pixel is closed; f: alpha is that of the filter on the screen; p: because
 /// the ray does not meet the disc; '.': every other case.
 using Branches = std::vector<char>;
+
+/// The colour of a splat at this offset from the eye.
+template <class Real>
+std::array<Real, 3> reference_color(const std::array<Real, 3>& offset, const Real* coefficients,
+                                    int degree) {
+  const Real distance = root(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+  const auto basis = harmonics::basis(
+      glm::vec<3, Real>(offset[0] / distance, offset[1] / distance, offset[2] / distance));
+  std::array<Real, 3> color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Real sum(0.5);
+    for (int n = 0; n < harmonics::count(degree); ++n)
+      sum = sum + basis[std::size_t(n)] * coefficients[3 * std::size_t(n) + c];
+    color[c] = value_of(sum) > 0 ? sum : Real(0);
+  }
+  return color;
+}
+
+/// The columns of a rotation.
+template <class Real>
+std::array<std::array<Real, 3>, 3> reference_axes(Real i, Real j, Real k, Real w) {
+  const Real length = root(i * i + j * j + k * k + w * w), two(2), one(1);
+  i = i / length, j = j / length, k = k / length, w = w / length;
+  return {{{one - two * (j * j + k * k), two * (i * j + w * k), two * (i * k - w * j)},
+           {two * (i * j - w * k), one - two * (i * i + k * k), two * (j * k + w * i)},
+           {two * (i * k + w * j), two * (j * k - w * i), one - two * (i * i + j * j)}}};
+}
 
 /// The values of a splat's parameters in a view.
 template <class Real>
@@ -73,26 +103,12 @@ ReferenceValues<Real> reference_values(const Real* p, int degree, const Camera& 
     return turned;
   };
   result.center = in_view(offset);
-  Real i = p[row::rotation_x], j = p[row::rotation_y], k = p[row::rotation_z],
-       w = p[row::rotation_w];
-  const Real length = root(i * i + j * j + k * k + w * w);
-  i = i / length, j = j / length, k = k / length, w = w / length;
-  const Real two(2), one(1);
-  result.axes = {
-      in_view({one - two * (j * j + k * k), two * (i * j + w * k), two * (i * k - w * j)}),
-      in_view({two * (i * j - w * k), one - two * (i * i + k * k), two * (j * k + w * i)}),
-      in_view({two * (i * k + w * j), two * (j * k - w * i), one - two * (i * i + j * j)})};
+  const auto axes = reference_axes(p[row::rotation_x], p[row::rotation_y], p[row::rotation_z],
+                                   p[row::rotation_w]);
+  for (std::size_t n = 0; n < 3; ++n) result.axes[n] = in_view(axes[n]);
   for (std::size_t n = 0; n < 3; ++n) result.scales[n] = power(p[row::scale_x + n]);
-  result.opacity = one / (one + power(Real(0) - p[row::opacity]));
-  const Real distance = root(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-  const auto basis = harmonics::basis(
-      glm::vec<3, Real>(offset[0] / distance, offset[1] / distance, offset[2] / distance));
-  for (std::size_t c = 0; c < 3; ++c) {
-    Real sum(0.5);
-    for (int n = 0; n < harmonics::count(degree); ++n)
-      sum = sum + basis[std::size_t(n)] * p[row::harmonics + 3 * std::size_t(n) + c];
-    result.color[c] = value_of(sum) > 0 ? sum : Real(0);
-  }
+  result.opacity = Real(1) / (Real(1) + power(Real(0) - p[row::opacity]));
+  result.color = reference_color(offset, p + row::harmonics, degree);
   return result;
 }
 
@@ -181,16 +197,17 @@ struct ReferenceDisc {
 };
 
 /// The image over a background: red, green and blue planes, row 0 on top. `p` has `rows` values a
-/// splat.
-template <template <class> class Splat, class Real>
-std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, int degree,
-                                  const Camera& camera, const std::array<float, 3>& background,
-                                  Branches* taken = nullptr) {
-  const SplatProfile profile = *profile_named(Splat<Real>::profile);
-  std::vector<Splat<Real>> splats;
+/// splat; `make(p, branches)` makes one of them.
+template <class Real, class Make>
+std::vector<Real> composited(const std::vector<Real>& p, std::size_t rows, const Make& make,
+                             const Camera& camera, const std::array<float, 3>& background,
+                             Branches* taken) {
   Branches branches;
+  using Splat = decltype(make(p.data(), branches));
+  const SplatProfile profile = *profile_named(Splat::profile);
+  std::vector<Splat> splats;
   for (std::size_t first = 0; first < p.size(); first += rows) {
-    const Splat<Real> splat(reference_values(&p[first], degree, camera), camera, branches);
+    const Splat splat = make(&p[first], branches);
     const bool near = !(splat.depth > double(profile.min_center_depth));
     branches.push_back(near ? 'n' : '.');
     if (!near) splats.push_back(splat);
@@ -204,7 +221,7 @@ std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, 
     const double y = double(pixel / std::size_t(camera.width)) + 0.5;
     Real left(1);
     std::array<Real, 3> color{Real(0), Real(0), Real(0)};
-    for (const Splat<Real>& splat : splats) {
+    for (const Splat& splat : splats) {
       Real alpha = splat.alpha(x, y, camera, branches);
       branches.push_back('a');
       if (value_of(alpha) < double(profile.min_alpha)) continue;
@@ -226,6 +243,16 @@ std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, 
   }
   if (taken) *taken = std::move(branches);
   return planes;
+}
+
+template <template <class> class Splat, class Real>
+std::vector<Real> reference_image(const std::vector<Real>& p, std::size_t rows, int degree,
+                                  const Camera& camera, const std::array<float, 3>& background,
+                                  Branches* taken = nullptr) {
+  const auto make = [&](const Real* values, Branches& branches) {
+    return Splat<Real>(reference_values(values, degree, camera), camera, branches);
+  };
+  return composited(p, rows, make, camera, background, taken);
 }
 
 }  // namespace tureen::trainer::test

@@ -92,17 +92,9 @@ std::vector<Real> image_of(const std::vector<Real>& values, std::size_t rows, in
 template <class Kernel>
 std::vector<double> reference_gradient(const GaussianParameters& parameters, int degree,
                                        const std::vector<float>& gradient) {
-  std::vector<Dual> values = values_of<Dual>(parameters);
-  std::vector<double> result;
-  for (Dual& variable : values) {
-    variable.slope = 1;
-    const std::vector<Dual> image = image_of<Kernel>(values, parameters.rows(), degree);
-    variable.slope = 0;
-    double sum = 0;
-    for (std::size_t k = 0; k < image.size(); ++k) sum += image[k].slope * double(gradient[k]);
-    result.push_back(sum);
-  }
-  return result;
+  return test::slopes_of(values_of<Dual>(parameters), [&](const std::vector<Dual>& values) {
+    return test::sum_of(image_of<Kernel>(values, parameters.rows(), degree), gradient);
+  });
 }
 
 /// Of the kernels, splat after splat.
@@ -129,22 +121,8 @@ void expect_agreement(const GaussianParameters& parameters, int degree, std::uin
   const std::vector<float> by_image = random_gradient(seed);
   const std::vector<double> expected = reference_gradient<Kernel>(parameters, degree, by_image);
   const std::vector<float> actual = kernel_gradient<Kernel>(parameters, degree, by_image);
-  const std::size_t rows = parameters.rows();
-  std::size_t moving = 0;
-  for (std::size_t i = 0; i < parameters.count(); ++i)
-    for (const ParameterKind& kind : gaussian_parameter_kinds) {
-      double difference = 0, length = 0;
-      for (std::size_t r = kind.first; r < std::min(kind.first + kind.size, rows); ++r) {
-        const double e = expected[i * rows + r];
-        difference += std::pow(double(actual[i * rows + r]) - e, 2);
-        length += e * e;
-      }
-      moving += length > 0;
-      EXPECT_LE(std::sqrt(difference), 3e-4 * std::sqrt(length) + 1e-5)
-          << kind.name << " of splat " << i << ", seed " << seed << ", length "
-          << std::sqrt(length);
-    }
-  EXPECT_GT(moving, parameters.count()) << "too little to compare";
+  test::expect_close(gaussian_parameter_kinds, parameters.rows(), actual, expected, 3e-4, 1e-5,
+                     seed);
 }
 
 TYPED_TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
@@ -152,27 +130,10 @@ TYPED_TEST(SplatsGradient, OfTheReferenceIsThatOfDifferences) {
     const GaussianParameters parameters = random_parameters(1, 6, 3, mean_logit);
     const std::vector<float> by_image = random_gradient(2);
     const std::vector<double> gradient = reference_gradient<TypeParam>(parameters, 3, by_image);
-    std::vector<double> values = values_of<double>(parameters);
-    const auto loss = [&] {
-      const std::vector<double> image = image_of<TypeParam>(values, parameters.rows(), 3);
-      double sum = 0;
-      for (std::size_t k = 0; k < image.size(); ++k) sum += image[k] * double(by_image[k]);
-      return sum;
+    const auto loss = [&](const std::vector<double>& values) {
+      return test::sum_of(image_of<TypeParam>(values, parameters.rows(), 3), by_image);
     };
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      // The error of central differences is of the order of step^2, and rounding / step: 1e-9.
-      // No pixel crosses a limit of alpha within such a step.
-      constexpr double step = 1e-6;
-      const double middle = values[k];
-      values[k] = middle + step;
-      const double above = loss();
-      values[k] = middle - step;
-      const double below = loss();
-      values[k] = middle;
-      const double difference = (above - below) / (2 * step);
-      EXPECT_NEAR(gradient[k], difference, 1e-6 * std::max(1.0, std::abs(difference)))
-          << "row " << k % parameters.rows() << ", logit " << mean_logit;
-    }
+    test::expect_differences(values_of<double>(parameters), gradient, parameters.rows(), loss);
   }
 }
 
@@ -185,63 +146,20 @@ TYPED_TEST(SplatsGradient, OfTheReferenceHoldsAtBranches) {
   for (std::size_t r = 0; r < std::size(large); ++r) parameters.trained(r)[turning] = large[r];
   parameters.activate(turning);
   const std::vector<float> by_image = random_gradient(8);
-  const std::vector<double> start = values_of<double>(parameters);
-  test::Branches branches;
-  const auto loss = [&](std::size_t k, auto value) {
-    std::vector<decltype(value)> values(start.begin(), start.end());
-    values[k] = value;
-    const auto image = image_of<TypeParam>(values, parameters.rows(), 1, &branches);
-    decltype(value) sum = 0;
-    for (std::size_t i = 0; i < image.size(); ++i) sum = sum + image[i] * double(by_image[i]);
-    return sum;
-  };
-  std::string met;  // the letters that changed at some branch
-  const auto expect_both_sides = [&](std::size_t k, double low, double high) {
-    loss(k, low);
-    const test::Branches before = branches;
-    loss(k, high);
-    if (branches == before) return;
-    while (high - low > 1e-13 * std::max(1.0, std::abs(low))) {
-      const double middle = 0.5 * (low + high);
-      if (middle <= low || middle >= high) break;
-      loss(k, middle);
-      (branches == before ? low : high) = middle;
-    }
-    loss(k, high);
-    for (std::size_t i = 0; i < std::min(before.size(), branches.size()); ++i)
-      if (before[i] != branches[i]) {
-        met += {before[i], branches[i]};
-        break;
-      }
-    for (const double side : {low, high}) {
-      // The error of these differences is step^2 / 3 times the third derivative, which reaches 2e7
-      // where the disc is seen from its edge, and rounding / step: 3e-8.
-      const double step = side == low ? -3e-7 : 3e-7;
-      loss(k, side);
-      const test::Branches here = branches;
-      const double at = loss(k, side), next = loss(k, side + step);
-      const double after = loss(k, side + 2 * step);
-      if (branches != here) continue;  // another branch is as near
-      const double difference = (4 * next - 3 * at - after) / (2 * step);
-      EXPECT_NEAR(loss(k, Dual(side, 1)).slope, difference,
-                  1e-6 * std::max(1.0, std::abs(difference)))
-          << "value " << k << " at " << side;
-    }
-  };
-  const auto scan = [&](std::size_t k, double low, double high, int intervals) {
-    for (int i = 0; i < intervals; ++i)
-      expect_both_sides(k, low + (high - low) * i / intervals,
-                        low + (high - low) * (i + 1) / intervals);
-  };
+  // The third derivative reaches 2e7 where the disc is seen from its edge.
+  auto scan = test::branch_scan<double>(
+      values_of<double>(parameters), 3e-7, [&](const auto& values, test::Branches& branches) {
+        return test::sum_of(image_of<TypeParam>(values, parameters.rows(), 1, &branches), by_image);
+      });
   const std::size_t rows = parameters.rows();
   for (std::size_t splat = 0; splat < 6; ++splat) {
-    scan(splat * rows + row::opacity, -7, 7, 40);
-    scan(splat * rows + row::z, 3, 4, 20);  // through the smallest depth
-    scan(splat * rows + row::x, 0, 5, 20);  // out of the image
+    scan.scan(splat * rows + row::opacity, -7, 7, 40);
+    scan.scan(splat * rows + row::z, 3, 4, 20);  // through the smallest depth
+    scan.scan(splat * rows + row::x, 0, 5, 20);  // out of the image
   }
-  scan(turning * rows + row::rotation_x, 0.1, 3, 40);
+  scan.scan(turning * rows + row::rotation_x, 0.1, 3, 40);
   for (const char branch : TypeParam::branches)
-    EXPECT_NE(met.find(branch), std::string::npos) << branch;
+    EXPECT_NE(scan.met().find(branch), std::string::npos) << branch;
 }
 
 TYPED_TEST(SplatsGradient, OfTheReferenceBelongsToTheImageOfTheOracle) {

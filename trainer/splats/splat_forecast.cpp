@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trainer/splats/gaussians/gaussian_training.hpp"
+#include "trainer/splats/neural/neural_training.hpp"
 #include "trainer/splats/windows/window_training.hpp"
 
 namespace tureen::trainer {
@@ -99,8 +100,11 @@ int fitted_steps(const SplatConfig& config, int done, double seconds, double ste
 }
 
 template std::uint64_t splat_memory(const GaussianConfig&, const Dataset&);
+template std::uint64_t splat_memory(const NeuralConfig&, const Dataset&);
 template std::uint64_t splat_memory(const WindowConfig&, const Dataset&);
 template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const GaussianConfig&,
+                                                        const Dataset&);
+template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const NeuralConfig&,
                                                         const Dataset&);
 template std::optional<std::uint64_t> max_splats_within(std::uint64_t, const WindowConfig&,
                                                         const Dataset&);

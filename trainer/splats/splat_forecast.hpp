@@ -10,7 +10,7 @@
 
 namespace tureen::trainer {
 
-// Config is GaussianConfig or WindowConfig.
+// Config is GaussianConfig, NeuralConfig or WindowConfig.
 
 /// Bytes that a run needs at its largest: the program, photographs, parameters with their moments
 /// (twice, while their number grows), lists of tiles, and planes of images. An estimate: lists

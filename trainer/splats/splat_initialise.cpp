@@ -9,6 +9,8 @@
 #include "scene/edit/moved_splats.hpp"
 #include "trainer/common/neighbours.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
+#include "trainer/splats/neural/neural_start.hpp"
+#include "trainer/splats/neural/neural_training.hpp"
 #include "trainer/splats/splat_start.hpp"
 #include "trainer/splats/windows/window_training.hpp"
 
@@ -62,17 +64,22 @@ typename Training::Parameters at_points(const Dataset& dataset,
                    "allow more splats, or convert the scene to one with fewer");
 }
 
-GaussianParameters on_triangles(const Scene& scene, const GaussianConfig& config,
-                                const Region& region, Random& random) {
+/// At points on the triangles, uniform in area.
+template <class Training>
+typename Training::Parameters on_triangles(const Scene& scene,
+                                           const typename Training::Config& config,
+                                           const Region& region, Random& random) {
   const auto count = std::size_t(std::min(config.first_splats, config.max_splats));
-  GaussianParameters result(count, config.degree);
-  put_all<GaussianTraining>(result, points_on_triangles(scene, region, count, random), config,
-                            region.half_side, region.half_side, random);
+  typename Training::Parameters result(count, config.degree);
+  put_all<Training>(result, points_on_triangles(scene, region, count, random), config,
+                    region.half_side, region.half_side, random);
   return result;
 }
 
-WindowParameters on_triangles(const Scene& scene, const WindowConfig& config, const Region& region,
-                              Random&) {
+/// The triangles themselves.
+template <>
+WindowParameters on_triangles<WindowTraining>(const Scene& scene, const WindowConfig& config,
+                                              const Region& region, Random&) {
   const TriangleSoup& soup = only_soup(scene);
   if (soup.triangles.size() > config.max_splats)
     refuse_more(soup.triangles.size(), config, "triangles");
@@ -89,6 +96,18 @@ WindowParameters on_triangles(const Scene& scene, const WindowConfig& config, co
   return result;
 }
 
+GaussianParameters parameters_of(const Splats& splats, const GaussianConfig& config, Random&) {
+  return {splats, config.degree};
+}
+WindowParameters parameters_of(const Splats& splats, const WindowConfig& config, Random&) {
+  return {splats, config.degree};
+}
+NeuralParameters parameters_of(const Splats& splats, const NeuralConfig& config, Random& random) {
+  if (std::holds_alternative<Gaussians>(splats.kernel))
+    return densities_from(splats, config.degree, random);
+  return {splats, config.degree};
+}
+
 template <class Training>
 typename Training::Parameters from_scene(const Scene& scene,
                                          const typename Training::Config& config,
@@ -97,18 +116,19 @@ typename Training::Parameters from_scene(const Scene& scene,
   if (std::holds_alternative<TriangleSoup>(layer.primitives)) {
     if (only_soup(scene).triangles.empty())
       throw InputError({}, "the initial scene has no triangle");
-    return on_triangles(scene, config, region, random);
+    return on_triangles<Training>(scene, config, region, random);
   }
   Splats splats = std::get<Splats>(layer.primitives);
   move_splats(splats, at_origin(-region.center) * layer.world_from_layer);
   if (!can_begin_with(splats, config))
-    throw InputError({}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
-                             (has_own_kernel(splats, config) ? " with colours of corners" : "") +
-                             "; the training of " + kernel_of(config) + " begins with " +
-                             kernel_of(config) + " or opaque triangles");
+    throw InputError(
+        {}, std::string("the initial scene has ") + kernel_name(splats.kernel) +
+                (has_kernel_of_start(splats, config) ? " with colours of corners" : "") +
+                "; the training of " + kernel_of(config) + " begins with " + starts_of(config) +
+                " or opaque triangles");
   if (count(splats) == 0) throw InputError({}, "the initial scene has no splat");
   if (count(splats) > config.max_splats) refuse_more(count(splats), config, "splats");
-  return {splats, config.degree};
+  return parameters_of(splats, config, random);
 }
 
 }  // namespace
@@ -149,7 +169,7 @@ typename Training::Parameters initial_splats(const Dataset& dataset,
                                              const typename Training::Config& config,
                                              const Region& region, const Scene* start,
                                              Random& random) {
-  assert((start != nullptr) == (config.initialisation == Initialisation::mesh));
+  assert(start || config.initialisation != Initialisation::mesh);
   if (start) return from_scene<Training>(*start, config, region, random);
   if (config.initialisation == Initialisation::points && dataset.points.empty())
     throw InputError({}, "the dataset has no points for the first splats",
@@ -163,6 +183,8 @@ typename Training::Parameters initial_splats(const Dataset& dataset,
 template GaussianParameters initial_splats<GaussianTraining>(const Dataset&, const GaussianConfig&,
                                                              const Region&, const Scene*, Random&);
 template GaussianParameters initial_splats<DiscTraining>(const Dataset&, const GaussianConfig&,
+                                                         const Region&, const Scene*, Random&);
+template NeuralParameters initial_splats<NeuralTraining>(const Dataset&, const NeuralConfig&,
                                                          const Region&, const Scene*, Random&);
 template WindowParameters initial_splats<WindowTraining>(const Dataset&, const WindowConfig&,
                                                          const Region&, const Scene*, Random&);

@@ -50,9 +50,9 @@ typename Training::Parameters random_splats(const typename Training::Config& con
 /// Points: at most config.max_splats of them, with their colours. Further random ones in the region
 /// make up config.first_splats.
 ///
-/// `start`: the scene for Initialisation::mesh, null for all others; it has one layer. Splats of
-/// the method's kernel are taken as they are, in world coordinates. For triangles, see
-/// Training::on_triangles.
+/// `start`: the scene of Initialisation::mesh, or one that replaces the others, or null; it has one
+/// layer. Splats of the method's kernel are taken as they are, in world coordinates; Gaussians
+/// become neural densities. Triangles become windows, or give points for other kernels.
 ///
 /// Throws InputError if points are required and the dataset has none, for a scene without triangles
 /// or splats of the kernel, and for one with more splats than config.max_splats; UsageError for a

@@ -19,10 +19,10 @@
 namespace tureen::trainer {
 
 /// The rows of a kernel, with harmonics up to `degree` from the row `Harmonics` on. From `FirstRaw`
-/// to there, trained values differ from drawn ones.
-template <std::size_t FirstRaw, std::size_t Harmonics>
+/// to `EndRaw` (excluded), trained values differ from drawn ones.
+template <std::size_t FirstRaw, std::size_t Harmonics, std::size_t EndRaw = Harmonics>
 struct SplatParameters {
-  static constexpr std::size_t raw_rows = Harmonics - FirstRaw;
+  static constexpr std::size_t raw_rows = EndRaw - FirstRaw;
 
   int degree = 0;
   splatting::ParameterRows drawn;  // after activation
@@ -50,7 +50,7 @@ struct SplatParameters {
   /// The trained values of a row.
   float* trained(std::size_t row) { return const_cast<float*>(std::as_const(*this).trained(row)); }
   const float* trained(std::size_t row) const {
-    return row >= FirstRaw && row < Harmonics ? raw.row(row - FirstRaw) : drawn.row(row);
+    return row >= FirstRaw && row < EndRaw ? raw.row(row - FirstRaw) : drawn.row(row);
   }
 
   /// Of the trained and the drawn values.

@@ -3,6 +3,7 @@
 
 #include "scene/splats.hpp"
 #include "trainer/splats/gaussians/gaussian_config.hpp"
+#include "trainer/splats/neural/neural_config.hpp"
 #include "trainer/splats/windows/window_config.hpp"
 
 namespace tureen::trainer {
@@ -11,21 +12,33 @@ namespace tureen::trainer {
 inline const char* kernel_of(const GaussianConfig& config) {
   return config.flat ? "flat Gaussians" : "Gaussians";
 }
+inline const char* kernel_of(const NeuralConfig&) { return "neural densities"; }
 inline const char* kernel_of(const WindowConfig&) { return "triangle windows"; }
 
-/// Whether the splats have the kernel that the configuration trains.
-inline bool has_own_kernel(const Splats& splats, const GaussianConfig& config) {
+/// The kernels of splats with which its training can begin.
+template <class Config>
+const char* starts_of(const Config& config) {
+  return kernel_of(config);
+}
+inline const char* starts_of(const NeuralConfig&) { return "neural densities, Gaussians"; }
+
+/// Whether the splats have such a kernel.
+inline bool has_kernel_of_start(const Splats& splats, const GaussianConfig& config) {
   const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
   return gaussians && gaussians->flat == config.flat;
 }
-inline bool has_own_kernel(const Splats& splats, const WindowConfig&) {
+inline bool has_kernel_of_start(const Splats& splats, const NeuralConfig&) {
+  const auto* gaussians = std::get_if<Gaussians>(&splats.kernel);
+  return std::holds_alternative<NeuralDensities>(splats.kernel) || (gaussians && !gaussians->flat);
+}
+inline bool has_kernel_of_start(const Splats& splats, const WindowConfig&) {
   return std::holds_alternative<TriangleWindows>(splats.kernel);
 }
 
-/// Whether the splats can be the first ones: of the own kernel, with one colour each.
+/// Whether the splats can be the first ones: of such a kernel, with one colour each.
 template <class Config>
 bool can_begin_with(const Splats& splats, const Config& config) {
-  return has_own_kernel(splats, config) && !splats.color.per_corner;
+  return has_kernel_of_start(splats, config) && !splats.color.per_corner;
 }
 
 }  // namespace tureen::trainer

@@ -14,6 +14,8 @@ namespace tureen::trainer {
 template <>
 const CheckpointKind checkpoint_kind<GaussianCheckpoint>{gaussians_magic, 1};
 template <>
+const CheckpointKind checkpoint_kind<NeuralCheckpoint>{neural_magic, 1};
+template <>
 const CheckpointKind checkpoint_kind<WindowCheckpoint>{triangles_magic, 1};
 
 namespace {
@@ -168,6 +170,8 @@ Checkpoint read_splat_checkpoint(Input input) {
 
 template void write_checkpoint(const std::filesystem::path&, const GaussianCheckpoint&);
 template GaussianCheckpoint read_splat_checkpoint(Input);
+template void write_checkpoint(const std::filesystem::path&, const NeuralCheckpoint&);
+template NeuralCheckpoint read_splat_checkpoint(Input);
 template void write_checkpoint(const std::filesystem::path&, const WindowCheckpoint&);
 template WindowCheckpoint read_splat_checkpoint(Input);
 

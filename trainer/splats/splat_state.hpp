@@ -12,6 +12,8 @@
 #include "trainer/common/view_fingerprint.hpp"
 #include "trainer/splats/gaussians/gaussian_config.hpp"
 #include "trainer/splats/gaussians/gaussian_parameters.hpp"
+#include "trainer/splats/neural/neural_config.hpp"
+#include "trainer/splats/neural/neural_parameters.hpp"
 #include "trainer/splats/splat_memory.hpp"
 #include "trainer/splats/windows/window_config.hpp"
 #include "trainer/splats/windows/window_parameters.hpp"
@@ -40,10 +42,12 @@ struct SplatCheckpoint {
 
 using GaussianState = SplatState<GaussianParameters>;
 using GaussianCheckpoint = SplatCheckpoint<GaussianConfig, GaussianParameters>;
+using NeuralState = SplatState<NeuralParameters>;
+using NeuralCheckpoint = SplatCheckpoint<NeuralConfig, NeuralParameters>;
 using WindowState = SplatState<WindowParameters>;
 using WindowCheckpoint = SplatCheckpoint<WindowConfig, WindowParameters>;
 
-/// The functions below are for these two kinds of checkpoints.
+/// The functions below are for these three kinds of checkpoints.
 template <class Checkpoint>
 extern const CheckpointKind checkpoint_kind;
 

@@ -83,7 +83,7 @@ std::size_t step_splats(const BackwardInput<typename Loops::Moments>& input,
                         typename Loops::Parameters& parameters, SplatMemory& memory) {
   namespace statistic = splat_statistic;
   constexpr std::size_t block = SplatMemory::block;
-  constexpr std::size_t max_rows = 64;  // triangle windows of degree 3 have 59
+  constexpr std::size_t max_rows = 112;  // neural densities of degree 3 have 99
   const std::size_t rows = parameters.rows();
   assert(rows <= max_rows);
   float rates[max_rows];
@@ -118,6 +118,30 @@ std::size_t step_splats(const BackwardInput<typename Loops::Moments>& input,
     Loops::activate(step, i, parameters);
   }
   return quarantined;
+}
+
+/// For Loops::activate: limits three trained logarithms of lengths, and computes the lengths.
+template <std::size_t first, class Parameters>
+HWY_INLINE void activate_lengths(float low, float high, std::size_t i, Parameters& parameters) {
+  for (std::size_t k = first; k < first + 3; ++k) {
+    float* trained = parameters.trained(k) + i;
+    const Floats value = hn::Clamp(hn::Load(d, trained), constant(low), constant(high));
+    hn::Store(value, d, trained);
+    hn::Store(exp_of(value), d, parameters.drawn.row(k) + i);
+  }
+}
+
+/// For Loops::activate: the drawn quaternion, of unit length.
+template <std::size_t first, class Parameters>
+HWY_INLINE void activate_rotation(std::size_t i, Parameters& parameters) {
+  Floats rotation[4], squared = hn::Zero(d);
+  for (std::size_t k = 0; k < 4; ++k) {
+    rotation[k] = hn::Load(d, parameters.trained(first + k) + i);
+    squared = hn::MulAdd(rotation[k], rotation[k], squared);
+  }
+  const Floats inverse = hn::Div(constant(1.0f), hn::Sqrt(squared));
+  for (std::size_t k = 0; k < 4; ++k)
+    hn::Store(hn::Mul(rotation[k], inverse), d, parameters.drawn.row(first + k) + i);
 }
 
 template <class Loops>

@@ -86,7 +86,7 @@ class SplatTrainer {
     VarianceLoss variance{.ignored = view.ignored};
     if constexpr (TileRaster<Training>::has_variance)
       variance.weight = Training::variance_weight(config_, parameters());
-    raster_.forward(state_.parameters, view.camera, degree_now(), background(), planes_,
+    raster_.forward(state_.parameters, camera_of_step(view), degree_now(), background(), planes_,
                     variance.weight > 0);
     SplatStepReport report;
     {
@@ -178,6 +178,19 @@ class SplatTrainer {
     return view;
   }
 
+  /// With Config::jitter, the rays of the step pass through a random point of each pixel, the same
+  /// in all.
+  Camera camera_of_step(const TrainingView& view) {
+    Camera camera = view.camera;
+    if constexpr (requires { config_.jitter; }) {
+      if (config_.jitter > 0) {
+        camera.cx += config_.jitter * state_.random.uniform(-0.5, 0.5);
+        camera.cy += config_.jitter * state_.random.uniform(-0.5, 0.5);
+      }
+    }
+    return camera;
+  }
+
   /// Returns the number of splats that are not finite.
   std::size_t update(const BackwardInput<typename Training::Moments>& input) {
     const double done = double(state_.step) / config_.steps;
@@ -186,6 +199,8 @@ class SplatTrainer {
     for (std::size_t k = 0; k < Training::kinds.size(); ++k) {
       const ParameterKind& kind = Training::kinds[k];
       step.rates[k] = float(kind.rate * std::pow(double(kind.last_rate) / kind.rate, done));
+      if constexpr (requires { Training::rate_factor(config_, k, count); })
+        step.rates[k] *= Training::rate_factor(config_, k, count);
     }
     step.rates[0] *= float(region_.half_side) * Training::position_rate(parameters());
     std::atomic<std::size_t> quarantined = 0;

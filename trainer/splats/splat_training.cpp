@@ -9,6 +9,7 @@
 #include "trainer/common/stopwatch.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
+#include "trainer/splats/neural/neural_training.hpp"
 #include "trainer/splats/splat_forecast.hpp"
 #include "trainer/splats/windows/window_training.hpp"
 
@@ -152,9 +153,14 @@ SplatResult train_by(Dataset& dataset, Request request) {
       .state = {}};
   assert(!request.checkpoint || !difference(run.views, request.checkpoint->views));
   const Region region = region_of_interest(dataset);
-  run.state = request.checkpoint
-                  ? std::move(request.checkpoint->state)
-                  : first_splats<Training>(dataset, run.config, region, request.start);
+  std::optional<Scene> first;
+  if (!request.checkpoint && !request.start && request.first_scene) {
+    const Stopwatch watch(run.seconds);
+    first = request.first_scene(region);
+  }
+  run.state = request.checkpoint ? std::move(request.checkpoint->state)
+                                 : first_splats<Training>(dataset, run.config, region,
+                                                          first ? &*first : request.start);
   const std::size_t splats = run.state.parameters.count();
   std::vector<TrainingView> views =
       take_training_views(dataset.train, std::span<const float, 3>(run.config.background));
@@ -190,6 +196,7 @@ SplatResult train_splats(Dataset& dataset, SplatRequest<Config, Parameters> requ
 }
 
 template SplatResult train_splats(Dataset&, GaussianRequest);
+template SplatResult train_splats(Dataset&, NeuralRequest);
 template SplatResult train_splats(Dataset&, WindowRequest);
 
 }  // namespace tureen::trainer

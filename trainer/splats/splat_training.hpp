@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/photographs.hpp"
+#include "scene/region.hpp"
 #include "scene/scene.hpp"
 #include "trainer/common/whole_run.hpp"
 #include "trainer/splats/splat_state.hpp"
@@ -23,11 +24,15 @@ struct SplatRequest {
   const Scene* start = nullptr;                                   // for Initialisation::mesh
   std::optional<SplatCheckpoint<Config, Parameters>> checkpoint;  // to continue from
   RunRequest run;
+  /// A scene to begin with, as `start`; its time is a part of the run's. Called for a new run
+  /// without `start`. May be empty, and may return none.
+  std::function<std::optional<Scene>(const Region&)> first_scene = {};
   /// Called before the first step. May be empty, and may throw to end the run.
   std::function<void(const SplatStart&)> begun = {};
 };
 
 using GaussianRequest = SplatRequest<GaussianConfig, GaussianParameters>;
+using NeuralRequest = SplatRequest<NeuralConfig, NeuralParameters>;
 using WindowRequest = SplatRequest<WindowConfig, WindowParameters>;
 
 struct SplatResult {
@@ -39,7 +44,7 @@ struct SplatResult {
 
 /// Trains on dataset.train and tests on dataset.test; frees the images of dataset.train. The scene
 /// has one layer, at the centre of the region of interest, with the primitives of the method
-/// (GaussianTraining::primitives, WindowTraining::primitives). With config.minutes, the number of
+/// (primitives() of GaussianTraining and others). With config.minutes, the number of
 /// steps is fitted to the time after the first steps and three times later, last at half the run;
 /// after that, a run that resumes has the same bits. Throws the errors of region_of_interest,
 /// initial_splats and run_to_the_end. Asserts that a checkpoint has the views of the dataset; its

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "scene/splats.hpp"
 #include "splatting/gaussians/gaussian_kernels.hpp"
@@ -27,6 +28,9 @@ struct GaussianParameters
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and scales to 1e-30 or more.
   GaussianParameters(const Splats& splats, int degree);
+
+  /// For splats_in_bytes().
+  static constexpr std::array<std::uint64_t, 3> least_of_degree{1, 1, 1};
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);

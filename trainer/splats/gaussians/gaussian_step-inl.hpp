@@ -65,29 +65,15 @@ HWY_INLINE void rotation_gradient(const Vector3 (&axes)[3], const GaussianParame
 
 /// Limits the trained values, and computes the drawn ones.
 HWY_INLINE void activate(const GaussianStep& step, std::size_t i, GaussianParameters& parameters) {
-  const auto trained = [&](std::size_t r) { return parameters.trained(r) + i; };
-  const auto store = [&](std::size_t r, Floats value) {
-    hn::Store(value, d, parameters.drawn.row(r) + i);
-  };
+  shared::activate_lengths<row::scale_x>(step.min_log_scale, step.max_log_scale, i, parameters);
+  shared::activate_rotation<row::rotation_x>(i, parameters);
   const Floats one = constant(1.0f);
-  for (std::size_t k = row::scale_x; k <= row::scale_z; ++k) {
-    const Floats value = hn::Clamp(hn::Load(d, trained(k)), constant(step.min_log_scale),
-                                   constant(step.max_log_scale));
-    hn::Store(value, d, trained(k));
-    store(k, exp_of(value));
-  }
-  Floats rotation[4], squared = hn::Zero(d);
-  for (std::size_t k = 0; k < 4; ++k) {
-    rotation[k] = hn::Load(d, trained(row::rotation_x + k));
-    squared = hn::MulAdd(rotation[k], rotation[k], squared);
-  }
-  const Floats inverse = hn::Div(one, hn::Sqrt(squared));
-  for (std::size_t k = 0; k < 4; ++k) store(row::rotation_x + k, hn::Mul(rotation[k], inverse));
+  float* trained = parameters.trained(row::opacity) + i;
   // Beyond 16, the sigmoid is 1 in single precision, and its derivative 0.
-  const Floats logit =
-      hn::Clamp(hn::Load(d, trained(row::opacity)), constant(-16.0f), constant(16.0f));
-  hn::Store(logit, d, trained(row::opacity));
-  store(row::opacity, hn::Div(one, hn::Add(one, exp_of(hn::Neg(logit)))));
+  const Floats logit = hn::Clamp(hn::Load(d, trained), constant(-16.0f), constant(16.0f));
+  hn::Store(logit, d, trained);
+  hn::Store(hn::Div(one, hn::Add(one, exp_of(hn::Neg(logit)))), d,
+            parameters.drawn.row(row::opacity) + i);
 }
 
 /// What write_gradients() and step_splats() need, without Moments and gradient_of().

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "scene/splats.hpp"
 #include "splatting/windows/window_kernels.hpp"
@@ -38,6 +39,9 @@ struct WindowParameters
   using SplatParameters::SplatParameters;
   /// Opacities are limited to [0.001, 0.999], and sigmas to at least 1.01 sigma_floor.
   WindowParameters(const Splats& splats, int degree);
+
+  /// For splats_in_bytes().
+  static constexpr std::array<std::uint64_t, 3> least_of_degree{1, 1, 1};
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
