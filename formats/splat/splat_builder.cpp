@@ -22,7 +22,7 @@ namespace {
 /// Of most of the splats, which a few strays do not change.
 double radius_of(const Splats& splats) {
   const Bounds box = middle_bounds(splats);
-  return 0.5 * glm::distance(glm::dvec3(box.min), glm::dvec3(box.max));
+  return 0.5 * glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
 }
 
 /// See SplatBuilder::finish().
