@@ -38,7 +38,7 @@ set(limits
   "code runtime 8450: plan, passes, debug views"
   "code trainer 12800: three methods, CPU and CUDA"
   "code jobs 5506: work that the programs share, and the whole of a training run; what measures and reports grows no further"
-  "code viewer 6660: the window"
+  "code viewer 7200: the window"
   "code web 9000: the page"
   "code cli 6360: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
