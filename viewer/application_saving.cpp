@@ -27,6 +27,8 @@ fs::path Application::own_file() const {
 
 void Application::ask_for_name(const std::optional<Leave>& then) {
   state_.saving = {};
+  if (shows_preview() || options_.max_splats)
+    state_.note("The window shows only a part of the file: save it under another name.");
   const fs::path file = proposed_file(state_.source);
   state_.saving.name = {file.parent_path(), file.filename().string(), then};
 }

@@ -85,13 +85,14 @@ struct Describe {
     const DocumentLayer* const layer = find_layer(document, id);
     return layer ? layer->name : "a layer";
   }
+  static std::string one_or(const std::string& name, std::size_t count) {
+    return count == 1 ? name : std::to_string(count) + " layers";
+  }
   std::string operator()(const AddLayers& edit) const {
-    return "Add " + (edit.layers.size() == 1 ? edit.layers.front().layer.name
-                                             : std::to_string(edit.layers.size()) + " layers");
+    return "Add " + one_or(edit.layers.front().layer.name, edit.layers.size());
   }
   std::string operator()(const RemoveLayers& edit) const {
-    return "Remove " + (edit.ids.size() == 1 ? name_of(edit.ids.front())
-                                             : std::to_string(edit.ids.size()) + " layers");
+    return "Remove " + one_or(name_of(edit.ids.front()), edit.ids.size());
   }
   std::string operator()(const PlaceLayer& edit) const { return "Move " + name_of(edit.id); }
   std::string operator()(const RenameLayer& edit) const { return "Rename " + name_of(edit.id); }

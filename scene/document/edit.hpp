@@ -14,10 +14,10 @@ struct AddLayers {
     std::size_t at = 0;  // its index afterwards; beyond the end: last
     DocumentLayer layer;
   };
-  std::vector<Added> layers;  // in ascending order of their index
+  std::vector<Added> layers;  // not empty; in ascending order of their index
 };
 struct RemoveLayers {
-  std::vector<LayerId> ids;
+  std::vector<LayerId> ids;  // not empty
 };
 struct PlaceLayer {
   LayerId id = 0;

@@ -86,7 +86,9 @@ bool place_rows(Similarity& numbers, double radius) {
 void name_row(State& state, const DocumentLayer& layer) {
   std::string name = layer.name;
   field("Name");
-  if (ImGui::InputText("##name", &name)) state.edit(RenameLayer{layer.id, name}, true);
+  // A layer without a name would get that of its file.
+  if (ImGui::InputText("##name", &name) && !name.empty())
+    state.edit(RenameLayer{layer.id, name}, true);
 }
 
 void place_of(State& state, const DocumentLayer& layer) {

@@ -86,7 +86,6 @@ fs::path proposed_file(const SceneSource& source) {
   fs::path file = fs::absolute(source.path(), unknown);
   if (!file.has_filename()) file = file.parent_path();  // "export/"
   const fs::path stem = file.stem();
-  if (source.files.size() == 1 && can_be_replaced(source.files.front())) return file;
   for (int number = 1;; ++number) {
     file.replace_filename(stem.string() + (number == 1 ? "" : "-" + std::to_string(number)) +
                           ".glb");

@@ -17,7 +17,7 @@ Scene scene_of(const SceneSource& source);
 /// another written format, read without loss.
 bool can_be_replaced(const SceneFile& file);
 
-/// A file name for the scene, beside its first file: "garden.glb".
+/// A name that no file has, beside the scene's first file: "garden-2.glb".
 std::filesystem::path proposed_file(const SceneSource& source);
 
 /// The reason why a scene cannot be saved under this name, or "". For the user.
