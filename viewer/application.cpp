@@ -75,6 +75,11 @@ double density(const Window& window) {
   return std::max(double(window.pixels().x) / window.size().x, 1.0);
 }
 
+With held_with(const NavigationInput& input) {
+  if (!input.held(Key::control) && !input.held(Key::super)) return With::nothing;
+  return input.held(Key::shift) ? With::control_shift : With::control;
+}
+
 /// Throws OutputError with both paths.
 void replace_file(const FileReplaced& files) {
   std::error_code failed;
@@ -233,6 +238,7 @@ void Application::frame() {
   lay_out(points, pixels);
   dispatch(events);
   move(step);
+  follow_up_axis();
   carry_out();
   draw(events, seconds_since_start() - began);
 }
@@ -274,12 +280,11 @@ void Application::dispatch(const std::vector<Event>& events) {
     if (double_click_.handle(event, taken.pointer, state_.now))
       state_.ask(FocusAt{{double_click_.place().x, double_click_.place().y}});
     if (const auto* key = std::get_if<KeyChanged>(&event); key && key->down && !taken.keys)
-      run_shortcut(key->key, navigation_.held(Key::control) || navigation_.held(Key::super),
-                   state_);
+      run_shortcut(key->key, held_with(navigation_), state_);
     // Not a key: its place differs between keyboards.
     if (const auto* typed = std::get_if<TextTyped>(&event);
         typed && typed->code_point == '?' && !taken.keys)
-      run_shortcut(Key::f1, false, state_);
+      run_shortcut(Key::f1, With::nothing, state_);
     handle(event);
   }
 }
@@ -340,12 +345,10 @@ void Application::draw_image() {
     // Most likely the window is too large for this number of samples per pixel.
     state_.error("The image cannot be drawn", error.reason());
     image_is_current_ = false;
-    DrawingChoice choice = state_.stage->choice;
-    Quality quality = quality_of(choice, *state_.stage->scene);
-    if (quality.supersampling == 1 || !worker_.idle()) return;
-    quality.supersampling = 1;
-    choice.quality = quality;
-    state_.ask(ChooseDrawing{choice});
+    const DrawingChoice& choice = state_.stage->choice;
+    if (quality_of(choice, *state_.source.scene).supersampling == 1 || !worker_.idle()) return;
+    refused_quality_ = state_.source.document.quality;
+    state_.ask(ChooseDrawing{choice_of_document()});
   }
 }
 

@@ -93,7 +93,12 @@ class Application {
   void carry_out();
   void carry_out(const OpenPath& request);
   void carry_out(const AddPaths& request);
-  void carry_out(const ArrangeLayers& request);
+  void carry_out(const Perform& request);
+  void carry_out(const Undo& request);
+  void carry_out(const Redo& request);
+  void carry_out(const GoToStep& request);
+  void carry_out(const SaveScene& request);
+  void carry_out(const SaveSceneAs& request);
   void carry_out(const OpenPhotographs& request);
   void carry_out(const CloseDataset& request);
   void carry_out(const ReloadScene& request);
@@ -140,30 +145,45 @@ class Application {
   };
   void load(const Loading& loading);
   Worker::Completion load_in_background(const Loading& loading,
-                                        const std::shared_ptr<StageSource>& before,
+                                        const std::shared_ptr<SceneSource>& before,
                                         const StageRequest& request,
                                         const std::shared_ptr<Reading>& files);
   /// A part of a large file that is shown while all of it is read.
   struct Preview {
     std::shared_ptr<const Reading> reading;
-    std::shared_ptr<const Scene> scene;
+    int opened = 0;
   };
   void post_previews(const std::filesystem::path& path, const StageRequest& request,
                      const std::shared_ptr<const Reading>& reading);
   bool shows_preview() const;
   bool shows_preview_of(const Reading& reading) const;
-  void show_read(Stage stage, Relation relation, const Reading& reading);
+  void show_read(SceneSource source, Stage stage, Relation relation, const Reading& reading);
   void end_loading(const Reading& files, Relation relation);
-  void add(const std::shared_ptr<StageAddition>& addition);
-  void prepare_grown(const StageSource& source);
-  /// Prepares a scene in the background with the wanted options, and passes it to `prepared`.
-  void prepare(JobKind kind, const StageSource& source, bool for_debug_views,
-               const std::function<void(Stage&)>& prepared,
+  void add(const SceneSource& more, const SceneSource& known);
+  void show_opened(SceneSource source, Stage stage);
+  void show_again(SceneSource read, Stage stage);
+  void show_notes();
+
+  // -- the document (application_document.cpp, application_saving.cpp)
+  /// After a change: the device, the view, the drawing options and the title follow.
+  void follow_document();
+  /// The up axis that the user has given the view is the document's.
+  void follow_up_axis();
+  void sync_stage();
+  /// Prepares the document in the background with the wanted options, and shows it.
+  void prepare(JobKind kind, bool for_debug_views,
                const std::function<void(const std::string&)>& failed);
-  void show(Stage stage, Relation relation);
-  void after_change_of_layers();
+  void show(Stage stage);
+  DrawingChoice choice_of_document() const;
+  /// After drawing options were refused: the document has those that are drawn.
+  void keep_drawn_options();
   void show_files_of_scene();
+  void show_title();
   void report_refused(const std::vector<RefusedLayer>& layers);
+  /// Whether unsaved changes would be lost; then asks the user.
+  bool asks_before(const Leave& leave);
+  void ask_for_name(const std::optional<Leave>& then);
+  std::filesystem::path own_file() const;
   void compare_when_needed();
   void prepare_debug_view_when_needed();
   void watch_files();
@@ -189,12 +209,17 @@ class Application {
   std::optional<Session> recorded_;
   std::vector<std::filesystem::path> promised_;  // paths of images that are being written
   std::vector<Event> pending_;
-  std::vector<FileWatch> watches_;  // of the scene's files
+  std::vector<FileWatch> watches_;                  // of the scene's files
+  std::vector<std::filesystem::path> shown_paths_;  // of show_files_of_scene()
   std::optional<Loading> loading_;
   std::optional<Preview> preview_;  // the last one
   std::optional<BackgroundProgram> training_program_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
+  int opened_ = 0;                          // how many scenes were opened
+  int shown_ = 0;                           // how many stages were shown
+  std::vector<LayerId> uploading_;          // layers that a worker uploads
+  std::optional<Quality> refused_quality_;  // the device lacks the memory for its samples
   bool image_is_current_ = false;
   /// Whether a worker prepares the scene for debug views (true) or for colours (false).
   std::optional<bool> preparing_debug_views_;

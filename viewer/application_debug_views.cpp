@@ -16,19 +16,15 @@ void Application::prepare_debug_view_when_needed() {
   }
   if (preparing_debug_views_ == wanted) return;
   preparing_debug_views_ = wanted;
-  const auto prepared = [this](Stage& stage) {
-    if (state_.stage && state_.stage->scene == stage.scene)
-      show(std::move(stage), Relation::changed);
-  };
   const auto failed = [this, wanted, left = drawn_debug_view_.what](const std::string& reason) {
     // Back to the view that the renderer can draw; the user may then try again.
     if (wanted)
       state_.debug_view.what = DebugView::color;
-    else if (!why_not(left, *state_.stage))
+    else if (!why_not(left, state_.source))
       state_.debug_view.what = left;
     state_.error(wanted ? "The debug view cannot be shown" : "The colours cannot be shown", reason);
   };
-  prepare(JobKind::debug_view, *state_.stage, wanted, prepared, failed);
+  prepare(JobKind::debug_view, wanted, failed);
 }
 
 void Application::compare_when_needed() {
@@ -56,7 +52,7 @@ void Application::compare_when_needed() {
   auto drawn = std::make_shared<Image8>(renderer.read_color());
   image_is_current_ = false;  // the renderer now has the photograph's view
   auto held = std::make_shared<Image8>(photograph->image);
-  const glm::vec3 background = state_.stage->scene->info.background;
+  const glm::vec3 background = state_.source.scene->info.background;
   const auto work = [this, drawn, held, background, ticket](const Worker::Progress&) {
     const ImageF ours = composited(to_float(*drawn), background);
     const ImageF theirs = composited(to_float(*held), background);

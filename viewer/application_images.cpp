@@ -34,7 +34,7 @@ fs::path Application::image_path(const std::string& extension) {
     throw OutputError({folder.string(), {}, {}}, "there is no such folder",
                       "create it, or name another in the panel Image");
   const std::string stem =
-      state_.stage ? fs::path(short_name(state_.stage->path())).stem().string() : "tureen";
+      state_.stage ? fs::path(short_name(state_.source.path())).stem().string() : "tureen";
   for (int number = 1;; ++number) {
     fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
     std::error_code ignored;
@@ -49,7 +49,7 @@ fs::path Application::image_path(const std::string& extension) {
 void Application::carry_out(const TakeImage& request) {
   if (!has_scene()) return;
   const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
-  const ImageJob job{.scene = state_.stage->source(),
+  const ImageJob job{.scene = state_.drawn_source(),
                      .camera = state_.controls.camera(size.x, size.y),
                      .debug_view = state_.debug_view,
                      .transparent = request.transparent,
@@ -63,12 +63,12 @@ void Application::carry_out(const TakeImage& request) {
 
 void Application::carry_out(const SavePage&) {
   if (!has_scene()) return;
-  if (!state_.stage->is_as_read()) {
-    state_.note("Pages cannot store changed layers: reload the scene (F5) or save an image.");
+  if (!state_.source.is_as_read()) {
+    state_.note("The page is made from files: save the changed layers as .glb first (Ctrl+S).");
     return;
   }
   const fs::path page = image_path(".html");
-  const std::vector<std::string> arguments = page_arguments(*state_.stage,
+  const std::vector<std::string> arguments = page_arguments(state_.source,
                                                             {.choice = state_.stage->choice,
                                                              .max_splats = options_.max_splats,
                                                              .max_memory = max_memory(),
@@ -83,7 +83,7 @@ void Application::carry_out(const WriteAnimation&) {
   if (!state_.stage || state_.animation.path.empty()) return;
   const Animation& animation = state_.animation;
   static constexpr const char* endings[] = {"-frames", ".mp4", ".webm"};
-  const AnimationJob job{.scene = state_.stage->source(),
+  const AnimationJob job{.scene = state_.drawn_source(),
                          .path = animation.path,
                          .rate = {animation.frames_per_second, animation.size.x, animation.size.y},
                          .output = image_path(endings[int(animation.output)])};
@@ -157,8 +157,8 @@ void Application::carry_out(const LoadPath& request) {
 
 void Application::carry_out(const CopyCommand&) {
   if (!has_scene()) return;
-  if (!state_.stage->is_as_read()) {
-    state_.note("No command draws this image: layers were changed. P saves the image.");
+  if (!state_.source.is_as_read()) {
+    state_.note("The command draws files: save the changed layers as .glb first (Ctrl+S).");
     return;
   }
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
@@ -169,10 +169,10 @@ void Application::carry_out(const CopyCommand&) {
   }
   DrawingChoice choice = state_.stage->choice;
   if (state_.settings.smooth_at_rest && state_.stage->renderer.has_image_at_rest()) {
-    choice.quality = quality_of(choice, *state_.stage->scene);
+    choice.quality = quality_of(choice, *state_.source.scene);
     choice.quality->supersampling = samples_at_rest;
   }
-  window_.set_clipboard(render_command(*state_.stage, choice, state_.debug_view, camera, file));
+  window_.set_clipboard(render_command(state_.source, choice, state_.debug_view, camera, file));
   state_.note("Copied the command for this image to the clipboard");
 }
 

@@ -19,15 +19,18 @@ constexpr double reading_share = 0.9;
 
 void Application::load(const Loading& loading) {
   loading_ = loading;
-  std::shared_ptr<StageSource> before;  // the job must not use the stage, which changes
-  if (loading.relation != Relation::other)
-    before = std::make_shared<StageSource>(state_.stage->source());
+  std::shared_ptr<SceneSource> before;  // the job must not use the source, which changes
+  if (loading.relation != Relation::other) before = std::make_shared<SceneSource>(state_.source);
   // A drawing job of the same scene stays: it is finished before the new layers are read.
   if (loading.relation != Relation::grown) {
     worker_.abandon(JobKind::drawing);
     preparing_drawing_ = false;
   }
-  const DrawingChoice choice = state_.stage ? state_.wanted : options_.drawing;
+  DrawingChoice choice = state_.stage ? state_.wanted : options_.drawing;
+  if (loading.relation == Relation::other) {  // the document has these, and a new one begins
+    choice.quality = options_.drawing.quality;
+    choice.plan.splat_profile = options_.drawing.plan.splat_profile;
+  }
   const std::vector<fs::path> named =
       loading.relation == Relation::changed ? before->paths() : loading.paths;
   auto files = std::make_shared<Reading>(Reading{.current = named.front(), .failures = {}});
@@ -56,7 +59,7 @@ void Application::end_loading(const Reading& files, Relation relation) {
 
 /// Runs in the worker's thread; its result runs in the main thread.
 Worker::Completion Application::load_in_background(const Loading& loading,
-                                                   const std::shared_ptr<StageSource>& before,
+                                                   const std::shared_ptr<SceneSource>& before,
                                                    const StageRequest& request,
                                                    const std::shared_ptr<Reading>& files) {
   const ReadRequest reading{
@@ -72,30 +75,31 @@ Worker::Completion Application::load_in_background(const Loading& loading,
                                  request.progress(reading_share + (1 - reading_share) * done);
                                }};
   if (loading.relation == Relation::grown) {
-    const StageSource source = read_more(*before, reading);
-    auto addition =
-        std::make_shared<StageAddition>(prepare_addition(source, before->layers.size(), preparing));
-    return [this, addition, files] {
+    const auto source = std::make_shared<SceneSource>(read_more(*before, reading));
+    return [this, source, before, files] {
       state_.messages.dismiss_opening();
       end_loading(*files, Relation::grown);
-      add(addition);
+      add(*source, *before);
     };
   }
   const bool again = loading.relation == Relation::changed;
   if (!again && loading.paths.size() == 1) post_previews(loading.paths.front(), request, files);
-  std::shared_ptr<Stage> stage =
-      prepare_fitting_stage(again ? read_again(*before, reading) : read_source(reading), preparing);
-  return [this, stage = std::move(stage), relation = loading.relation,
-          is_alone = loading.paths.empty(), files] {
-    // A changed file is not another one, unless it was read together with further files.
-    if (relation == Relation::changed && is_alone)
-      state_.messages.dismiss_scene();
-    else
-      state_.messages.dismiss_opening();
-    end_loading(*files, relation);
-    show_read(std::move(*stage), relation, *files);
-    preview_.reset();
-  };
+  const auto source =
+      std::make_shared<SceneSource>(again ? read_again(*before, reading) : read_source(reading));
+  SceneSource drawn = *source;
+  if (again) keep_changes(drawn, *before);
+  const std::shared_ptr<Stage> stage = prepare_stage(drawn, preparing);
+  return
+      [this, source, stage, relation = loading.relation, is_alone = loading.paths.empty(), files] {
+        // A changed file is not another one, unless it was read together with further files.
+        if (relation == Relation::changed && is_alone)
+          state_.messages.dismiss_scene();
+        else
+          state_.messages.dismiss_opening();
+        end_loading(*files, relation);
+        show_read(std::move(*source), std::move(*stage), relation, *files);
+        preview_.reset();
+      };
 }
 
 /// Runs in the worker's thread.
@@ -105,8 +109,8 @@ void Application::post_previews(const fs::path& path, const StageRequest& reques
   std::uint64_t shown = 0;
   while (const auto preview = read_source_preview(path, shown, [&] { check(0); })) {
     shown = preview->bytes;
-    const StageLayer& layer = preview->source.layers.front();
-    if (!layer.soup() && options_.max_splats && layer.primitive_count() > *options_.max_splats)
+    const DocumentLayer& layer = preview->source.document.layers.front();
+    if (splats_of(layer) && options_.max_splats && primitive_count(layer) > *options_.max_splats)
       return;
     std::shared_ptr<Stage> stage;
     try {
@@ -114,16 +118,14 @@ void Application::post_previews(const fs::path& path, const StageRequest& reques
     } catch (const Error&) {
       return;  // if the whole scene is refused too, its preparation reports the reason
     }
-    worker_.post([this, stage, reading] {
-      show_read(std::move(*stage), Relation::other, *reading);
-      preview_ = Preview{reading, state_.stage->scene};
+    worker_.post([this, stage, source = std::make_shared<SceneSource>(preview->source), reading] {
+      show_read(std::move(*source), std::move(*stage), Relation::other, *reading);
+      preview_ = Preview{reading, opened_};
     });
   }
 }
 
-bool Application::shows_preview() const {
-  return preview_ && state_.stage && state_.stage->scene == preview_->scene;
-}
+bool Application::shows_preview() const { return preview_ && preview_->opened == opened_; }
 
 bool Application::shows_preview_of(const Reading& reading) const {
   return shows_preview() && preview_->reading.get() == &reading;
@@ -131,144 +133,101 @@ bool Application::shows_preview_of(const Reading& reading) const {
 
 /// Keeps what the user changed on a preview of the same file. Without changes, the scene is shown
 /// as if there had been no preview.
-void Application::show_read(Stage stage, Relation relation, const Reading& reading) {
+void Application::show_read(SceneSource source, Stage stage, Relation relation,
+                            const Reading& reading) {
   std::optional<DrawingChoice> chosen;
   if (shows_preview_of(reading)) {
-    if (!state_.controls.goes_to_first_view() || !state_.stage->is_as_read())
+    if (!state_.controls.goes_to_first_view() || !state_.history.steps().empty())
       relation = Relation::changed;
     if (preparing_drawing_) chosen = state_.wanted;
-    preview_->scene = stage.scene;
   }
-  show(std::move(stage), relation);
+  if (relation == Relation::changed)
+    show_again(std::move(source), std::move(stage));
+  else
+    show_opened(std::move(source), std::move(stage));
   if (chosen) state_.ask(ChooseDrawing{*chosen});
 }
 
-void Application::add(const std::shared_ptr<StageAddition>& addition) {
-  report_refused(addition->refused);
-  if (addition->layers.empty()) return;
-  Stage& stage = *state_.stage;
-  if (!stage.can_grow()) {  // debug views, the baseline
-    StageSource source = addition->source;
-    // Without the layers that were refused.
-    std::erase_if(source.layers, [&](const StageLayer& layer) {
-      return std::any_of(addition->refused.begin(), addition->refused.end(),
-                         [&](const RefusedLayer& refused) { return refused.name == layer.name; });
-    });
-    prepare_grown(source);
-    return;
-  }
-  const std::vector<std::string> known = named_notes(stage);
-  add_to(stage, std::move(*addition));
-  for (const std::string& note : window_notes(stage.scene->info))
-    if (std::find(known.begin(), known.end(), note) == known.end()) state_.note(note);
-  state_.layer_editing.selected = stage.layers.size() - 1;
-  // Jobs for the scene before would show it without the new layers.
-  worker_.abandon(JobKind::debug_view);
-  preparing_debug_views_.reset();
-  if (preparing_drawing_) state_.ask(ChooseDrawing{state_.wanted});
+/// Adds the layers of files that were read after those of `known`.
+void Application::add(const SceneSource& more, const SceneSource& known) {
+  SceneSource& source = state_.source;
+  const std::vector<std::string> notes = named_notes(source);
+  const AddLayers edit = add_files(source, more, known);
+  if (edit.layers.empty()) return;
+  state_.history.perform(source.document, edit);
+  merge_files(source);
+  for (const std::string& note : window_notes(source.scene->info))
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) state_.note(note);
+  state_.layer_editing.selected = source.document.layers.back().id;
   state_.debug_view.features = {};
-  frame_clock_.clear();
-  after_change_of_layers();
-  show_files_of_scene();
-}
-
-/// Prepares all layers anew, where the renderer cannot take further ones.
-void Application::prepare_grown(const StageSource& source) {
-  // Colours, if a layer lacks the debug view.
-  if (why_not(state_.debug_view.what, source)) state_.debug_view.what = DebugView::color;
-  loading_ = Loading{.relation = Relation::grown, .paths = {}};
-  for (std::size_t i = state_.stage->files.size(); i < source.files.size(); ++i)
-    loading_->paths.push_back(source.files[i].path);
-  const auto prepared = [this](Stage& stage) {
-    loading_.reset();
-    show(std::move(stage), Relation::grown);
-  };
-  const auto failed = [this,
-                       name = short_name(source.files.back().path)](const std::string& reason) {
-    loading_.reset();
-    state_.error(name + " cannot be shown", reason, Message::About::opening);
-  };
-  prepare(JobKind::scene, source, state_.debug_view.what != DebugView::color, prepared, failed);
-}
-
-void Application::prepare(JobKind kind, const StageSource& source, bool for_debug_views,
-                          const std::function<void(Stage&)>& prepared,
-                          const std::function<void(const std::string&)>& failed) {
-  const auto make = for_debug_views ? prepare_debug_stage : prepare_stage;
-  const auto work = [this, source, make, prepared,
-                     choice = state_.wanted](const Worker::Progress& progress) {
-    std::shared_ptr<Stage> stage = make(source, {window_.context(), choice, progress});
-    return Worker::Completion([prepared, stage] { prepared(*stage); });
-  };
-  const bool names_debug_views = kind == JobKind::debug_view && for_debug_views;
-  worker_.start({.kind = kind,
-                 .what = (names_debug_views ? "preparing debug views of " : "preparing ") +
-                         short_names(source.paths()),
-                 .work = work,
-                 .failed = failed});
+  follow_document();
 }
 
 void Application::report_refused(const std::vector<RefusedLayer>& layers) {
-  for (const RefusedLayer& layer : layers)
-    state_.error("The layer " + layer.name + " does not fit the device's memory", describe(layer),
-                 Message::About::scene);
+  for (const RefusedLayer& refused : layers)
+    state_.error("The layer " + refused.layer.name + " does not fit the device's memory",
+                 describe(refused), Message::About::scene);
 }
 
 /// After a change of the files.
 void Application::show_files_of_scene() {
-  const std::vector<fs::path> paths = state_.stage->paths();
+  const SceneSource& source = state_.source;
   watches_.clear();
-  for (const SceneFile& file : state_.stage->files)
-    if (std::find(paths.begin(), paths.end(), file.path) != paths.end())
-      watches_.push_back(file.watch);
+  for (std::size_t i = 0; i < source.files.size(); ++i)
+    if (has_layers(source, i)) watches_.push_back(source.files[i].watch);
   // The first file comes first in the list of recent files.
+  const std::vector<fs::path> paths = source.paths();
   for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(state_.settings, *path);
-  window_.set_title(short_names(paths) + " - Tureen");
+  shown_paths_ = paths;
 }
 
-void Application::show(Stage stage, Relation relation) {
-  const bool same_scene = state_.stage && state_.stage->scene == stage.scene;
-  const bool keep_view = state_.stage && relation != Relation::other;
-  if (keep_view) {
-    // The user may have changed layers meanwhile.
-    StageSource now = stage.source();
-    keep_changes(now, *state_.stage);
-    arrange_layers(stage, std::move(now.layers));
-  }
-  const bool replaces = state_.stage && !keep_view;
-  state_.stage = std::make_unique<Stage>(std::move(stage));
-  state_.wanted = state_.stage->choice;
-  image_is_current_ = false;
-  worker_.abandon(JobKind::debug_view);
-  worker_.abandon(JobKind::comparison);
-  preparing_debug_views_.reset();
-  state_.comparison.forget();
-  frame_clock_.clear();
-  if (same_scene) return;  // only the method of drawing changed
+void Application::show_notes() {
+  for (const std::string& note : window_notes(state_.source.scene->info)) state_.note(note);
+}
+
+/// A scene that begins a new document.
+void Application::show_opened(SceneSource source, Stage stage) {
+  const bool replaces = state_.stage != nullptr;
+  state_.source = std::move(source);
+  Document& document = state_.source.document;
+  document.quality = quality_of(stage.choice, *state_.source.scene);
+  document.profile = stage.choice.plan.splat_profile;
+  state_.history = History();
+  refused_quality_.reset();
+  shown_paths_.clear();
+  preparing_drawing_ = false;
+  ++opened_;
   if (replaces && state_.photographs && !std::exchange(state_.photographs->stay_is_noted, true))
     state_.note("The photographs of " + short_name(state_.photographs->path) +
                 " stay open. Close them in Photographs.");
-  preparing_drawing_ = false;
-  report_refused(state_.stage->refused);
+  state_.stage.reset();  // all layers that it refused are reported
+  show(std::move(stage));
   state_.debug_view.features = {};
-  if (why_not(state_.debug_view.what, *state_.stage)) state_.debug_view.what = DebugView::color;
-  if (!state_.photographs && state_.recorded >= int(state_.stage->scene->cameras.size()))
+  state_.layer_editing = {};
+  state_.controls = CameraControls(state_.source.subject);
+  lay_out(window_.size(), window_.pixels());  // with the panels of a scene
+  state_.recorded = -1;
+  const std::vector<Camera>& cameras = state_.source.scene->cameras;
+  if (!cameras.empty()) state_.controls.set_first_view(cameras.front());
+  state_.controls.reset();  // for this viewport
+  state_.controls.arrive();
+  follow_document();
+  show_notes();
+}
+
+/// The files of the document, read again: it stays, with its history.
+void Application::show_again(SceneSource read, Stage stage) {
+  for (const DocumentLayer& layer : read.document.layers) state_.history.replace_primitives(layer);
+  keep_changes(read, state_.source);
+  state_.source = std::move(read);
+  preparing_drawing_ = false;
+  show(std::move(stage));
+  state_.debug_view.features = {};
+  if (!state_.photographs && state_.recorded >= int(state_.source.scene->cameras.size()))
     state_.recorded = -1;
-  const Subject& subject = state_.stage->subject;
-  if (keep_view) {
-    state_.controls.set_subject(subject);
-  } else {
-    state_.layer_editing = {};
-    state_.controls = CameraControls(subject);
-    lay_out(window_.size(), window_.pixels());  // with the panels of a scene
-    state_.recorded = -1;
-    if (!state_.stage->scene->cameras.empty())
-      state_.controls.set_first_view(state_.stage->scene->cameras.front());
-    state_.controls.reset();  // for this viewport
-    state_.controls.arrive();
-  }
-  show_files_of_scene();
-  for (const std::string& note : window_notes(state_.stage->scene->info)) state_.note(note);
+  shown_paths_.clear();
+  follow_document();
+  show_notes();
 }
 
 }  // namespace tureen::viewer

@@ -46,7 +46,8 @@ void Application::carry_out() {
 }
 
 void Application::carry_out(const OpenPath& request) {
-  if (!open_other(request.path, state_)) load({Relation::other, {request.path}});
+  if (open_other(request.path, state_)) return;
+  if (request.discards || !asks_before({request.path})) load({Relation::other, {request.path}});
 }
 
 void Application::carry_out(const AddPaths& request) {
@@ -68,22 +69,6 @@ void Application::carry_out(const ReloadScene&) {
   // A new job replaces the running one, so it also adds that one's files.
   if (loading_ && loading_->relation != Relation::other) loading.paths = loading_->paths;
   load(loading);
-}
-
-void Application::carry_out(const ArrangeLayers& request) {
-  if (!state_.stage || state_.stage->scene != request.scene) return;
-  const std::vector<fs::path> before = state_.stage->paths();
-  arrange_layers(*state_.stage, request.layers);
-  after_change_of_layers();
-  if (state_.stage->paths() != before) show_files_of_scene();
-}
-
-void Application::after_change_of_layers() {
-  state_.controls.set_subject(state_.stage->subject);
-  if (why_not(state_.debug_view.what, *state_.stage)) state_.debug_view.what = DebugView::color;
-  state_.comparison.forget();
-  worker_.abandon(JobKind::comparison);
-  image_is_current_ = false;
 }
 
 void Application::carry_out(const OpenPhotographs& request) {
@@ -133,7 +118,7 @@ void Application::watch_files() {
   for (FileWatch& watch : watches_) changed |= watch.changed();
   if (!changed) return;
   if (!state_.training)  // changes every few seconds
-    state_.note(short_names(state_.stage->paths()) + " has changed: reading it again.");
+    state_.note(short_names(state_.source.paths()) + " has changed: reading it again.");
   state_.ask(ReloadScene{});
 }
 
@@ -143,7 +128,7 @@ void Application::carry_out(const CancelJob& request) {
   if (request.kind == JobKind::scene) loading_.reset();
   if (request.kind == JobKind::drawing) {
     preparing_drawing_ = false;
-    if (state_.stage) state_.wanted = state_.stage->choice;
+    if (state_.stage) keep_drawn_options();
   }
   const bool in_part = request.kind == JobKind::scene && shows_preview();
   state_.note(in_part ? "Cancelled. The scene is shown only in part." : "Cancelled.");
@@ -153,18 +138,12 @@ void Application::carry_out(const ChooseDrawing& request) {
   if (!state_.stage) return;
   state_.wanted = request.choice;
   preparing_drawing_ = true;
-  const auto prepared = [this](Stage& stage) {
-    // Another scene may have been loaded meanwhile.
-    if (!state_.stage || state_.stage->scene != stage.scene) return;
-    preparing_drawing_ = false;
-    show(std::move(stage), Relation::changed);
-  };
   const auto failed = [this](const std::string& reason) {
     preparing_drawing_ = false;
-    if (state_.stage) state_.wanted = state_.stage->choice;
+    keep_drawn_options();
     state_.error("The drawing options cannot be applied", reason);
   };
-  prepare(JobKind::drawing, *state_.stage, false, prepared, failed);
+  prepare(JobKind::drawing, false, failed);
 }
 
 void Application::carry_out(const ShowRecorded& request) {
@@ -193,6 +172,7 @@ void Application::carry_out(const ToggleFullscreen&) {
 }
 
 void Application::carry_out(const Quit& request) {
+  if (!request.discards && asks_before({})) return;
   state_.asks_before_quitting = request.training == Quit::Training::ask && training_program_;
   if (state_.asks_before_quitting) return;
   if (request.training == Quit::Training::stop) carry_out(StopTraining{});

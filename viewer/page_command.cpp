@@ -7,7 +7,7 @@
 
 namespace tureen::viewer {
 
-std::vector<std::string> page_arguments(const StageSource& scene, const PageRequest& request,
+std::vector<std::string> page_arguments(const SceneSource& scene, const PageRequest& request,
                                         const std::filesystem::path& page) {
   std::error_code unknown;
   std::vector<std::string> arguments{"convert"};

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/memory_budget.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/scene/stage.hpp"
 
 namespace tureen::viewer {
 
@@ -22,7 +22,7 @@ struct PageRequest {
 
 /// The arguments of `tureen` that write the scene's files as one page. Options carry the
 /// differences between window and files: the up axis, the profile, the quality.
-std::vector<std::string> page_arguments(const StageSource& scene, const PageRequest& request,
+std::vector<std::string> page_arguments(const SceneSource& scene, const PageRequest& request,
                                         const std::filesystem::path& page);
 
 }  // namespace tureen::viewer

@@ -17,7 +17,7 @@ namespace {
 /// The shortest texts that read back as the same doubles.
 std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-void add_choice(std::string& command, const DrawingChoice& choice, const StageSource& scene) {
+void add_choice(std::string& command, const DrawingChoice& choice, const SceneSource& scene) {
   if (choice.pipeline == PipelineKind::baseline) command += " --pipeline baseline";
   if (!choice.plan.specialise) command += " --no-specialise";
   if (choice.plan.as_published) command += " --as-published";
@@ -65,7 +65,7 @@ std::string quoted_command(const std::vector<std::string>& arguments) {
   return command;
 }
 
-std::vector<std::string> quality_arguments(const StageSource& scene, const DrawingChoice& choice,
+std::vector<std::string> quality_arguments(const SceneSource& scene, const DrawingChoice& choice,
                                            const char* resolution_scale) {
   std::vector<std::string> arguments;
   const auto add = [&](const char* option, std::string value) {
@@ -98,7 +98,7 @@ bool needs_camera_file(const Camera& camera) {
          std::abs(camera.fx / camera.fy - 1) * camera.width > pixels;
 }
 
-std::string render_command(const StageSource& scene, const DrawingChoice& choice,
+std::string render_command(const SceneSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file) {
   std::string command = "tureen render";

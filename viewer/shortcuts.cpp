@@ -44,7 +44,7 @@ void next_debug_view(State& state) {
   const auto names = debug_view_names();
   std::size_t next = std::size_t(state.debug_view.what);
   do next = (next + 1) % names.size();
-  while (why_not(names[next].what, *state.stage));
+  while (why_not(names[next].what, state.source));
   state.debug_view.what = names[next].what;
 }
 
@@ -75,57 +75,62 @@ void fill_screen(State& state) { state.ask(ToggleFullscreen{}); }
 // clang-format off
 constexpr const char *moving = "Moving", *keys = "Keys", *path = "Camera path", *window = "Window";
 const std::array table = {
-    Shortcut{Key::digit_1, false, moving, nullptr, look_from<NamedView::front>},
-    Shortcut{Key::digit_2, false, moving, nullptr, look_from<NamedView::back>},
-    Shortcut{Key::digit_3, false, moving, nullptr, look_from<NamedView::left>},
-    Shortcut{Key::digit_4, false, moving, nullptr, look_from<NamedView::right>},
-    Shortcut{Key::digit_5, false, moving, nullptr, look_from<NamedView::top>},
-    Shortcut{Key::digit_6, false, moving, nullptr, look_from<NamedView::bottom>},
-    Shortcut{Key::digit_7, false, moving, nullptr, look_from<NamedView::three_quarter>},
-    Shortcut{Key::digit_8, false, moving, nullptr, look_from<NamedView::three_quarter_left>},
-    Shortcut{Key::digit_9, false, moving, nullptr, look_from<NamedView::three_quarter_back>},
-    Shortcut{Key::home, false, moving, "frame the scene from three sides",
+    Shortcut{Key::digit_1, With::nothing, moving, nullptr, look_from<NamedView::front>},
+    Shortcut{Key::digit_2, With::nothing, moving, nullptr, look_from<NamedView::back>},
+    Shortcut{Key::digit_3, With::nothing, moving, nullptr, look_from<NamedView::left>},
+    Shortcut{Key::digit_4, With::nothing, moving, nullptr, look_from<NamedView::right>},
+    Shortcut{Key::digit_5, With::nothing, moving, nullptr, look_from<NamedView::top>},
+    Shortcut{Key::digit_6, With::nothing, moving, nullptr, look_from<NamedView::bottom>},
+    Shortcut{Key::digit_7, With::nothing, moving, nullptr, look_from<NamedView::three_quarter>},
+    Shortcut{Key::digit_8, With::nothing, moving, nullptr, look_from<NamedView::three_quarter_left>},
+    Shortcut{Key::digit_9, With::nothing, moving, nullptr, look_from<NamedView::three_quarter_back>},
+    Shortcut{Key::home, With::nothing, moving, "frame the scene from three sides",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
-    Shortcut{Key::f, false, keys, "frame the whole scene",
+    Shortcut{Key::f, With::nothing, keys, "frame the whole scene",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},
-    Shortcut{Key::r, false, keys, "return to the first view and its up axis",
+    Shortcut{Key::r, With::nothing, keys, "return to the first view and its up axis",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.reset(); }},
-    Shortcut{Key::m, false, keys, "switch between orbit and fly", switch_mode},
-    Shortcut{Key::tab, false, keys, nullptr, switch_mode},
-    Shortcut{Key::u, false, keys, "change the up axis", next_up},
-    Shortcut{Key::i, false, keys, "turn the scene upside down", turn_over},
-    Shortcut{Key::left_bracket, false, keys, "previous recorded camera",
+    Shortcut{Key::m, With::nothing, keys, "switch between orbit and fly", switch_mode},
+    Shortcut{Key::tab, With::nothing, keys, nullptr, switch_mode},
+    Shortcut{Key::u, With::nothing, keys, "change the up axis", next_up},
+    Shortcut{Key::i, With::nothing, keys, "turn the scene upside down", turn_over},
+    Shortcut{Key::left_bracket, With::nothing, keys, "previous recorded camera",
              [](State& s) { step_recorded(s, -1); }},
-    Shortcut{Key::right_bracket, false, keys, "next recorded camera",
+    Shortcut{Key::right_bracket, With::nothing, keys, "next recorded camera",
              [](State& s) { step_recorded(s, 1); }},
-    Shortcut{Key::v, false, keys, "next debug view", next_debug_view},
-    Shortcut{Key::c, false, keys, "photograph: off, split, alone, difference", next_comparison},
-    Shortcut{Key::p, false, keys, "save the image", save_image},
-    Shortcut{Key::s, true, keys, nullptr, save_image},
-    Shortcut{Key::c, true, keys, "copy the tureen render command",
+    Shortcut{Key::v, With::nothing, keys, "next debug view", next_debug_view},
+    Shortcut{Key::c, With::nothing, keys, "photograph: off, split, alone, difference", next_comparison},
+    Shortcut{Key::p, With::nothing, keys, "save the image", save_image},
+    Shortcut{Key::s, With::control_shift, keys, nullptr, save_image},
+    Shortcut{Key::s, With::control, keys, "save the scene", [](State& s) { s.ask(SaveScene{}); }},
+    Shortcut{Key::z, With::control, keys, "undo", [](State& s) { s.ask(Undo{}); }},
+    Shortcut{Key::y, With::control, keys, "redo; also Ctrl+Shift+Z",
+             [](State& s) { s.ask(Redo{}); }},
+    Shortcut{Key::z, With::control_shift, keys, nullptr, [](State& s) { s.ask(Redo{}); }},
+    Shortcut{Key::c, With::control, keys, "copy the tureen render command",
              [](State& s) { s.ask(CopyCommand{}); }},
-    Shortcut{Key::o, false, keys, "open a scene", show_files},
-    Shortcut{Key::o, true, keys, nullptr, show_files},
-    Shortcut{Key::k, false, path, "add this view to the camera path",
+    Shortcut{Key::o, With::nothing, keys, "open a scene", show_files},
+    Shortcut{Key::o, With::control, keys, nullptr, show_files},
+    Shortcut{Key::k, With::nothing, path, "add this view to the camera path",
              [](State& s) { s.ask(AddKeyframe{}); }},
-    Shortcut{Key::space, false, path, "play or stop the camera path",
+    Shortcut{Key::space, With::nothing, path, "play or stop the camera path",
              [](State& s) {
                if (s.animation.path.empty())
                  s.note("There is no camera path: press K to add the view to one.");
                s.animation.toggle();
              }},
-    Shortcut{Key::h, false, window, "show or hide the panel",
+    Shortcut{Key::h, With::nothing, window, "show or hide the panel",
              [](State& s) { s.show_interface = !s.show_interface; }},
-    Shortcut{Key::x, false, window, "full screen on or off", fill_screen},
-    Shortcut{Key::f11, false, window, nullptr, fill_screen},
-    Shortcut{Key::t, false, window, "light or dark theme",
+    Shortcut{Key::x, With::nothing, window, "full screen on or off", fill_screen},
+    Shortcut{Key::f11, With::nothing, window, nullptr, fill_screen},
+    Shortcut{Key::t, With::nothing, window, "light or dark theme",
              [](State& s) { s.settings.theme = s.settings.theme == Theme::dark ? Theme::light
                                                                                : Theme::dark; }},
-    Shortcut{Key::f1, false, window, "show this list; also ?", show_keys},
-    Shortcut{Key::f5, false, window, "read the files again", [](State& s) { s.ask(ReloadScene{}); }},
-    Shortcut{Key::escape, false, window, "close lists over the image",
+    Shortcut{Key::f1, With::nothing, window, "show this list; also ?", show_keys},
+    Shortcut{Key::f5, With::nothing, window, "read the files again", [](State& s) { s.ask(ReloadScene{}); }},
+    Shortcut{Key::escape, With::nothing, window, "close lists over the image",
              [](State& s) { (s.show_keys ? s.show_keys : s.show_files) = false; }},
-    Shortcut{Key::q, true, window, "quit", [](State& s) { s.ask(Quit{}); }},
+    Shortcut{Key::q, With::control, window, "quit", [](State& s) { s.ask(Quit{}); }},
 };
 // clang-format on
 
@@ -133,9 +138,9 @@ const std::array table = {
 
 std::span<const Shortcut> shortcuts() { return table; }
 
-bool run_shortcut(Key key, bool control, State& state) {
+bool run_shortcut(Key key, With with, State& state) {
   for (const Shortcut& shortcut : table)
-    if (shortcut.key == key && shortcut.control == control) {
+    if (shortcut.key == key && shortcut.with == with) {
       shortcut.run(state);
       return true;
     }

@@ -8,9 +8,12 @@
 
 namespace tureen::viewer {
 
+/// The keys that are held. Without Ctrl, Shift changes nothing.
+enum class With { nothing, control, control_shift };
+
 struct Shortcut {
   Key key;
-  bool control;       // with Ctrl
+  With with;
   const char* group;  // of the list of keys
   const char* text;   // null if another row of the list has the key
   void (*run)(State& state);
@@ -19,6 +22,6 @@ struct Shortcut {
 std::span<const Shortcut> shortcuts();
 
 /// Runs the action of the key. Returns whether it has one.
-bool run_shortcut(Key key, bool control, State& state);
+bool run_shortcut(Key key, With with, State& state);
 
 }  // namespace tureen::viewer

@@ -15,8 +15,16 @@ std::vector<const Camera*> State::recorded_cameras() const {
   if (photographs)
     for (const Photograph& photograph : photographs->list) cameras.push_back(&photograph.camera);
   else if (stage)
-    for (const Camera& camera : stage->scene->cameras) cameras.push_back(&camera);
+    for (const Camera& camera : source.scene->cameras) cameras.push_back(&camera);
   return cameras;
+}
+
+SceneSource State::drawn_source() const {
+  SceneSource result = source;
+  for (const RefusedLayer& refused : stage->refused)
+    std::erase_if(result.document.layers,
+                  [&](const DocumentLayer& layer) { return layer.id == refused.layer.id; });
+  return result;
 }
 
 CameraKeyframe State::keyframe_of_now(double seconds) const {

@@ -22,7 +22,7 @@
 #include "viewer/files/settings.hpp"
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/scene/stage.hpp"
 #include "viewer/training_command.hpp"
 #include "viewer/worker.hpp"
 
@@ -31,18 +31,36 @@ namespace tureen::viewer {
 /// Opens a scene, photographs or a camera path, detected from its name and contents.
 struct OpenPath {
   std::filesystem::path path;
+  bool discards = false;  // unsaved changes, without a question
 };
 /// The same for several paths, except that scenes are added as layers to the scene that is shown or
 /// loading. Without one, they become its layers.
 struct AddPaths {
   std::vector<std::filesystem::path> paths;
 };
-/// Gives the stage these of its layers, as arrange_layers(). Ignored if the stage has another scene
-/// by then, for example because a layer was added.
-struct ArrangeLayers {
-  std::shared_ptr<const Scene> scene;  // that of the stage with these layers
-  std::vector<StageLayer> layers;
+/// Changes the document. `gesture`: as History::perform().
+struct Perform {
+  Edit edit;
+  std::uint64_t gesture = 0;
 };
+struct Undo {};
+struct Redo {};
+/// Undoes or redoes the steps of the document up to this position of its history.
+struct GoToStep {
+  std::size_t position = 0;
+};
+/// Leaves the scene: for another one, or by closing the window if the path is empty.
+struct Leave {
+  std::filesystem::path opens;
+};
+/// Saves the scene. Asks before a format loses something.
+struct SaveScene {
+  std::filesystem::path file = {};  // empty: the scene's own; asks if it has none
+  bool accepts_losses = false;
+  std::optional<Leave> then = {};  // after it was saved
+};
+/// Asks for the name of the file.
+struct SaveSceneAs {};
 struct OpenPhotographs {
   std::filesystem::path path;
 };
@@ -107,14 +125,15 @@ struct Quit {
   /// Fate of a training that this window has started.
   enum class Training { ask, stop, let_continue };
   Training training = Training::ask;
+  bool discards = false;  // unsaved changes, without a question
 };
 
 using Request =
-    std::variant<OpenPath, AddPaths, ArrangeLayers, OpenPhotographs, CloseDataset, ReloadScene,
-                 ChooseDrawing, ShowRecorded, FocusAt, TakeImage, SavePage, CopyCommand,
-                 ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable, SavePath, LoadPath,
-                 WriteAnimation, TellTraining, CancelJob, StartTraining, StopTraining,
-                 CopyTrainingCommand, StopWriting, Quit>;
+    std::variant<OpenPath, AddPaths, Perform, Undo, Redo, GoToStep, SaveScene, SaveSceneAs,
+                 OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded, FocusAt,
+                 TakeImage, SavePage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
+                 MakeTurntable, SavePath, LoadPath, WriteAnimation, TellTraining, CancelJob,
+                 StartTraining, StopTraining, CopyTrainingCommand, StopWriting, Quit>;
 
 /// The photographs of the dataset, training ones first.
 struct Photographs {
@@ -137,11 +156,27 @@ struct StartedTraining {
 
 /// The fields of the panel *Layers*.
 struct LayerEditing {
-  std::size_t selected = 0;
+  LayerId selected = 0;
   /// The numbers of the selected layer, and their matrix. They are kept while the matrix is the
   /// layer's, because other numbers may have the same matrix.
   Similarity numbers;
   glm::dmat4 matrix{1.0};
+};
+
+/// The dialogs about saving; each is open if it has a value.
+struct SavingDialogs {
+  struct Name {
+    std::filesystem::path folder;
+    std::string typed;  // relative to the folder
+    std::optional<Leave> then;
+  };
+  struct Losses {
+    SaveScene request;
+    std::vector<std::string> lost;
+  };
+  std::optional<Name> name;      // of the file
+  std::optional<Losses> losses;  // of its format
+  std::optional<Leave> leaving;  // with unsaved changes
 };
 
 /// The fields of the panel *Images*.
@@ -163,7 +198,9 @@ inline constexpr double progress_delay_seconds = 0.5;
 struct State {
   Settings settings;
   std::filesystem::path images_option;  // folder of --images, before the settings'; empty: none
-  std::unique_ptr<Stage> stage;         // null before the first scene
+  SceneSource source;                   // the scene; without files before the first one
+  History history;                      // of source.document
+  std::unique_ptr<Stage> stage;         // its document on the device; null before the first scene
   DrawingChoice wanted;                 // options of the stage in preparation, otherwise of `stage`
   DebugViewChoice debug_view;
   std::optional<Photographs> photographs;
@@ -175,6 +212,8 @@ struct State {
   Animation animation;
   Messages messages;
   LayerEditing layer_editing;
+  std::uint64_t gesture = 1;  // of controls that are held: a drag, or typing in a field
+  SavingDialogs saving;
   ImageWish image;
   bool show_interface = true;
   bool show_keys = false;
@@ -193,7 +232,11 @@ struct State {
   /// Absolute folder for images.
   std::filesystem::path folder_of_images() const;
   /// Whether a dialog is open, which takes the keys.
-  bool has_dialog() const { return scene_to_train || asks_before_quitting; }
+  bool has_dialog() const {
+    return scene_to_train || asks_before_quitting || saving.name || saving.losses || saving.leaving;
+  }
+  /// The scene without the layers that the device refused.
+  SceneSource drawn_source() const;
   /// The cameras of the photographs if there are any, otherwise of the scene.
   std::vector<const Camera*> recorded_cameras() const;
   /// The current view as a keyframe; `seconds` is its time in the path.
@@ -210,6 +253,10 @@ struct State {
   template <class Wish>
   void ask(Wish wish) {
     requests.emplace_back(std::move(wish));
+  }
+  /// Changes the document. `continues`: while the user holds a control, all is one step.
+  void edit(Edit edit, bool continues = false) {
+    ask(Perform{std::move(edit), continues ? gesture : 0});
   }
   std::deque<Request> requests;
 };

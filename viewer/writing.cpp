@@ -57,7 +57,7 @@ void write_image(const ImageJob& job, const StageRequest& request) {
   };
   if (job.debug_view.what != DebugView::color) {
     const gl::Capabilities& device = request.context.capabilities();
-    const std::vector<PlacedLayer> layers = placed_layers(job.scene);
+    const std::vector<PlacedLayer> layers = placed_layers(job.scene.document.layers);
     DebugViews debug_views(layers);
     Renderer renderer(request.context, prepare_debug_views(layers, device_limits(device)),
                       {.background = background});

@@ -6,12 +6,12 @@
 
 #include "camera/camera_path.hpp"
 #include "viewer/debug_view_choice.hpp"
-#include "viewer/stage.hpp"
+#include "viewer/scene/stage.hpp"
 
 namespace tureen::viewer {
 
 struct ImageJob {
-  StageSource scene;
+  SceneSource scene;
   Camera camera;  // with the image's size, which may exceed the device's limit
   DebugViewChoice debug_view = {};
   bool transparent = false;
@@ -25,7 +25,7 @@ struct ImageJob {
 void write_image(const ImageJob& job, const StageRequest& request);
 
 struct AnimationJob {
-  StageSource scene;
+  SceneSource scene;
   CameraPath path;
   FrameRate rate;
   /// A video file if its name is one (image/video_file.hpp), otherwise a folder for frames.

@@ -19,17 +19,11 @@ namespace tureen {
 
 namespace {
 
-/// Of most of the splats, which a few strays do not change.
-double radius_of(const Splats& splats) {
-  const Bounds box = middle_bounds(splats);
-  return 0.5 * glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
-}
-
 /// See SplatBuilder::finish().
 std::optional<Remark> lower_near_limit(Splats& splats) {
   float& limit = splats.profile.min_center_depth;
   if (!(limit > 0) || count(splats) == 0) return std::nullopt;
-  const double radius = radius_of(splats), published = double(limit);
+  const double radius = middle_bounds(splats).radius(), published = double(limit);
   if (!(radius > 0 && radius < 2 * published)) return std::nullopt;
   // A usual view is from more than the radius away; a tenth still leaves room to come near.
   limit = float(radius / 10);

@@ -125,7 +125,7 @@ class FullDevice : public testing::Test {
     ApplicationOptions options;
     for (const std::string& name : opened) options.scenes.push_back(folder / name);
     options.images = folder;
-    Session session{.window = {480, 480}, .events = {}};
+    Session session{.window = {480, 720}, .events = {}};  // messages are above the scene
     session.events.push_back({0.02, AwaitRest{}});
     session.events.push_back({0.04, KeyChanged{Key::h, true}});
     session.events.push_back({0.06, KeyChanged{Key::h, false}});

@@ -9,12 +9,13 @@ namespace page_command_test {
 
 using testing::ElementsAre;
 
-StageSource source() {
-  StageSource result;
+SceneSource source() {
+  SceneSource result;
   for (const char* path : {"/scenes/a.glb", "/scenes/b.ply"})
     result.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  result.layers = {{{}, std::make_shared<const Primitives>(TriangleSoup()), 0},
-                   {{}, std::make_shared<const Primitives>(Splats()), 1}};
+  result.document.layers = {{{}, 1, std::make_shared<const Primitives>(TriangleSoup())},
+                            {{}, 2, std::make_shared<const Primitives>(Splats())}};
+  result.origins = {{1, {0}}, {2, {1}}};
   result.scene = std::make_shared<const Scene>();
   result.subject.up = {0, 0, 1};
   return result;
@@ -37,8 +38,8 @@ TEST(PageCommand, HasWhatTheWindowShowsOtherwiseThanTheFiles) {
 
 /// The profile that the user wants stays when another scene opens.
 TEST(PageCommand, OfASoupHasNoOptionsForSplats) {
-  StageSource soup = source();
-  soup.layers = {{{}, std::make_shared<const Primitives>(TriangleSoup()), 0}};
+  SceneSource soup = source();
+  soup.document.layers.pop_back();
   DrawingChoice choice;
   choice.plan.splat_profile = profile_named("2dgs");
   choice.quality = Quality{.splat_order = Quality::SplatOrder::exact};

@@ -39,19 +39,21 @@ glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string
   return v;
 }
 
-StageSource source(const std::string& path) {
-  StageSource result;
+SceneSource source(const std::string& path) {
+  SceneSource result;
   result.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  result.layers = {{{}, std::make_shared<const Primitives>(Splats())}};
+  result.document.layers = {{{}, 1, std::make_shared<const Primitives>(Splats())}};
+  result.origins = {{1, {0}}};
   result.scene = std::make_shared<const Scene>();
   return result;
 }
 
 TEST(RenderCommand, NamesAllFilesWithLayers) {
-  StageSource scene = source("a.glb");
+  SceneSource scene = source("a.glb");
   for (const char* path : {"removed.glb", "b c.glb"})
     scene.files.push_back({.path = path, .watch = {}, .header = nullptr});
-  scene.layers = {{{}, {}, 0}, {{}, {}, 2}};
+  scene.document.layers = {{{}, 1}, {{}, 2}};
+  scene.origins = {{1, {0}}, {2, {2}}};
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   EXPECT_THAT(render_command(scene, {}, {}, camera, ""),
               testing::StartsWith("tureen render a.glb 'b c.glb' --eye"));
@@ -109,7 +111,7 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   const std::string command = render_command(source("a.glb"), choice, {}, camera, "");
   EXPECT_THAT(command, HasSubstr("--supersample 3"));
   EXPECT_THAT(command, HasSubstr("--keep alpha-test"));
-  StageSource fine = source("a.glb");
+  SceneSource fine = source("a.glb");
   Scene scene = *fine.scene;
   scene.quality.supersampling = 3;
   fine.scene = std::make_shared<const Scene>(scene);
@@ -121,7 +123,7 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
               AllOf(HasSubstr("--as-published --blend raster"),
                     HasSubstr("--profile mip --supersample 1")));
-  fine.layers = {{{}, std::make_shared<const Primitives>(TriangleSoup())}};
+  fine.document.layers = {{{}, 1, std::make_shared<const Primitives>(TriangleSoup())}};
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""),
               AllOf(HasSubstr("--supersample 1"), Not(HasSubstr("--profile"))));
 }

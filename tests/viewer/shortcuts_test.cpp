@@ -19,9 +19,9 @@ namespace tureen::viewer {
 namespace shortcuts_test {
 
 TEST(Shortcuts, EachKeyHasOneMeaning) {
-  std::set<std::pair<Key, bool>> keys;
+  std::set<std::pair<Key, With>> keys;
   for (const Shortcut& each : shortcuts())
-    EXPECT_TRUE(keys.insert({each.key, each.control}).second) << each.text;
+    EXPECT_TRUE(keys.insert({each.key, each.with}).second) << each.text;
 }
 
 /// The lines of the page's table: key -> meaning.
@@ -43,7 +43,7 @@ TEST(Shortcuts, HaveTheWordsOfThePage) {
     if (name == "k" || name == "l" || name == "?") continue;
     const std::string upper(1, char(std::toupper(static_cast<unsigned char>(name.front()))));
     const auto found = std::find_if(shortcuts().begin(), shortcuts().end(), [&](const auto& each) {
-      return !each.control && name_of(each.key) == upper;
+      return each.with == With::nothing && name_of(each.key) == upper;
     });
     ASSERT_NE(found, shortcuts().end()) << upper;
     ASSERT_NE(found->text, nullptr) << upper;
@@ -54,10 +54,10 @@ TEST(Shortcuts, HaveTheWordsOfThePage) {
 TEST(Shortcuts, EscapeClosesTheTopmostList) {
   State state;
   state.show_keys = state.show_files = true;
-  ASSERT_TRUE(run_shortcut(Key::escape, false, state));
+  ASSERT_TRUE(run_shortcut(Key::escape, With::nothing, state));
   EXPECT_FALSE(state.show_keys);
   EXPECT_TRUE(state.show_files);
-  ASSERT_TRUE(run_shortcut(Key::escape, false, state));
+  ASSERT_TRUE(run_shortcut(Key::escape, With::nothing, state));
   EXPECT_FALSE(state.show_files);
 }
 
@@ -65,18 +65,18 @@ TEST(Shortcuts, ITurnsTheSceneUpsideDown) {
   State state;
   const glm::dvec3 up(0, 0, 1);
   state.controls.set_up(up);
-  ASSERT_TRUE(run_shortcut(Key::i, false, state));
+  ASSERT_TRUE(run_shortcut(Key::i, With::nothing, state));
   EXPECT_EQ(state.controls.up(), -up);
-  ASSERT_TRUE(run_shortcut(Key::i, false, state));
+  ASSERT_TRUE(run_shortcut(Key::i, With::nothing, state));
   EXPECT_EQ(state.controls.up(), up);
 }
 
 TEST(Shortcuts, RRestoresTheUpAxis) {
   State state;
   const glm::dvec3 up = state.controls.up();
-  ASSERT_TRUE(run_shortcut(Key::u, false, state));
+  ASSERT_TRUE(run_shortcut(Key::u, With::nothing, state));
   ASSERT_NE(state.controls.up(), up);
-  ASSERT_TRUE(run_shortcut(Key::r, false, state));
+  ASSERT_TRUE(run_shortcut(Key::r, With::nothing, state));
   EXPECT_EQ(state.controls.up(), up);
 }
 

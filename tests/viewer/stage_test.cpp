@@ -1,5 +1,5 @@
 // Scenes of several files, before they are on the device.
-#include "viewer/stage.hpp"
+#include "viewer/scene/stage.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,14 +57,14 @@ class Stages : public testing::Test {
   std::vector<fs::path> unreadable_;
 };
 
-std::vector<std::string> names(const StageSource& source) {
+std::vector<std::string> names(const SceneSource& source) {
   std::vector<std::string> result;
-  for (const StageLayer& layer : source.layers) result.push_back(layer.name);
+  for (const DocumentLayer& layer : source.document.layers) result.push_back(layer.name);
   return result;
 }
 
 TEST_F(Stages, FilesWithErrorsAreLeftOut) {
-  const StageSource source =
+  const SceneSource source =
       read_source(request({bad("a.off"), good("b.off"), bad("c.off"), good("d.off")}));
   EXPECT_THAT(names(source), ElementsAre("b", "d"));
   EXPECT_THAT(unreadable_, ElementsAre("a.off", "c.off"));
@@ -79,9 +79,9 @@ TEST_F(Stages, WithoutAGoodFileTheErrorIsThrown) {
 
 TEST_F(Stages, RemovedLayersDoNotCount) {
   const fs::path a = good("a.off"), b = good("b.off");
-  StageSource source = read_source(request({a, b, b}));
+  SceneSource source = read_source(request({a, b, b}));
   EXPECT_THAT(names(source), ElementsAre("a", "b", "b 2"));
-  source.layers.resize(1);
+  source.document.layers.resize(1);
   EXPECT_THAT(source.paths(), ElementsAre(a));
   EXPECT_TRUE(source.is_as_read());
   source = read_more(source, request({b}));
@@ -89,9 +89,11 @@ TEST_F(Stages, RemovedLayersDoNotCount) {
   EXPECT_EQ(source.scene->layers.size(), 2u);
   EXPECT_TRUE(source.is_as_read());
   // The first file keeps its cameras and settings, so that another scene is read without it.
-  source.layers.erase(source.layers.begin());
+  source.document.layers.erase(source.document.layers.begin());
   EXPECT_FALSE(source.is_as_read());
-  source = read_again(source, request({}));
+  const SceneSource before = source;
+  source = read_again(before, request({}));
+  keep_changes(source, before);
   EXPECT_THAT(names(source), ElementsAre("b"));
   EXPECT_THAT(source.paths(), ElementsAre(b));
 }
@@ -100,7 +102,7 @@ TEST_F(Stages, PreviewsOfALargeFileGrowToAQuarterOfIt) {
   const fs::path path = splats("many.splat", std::size_t(1) << 19);
   std::vector<std::size_t> counts;
   for (std::uint64_t shown = 0; const auto preview = read_source_preview(path, shown);) {
-    counts.push_back(preview->source.layers.front().primitive_count());
+    counts.push_back(primitive_count(preview->source.document.layers.front()));
     EXPECT_EQ(preview->bytes, counts.back() * 32);
     EXPECT_THAT(all_notes(preview->source.scene->info), IsEmpty());
     shown = preview->bytes;
@@ -129,7 +131,7 @@ TEST_F(Stages, ALargeSoupIsPreviewedOnceInMeanColours) {
   write_scene(scene, folder_ / "large.glb");
   const auto preview = read_source_preview(folder_ / "large.glb", 0);
   ASSERT_TRUE(preview);
-  const TriangleSoup* shown = preview->source.layers.front().soup();
+  const TriangleSoup* shown = soup_of(preview->source.document.layers.front());
   ASSERT_TRUE(shown);
   EXPECT_EQ(shown->triangles.size(), faces);
   EXPECT_TRUE(std::holds_alternative<FaceColors>(shown->appearance));

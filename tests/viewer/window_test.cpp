@@ -60,8 +60,12 @@ class Person {
 
   Person& wait() { return add(AwaitRest{}); }
   Person& press(Key key) { return add(KeyChanged{key, true}).add(KeyChanged{key, false}); }
-  Person& press_with_control(Key key) {
-    return add(KeyChanged{Key::control, true}).press(key).add(KeyChanged{Key::control, false});
+  Person& press_with_control(Key key, std::optional<Key> too = {}) {
+    add(KeyChanged{Key::control, true});
+    if (too) add(KeyChanged{*too, true});
+    press(key);
+    if (too) add(KeyChanged{*too, false});
+    return add(KeyChanged{Key::control, false});
   }
   Person& hold(Key key, double seconds) {
     add(KeyChanged{key, true});
@@ -292,9 +296,9 @@ TEST_F(Window, SavesImagesUnderNewNames) {
                                         .wait()
                                         .press(Key::h)
                                         .press(Key::right_bracket)
-                                        .press_with_control(Key::s)
+                                        .press(Key::p)
                                         .wait()
-                                        .press_with_control(Key::s)
+                                        .press_with_control(Key::s, Key::shift)
                                         .wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Image8 expected = rendered({"--camera", "soup.glb:0", "--size", "640x400"});
@@ -304,7 +308,7 @@ TEST_F(Window, SavesImagesUnderNewNames) {
 
 /// Positions in the column of panels in a window 720 points wide, from the goldens. The sections
 /// above are closed first, from the lowest to the highest.
-constexpr glm::dvec2 view_header{560, 246}, scene_header{560, 26}, image_header{560, 286},
+constexpr glm::dvec2 view_header{560, 280}, scene_header{560, 26}, image_header{560, 286},
     photographs_header{560, 248}, image_size{590, 322}, size_of_4k{540, 427},
     image_folder{590, 356}, page_button{445, 446};
 
@@ -319,7 +323,7 @@ TEST_F(ThoroughWindow, SavesImagesLargerThanItself) {
                                         .click(size_of_4k)
                                         .point({200, 300})
                                         .look("panel")
-                                        .press_with_control(Key::s)
+                                        .press(Key::p)
                                         .wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_golden(image("panel"), "window_images");
@@ -329,7 +333,7 @@ TEST_F(ThoroughWindow, SavesImagesLargerThanItself) {
 TEST_F(Window, ReportsAFolderForImagesThatDoesNotExist) {
   Person person({720, 640});
   person.wait().click(view_header).click(scene_header).click(image_header).click(image_folder);
-  const Session session = person.type("no folder").press_with_control(Key::s).wait().session();
+  const Session session = person.type("no folder").press(Key::p).wait().session();
   std::ofstream(folder_ / "session.json") << session_to_json(session);
   const ChildResult result = Child({"soup.glb", "--replay", "session.json"}, folder_).wait();
   EXPECT_EQ(result.exit_code, 1);
@@ -382,7 +386,7 @@ TEST_F(ThoroughWindow, SavesNoPageOfChangedLayers) {
       << R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
   const Template other(folder_ / "template.html");
   // The panel Layers is above the others, here closed like the scene's.
-  const glm::dvec2 second_layer{391, 448}, layers_header{560, 390}, below(0, 38.5);
+  const glm::dvec2 second_layer{391, 482}, layers_header{560, 424}, below(0, 38.5);
   for (const bool changes : {false, true}) {
     Person person({720, 640});
     person.wait();
@@ -455,7 +459,7 @@ TEST_F(Window, SavesTheDebugView) {
                                         .press(Key::right_bracket)
                                         .press(Key::v)
                                         .look("shown")
-                                        .press_with_control(Key::s)
+                                        .press(Key::p)
                                         .wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Image8 saved = image("soup-1");
@@ -466,7 +470,7 @@ TEST_F(Window, SavesTheDebugView) {
 TEST_F(Window, ImagesInARowAreAllSaved) {
   Person person({320, 200});
   person.wait().press(Key::h);
-  for (int i = 0; i < 3; ++i) person.press_with_control(Key::s);
+  for (int i = 0; i < 3; ++i) person.press(Key::p);
   EXPECT_EQ(replay(person.wait()).exit_code, 0);
   for (const char* name : {"soup-1", "soup-2", "soup-3"}) EXPECT_EQ(image(name).width, 320);
 }
@@ -634,11 +638,11 @@ TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
   Person person({320, 240});
   person.wait().press(Key::h).press(Key::right_bracket).drop("floor.off").wait();
-  person.without_notes().look("colours").press_with_control(Key::s).wait().press(Key::v).wait();
-  person.without_notes().look("depth").press_with_control(Key::s).wait();
+  person.without_notes().look("colours").press(Key::p).wait().press(Key::v).wait();
+  person.without_notes().look("depth").press(Key::p).wait();
   // A layer that is added to a debug view.
   person.drop("floor.off").wait().without_notes().look("depth_of_three");
-  person.press_with_control(Key::s).wait();
+  person.press(Key::p).wait();
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_equal(image("soup-1"), image("colours"));
@@ -646,19 +650,19 @@ TEST_F(Window, SavedImagesAndDebugViewsShowAllLayers) {
   expect_equal(image("soup-3"), image("depth_of_three"));
 }
 
-/// Positions in the panel Layers of a scene of two layers in a window of 720 x 640, from the
+/// Positions in the panel Layers of a scene of two layers in a window of 720 x 720, from the
 /// golden.
-constexpr glm::dvec2 second_visible{391, 448}, second_name{500, 448}, degrees_x{514, 512},
-    remove_button{637, 618};
+constexpr glm::dvec2 second_visible{391, 482}, second_name{500, 482}, degrees_x{514, 580},
+    remove_button{637, 686};
 
 TEST_F(Window, ThePanelPlacesHidesAndRemovesLayers) {
   write_square(folder_ / "floor.off", "255 0 0");
-  Person person({720, 640});
+  Person person({720, 720});
   person.drop_all({"soup.glb", "floor.off"}).wait().press(Key::digit_7).wait().without_notes();
   person.click(second_name).double_click(degrees_x).type("30").point({200, 540}).look("placed");
   // The image alone: as it is saved, as a debug view, and after the files were read again.
-  person.press(Key::h).look("alone").press_with_control(Key::s).wait().press(Key::v).wait();
-  person.without_notes().press_with_control(Key::s).wait().without_notes().look("depth");
+  person.press(Key::h).look("alone").press(Key::p).wait().press(Key::v).wait();
+  person.without_notes().press(Key::p).wait().without_notes().look("depth");
   for (int i = 0; i < 8; ++i) person.press(Key::v);  // once around those that the square has
   person.press(Key::f5).wait().without_notes().look("again");
   person.press(Key::h).wait().click(second_visible).press(Key::h).look("hidden");
@@ -680,7 +684,7 @@ TEST_F(Window, ALayerThatArrivesDuringADragStays) {
   write_square(folder_ / "floor.off", "255 0 0");
   std::ofstream(folder_ / "wall.off")
       << "OFF\n4 2 0\n-2 0 -2\n2 0 -2\n2 0 2\n-2 0 2\n3 0 1 2 0 0 255\n3 0 2 3 0 0 255\n";
-  Person person({720, 640});
+  Person person({720, 720});
   person.drop_all({"soup.glb", "floor.off"}).wait().press(Key::digit_7).wait().without_notes();
   person.click(second_name).begin_drag(degrees_x);
   for (int i = 1; i <= 40; ++i) {
@@ -691,6 +695,84 @@ TEST_F(Window, ALayerThatArrivesDuringADragStays) {
   const ChildResult result = replay(person, {});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GT(count(image("added"), blue), 1000);
+}
+
+// -- the document ---------------------------------------------------------------------------------
+
+/// In the dialog about unsaved changes, in a window of 720 x 720.
+constexpr glm::dvec2 save_and_leave_button{109, 349}, discard_button{181, 349};
+
+Person& undo(Person& person) { return person.press_with_control(Key::z).wait().without_notes(); }
+
+TEST_F(Window, ADocumentIsChangedUndoneSavedAndReopened) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  Person person({720, 720});
+  person.wait().drop("floor.off").wait().press(Key::digit_7).wait().without_notes();
+  person.look("before").begin_drag(degrees_x);
+  for (int i = 1; i <= 20; ++i) person.point(degrees_x + glm::dvec2(i, 0));
+  person.end_drag().point({200, 540}).look("moved").click(remove_button).point({200, 540});
+  person.look("removed");
+  undo(person).look("moved again");
+  undo(person).look("before again");  // the drag is one step
+  undo(person).look("alone");
+  for (int i = 0; i < 2; ++i) person.press_with_control(Key::y).wait();
+  person.without_notes().press(Key::h).look("redone").press(Key::h).press_with_control(Key::s);
+  person.wait().type("garden.glb").wait().without_notes().look("saved");
+  ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("before"), "window_document");
+  EXPECT_NE(image("moved").pixels, image("before").pixels);
+  EXPECT_EQ(count(image("alone"), red), 0);
+  // The panel differs: steps can be redone, and another layer is selected.
+  const auto left = [](Image8 image) {
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 370; x < image.width; ++x) image.pixels[std::size_t(y * image.width + x)] = {};
+    return image;
+  };
+  expect_equal(left(image("moved again")), left(image("moved")));
+  expect_equal(left(image("before again")), left(image("before")));
+  Person reopened({720, 720});
+  reopened.wait().press(Key::digit_7).wait().press(Key::h).without_notes().look("reopened");
+  result = replay(reopened, {"garden.glb"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(image("reopened"), image("redone"));
+}
+
+TEST_F(Window, AsksBeforeUnsavedChangesAreLost) {
+  Person person({720, 720});
+  person.wait().press(Key::i).press_with_control(Key::q).wait().without_notes().look("asked");
+  person.press(Key::escape).look("open").press_with_control(Key::q).wait();
+  ChildResult result = replay(Person(person).click(discard_button).hold(Key::super, 1).look("end"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(image("asked"), "window_unsaved");
+  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "open.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "pictures" / "end.png"));
+  const glm::vec3 up = read_scene(folder_ / "soup.glb").info.up;
+  result = replay(person.click(save_and_leave_button).wait().hold(Key::super, 1).look("end"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "pictures" / "end.png"));
+  EXPECT_EQ(read_scene(folder_ / "soup.glb").info.up, -up);
+  // Nothing is left to be saved.
+  Person unchanged;
+  unchanged.wait().press_with_control(Key::q).hold(Key::super, 1).look("end");
+  EXPECT_EQ(replay(unchanged).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "pictures" / "end.png"));
+}
+
+TEST_F(Window, ReadingAgainKeepsTheHistory) {
+  write_square(folder_ / "floor.off", "255 0 0");
+  write_square(folder_ / "next.off", "0 0 255");
+  Person person({720, 720});
+  person.wait().press(Key::digit_7).wait().click(second_name).click(remove_button).press(Key::h);
+  person.wait().without_notes().look("removed").replace("floor.off", "next.off").press(Key::f5);
+  person.wait();
+  // The file of the restored layer has changed meanwhile.
+  undo(person).press(Key::f5).wait().without_notes().look("read");
+  const ChildResult result = replay(person, {"soup.glb", "floor.off"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(count(image("removed"), red), 0);
+  EXPECT_EQ(count(image("read"), red), 0);
+  EXPECT_GT(count(image("read"), blue), 1000);
 }
 
 TEST_F(ThoroughWindow, EveryFileOfALayerIsWatched) {
@@ -736,7 +818,7 @@ TEST_F(WindowAtRest, ShowsAndSavesTheImageOfSupersampling) {
   Person person({640, 400});
   person.wait().press(Key::h).press(Key::right_bracket).look("first");
   // Every change begins anew.
-  person.press(Key::right_bracket).look("second").press_with_control(Key::s).wait();
+  person.press(Key::right_bracket).look("second").press(Key::p).wait();
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GE(psnr(image("first"), supersampled("soup.glb:0", "640x400")), min_psnr);
@@ -750,8 +832,8 @@ TEST_F(ThoroughWindowAtRest, SavesImagesOfAnyKind) {
   write_square(folder_ / "floor.off", "255 0 0");
   Person person({320, 200});
   person.wait().press(Key::h).press(Key::right_bracket).drop("floor.off").wait().without_notes();
-  person.look("layers").press_with_control(Key::s).wait().press(Key::v).wait().without_notes();
-  person.look("depth").press_with_control(Key::s).wait();
+  person.look("layers").press(Key::p).wait().press(Key::v).wait().without_notes();
+  person.look("depth").press(Key::p).wait();
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GE(psnr(image("soup-1"), image("layers")), min_psnr);
@@ -782,8 +864,8 @@ TEST_F(ThoroughWindowAtRest, WaitsUntilAnimationAndMotionEnd) {
 }
 
 /// Positions in the panel Training in a window of 720 x 640, from the golden.
-constexpr glm::dvec2 pause_button{411, 570}, stop_button{510, 570}, stop_now_button{492, 544},
-    pause_without_log{411, 306};
+constexpr glm::dvec2 pause_button{411, 604}, stop_button{510, 604}, stop_now_button{492, 578},
+    pause_without_log{411, 340};
 
 /// A run of 1,000 steps in its 250th.
 void write_run(const fs::path& folder,
@@ -978,7 +1060,7 @@ TEST_F(Window, TheBaselineRefusesAFurtherLayer) {
   const ChildResult result =
       replay(Person().wait().drop("floor.off").wait(), {"soup.glb", "--pipeline", "baseline"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, Names("floor.off cannot be shown", "baseline"));
+  EXPECT_THAT(result.err, Names("floor cannot be drawn", "baseline"));
 }
 
 TEST_F(Window, ComparesWithOneDataset) {

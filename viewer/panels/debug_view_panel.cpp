@@ -20,7 +20,7 @@ void feature_choice(FeatureChoice& choice, int count) {
 }  // namespace
 
 void debug_view_panel(State& state) {
-  const StageSource& source = *state.stage;
+  const SceneSource& source = state.source;
   DebugViewChoice& debug_view = state.debug_view;
   const DebugViewName& current = debug_view_names()[std::size_t(debug_view.what)];
   field("View");

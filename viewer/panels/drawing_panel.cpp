@@ -11,8 +11,7 @@ namespace tureen::viewer {
 
 namespace {
 
-/// Returns whether the choice changed.
-bool sampling(DrawingChoice& choice, const Scene& scene) {
+void sampling(State& state) {
   static constexpr struct {
     const char* name;
     double scale;
@@ -25,40 +24,32 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
                    {"3 \u00d7 screen (9 samples per pixel)", 1, 3},
                    {"4 \u00d7 screen (16 samples per pixel)", 1, 4},
                    {"8 \u00d7 screen (64 samples per pixel)", 1, 8}};
-  const Quality quality = quality_of(choice, scene);
+  const Quality& quality = state.source.document.quality;
   const char* current = "as requested";
   for (const auto& each : samplings)
     if (each.scale == quality.resolution_scale && each.supersampling == quality.supersampling)
       current = each.name;
-  bool changed = false;
   field("Resolution");
-  if (!ImGui::BeginCombo("##resolution", current)) return false;
+  if (!ImGui::BeginCombo("##resolution", current)) return;
   for (const auto& each : samplings)
-    if (ImGui::Selectable(each.name, each.name == current)) {
-      choice.quality = Quality{each.scale, each.supersampling, quality.splat_order};
-      changed = true;
-    }
+    if (ImGui::Selectable(each.name, each.name == current))
+      state.edit(ChangeQuality{{each.scale, each.supersampling, quality.splat_order}});
   ImGui::EndCombo();
-  return changed;
 }
 
-/// The rules of rendering splats. Returns whether they changed.
-bool splat_rules(DrawingChoice& choice, const Stage& stage) {
+/// The rules of rendering splats. Returns whether the choice changed.
+bool splat_rules(State& state, DrawingChoice& choice) {
+  const Document& document = state.source.document;
   std::vector<const Splats*> splats;
-  for (const StageLayer& layer : stage.layers)
-    if (const auto* of_layer = std::get_if<Splats>(layer.primitives.get()))
-      splats.push_back(of_layer);
+  for (const DocumentLayer& layer : document.layers)
+    if (const Splats* of_layer = splats_of(layer)) splats.push_back(of_layer);
   if (splats.empty()) return false;
-  bool changed = false;
-  std::optional<SplatProfile>& profile = choice.plan.splat_profile;
+  const std::optional<SplatProfile>& profile = document.profile;
   const std::string own = "of the file";
   const std::string current = profile ? std::string(name_of(*profile)) : own;
   field("Profile");
   if (ImGui::BeginCombo("##profile", current.c_str())) {
-    if (ImGui::Selectable(own.c_str(), !profile)) {
-      profile.reset();
-      changed = true;
-    }
+    if (ImGui::Selectable(own.c_str(), !profile)) state.edit(ChangeProfile{});
     for (const NamedProfile& each : named_profiles) {
       // Of methods with equal profiles, the first.
       if (name_of(each.profile) != each.name) continue;
@@ -66,26 +57,23 @@ bool splat_rules(DrawingChoice& choice, const Stage& stage) {
             return profile_defect(of_layer->kernel, each.profile).has_value();
           }))
         continue;
-      if (ImGui::Selectable(std::string(each.name).c_str(), profile == each.profile)) {
-        profile = each.profile;
-        changed = true;
-      }
+      if (ImGui::Selectable(std::string(each.name).c_str(), profile == each.profile))
+        state.edit(ChangeProfile{each.profile});
     }
     ImGui::EndCombo();
   }
-  tip("The method by whose rules splats are drawn. tureen convert --profile saves it");
-  Quality quality = quality_of(choice, *stage.scene);
+  tip("The method by whose rules splats are drawn.");
+  Quality quality = document.quality;
   int order = int(quality.splat_order);
   field("Splat order");
   if (ImGui::Combo("##splat order", &order, splat_order_names.data(),
                    int(splat_order_names.size()))) {
     quality.splat_order = Quality::SplatOrder(order);
-    choice.quality = quality;
-    changed = true;
+    state.edit(ChangeQuality{quality});
   }
   tip("The splat in front: the one with the nearer centre; exactly the nearer one at each pixel, "
       "slower; or drawn by chance without blending, noisy");
-  changed |= check("As published", &choice.plan.as_published);
+  const bool changed = check("As published", &choice.plan.as_published);
   tip("Also cull splats by the rules of their authors' code that depend on the resolution");
   return changed;
 }
@@ -113,11 +101,11 @@ bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
 void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
-  bool changed = sampling(choice, *stage.scene);
+  sampling(state);
   check("Smooth at rest", &state.settings.smooth_at_rest);
   tip("While nothing moves, draw 64 frames with other samples and show their mean. Saved images "
       "have these samples, too");
-  changed |= splat_rules(choice, stage);
+  bool changed = splat_rules(state, choice);
   bool baseline = choice.pipeline == PipelineKind::baseline;
   if (check("Baseline", &baseline)) {
     choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;

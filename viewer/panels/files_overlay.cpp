@@ -26,7 +26,7 @@ void open(State& state, const fs::path& path) {
 /// The folder of the scene, otherwise the working folder.
 fs::path first_folder(const State& state) {
   std::error_code ignored;
-  return state.stage ? fs::absolute(state.stage->path(), ignored).parent_path()
+  return state.stage ? fs::absolute(state.source.path(), ignored).parent_path()
                      : fs::current_path(ignored);
 }
 

@@ -37,7 +37,8 @@ void group(const char* name, float width, Rows rows) {
 void keys_of(std::string_view name) {
   for (const Shortcut& shortcut : shortcuts())
     if (shortcut.text && shortcut.group == name)
-      row((shortcut.control ? "Ctrl+" : "") + std::string(name_of(shortcut.key)), shortcut.text);
+      row((shortcut.with == With::control ? "Ctrl+" : "") + std::string(name_of(shortcut.key)),
+          shortcut.text);
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ void keys_overlay(State& state) {
   const float width = std::min(50 * em, window.x - em);
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - em});
   // Dear ImGui measures the list too high before it wraps texts, and would keep a scroll bar.
-  const bool fits = window.x > 51 * em && window.y > 36 * em;
+  const bool fits = window.x > 51 * em && window.y > 40 * em;
   ImGui::Begin("Keys and gestures", &state.show_keys,
                (fits ? ImGuiWindowFlags_NoScrollbar : ImGuiWindowFlags_None) |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |

@@ -1,4 +1,9 @@
-// The layers of the scene: visibility, order, removal, and the place of the selected one.
+// The layers of the scene: visibility, order, removal, and the place and name of the selected one.
+// clang-format off: the second header needs the first
+#include <imgui/imgui.h>
+#include <imgui/imgui_stdlib.h>
+// clang-format on
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -17,15 +22,16 @@ namespace {
 /// Smallest and largest scale.
 constexpr double min_scale = 1e-6, max_scale = 1e6;
 
-/// Returns whether the layer changed.
-bool layer_row(StageLayer& layer, bool selected, bool& clicked) {
-  const bool changed = check("##visible", &layer.visible);
+/// Returns whether the layer was clicked.
+bool layer_row(State& state, const DocumentLayer& layer, bool selected) {
+  bool visible = layer.visible;
+  if (check("##visible", &visible)) state.edit(ShowLayer{layer.id, visible});
   tip("Show");
   ImGui::SameLine();
-  const std::string count = counted(layer.primitive_count());
+  const std::string count = counted(primitive_count(layer));
   const float count_left = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(count.c_str()).x;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  clicked =
+  const bool clicked =
       ImGui::Selectable("##layer", selected, 0, {count_left - gap - ImGui::GetCursorPosX(), 0});
   const bool hovered = ImGui::IsItemHovered();
   // Not the label of the selectable: names come from files, and "##" has a meaning for Dear ImGui,
@@ -41,8 +47,8 @@ bool layer_row(StageLayer& layer, bool selected, bool& clicked) {
   if (hovered) ImGui::SetTooltip("%s", layer.name.c_str());
   ImGui::SameLine(count_left);
   text("{}", count);
-  tip(layer.soup() ? "triangles" : "splats");
-  return changed;
+  tip(soup_of(layer) ? "triangles" : "splats");
+  return clicked;
 }
 
 /// Lengths to a hundred-thousandth of the scene's size: the noise of rounding disappears.
@@ -77,75 +83,76 @@ bool place_rows(Similarity& numbers, double radius) {
   return changed;
 }
 
-/// Returns whether the layers changed.
-bool order_buttons(std::vector<StageLayer>& layers, std::size_t& selected) {
-  bool changed = false;
-  const auto move_to = [&](std::size_t place) {
-    std::swap(layers[selected], layers[place]);
-    selected = place;
-    changed = true;
-  };
+void name_row(State& state, const DocumentLayer& layer) {
+  std::string name = layer.name;
+  field("Name");
+  // A layer without a name would get that of its file.
+  if (ImGui::InputText("##name", &name) && !name.empty())
+    state.edit(RenameLayer{layer.id, name}, true);
+}
+
+void place_of(State& state, const DocumentLayer& layer) {
+  LayerEditing& editing = state.layer_editing;
+  if (editing.matrix != layer.world_from_layer) {
+    editing.matrix = layer.world_from_layer;
+    editing.numbers = similarity_of(editing.matrix);
+  }
+  if (!place_rows(editing.numbers, state.controls.radius())) return;
+  const glm::dmat4 matrix = matrix_of(editing.numbers);
+  // A typed number may be too large for a double.
+  if (defect(Layer{.world_from_layer = matrix})) {
+    editing.numbers = similarity_of(editing.matrix);
+  } else {
+    editing.matrix = matrix;
+    state.edit(PlaceLayer{layer.id, matrix}, true);
+  }
+}
+
+void order_buttons(State& state, std::size_t index) {
+  const std::vector<DocumentLayer>& layers = state.source.document.layers;
+  const LayerId id = layers[index].id;
   {
-    const Disabled disabled(selected == 0);
-    if (button("Move up", share_of_row(3))) move_to(selected - 1);
+    const Disabled disabled(index == 0);
+    if (button("Move up", share_of_row(3))) state.edit(ReorderLayer{id, index - 1});
     tip("At equal depth, the upper layer is visible");
   }
   ImGui::SameLine();
   {
-    const Disabled disabled(selected + 1 == layers.size());
-    if (button("Move down", share_of_row(2)) && !changed) move_to(selected + 1);
+    const Disabled disabled(index + 1 == layers.size());
+    if (button("Move down", share_of_row(2))) state.edit(ReorderLayer{id, index + 1});
   }
   ImGui::SameLine();
   const Disabled disabled(layers.size() == 1);
-  if (button("Remove", share_of_row(1)) && !changed) {
-    layers.erase(layers.begin() + std::ptrdiff_t(selected));
-    selected = std::min(selected, layers.size() - 1);
-    changed = true;
-  }
-  tip("Frees the layer's memory; the file stays");
-  return changed;
+  // It stays selected for the case that it comes back.
+  if (button("Remove", share_of_row(1))) state.edit(RemoveLayers{{id}});
+  tip("Frees the layer's memory on the device; the file stays");
 }
 
 }  // namespace
 
 void layers_panel(State& state) {
-  const Stage& stage = *state.stage;
-  std::vector<StageLayer> layers = stage.layers;
-  LayerEditing& editing = state.layer_editing;
-  editing.selected = std::min(editing.selected, layers.size() - 1);
-  bool changed = false;
+  const std::vector<DocumentLayer>& layers = state.source.document.layers;
+  std::size_t selected = 0;
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    if (layers[i].id == state.layer_editing.selected) selected = i;
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    ImGui::PushID(int(i));
-    bool clicked = false;
-    changed |= layer_row(layers[i], i == editing.selected, clicked);
-    if (clicked) editing.selected = i;
+    ImGui::PushID(int(layers[i].id));
+    if (layer_row(state, layers[i], i == selected)) state.layer_editing.selected = layers[i].id;
     ImGui::PopID();
   }
-  StageLayer& layer = layers[editing.selected];
-  if (editing.matrix != layer.world_from_layer) {
-    editing.matrix = layer.world_from_layer;
-    editing.numbers = similarity_of(editing.matrix);
-  }
+  const DocumentLayer& layer = layers[selected];
   // Otherwise a field that is being edited would pass its number on to the next selected layer.
-  ImGui::PushID(layer.primitives.get());
-  if (place_rows(editing.numbers, state.controls.radius())) {
-    const glm::dmat4 matrix = matrix_of(editing.numbers);
-    // A typed number may be too large for a double.
-    if (defect(Layer{.world_from_layer = matrix})) {
-      editing.numbers = similarity_of(editing.matrix);
-    } else {
-      editing.matrix = layer.world_from_layer = matrix;
-      changed = true;
-    }
-  }
+  ImGui::PushID(int(layer.id));
+  name_row(state, layer);
+  place_of(state, layer);
   ImGui::PopID();
-  if (button("Reset the place")) {
-    layer.world_from_layer = stage.as_read(layer).world_from_layer;
-    changed = true;
+  const Layer* const read = state.source.as_read(layer);
+  {
+    const Disabled disabled(!read || read->world_from_layer == layer.world_from_layer);
+    if (button("Reset the place")) state.edit(PlaceLayer{layer.id, read->world_from_layer});
+    tip("The position, rotation, scale and mirror that the file gives");
   }
-  tip("The position, rotation, scale and mirror that the file gives");
-  changed |= order_buttons(layers, editing.selected);
-  if (changed) state.ask(ArrangeLayers{stage.scene, std::move(layers)});
+  order_buttons(state, selected);
 }
 
 }  // namespace tureen::viewer

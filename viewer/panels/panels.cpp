@@ -76,6 +76,7 @@ double panels_width(const State& state, double window_width) {
 }
 
 void draw_panels(State& state, const FrameClock& clock) {
+  if (!ImGui::IsAnyItemActive()) ++state.gesture;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const auto width = static_cast<float>(panels_width(state, window.x));
   if (width <= 0) return;
@@ -95,7 +96,7 @@ void draw_panels(State& state, const FrameClock& clock) {
   section("Scene", true, [&] { scene_panel(state); });
   if (state.training) section("Training", true, [&] { training_panel(state); });
   // A single unchanged layer needs no list.
-  if (state.stage->layers.size() > 1 || !state.stage->is_as_read())
+  if (state.source.document.layers.size() > 1 || !state.source.is_as_read())
     section("Layers", true, [&] { layers_panel(state); });
   section("View", true, [&] { view_panel(state); });
   section("Debug view", true, [&] { debug_view_panel(state); });
@@ -117,6 +118,7 @@ void draw_overlays(State& state) {
   if (state.show_files) files_overlay(state);
   if (state.show_keys) keys_overlay(state);
   training_dialogs(state);
+  saving_dialogs(state);
 }
 
 }  // namespace tureen::viewer

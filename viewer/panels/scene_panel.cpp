@@ -9,6 +9,7 @@
 #include "viewer/names.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 
@@ -24,24 +25,24 @@ void recent_menu(State& state) {
 }
 
 /// As on the page: "7,000 triangles and 90,854 splats".
-std::string size_text(const Stage& stage) {
+std::string size_text(const Document& document) {
   std::size_t triangles = 0, splats = 0;
-  for (const StageLayer& layer : stage.layers)
-    (layer.soup() ? triangles : splats) += layer.primitive_count();
+  for (const DocumentLayer& layer : document.layers)
+    (soup_of(layer) ? triangles : splats) += primitive_count(layer);
   if (splats == 0) return counted(triangles, "triangle");
   if (triangles == 0) return counted(splats, "splat");
   return counted(triangles, "triangle") + " and " + counted(splats, "splat");
 }
 
 /// Each once: "lattice texture, Gaussians (profile 3dgs)".
-std::string appearances(const Stage& stage) {
+std::string appearances(const Document& document) {
   std::vector<std::string> names;
-  for (const StageLayer& layer : stage.layers) {
-    const auto* splats = std::get_if<Splats>(layer.primitives.get());
+  for (const DocumentLayer& layer : document.layers) {
+    const Splats* const splats = splats_of(layer);
     const std::string name =
         splats ? fmt::format("{} (profile {}), harmonics of degree {}", kernel_name(splats->kernel),
                              profile_name(*splats), splats->color.degree)
-               : appearance_name(layer.soup()->appearance);
+               : appearance_name(soup_of(layer)->appearance);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   std::string all;
@@ -55,23 +56,66 @@ std::string megabytes(std::size_t bytes) {
   return fmt::format("{:.{}f} MB", value, value < 9.95 ? 1 : 0);
 }
 
+/// The steps of the history: a click undoes or redoes up to there.
+void steps_menu(State& state) {
+  const History& history = state.history;
+  {
+    const Disabled disabled(history.steps().empty());
+    if (button("Steps")) ImGui::OpenPopup("steps");
+  }
+  tip("The list of changes: a click goes back to one, or forth");
+  if (!ImGui::BeginPopup("steps")) return;
+  const std::size_t position = history.position();
+  if (ImGui::Selectable("Before the first step", position == 0)) state.ask(GoToStep{0});
+  for (std::size_t i = 0; i < history.steps().size(); ++i) {
+    ImGui::PushID(int(i));
+    // Not the label of the selectable: names come from files, and "##" has a meaning for Dear
+    // ImGui.
+    const float left = ImGui::GetCursorPosX();
+    if (ImGui::Selectable("##step", position == i + 1)) state.ask(GoToStep{i + 1});
+    ImGui::SameLine(left);
+    const Disabled disabled(i >= position);  // undone steps are dimmed
+    text("{}", history.steps()[i].name);
+    ImGui::PopID();
+  }
+  ImGui::EndPopup();
+}
+
+void step_button(State& state, const char* label, Key key, bool possible) {
+  const Disabled disabled(!possible);
+  if (button(label)) run_shortcut(key, With::control, state);
+}
+
+void history_buttons(State& state) {
+  const History& history = state.history;
+  step_button(state, "Undo", Key::z, history.position() > 0);
+  tip("Ctrl+Z");
+  ImGui::SameLine();
+  step_button(state, "Redo", Key::y, history.position() < history.steps().size());
+  tip("Ctrl+Y, Ctrl+Shift+Z");
+  ImGui::SameLine();
+  steps_menu(state);
+}
+
 }  // namespace
 
 void scene_panel(State& state) {
-  Stage& stage = *state.stage;
-  const Scene& scene = *stage.scene;
+  const SceneSource& source = state.source;
+  const Document& document = source.document;
+  const SceneInfo& info = source.scene->info;
   const char* label = "Name";
-  for (const std::filesystem::path& path : stage.paths()) {
-    fact(std::exchange(label, ""), short_name(path));
+  for (const std::filesystem::path& path : source.paths()) {
+    const bool changed = *label != '\0' && !state.history.is_saved();
+    fact(std::exchange(label, ""), short_name(path) + (changed ? " (unsaved changes)" : ""));
     tip(path.string());
   }
-  if (!scene.info.source.empty()) fact("Source", scene.info.source);
-  fact("Size", size_text(stage));
-  fact("Appearance", appearances(stage));
-  fact("GPU memory", megabytes(stage.renderer.device_bytes()));
-  tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
-                  stage.prepare_seconds));
-  if (const auto notes = window_notes(scene.info); !notes.empty()) {
+  if (!info.source.empty()) fact("Source", info.source);
+  fact("Size", size_text(document));
+  fact("Appearance", appearances(document));
+  fact("GPU memory", megabytes(state.stage->renderer.device_bytes()));
+  tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", source.read_seconds,
+                  state.stage->prepare_seconds));
+  if (const auto notes = window_notes(info); !notes.empty()) {
     heading("Notes");
     for (const std::string& note : notes) aside(note);
   }
@@ -79,6 +123,12 @@ void scene_panel(State& state) {
   tip("O: replaces the scene; scenes that are dropped on the window become layers");
   ImGui::SameLine();
   recent_menu(state);
+  ImGui::SameLine();
+  if (button("Save")) state.ask(SaveScene{});
+  tip("Ctrl+S: saves the scene to its file");
+  ImGui::SameLine();
+  if (button("Save as")) state.ask(SaveSceneAs{});
+  history_buttons(state);
   ImGui::SameLine();
   if (button("Read again")) state.ask(ReloadScene{});
   tip("F5; a file that changes on disk is read again automatically");

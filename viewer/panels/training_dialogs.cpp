@@ -90,9 +90,9 @@ void quit_dialog(State& state) {
   paragraph("The training of " + short_name(state.started->scene) +
             " is in progress. After its first step, a stopped training can continue from its "
             "checkpoint.");
-  if (button("Stop the training")) state.ask(Quit{Quit::Training::stop});
+  if (button("Stop the training")) state.ask(Quit{Quit::Training::stop, true});
   ImGui::SameLine();
-  if (button("Let it continue")) state.ask(Quit{Quit::Training::let_continue});
+  if (button("Let it continue")) state.ask(Quit{Quit::Training::let_continue, true});
   ImGui::SameLine();
   if (button("Cancel") || escape_pressed()) state.asks_before_quitting = false;
 }

@@ -47,7 +47,7 @@ void up_menu(State& state) {
         controls.set_up(axis);
     ImGui::EndCombo();
   }
-  tip(describe(state.stage->up) + ". U changes it, R restores it");
+  tip(describe(state.source.up) + ". U changes it, R restores it");
 }
 
 void recorded_slider(State& state) {
@@ -61,7 +61,7 @@ void recorded_slider(State& state) {
       name += letter == '%' ? std::string("%%") : std::string(1, letter);
   heading("Recorded cameras");
   const float side = ImGui::GetFrameHeight();
-  if (button("<", side)) run_shortcut(Key::left_bracket, false, state);
+  if (button("<", side)) run_shortcut(Key::left_bracket, With::nothing, state);
   tip("[: previous camera");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - side -
@@ -71,7 +71,7 @@ void recorded_slider(State& state) {
     state.ask(ShowRecorded{index});
   tip("The cameras of the dataset, or of the scene");
   ImGui::SameLine();
-  if (button(">", side)) run_shortcut(Key::right_bracket, false, state);
+  if (button(">", side)) run_shortcut(Key::right_bracket, With::nothing, state);
   tip("]: next camera");
 }
 
@@ -82,10 +82,10 @@ void view_panel(State& state) {
   mode_buttons(controls);
   named_view_buttons(controls);
   const float half = share_of_row(2);
-  if (button("Frame all", half)) run_shortcut(Key::f, false, state);
+  if (button("Frame all", half)) run_shortcut(Key::f, With::nothing, state);
   tip("F: frame the whole scene");
   ImGui::SameLine();
-  if (button("First view", half)) run_shortcut(Key::r, false, state);
+  if (button("First view", half)) run_shortcut(Key::r, With::nothing, state);
   tip("R: return to the first view");
   up_menu(state);
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
