@@ -61,7 +61,7 @@ void add_config_options(Command& command, TrainingOptions& options) {
       .add_option("--init", options.begin,
                   "first primitives: random, points (structure-from-motion points of the dataset), "
                   "or a scene to continue from; by default points if the dataset has them, else "
-                  "random (for soups: Gaussians, which are trained first)")
+                  "random (diffsoup, and neural always: Gaussians, which are trained first)")
       .value_name("WHERE");
   for (const auto& [option, methods] : all_method_options()) {
     Option added = add_method_option(command, *option, options.own[option->name]);

@@ -31,7 +31,8 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
       command
           .add_option("DATASET", argument.path,
                       "posed photographs: a folder with one of these: transforms.json; "
-                      "transforms_train.json and transforms_test.json; a COLMAP model and images")
+                      "transforms_train.json and transforms_test.json; a COLMAP model and "
+                      "images; bundle.out and list.txt (docs/datasets.md)")
           .required();
   add_scale_option(command, argument);
   command.add_option(
@@ -49,10 +50,10 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
        {"ignore", AlphaMeaning::ignore}},
       "what transparent pixels of photographs are: background (of an object that was cut out), "
       "mask "
-      "(not used) or ignore (opaque); by default decided by all photographs");
+      "(not used) or ignore (opaque); by default chosen from all photographs (docs/datasets.md)");
   command.add_flag(
       "--strict", argument.options.is_strict,
-      "refuse a dataset with a photograph that cannot be used, instead of skipping it");
+      "reject a dataset if any photograph cannot be used; by default such photographs are skipped");
   return dataset;
 }
 

@@ -31,7 +31,8 @@ std::unique_ptr<ImageSource> oracle_images(const Scene& scene, const ProcessorIm
 
 std::unique_ptr<ImageSource> tile_images(const Scene& scene, const ProcessorImages& images) {
   if (images.quality.supersampling > 1)
-    throw UsageError("--renderer tiles has one sample per pixel", "draw with --supersample 1");
+    throw UsageError("--renderer tiles supports only one sample per pixel",
+                     "draw with --supersample 1");
   const auto order = is_along_rays(images.quality) ? splatting::BlendOrder::along_rays
                                                    : splatting::BlendOrder::centers;
   return std::make_unique<TileImages>(scene, images.background, order);

@@ -177,7 +177,7 @@ std::optional<fs::path> colmap_model(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
     if (is_colmap_model(path)) return path;
-    if (const auto folders = colmap_folders(path); !folders.empty()) return folders.front();
+    if (const auto folders = colmap_folders(path); !folders.empty()) return largest_model(folders);
     return {};
   }
   const std::string name = path.filename().string();

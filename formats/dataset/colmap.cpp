@@ -146,6 +146,24 @@ std::vector<std::filesystem::path> colmap_folders(const std::filesystem::path& d
   return {};
 }
 
+std::size_t usable_images(const ColmapModel& model) {
+  return std::size_t(std::ranges::count_if(
+      model.images, [](const ColmapImage& image) { return image.defect.empty(); }));
+}
+
+std::filesystem::path largest_model(const std::vector<std::filesystem::path>& folders,
+                                    const MemoryBudget& budget) {
+  if (folders.size() == 1) return folders.front();
+  std::size_t most = 0, best = 0;
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    if (const std::size_t usable = usable_images(read_colmap_poses(folders[i], budget));
+        usable > most) {
+      most = usable;
+      best = i;
+    }
+  return folders[best];
+}
+
 bool is_colmap_model(const std::filesystem::path& folder) {
   return model_file(folder, "cameras").exists && model_file(folder, "images").exists;
 }

@@ -51,12 +51,20 @@ struct ColmapModel {
 /// photographs.
 std::vector<std::filesystem::path> colmap_folders(const std::filesystem::path& dataset);
 
+/// The images without a defect.
+std::size_t usable_images(const ColmapModel& model);
+
+/// The folder of the model with the most usable images; the only one is not opened. `folders` are
+/// not empty. Throws the errors of read_colmap_poses.
+std::filesystem::path largest_model(const std::vector<std::filesystem::path>& folders,
+                                    const MemoryBudget& budget = MemoryBudget());
+
 /// Whether `folder` itself contains a model: files of cameras and of images.
 bool is_colmap_model(const std::filesystem::path& folder);
 
 /// Reads cameras, images and points3D from `folder`, binary if both variants exist. An image whose
 /// pose is not a rotation, or whose camera is missing or has an unsupported model, has a defect.
-/// Points may be in points3D.ply instead. Throws InputError with the file and the byte or line:
+/// Throws InputError with the file and the byte or line:
 /// counts that do not match the bytes, or text that is no record.
 ColmapModel read_colmap(const std::filesystem::path& folder,
                         const MemoryBudget& budget = MemoryBudget());

@@ -21,16 +21,6 @@ std::uint64_t read_count(Input& input, std::uint64_t bytes, const char* what) {
   return count;
 }
 
-/// Calls `convert` and adds the place of the record to its error.
-template <class Convert>
-auto convert_at(const Input& input, std::uint64_t begin, Convert&& convert) {
-  try {
-    return convert();
-  } catch (const ColmapRefusal& refusal) {
-    input.fail_at(begin, refusal.reason, refusal.hint);
-  }
-}
-
 void expect_end(const Input& input, const char* what) {
   if (input.remaining() > 0)
     input.fail(std::to_string(input.remaining()) + " bytes after the last of the " + what);
@@ -38,11 +28,12 @@ void expect_end(const Input& input, const char* what) {
 
 void skip(Input& input, std::uint64_t bytes) { input.seek(input.position() + bytes); }
 
-const ColmapLensModel& read_lens_model(Input& input) {
+/// `begin`: of the camera. The number of parameters of an unknown model is unknown, too.
+const ColmapLensModel& read_lens_model(Input& input, std::uint64_t begin) {
   const auto number = input.read_value<std::int32_t>("a camera model");
   const auto models = colmap_lens_models();
   if (number < 0 || std::size_t(number) >= models.size())
-    throw ColmapRefusal{"the camera model number " + std::to_string(number) + " is unknown"};
+    input.fail_at(begin, unsupported_model("number " + std::to_string(number)));
   return models[std::size_t(number)];
 }
 
@@ -65,16 +56,13 @@ ColmapCameras read_colmap_cameras_binary(Input& input) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t begin = input.position();
     const auto number = input.read_value<std::uint32_t>("a camera");
-    const ColmapCamera camera = convert_at(input, begin, [&] {
-      ColmapCameraRecord record;
-      record.model = &read_lens_model(input);
-      record.width = input.read_value<std::uint64_t>("a camera");
-      record.height = input.read_value<std::uint64_t>("a camera");
-      record.parameters = input.read_values<double>(record.model->parameters(), "a camera");
-      return to_camera(record);
-    });
+    ColmapCameraRecord record;
+    record.model = &read_lens_model(input, begin);
+    record.width = input.read_value<std::uint64_t>("a camera");
+    record.height = input.read_value<std::uint64_t>("a camera");
+    record.parameters = input.read_values<double>(record.model->parameters(), "a camera");
     input.take_memory(1, colmap_camera_bytes, "the cameras");
-    if (!cameras.emplace(number, camera).second)
+    if (!cameras.emplace(number, to_camera(record)).second)
       input.fail_at(begin, "camera " + std::to_string(number) + " occurs twice");
   }
   expect_end(input, "cameras");

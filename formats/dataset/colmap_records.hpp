@@ -41,16 +41,10 @@ struct ColmapPoseRecord {
   std::array<double, 3> translation{};  // from world to camera
 };
 
-/// The reason why a record is rejected; the reader adds the place.
-struct ColmapRefusal {
-  std::string reason;
-  std::string hint = {};
-};
-
 /// ColmapCamera::defect of a model whose distortion cannot be undone; lists the supported ones.
 std::string unsupported_model(const std::string& name);
 
-/// A camera with numbers out of range, or of an unsupported model, has a defect.
+/// A camera with numbers out of range has a defect.
 ColmapCamera to_camera(const ColmapCameraRecord& record);
 
 /// Sets the pose, in the OpenGL convention, or the defect: the quaternion is not of unit length to

@@ -34,21 +34,27 @@ std::uint32_t read_number(TextScanner& text, const char* what) {
   return std::uint32_t(text.read_integer(what, 0, 0xffffffffLL));
 }
 
-/// Calls `convert` and adds the line of the record to its error.
-template <class Convert>
-auto convert_here(const TextScanner& text, Convert&& convert) {
-  try {
-    return convert();
-  } catch (const ColmapRefusal& refusal) {
-    text.fail(refusal.reason, refusal.hint);
-  }
-}
-
 /// Null if the model is unknown.
 const ColmapLensModel* find_lens_model(const std::string& name) {
   for (const ColmapLensModel& model : colmap_lens_models())
     if (model.name == name) return &model;
   return nullptr;
+}
+
+/// The rest of a camera's line.
+ColmapCamera read_camera(TextScanner& text) {
+  ColmapCameraRecord record;
+  const std::string model = text.read_word("a camera model");
+  record.model = find_lens_model(model);
+  if (!record.model) {
+    text.read_line();
+    return ColmapCamera{.defect = unsupported_model(model)};
+  }
+  record.width = std::uint64_t(text.read_integer("a width", 0, 1LL << 32));
+  record.height = std::uint64_t(text.read_integer("a height", 0, 1LL << 32));
+  while (record.parameters.size() < record.model->parameters())
+    record.parameters.push_back(read_double(text, "a camera's parameter"));
+  return to_camera(record);
 }
 
 bool is_number(const std::string& word) {
@@ -110,20 +116,7 @@ ColmapCameras read_colmap_cameras_text(Input& input) {
   ColmapCameras cameras;
   while (next_record(text)) {
     const std::uint32_t number = read_number(text, "a camera's number");
-    const ColmapCamera camera = convert_here(text, [&] {
-      ColmapCameraRecord record;
-      const std::string model = text.read_word("a camera model");
-      record.model = find_lens_model(model);
-      if (!record.model) {
-        while (!text.at_line_end()) text.read_word("a camera's number");
-        return ColmapCamera{.defect = unsupported_model(model)};
-      }
-      record.width = std::uint64_t(text.read_integer("a width", 0, 1LL << 32));
-      record.height = std::uint64_t(text.read_integer("a height", 0, 1LL << 32));
-      while (record.parameters.size() < record.model->parameters())
-        record.parameters.push_back(read_double(text, "a camera's parameter"));
-      return to_camera(record);
-    });
+    const ColmapCamera camera = read_camera(text);
     text.expect_line_end("the parameters of the camera model");
     input.take_memory(1, colmap_camera_bytes, "the cameras");
     if (!cameras.emplace(number, camera).second)

@@ -26,9 +26,8 @@ namespace fs = std::filesystem;
 void require_photographs(const DatasetOutline& outline, const DatasetOptions& options) {
   const auto refuse = [&](const Frames& frames, bool needed, const char* what) {
     if (needed && frames.empty())
-      throw InputError({outline.file}, std::string("there are no photographs to ") + what +
-                                           ": it has " + std::to_string(outline.train.size()) +
-                                           " to train on and " +
+      throw InputError({outline.file}, std::string("there are no photographs to ") + what + ": " +
+                                           std::to_string(outline.train.size()) + " to train on, " +
                                            std::to_string(outline.test.size()) + " to test");
   };
   refuse(outline.train, options.part != DatasetPart::test, "train on");
@@ -114,10 +113,10 @@ class FileSearch {
  private:
   std::string missing(const DatasetFrame& frame) {
     const std::string folder = frame.folder.empty() ? "." : frame.folder.string();
-    std::string reason = "missing in " + folder;
+    std::string reason = "the file is missing in " + folder;
     // One name is an example for all; a search for each of thousands would take minutes.
     if (nearest_.empty()) nearest_ = near_.nearest(frame.folder, frame.file);
-    if (!nearest_.empty()) reason += ", which has for example " + nearest_;
+    if (!nearest_.empty()) reason += ", whose most similar name is " + nearest_;
     return reason;
   }
 

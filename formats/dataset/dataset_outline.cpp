@@ -114,30 +114,16 @@ std::vector<std::string> lines_of(const fs::path& file, const MemoryBudget& budg
   return lines;
 }
 
-/// The model with the most photographs that can be used, and a remark about others.
-std::pair<fs::path, ColmapModel> largest_model(const std::vector<fs::path>& folders,
-                                               const MemoryBudget& budget,
-                                               std::vector<Remark>& list) {
-  std::pair<fs::path, ColmapModel> best;
-  std::size_t most = 0;
-  for (const fs::path& folder : folders) {
-    ColmapModel model = read_colmap_poses(folder, budget);
-    const auto usable = std::size_t(std::ranges::count_if(
-        model.images, [](const ColmapImage& image) { return image.defect.empty(); }));
-    if (best.first.empty() || usable > most) {
-      best = {folder, std::move(model)};
-      most = usable;
-    }
-  }
-  if (folders.size() < 2) return best;
+void add_remark_on_models(const std::vector<fs::path>& folders, const fs::path& chosen,
+                          std::size_t photographs, std::vector<Remark>& list) {
+  if (folders.size() < 2) return;
   std::vector<std::string> others;
   for (const fs::path& folder : folders)
-    if (folder != best.first) others.push_back(folder.filename().string());
+    if (folder != chosen) others.push_back(folder.filename().string());
   list.push_back({&remarks::models_several,
-                  {{"chosen", best.first.filename().string()},
-                   {"count", std::uint64_t(most)},
+                  {{"chosen", chosen.filename().string()},
+                   {"count", std::uint64_t(photographs)},
                    {"others", others}}});
-  return best;
 }
 
 std::string images_name(int images_folder) {
@@ -180,7 +166,9 @@ void add_faces(DatasetFrame frame, const Camera& photograph, Frames& frames) {
 DatasetOutline colmap_outline(const fs::path& folder, const std::vector<fs::path>& models,
                               const DatasetOptions& options, const MemoryBudget& budget) {
   DatasetOutline outline{.images_folder = options.images_folder};
-  auto [path, model] = largest_model(models, budget, outline.dataset.remarks);
+  const fs::path path = largest_model(models, budget);
+  const ColmapModel model = read_colmap_poses(path, budget);
+  add_remark_on_models(models, path, usable_images(model), outline.dataset.remarks);
   outline.file = path.string();
   const fs::path images = images_of(folder, outline);
   Frames frames;
@@ -290,8 +278,9 @@ DatasetOutline read_outline(const fs::path& path, const DatasetOptions& options,
   throw InputError(
       {path.string()},
       "not a supported dataset: it has neither transforms_train.json nor transforms.json, nor "
-      "COLMAP's cameras in sparse/0, sparse, colmap/sparse/0 or the folder itself, nor Bundler's "
-      "bundle.out");
+      "COLMAP's cameras in sparse/0, sparse, colmap/sparse, undistorted/sparse or the folder "
+      "itself, nor Bundler's bundle.out",
+      "pass the folder that contains them; docs/datasets.md lists what is read");
 }
 
 }  // namespace tureen

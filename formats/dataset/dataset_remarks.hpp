@@ -17,7 +17,8 @@ inline constexpr RemarkKind image_size_missing{
     "image_size_missing", Severity::assumption,
     "the file has no image size; {width} x {height} is assumed"};
 inline constexpr RemarkKind lens_dropped{
-    "lens_dropped", Severity::loss, "the file's lens distortion is ignored: cameras are pinholes"};
+    "lens_dropped", Severity::loss,
+    "the lens distortion of the file is ignored: views are drawn without it"};
 inline constexpr RemarkKind lens_undone{"lens_undone", Severity::note,
                                         "Lens distortion was removed by resampling."};
 inline constexpr RemarkKind lens_undone_cropped{
@@ -59,26 +60,28 @@ inline constexpr RemarkKind orientation_ignored{
     "cameras have the stored size."};
 inline constexpr RemarkKind smaller_images{
     "smaller_images", Severity::assumption,
-    "The folder images is missing; the photographs are those of {folder}."};
+    "The folder images is missing; the photographs are those of {folder}", "images"};
 inline constexpr RemarkKind models_several{
     "models_several", Severity::assumption,
     "The dataset has several models; {chosen} with {count} photographs is used, not {others}."};
 inline constexpr RemarkKind split_named{
     "split_named", Severity::note,
     "{source} names {train} training and {test} test views; {unused} photographs are in no list."};
-inline constexpr RemarkKind split_empty{
-    "split_empty", Severity::assumption,
-    "The lists of {source} leave a part empty and were ignored."};
+inline constexpr RemarkKind split_empty{"split_empty", Severity::assumption,
+                                        "The lists in {source} leave no training or no test views; "
+                                        "every n-th photograph is a test view "
+                                        "instead."};
 inline constexpr RemarkKind split_without_test{
     "split_without_test", Severity::assumption,
     "The photographs of the {count} test {count:view|views} are missing; the dataset has no test "
     "views."};
 inline constexpr RemarkKind alpha_is_background{
     "alpha_is_background", Severity::assumption,
-    "The transparent pixels of {count} of {all} photographs are taken for background."};
+    "The transparent pixels of {count} of {all} photographs are taken for background", "alpha"};
 inline constexpr RemarkKind alpha_is_mask{
     "alpha_is_mask", Severity::assumption,
-    "The transparent pixels of {count} of {all} photographs are taken for masks and excluded."};
+    "The transparent pixels of {count} of {all} photographs are taken for masks and excluded",
+    "alpha"};
 inline constexpr RemarkKind alpha_ignored{"alpha_ignored", Severity::note,
                                           "The alpha of {count} of {all} photographs was ignored."};
 inline constexpr RemarkKind pixels_masked{

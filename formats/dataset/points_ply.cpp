@@ -9,6 +9,7 @@
 #include "formats/ply/ply_header.hpp"
 #include "formats/ply/ply_values.hpp"
 #include "formats/read_options.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
@@ -77,8 +78,8 @@ double full_channel(const std::vector<RawPoint>& points, bool are_floats) {
   return most <= 255 ? 255 : 65535;
 }
 
-/// The channel of degree-0 harmonics: 1 / (2 sqrt(pi)) of the coefficient, about 1/2.
-float channel_of_harmonic(float coefficient) { return 0.5f + 0.28209479f * coefficient; }
+/// The channel of degree-0 harmonics, as 3DGS stores them.
+double channel_of_harmonic(float coefficient) { return 0.5 + harmonics::y00 * coefficient; }
 
 }  // namespace
 

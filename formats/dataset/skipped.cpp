@@ -7,6 +7,9 @@
 
 namespace tureen {
 
+namespace {
+
+/// The first names, and how many more there are.
 std::vector<std::string> first_names(const std::vector<std::string>& names) {
   constexpr std::size_t most = 12;
   if (names.size() <= most) return names;
@@ -14,6 +17,8 @@ std::vector<std::string> first_names(const std::vector<std::string>& names) {
   first.push_back("and " + std::to_string(names.size() - most) + " more");
   return first;
 }
+
+}  // namespace
 
 void SkippedPhotographs::add(const std::string& name, const std::string& reason) {
   ++count_;
@@ -42,7 +47,9 @@ void SkippedPhotographs::require_enough(const std::string& file, std::size_t lef
   throw InputError({file},
                    std::to_string(count_) + " of " + std::to_string(count_ + left) +
                        " photographs cannot be used: " + sentences(),
-                   is_strict ? "without --strict they are skipped" : "");
+                   is_strict
+                       ? "omit --strict to skip them"
+                       : "at least three photographs, and at least half of them, must be usable");
 }
 
 void SkippedPhotographs::add_remarks(std::vector<Remark>& list, std::size_t left) const {

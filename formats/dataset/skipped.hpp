@@ -14,7 +14,6 @@ class SkippedPhotographs {
  public:
   /// `reason`: a clause: "its pose is not finite".
   void add(const std::string& name, const std::string& reason);
-  std::size_t count() const { return count_; }
 
   /// Throws InputError with the reasons if any is skipped and `is_strict`, or fewer than three are
   /// left, or fewer than half. `left`: the number of the others.
@@ -29,8 +28,5 @@ class SkippedPhotographs {
   std::vector<std::pair<std::string, std::vector<std::string>>> names_;  // by reason
   std::size_t count_ = 0;
 };
-
-/// The first names, and how many more there are.
-std::vector<std::string> first_names(const std::vector<std::string>& names);
 
 }  // namespace tureen

@@ -47,7 +47,7 @@ FoundPoints read_points(const CameraJson& json, const std::filesystem::path& fol
     return points_of_ply(found ? found->path : folder / name, name, budget);
   }
   if (const auto models = colmap_folders(folder); applied && !models.empty())
-    return mapped_points(models.front(), *applied, json, budget);
+    return mapped_points(largest_model(models, budget), *applied, json, budget);
   return points_beside(folder, budget);
 }
 
@@ -68,12 +68,14 @@ DatasetFrame made_of(const TransformsFrame& frame, const std::filesystem::path& 
   made.defect = frame.defect;
   if (made.defect.empty() && frame.file_path.empty()) made.defect = "file_path is missing";
   if (made.defect.empty() && !frame.other_lens.empty())
-    made.defect = "the lens (" + frame.other_lens +
-                  ") is not described by k1, k2, k3, p1 and p2 alone; undistort the images first";
+    made.defect = frame.other_lens == "k4"
+                      ? "k4 needs camera_model FULL_OPENCV or OPENCV_FISHEYE"
+                      : "the lens " + frame.other_lens +
+                            " is not supported in transforms.json; undistort the images first";
   const std::optional<std::string> file = in_folder("images", frame.file_path, images_folder);
   if (made.defect.empty() && !file)
-    made.defect =
-        "it is not in images/, so there is none in images_" + std::to_string(images_folder) + "/";
+    made.defect = "its name does not begin with images/, so there is no smaller copy in images_" +
+                  std::to_string(images_folder) + "/";
   if (!made.defect.empty()) return made;
   made.file = *file;
   if (frame.width && frame.height) made.size = glm::ivec2(*frame.width, *frame.height);
@@ -93,7 +95,7 @@ TransformsDataset read_transforms_dataset(const std::filesystem::path& path, int
   Input input = Input::open(path, budget);
   const nlohmann::json root = read_json(input, RepeatedKeys::last_counts, NonFinite::null);
   if (!root.is_object() || !root.contains("frames"))
-    throw InputError({input.name()}, "it has no \"frames\": not a transforms.json");
+    throw InputError({input.name()}, "has no list \"frames\", so it is not a transforms.json");
   TransformsDataset dataset;
   dataset.split = {.train = texts(root, "train_filenames"),
                    .validation = texts(root, "val_filenames"),

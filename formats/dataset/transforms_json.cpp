@@ -58,7 +58,7 @@ TransformsFrame read_frame(const CameraJson& json) {
   if (!frame.fl_x) frame.camera_angle_x = angle(json, "camera_angle_x");
   if (!frame.fl_y) frame.camera_angle_y = angle(json, "camera_angle_y");
   if (!frame.fl_x && !frame.fl_y && !frame.camera_angle_x && !frame.camera_angle_y)
-    json.fail("it has neither fl_x nor camera_angle_x");
+    json.fail("it has no focal length: fl_x, fl_y, camera_angle_x or camera_angle_y");
   frame.cx = json.maybe_number("cx");
   frame.cy = json.maybe_number("cy");
   const auto coefficient = [&](const char* key) { return json.maybe_number(key).value_or(0); };

@@ -19,7 +19,7 @@ inline constexpr RemarkKind render_mode_unknown{
 inline constexpr RemarkKind near_limit_lowered{
     "near_limit_lowered", Severity::assumption,
     "The splats lie within {radius} units: the published limit of {published} units, before which "
-    "no splat is drawn, is lowered to {limit}.",
+    "no splat is drawn, is lowered to {limit}",
     "profile"};
 inline constexpr RemarkKind filter_applied{
     "filter_applied", Severity::note,

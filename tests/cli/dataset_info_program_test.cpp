@@ -81,7 +81,7 @@ TEST_F(DatasetInfo, NamesWhatIsWrong) {
   expect({"info", "data", "-o", "plot.png"}, 2, ".svg");
   expect({"info", "data", "-o", "nowhere/plot.svg"}, 5, "nowhere");
   std::filesystem::remove(folder / "data/images/2.png");
-  expect({"info", "data"}, 0, "1 of 4 photographs was skipped (images/2.png): missing");
+  expect({"info", "data"}, 0, "1 of 4 photographs was skipped (images/2.png): the file is missing");
   EXPECT_FALSE(exists("plot.svg"));
 }
 

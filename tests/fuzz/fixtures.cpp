@@ -407,16 +407,17 @@ Content training_checkpoint_bytes(const Scratch& scratch) {
   return bytes;
 }
 
-Content gaussian_checkpoint_bytes(const Scratch& scratch) {
-  trainer::GaussianCheckpoint checkpoint;
+template <class Checkpoint>
+Content splat_checkpoint_bytes(const Scratch& scratch) {
+  Checkpoint checkpoint;
   checkpoint.config.degree = 0;
   checkpoint.views = {{"train/r_0", 3, 2, 17u, 18u}};
-  checkpoint.state.parameters = trainer::GaussianParameters(2, 0);
+  checkpoint.state.parameters = decltype(checkpoint.state.parameters)(2, 0);
   checkpoint.state.memory =
       trainer::SplatMemory(checkpoint.state.parameters.rows(), checkpoint.state.parameters.count());
   checkpoint.state.step = 70;
   checkpoint.state.epoch = {0};
-  const auto path = scratch.folder() / "gaussians.checkpoint";
+  const auto path = scratch.folder() / "splats.checkpoint";
   trainer::write_checkpoint(path, checkpoint);
   Content bytes = Input::open(path).read_rest();
   bytes.erase(bytes.end() - 4, bytes.end());  // the checksum; the target computes it
@@ -474,7 +475,10 @@ std::vector<Fixture> made_fixtures() {
   all.add("training_log", "run.jsonl", training_log_text);
   const Scratch scratch("training");
   all.add("training_checkpoint", "run.checkpoint", training_checkpoint_bytes(scratch));
-  all.add("training_checkpoint", "gaussians.checkpoint", gaussian_checkpoint_bytes(scratch));
+  all.add("training_checkpoint", "gaussians.checkpoint",
+          splat_checkpoint_bytes<trainer::GaussianCheckpoint>(scratch));
+  all.add("training_checkpoint", "neural.checkpoint",
+          splat_checkpoint_bytes<trainer::NeuralCheckpoint>(scratch));
   return std::move(all.list);
 }
 

@@ -22,6 +22,8 @@ void training_checkpoint(Bytes bytes) {
   const auto last = bytes.size() > 7 ? char(bytes[7]) : '\0';  // of the magic bytes
   if (last == trainer::gaussians_magic.back())
     trainer::read_splat_checkpoint<trainer::GaussianCheckpoint>(std::move(input));
+  else if (last == trainer::neural_magic.back())
+    trainer::read_splat_checkpoint<trainer::NeuralCheckpoint>(std::move(input));
   else if (last == trainer::triangles_magic.back())
     trainer::read_splat_checkpoint<trainer::WindowCheckpoint>(std::move(input));
   else

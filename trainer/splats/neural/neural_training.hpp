@@ -1,9 +1,9 @@
 // Neural densities as a method of SplatTrainer: Splat the Net (arXiv 2510.08491).
 //
-// It differs from the authors' code where measurements are better (docs/training.md): densities
-// that no image shows take the places of halves of others, halves keep the density of the whole,
-// rates fall during the run and with the number of densities, and the first densities are trained
-// Gaussians.
+// It differs from the authors' code where measurements are better (docs/neural-training.md):
+// densities that no image shows take the places of halves of others, halves keep the density of the
+// whole, rates fall during the run and with the number of densities, and the first densities are
+// trained Gaussians.
 #pragma once
 
 #include <span>
