@@ -305,7 +305,7 @@ TEST(SplatPly, AppliesTheFilterOfMipSplatting) {
     EXPECT_NEAR(g.scales.at(0)[axis], wide, 1e-6);
     ratio *= s / wide;
   }
-  EXPECT_NEAR(g.opacities.at(0), ratio / (1 + std::exp(-0.25)), 1e-6);
+  EXPECT_NEAR(g.opacity.at(0), ratio / (1 + std::exp(-0.25)), 1e-6);
   EXPECT_THAT(scene.info.remarks, Contains(Remark{&remarks::filter_applied}));
 }
 
