@@ -202,7 +202,7 @@ ExitCode train(const TrainOptions& options) {
   events.preparing = [&](double fraction) {
     before_the_first_step(options, [&] {
       try {
-        show("Gaussians for the first triangles", fraction);
+        show("first, Gaussians", fraction);
       } catch (const Interrupted&) {
         progress.reset();
         throw;
