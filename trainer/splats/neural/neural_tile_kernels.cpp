@@ -95,26 +95,29 @@ struct Densities {
   HWY_INLINE Floats alpha_of(const Entry&, Floats value) const { return value; }
 };
 
-/// Sums over the pixels of a block, lane by lane.
+/// Sums over the pixels of a block, lane by lane. Where a vector has all of them, they are its
+/// values.
 struct BlockSums {
   Floats values[moment::count];
 
   HWY_INLINE BlockSums() {
-    for (Floats& each : values) each = hn::Zero(d);
+    for (std::size_t k = parts > 1 ? 0 : std::size_t(moment::evident); k < moment::count; ++k)
+      values[k] = hn::Zero(d);
   }
   HWY_INLINE void add(std::size_t place, Floats value) {
-    values[place] = hn::Add(values[place], value);
+    values[place] = parts > 1 ? hn::Add(values[place], value) : value;
   }
   HWY_INLINE void add_to(NeuralMoments& moments) const {
     for (std::size_t k = 0; k < moment::count; k += 4) add_lanes(values + k, moments.values + k);
   }
 };
 
-/// Blends an entry again, and adds its derivatives at a vector of a block's pixels.
-HWY_INLINE void replay(const Densities& kernel, const NeuralEntry& entry, BlockGradient& block,
+/// Blends an entry again, and adds its derivatives at a vector of a block's pixels. Returns whether
+/// the entry has any there; if not, no sum is set.
+HWY_INLINE bool replay(const Densities& kernel, const NeuralEntry& entry, BlockGradient& block,
                        std::size_t part, BlockSums& sums) {
   const DensityChord chord = kernel.chord_of(entry, block.x[part], block.y[part]);
-  if (none(chord.exists)) return;
+  if (none(chord.exists)) return false;
   const Floats zero = hn::Zero(d), one = constant(1.0f);
   // Of each neuron, the derivatives of the density's mean over the chord: by its amplitude, its
   // phase, and through the frequency along the ray.
@@ -194,6 +197,7 @@ HWY_INLINE void replay(const Densities& kernel, const NeuralEntry& entry, BlockG
   sums.add(moment::color, hn::Mul(weight, block.red[part]));
   sums.add(moment::color + 1, hn::Mul(weight, block.green[part]));
   sums.add(moment::color + 2, hn::Mul(weight, block.blue[part]));
+  return true;
 }
 
 /// TileFunctions::blend_backward. A pair has so many sums that each block adds its own to memory.
@@ -212,9 +216,10 @@ void blend_densities_backward(const ImageView& view, std::span<const NeuralEntry
       const std::uint32_t place = record.blended[at] & ~TileRecord::evident_bit;
       NeuralMoments& out = moments[numbers[place]];
       BlockSums sums;
+      bool has_sums = false;
       for (std::size_t part = 0; part < parts; ++part)
-        replay(kernel, entries[tile[place] & place_mask], block, part, sums);
-      sums.add_to(out);
+        has_sums |= replay(kernel, entries[tile[place] & place_mask], block, part, sums);
+      if (has_sums) sums.add_to(out);
       if (record.blended[at] & TileRecord::evident_bit) out.values[moment::evident] += 1;
     }
   }
