@@ -1,19 +1,22 @@
 // The stages of the steps of a training run of splats on one core, in milliseconds, and their sum
 // over the time of the image loss in the same run. Prints ten JSON lines: means over tenths of the
-// run. `tureen train` measures quality.
+// run. `tureen train` measures quality. With a scene, the run begins with its splats.
 //
-//   splat_steps gaussians|triangles|neural DATASET SCALE [CONFIG.json]
+//   splat_steps gaussians|triangles|neural DATASET SCALE [CONFIG.json [SCENE]]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/existing_path.hpp"
 #include "formats/dataset/dataset.hpp"
+#include "formats/scene_file.hpp"
 #include "trainer/splats/gaussians/gaussian_training.hpp"
 #include "trainer/splats/neural/neural_training.hpp"
 #include "trainer/splats/splat_config.hpp"
@@ -47,8 +50,12 @@ void print_stages(Trainer& trainer) {
 
 template <class Training>
 void train(const typename Training::Config& config, const Dataset& dataset,
-           std::span<const TrainingView> views) {
-  SplatTrainer<Training> trainer(config, views, region_of_interest(dataset), 1);
+           std::vector<TrainingView> views, const std::optional<Scene>& start) {
+  const Region region = region_of_interest(dataset);
+  for (TrainingView& view : views) view.camera = relative_to(view.camera, region.center);
+  SplatTrainer<Training> trainer(
+      config, views, {.center = glm::dvec3(0), .half_side = region.half_side}, 1,
+      first_splats<Training>(dataset, config, region, start ? &*start : nullptr));
   while (!trainer.done()) {
     const int tenth = trainer.steps_done() * 10 / config.steps;
     trainer.step();
@@ -62,7 +69,10 @@ Config config_of(int count, char** values) {
 }
 
 void run(int count, char** values) {
-  if (count < 4 || count > 5) throw std::runtime_error("needs METHOD DATASET SCALE [CONFIG.json]");
+  if (count < 4 || count > 6)
+    throw std::runtime_error("needs METHOD DATASET SCALE [CONFIG.json [SCENE]]");
+  std::optional<Scene> start;
+  if (count > 5) start = read_scene(values[5]);
   const std::string method = values[1];
   Dataset dataset = read_dataset(values[2], {.scale = std::atof(values[3])});
   const auto views = [&](const SplatConfig& config) {
@@ -71,15 +81,15 @@ void run(int count, char** values) {
   if (method == "gaussians") {
     const auto config = config_of<GaussianConfig>(count, values);
     if (config.flat)
-      train<DiscTraining>(config, dataset, views(config));
+      train<DiscTraining>(config, dataset, views(config), start);
     else
-      train<GaussianTraining>(config, dataset, views(config));
+      train<GaussianTraining>(config, dataset, views(config), start);
   } else if (method == "triangles") {
     const auto config = config_of<WindowConfig>(count, values);
-    train<WindowTraining>(config, dataset, views(config));
+    train<WindowTraining>(config, dataset, views(config), start);
   } else if (method == "neural") {
     const auto config = config_of<NeuralConfig>(count, values);
-    train<NeuralTraining>(config, dataset, views(config));
+    train<NeuralTraining>(config, dataset, views(config), start);
   } else {
     throw std::runtime_error(method + ": no such method");
   }

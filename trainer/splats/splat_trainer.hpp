@@ -35,7 +35,7 @@ struct SplatStepReport {
 /// clamping. `planes`: red, green and blue.
 double mean_squared_error(std::span<const float> planes, const TrainingView& view);
 
-/// `Training`: as GaussianTraining and WindowTraining.
+/// `Training`: as GaussianTraining and WindowTraining; NeuralTraining has rate_factor(), too.
 template <class Training>
 class SplatTrainer {
  public:

@@ -132,8 +132,8 @@ TEST(NeuralStart, FromGaussiansHasTheirPlacesAndOpacity) {
   EXPECT_EQ(densities.center(1).x, 1);
   EXPECT_FLOAT_EQ(densities.drawn.row(row::semi_axes)[0], 0.2f);
   EXPECT_FLOAT_EQ(densities.drawn.row(row::harmonics + 4)[0], 0.7f);
-  // 1 - exp(-2 offset) is the opacity of a ball.
-  EXPECT_FLOAT_EQ(densities.drawn.row(row::offset)[0], std::log(2.0f) / 2);
+  // 1 - exp(-2 offset) is the opacity of a ball; 0.3 of this offset.
+  EXPECT_FLOAT_EQ(densities.drawn.row(row::offset)[0], 0.3f * std::log(2.0f) / 2);
   EXPECT_LE(densities.drawn.row(row::offset)[1], max_first_offset);
 }
 

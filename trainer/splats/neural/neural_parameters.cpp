@@ -8,15 +8,15 @@ namespace tureen::trainer {
 namespace neural_row = splatting::neural_row;
 
 const std::array<ParameterKind, 9> neural_parameter_kinds = {{
-    {"centre", neural_row::center, 3, 2e-3f, 1e-4f},
+    {"centre", neural_row::center, 3, 1e-3f, 5e-5f},
     {"log semi-axis", neural_row::semi_axes, 3, 1.5e-2f, 7.5e-4f},
     {"rotation", neural_row::rotation, 4, 1e-2f, 5e-4f},
-    {"frequencies", neural_row::frequencies, 24, 7.5e-2f, 3.75e-3f},
-    {"phases", neural_row::phases, 8, 7.5e-2f, 3.75e-3f},
-    {"amplitudes", neural_row::amplitudes, 8, 5e-2f, 2.5e-3f},
-    {"offset", neural_row::offset, 1, 5e-2f, 2.5e-3f},
-    {"harmonics of degree 0", neural_row::harmonics, 3, 1e-2f, 5e-4f},
-    {"other harmonics", neural_row::harmonics + 3, 45, 2e-3f, 1e-4f},
+    {"frequencies", neural_row::frequencies, 24, 1.5e-1f, 7.5e-3f},
+    {"phases", neural_row::phases, 8, 1.5e-1f, 7.5e-3f},
+    {"amplitudes", neural_row::amplitudes, 8, 1e-1f, 5e-3f},
+    {"offset", neural_row::offset, 1, 1e-1f, 5e-3f},
+    {"harmonics of degree 0", neural_row::harmonics, 3, 2e-2f, 1e-3f},
+    {"other harmonics", neural_row::harmonics + 3, 45, 4e-3f, 2e-4f},
 }};
 
 NeuralParameters::NeuralParameters(const Splats& splats, int degree_of_harmonics)

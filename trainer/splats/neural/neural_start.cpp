@@ -11,8 +11,13 @@ namespace neural_row = splatting::neural_row;
 
 namespace {
 
-/// Semi-axes of the first densities in standard deviations of Gaussians.
+/// Semi-axes of the first densities in standard deviations of Gaussians. With photographs of lego
+/// at 200x200 that were held back from training, 1.7 and 2 give 27.95 and 27.97 dB.
 constexpr float deviations = 2;
+/// Their offset over that with the opacity of the Gaussian: transparent densities leave gradients
+/// to those behind. With the same photographs, 1 and 0.5 give 27.97 and 28.23 dB; with the present
+/// rates, 0.5 and 0.3 give 28.50 and 28.52 dB.
+constexpr float offset_share = 0.3f;
 
 }  // namespace
 
@@ -47,8 +52,9 @@ NeuralParameters densities_from(const Splats& splats, int degree, Random& random
     const glm::vec3& s = gaussians.scales[i];
     const double largest = std::max(s.x, std::max(s.y, s.z));
     const double mean = std::cbrt(double(s.x) * double(s.y) * double(s.z));
-    set_first_network(offset_for(gaussians.opacity[i], float(2 * std::max(mean / largest, 1e-3))),
-                      random, i, result);
+    const float offset =
+        offset_for(gaussians.opacity[i], float(2 * std::max(mean / largest, 1e-3)));
+    set_first_network(offset_share * offset, random, i, result);
   }
   return result;
 }

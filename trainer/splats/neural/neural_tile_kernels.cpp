@@ -19,18 +19,26 @@ using splatting::NeuralEntry;
 using splatting::neurons;
 namespace moment = neural_moment;
 
-/// The derivative of sin(x) / x. Below 1/2 by the series, exact to 3e-9 of the value there: the
-/// difference would cancel.
-HWY_INLINE Floats sinc_slope(Floats x, Floats cosine, Floats sinc) {
-  const Floats one = constant(1.0f), xx = hn::Mul(x, x);
-  Floats series = hn::NegMulAdd(xx, constant(1.0f / 54), one);
-  series = hn::NegMulAdd(hn::Mul(xx, constant(1.0f / 28)), series, one);
-  series = hn::NegMulAdd(hn::Mul(xx, constant(0.1f)), series, one);
-  const Mask small = hn::Lt(hn::Abs(x), constant(0.5f));
-  const Floats divisor = hn::IfThenElse(small, one, x);
-  return hn::IfThenElse(small, hn::Mul(hn::Mul(x, constant(-1.0f / 3)), series),
-                        hn::Div(hn::Sub(cosine, sinc), divisor));
-}
+/// sin(x) / x and its derivative, with one division.
+struct Sinc {
+  Floats value, slope;
+
+  HWY_INLINE Sinc(Floats x, Floats cosine) {
+    const Floats one = constant(1.0f), size = hn::Abs(x);
+    // Up to 2^-12, 1 is exact to 1e-8.
+    const Mask large = hn::Gt(size, constant(0x1p-12f));
+    const Floats inverse = hn::Div(one, hn::IfThenElse(large, x, one));
+    value = hn::IfThenElse(large, hn::Mul(sin_of(x), inverse), one);
+    // Below 1/2 by the series, exact to 3e-9 of the value there: the difference would cancel.
+    const Floats xx = hn::Mul(x, x);
+    Floats series = hn::NegMulAdd(xx, constant(1.0f / 54), one);
+    series = hn::NegMulAdd(hn::Mul(xx, constant(1.0f / 28)), series, one);
+    series = hn::NegMulAdd(hn::Mul(xx, constant(0.1f)), series, one);
+    slope = hn::IfThenElse(hn::Lt(size, constant(0.5f)),
+                           hn::Mul(hn::Mul(x, constant(-1.0f / 3)), series),
+                           hn::Mul(hn::Sub(cosine, value), inverse));
+  }
+};
 
 #if HWY_TARGET != HWY_SCALAR
 /// The sum of a vector's groups of four lanes.
@@ -87,26 +95,29 @@ struct Densities {
   HWY_INLINE Floats alpha_of(const Entry&, Floats value) const { return value; }
 };
 
-/// Sums over the pixels of a block, lane by lane.
+/// Sums over the pixels of a block, lane by lane. Where a vector has all of them, they are its
+/// values.
 struct BlockSums {
   Floats values[moment::count];
 
   HWY_INLINE BlockSums() {
-    for (Floats& each : values) each = hn::Zero(d);
+    for (std::size_t k = parts > 1 ? 0 : std::size_t(moment::evident); k < moment::count; ++k)
+      values[k] = hn::Zero(d);
   }
   HWY_INLINE void add(std::size_t place, Floats value) {
-    values[place] = hn::Add(values[place], value);
+    values[place] = parts > 1 ? hn::Add(values[place], value) : value;
   }
   HWY_INLINE void add_to(NeuralMoments& moments) const {
     for (std::size_t k = 0; k < moment::count; k += 4) add_lanes(values + k, moments.values + k);
   }
 };
 
-/// Blends an entry again, and adds its derivatives at a vector of a block's pixels.
-HWY_INLINE void replay(const Densities& kernel, const NeuralEntry& entry, BlockGradient& block,
+/// Blends an entry again, and adds its derivatives at a vector of a block's pixels. Returns whether
+/// the entry has any there; if not, no sum is set.
+HWY_INLINE bool replay(const Densities& kernel, const NeuralEntry& entry, BlockGradient& block,
                        std::size_t part, BlockSums& sums) {
   const DensityChord chord = kernel.chord_of(entry, block.x[part], block.y[part]);
-  if (none(chord.exists)) return;
+  if (none(chord.exists)) return false;
   const Floats zero = hn::Zero(d), one = constant(1.0f);
   // Of each neuron, the derivatives of the density's mean over the chord: by its amplitude, its
   // phase, and through the frequency along the ray.
@@ -118,14 +129,15 @@ HWY_INLINE void replay(const Densities& kernel, const NeuralEntry& entry, BlockG
     const Floats frequency = hn::MulAdd(w_x, chord.x, hn::MulAdd(w_y, chord.y, w_z));
     const Floats phase = hn::Add(dot({w_x, w_y, w_z}, chord.middle), constant(entry.phases[k]));
     const Floats x = hn::Mul(frequency, chord.half);
-    const Floats cosine = cos_of(x), sinc = sinc_of(x);
+    const Floats cosine = cos_of(x);
+    const Sinc sinc(x, cosine);
     const Floats amplitude = constant(entry.amplitudes[k]);
     const Floats cos_phase = cos_of(phase), in_phase = hn::Mul(amplitude, cos_phase);
     const Floats across = hn::Neg(hn::Mul(amplitude, sin_of(phase)));
-    by_amplitude[k] = hn::Mul(cos_phase, sinc);
-    by_phase[k] = hn::Mul(across, sinc);
-    by_along[k] = hn::Mul(in_phase, hn::Mul(sinc_slope(x, cosine, sinc), chord.half));
-    density = hn::MulAdd(in_phase, sinc, density);
+    by_amplitude[k] = hn::Mul(cos_phase, sinc.value);
+    by_phase[k] = hn::Mul(across, sinc.value);
+    by_along[k] = hn::Mul(in_phase, hn::Mul(sinc.slope, chord.half));
+    density = hn::MulAdd(in_phase, sinc.value, density);
     ends = hn::MulAdd(in_phase, cosine, ends);
     by_middle = hn::MulAdd(by_phase[k], frequency, by_middle);
   }
@@ -185,6 +197,7 @@ HWY_INLINE void replay(const Densities& kernel, const NeuralEntry& entry, BlockG
   sums.add(moment::color, hn::Mul(weight, block.red[part]));
   sums.add(moment::color + 1, hn::Mul(weight, block.green[part]));
   sums.add(moment::color + 2, hn::Mul(weight, block.blue[part]));
+  return true;
 }
 
 /// TileFunctions::blend_backward. A pair has so many sums that each block adds its own to memory.
@@ -203,9 +216,10 @@ void blend_densities_backward(const ImageView& view, std::span<const NeuralEntry
       const std::uint32_t place = record.blended[at] & ~TileRecord::evident_bit;
       NeuralMoments& out = moments[numbers[place]];
       BlockSums sums;
+      bool has_sums = false;
       for (std::size_t part = 0; part < parts; ++part)
-        replay(kernel, entries[tile[place] & place_mask], block, part, sums);
-      sums.add_to(out);
+        has_sums |= replay(kernel, entries[tile[place] & place_mask], block, part, sums);
+      if (has_sums) sums.add_to(out);
       if (record.blended[at] & TileRecord::evident_bit) out.values[moment::evident] += 1;
     }
   }

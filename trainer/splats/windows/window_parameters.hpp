@@ -40,8 +40,8 @@ struct WindowParameters
   /// Opacities are limited to [0.001, 0.999], and sigmas to at least 1.01 sigma_floor.
   WindowParameters(const Splats& splats, int degree);
 
-  /// For splats_in_bytes().
-  static constexpr std::array<std::uint64_t, 3> least_of_degree{1, 1, 1};
+  /// For splats_in_bytes(): as Gaussians; not measured.
+  static constexpr std::array<std::uint64_t, 3> least_of_degree{1, 2500, 20000};
 
   /// Computes the drawn values of splat `i`.
   void activate(std::size_t i);
