@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -40,14 +40,11 @@ std::string without_non_finite(std::string_view text) {
              (std::isalnum(static_cast<unsigned char>(text[end])) ||
               std::string_view("+-.").find(text[end]) != std::string_view::npos))
         ++end;
-      double value = 0;
-      const char* last = text.data() + end;
-      const auto [read, error] = std::from_chars(text.data() + i, last, value);
-      // from_chars also reads "inf" and "nan", in any case. An underflow is 0.
-      const std::string_view token = text.substr(i, end - i);
-      const bool is_tiny = token.find("e-") != token.npos || token.find("E-") != token.npos;
-      const bool is_large = error == std::errc::result_out_of_range && !is_tiny;
-      if (read == last && (is_large || (error == std::errc() && !std::isfinite(value)))) {
+      const std::string token(text.substr(i, end - i));
+      char* stop = nullptr;
+      // It also reads "inf" and "nan", in any case, and gives infinity for too large numbers.
+      const double value = std::strtod(token.c_str(), &stop);
+      if (*stop == '\0' && !std::isfinite(value)) {
         result += "null";
         i = end;
         continue;

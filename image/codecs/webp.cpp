@@ -27,14 +27,15 @@ bool is_webp(std::span<const std::byte> bytes) {
   return has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP");
 }
 
+#ifdef __EMSCRIPTEN__
+Image8 decode_webp(std::span<const std::byte>, const std::string& name, MemoryBudget) {
+  throw InputError({name}, "WebP images are not supported here");
+}
+#else
 Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget budget) {
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
     throw InputError({name}, reason, hint);
   };
-#ifdef __EMSCRIPTEN__
-  fail("WebP images are not supported here");
-  return {};
-#else
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
@@ -52,7 +53,7 @@ Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, Me
     fail("the WebP image is damaged");
   passing.keep(size);
   return image;
-#endif
 }
+#endif
 
 }  // namespace tureen
