@@ -15,6 +15,7 @@
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
+#include "formats/dataset/colmap.hpp"
 #include "formats/dataset/dataset.hpp"
 
 namespace tureen::cli {
@@ -99,6 +100,25 @@ void say_dataset(const DatasetInfoOptions& options, const DatasetSummary& datase
   say_list("Notes:", notes_of(dataset.remarks));
 }
 
+/// An error about a COLMAP model without its photographs says what the model is.
+DatasetSummary summary_of(const std::string& path) {
+  try {
+    return read_dataset_summary(path);
+  } catch (const InputError& error) {
+    const auto models = colmap_folders(path);
+    if (models.empty()) throw;
+    const ColmapModel model = read_colmap(largest_model(models));
+    throw InputError(
+        error.position(),
+        fmt::format("a COLMAP model with {}, {} and {}, which is no dataset without "
+                    "its photographs: {}",
+                    counted(model.cameras.size(), "camera"), counted(model.images.size(), "image"),
+                    counted(model.points.points.size(), "point"), error.reason()),
+        "put the photographs into the folder images beside it, or draw its cameras "
+        "with tureen render SCENE --camera FOLDER");
+  }
+}
+
 Json dataset_json(const DatasetInfoOptions& options, const DatasetSummary& dataset,
                   const DatasetFacts& facts) {
   Json sizes = Json::array();
@@ -133,7 +153,7 @@ void inform_of_dataset(const DatasetInfoOptions& options) {
       require_not_input(options.plot, options.path);
     require_writable_file(options.plot);
   }
-  const DatasetSummary dataset = read_dataset_summary(options.path);
+  const DatasetSummary dataset = summary_of(options.path);
   const DatasetFacts facts(dataset);
   say_dataset(options, dataset, facts);
   if (!options.plot.empty()) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/program_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 
 namespace tureen {
 namespace dataset_info_program_test {
@@ -83,6 +84,14 @@ TEST_F(DatasetInfo, NamesWhatIsWrong) {
   std::filesystem::remove(folder / "data/images/2.png");
   expect({"info", "data"}, 0, "1 of 4 photographs was skipped (images/2.png): the file is missing");
   EXPECT_FALSE(exists("plot.svg"));
+}
+
+TEST_F(DatasetInfo, NamesAModelWithoutPhotographs) {
+  test::write_text(folder / "model/sparse/0", test::upright_colmap(4));
+  const ChildResult result = run({"info", "model"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err,
+              HasSubstr("a COLMAP model with 1 camera, 4 images and 1 point, which is no dataset"));
 }
 
 }  // namespace dataset_info_program_test
