@@ -111,7 +111,8 @@ TEST(TextScanner, ReadsTheRestOfALineAndNoByteOrderMark) {
   EXPECT_TRUE(scanner.next_line());
   EXPECT_THAT(error_of([&] { scanner.read_line(); }), ErrorAt("test.file:4", 1024));
   // A mark in the middle is text.
-  Input later = input_of("x\xef\xbb\xbf");
+  const std::string middle = "x\xef\xbb\xbf";
+  Input later = input_of(middle);
   EXPECT_EQ(TextScanner(later).read_line(), "x\xef\xbb\xbf");
 }
 
