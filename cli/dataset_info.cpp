@@ -100,7 +100,7 @@ void say_dataset(const DatasetInfoOptions& options, const DatasetSummary& datase
   say_list("Notes:", notes_of(dataset.remarks));
 }
 
-/// An error about a COLMAP model without its photographs says what the model is.
+/// If the photographs of a COLMAP model are missing, the error describes the model.
 DatasetSummary summary_of(const std::string& path) {
   try {
     return read_dataset_summary(path);

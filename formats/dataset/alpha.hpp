@@ -9,7 +9,7 @@
 
 namespace tureen {
 
-/// Photographs whose transparent pixels can be told from damage: more than one in a thousand.
+/// The meaning, and the number of photographs with more than one transparent pixel in a thousand.
 struct AlphaUse {
   AlphaMeaning meaning = AlphaMeaning::ignore;
   std::size_t photographs = 0;

@@ -140,7 +140,7 @@ FoundDataset find_dataset(const fs::path& path, const DatasetOptions& options,
   const SkippedPhotographs of_train = found.skipped;
   const std::size_t tests = outline.test.size();
   search.take(outline.test);
-  // BlenderNeRF writes the file of the test views before anybody renders them.
+  // BlenderNeRF writes the file with the test views, but does not render them.
   if (outline.has_own_test && options.part == DatasetPart::all && tests > 0 &&
       outline.test.empty() && !options.is_strict) {
     found.skipped = of_train;

@@ -122,7 +122,7 @@ std::optional<NearFiles::Found> NearFiles::find(const fs::path& folder, const st
         is_mask(file.parts) == is_mask(wanted.parts))
       fitting.push_back(&file);
   }
-  // Of several, the one with the suffix of the name, and of these the one in its folders.
+  // If several fit, prefer those in the folders of the name, then those with its suffix.
   const auto prefer = [&](const auto& is_better) {
     std::vector<const File*> better;
     std::copy_if(fitting.begin(), fitting.end(), std::back_inserter(better), is_better);

@@ -25,7 +25,7 @@ std::optional<Remark> lower_near_limit(Splats& splats) {
   if (!(limit > 0) || count(splats) == 0) return std::nullopt;
   const double radius = middle_bounds(splats).radius(), published = double(limit);
   if (!(radius > 0 && radius < 2 * published)) return std::nullopt;
-  // A usual view is from more than the radius away; a tenth still leaves room to come near.
+  // Usual views are farther away than the radius. A tenth of it also permits nearer views.
   limit = float(radius / 10);
   return Remark{&remarks::near_limit_lowered,
                 {{"radius", radius}, {"published", published}, {"limit", double(limit)}}};

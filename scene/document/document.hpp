@@ -14,7 +14,7 @@
 
 namespace tureen {
 
-/// Identifies a layer of a document as long as the document lives. No id is used twice.
+/// Identifies a layer for the lifetime of its document. No id is used twice.
 using LayerId = std::uint64_t;
 
 /// The primitives never change, so that background jobs can share them. Only edits change the rest.
