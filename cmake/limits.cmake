@@ -29,7 +29,7 @@ set(limits
 
   "code base 2320: fundamentals that no library has, and the code for POSIX"
   "code image 2080: images, metrics, video files"
-  "code scene 4385: the model and its edits"
+  "code scene 4490: the model and its edits"
   "code camera 1500: navigation"
   "code formats 13760: a reader per format with its remarks, checked against hostile files"
   "code oracle 1710: the reference stays readable"

@@ -21,6 +21,7 @@
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "scene/edit/splat_limit.hpp"
+#include "scene/near_limit.hpp"
 
 namespace tureen {
 
@@ -237,6 +238,7 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   }
   if (is_empty) throw InputError({path.string()}, nothing_in(scene));
   if (options.max_splats) limit_splats(scene, *options.max_splats);
+  if (const auto remark = near_limit_remark(scene)) scene.info.remarks.push_back(*remark);
   return scene;
 }
 

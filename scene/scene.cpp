@@ -9,6 +9,7 @@
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
+#include "scene/near_limit.hpp"
 #include "scene/opaque_windows.hpp"
 
 namespace tureen {
@@ -60,9 +61,12 @@ void choose_profile(Scene& scene, std::string_view name) {
   }
   if (!found)
     throw UsageError("the profile " + std::string(name) + " applies to splats; the scene has none");
+  // A profile has a near limit of its own.
   std::erase_if(scene.info.remarks, [](const Remark& remark) {
-    return remark.kind->setting == std::string_view("profile");
+    const std::string_view setting = remark.kind->setting;
+    return setting == "profile" || setting == "near_limit";
   });
+  if (const auto remark = near_limit_remark(scene)) scene.info.remarks.push_back(*remark);
 }
 
 std::vector<std::string> all_notes(const SceneInfo& info) {

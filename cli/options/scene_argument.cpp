@@ -12,6 +12,7 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "scene/edit/baked_transform.hpp"
+#include "scene/near_limit.hpp"
 
 namespace tureen::cli {
 
@@ -45,6 +46,12 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
   return scene;
 }
 
+/// The choices that need all layers.
+void apply(const ReadingChoice& choice, Scene& scene) {
+  if (!choice.profile.empty()) choose_profile(scene, choice.profile);
+  if (choice.near_limit) choose_near_limit(scene, *choice.near_limit);
+}
+
 }  // namespace
 
 void add_reading_options(Command& command, ReadingChoice& choice) {
@@ -72,6 +79,10 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
       [&choice](std::size_t index) { choice.profile = named_profiles[index].name; },
       fmt::format("draw splats by the rules of another method: {}; the scene's own by default",
                   fmt::join(names, ", ")));
+  command.add_option("--near-limit UNITS", choice.near_limit,
+                     "do not draw splats with a centre up to this depth before the camera; the "
+                     "scene's own by default, 0.2 by the published rules",
+                     between(0.0, 1e30));
 }
 
 void add_scene_argument(Command& command, SceneArgument& argument) {
@@ -90,7 +101,7 @@ void add_scene_arguments(Command& command, SceneArguments& arguments) {
 
 Scene read(const SceneArgument& argument) {
   Scene scene = read_file(argument.path, argument.choice);
-  if (!argument.choice.profile.empty()) choose_profile(scene, argument.choice.profile);
+  apply(argument.choice, scene);
   return scene;
 }
 
@@ -107,7 +118,7 @@ Scene read(const SceneArguments& arguments) {
     if (arguments.paths.size() > 1 && scene.info.name.empty()) scene.info.name = stem_of(path);
   }
   Scene scene = merged(std::move(scenes));
-  if (!arguments.choice.profile.empty()) choose_profile(scene, arguments.choice.profile);
+  apply(arguments.choice, scene);
   return scene;
 }
 

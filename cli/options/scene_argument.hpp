@@ -18,6 +18,7 @@ struct ReadingChoice {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
   std::string up;            // empty: the scene's own; of several scenes, the first's
   std::string_view profile;  // of named_profiles, for all splats; empty: the scene's own
+  std::optional<double> near_limit = {};         // of all splats, in world units
   std::optional<double> octagon_q = {};          // ReadOptions::octagon_q
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
   bool keep_rows = false;                        // ReadOptions::keep_rows; not an option
@@ -25,7 +26,7 @@ struct ReadingChoice {
   bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds --vertex-colors, --up, --octagon-q, --profile and --max-splats. `choice` must live until
+/// Adds --vertex-colors, --up, --octagon-q, --profile, --near-limit and --max-splats. `choice` must live until
 /// the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
 

@@ -12,26 +12,11 @@
 #include "scene/edit/morton_order.hpp"
 #include "scene/edit/splat_limit.hpp"
 #include "scene/middle_bounds.hpp"
+#include "scene/near_limit.hpp"
 #include "scene/scene_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
-
-namespace {
-
-/// See SplatBuilder::finish().
-std::optional<Remark> lower_near_limit(Splats& splats) {
-  float& limit = splats.profile.min_center_depth;
-  if (!(limit > 0) || count(splats) == 0) return std::nullopt;
-  const double radius = middle_bounds(splats).radius(), published = double(limit);
-  if (!(radius > 0 && radius < 2 * published)) return std::nullopt;
-  // Usual views are farther away than the radius. A tenth of it also permits nearer views.
-  limit = float(radius / 10);
-  return Remark{&remarks::near_limit_lowered,
-                {{"radius", radius}, {"published", published}, {"limit", double(limit)}}};
-}
-
-}  // namespace
 
 SplatBuilder::SplatBuilder(Input& input, const ReadOptions& options, SplatKernel kernel, int degree,
                            std::uint64_t count)
@@ -109,7 +94,14 @@ Scene SplatBuilder::finish(const SplatProfile& profile, const std::string& forma
     sort_in_morton_order(splats_);
   }
   const std::uint64_t kept = count(splats_), valid = added_ - dropped_;
-  const std::optional<Remark> lowered = lower_near_limit(splats_);
+  std::optional<Remark> lowered;
+  if (const auto limit = lower_near_limit(splats_)) {
+    lowered = Remark{&remarks::near_limit_lowered,
+                     {{"radius", middle_bounds(splats_).radius()},
+                      {"published", double(profile.min_center_depth)},
+                      {"limit", double(*limit)}}};
+    splats_.profile.min_center_depth = *limit;
+  }
   Scene scene = scene_of(std::move(splats_), origin_);
   scene.info.name = std::filesystem::path(input_.name()).stem().string();
   scene.info.source = format;

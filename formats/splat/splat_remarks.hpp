@@ -20,7 +20,7 @@ inline constexpr RemarkKind near_limit_lowered{
     "near_limit_lowered", Severity::assumption,
     "The splats lie within {radius} units: the published limit of {published} units, before which "
     "no splat is drawn, is lowered to {limit}",
-    "profile"};
+    "near_limit"};
 inline constexpr RemarkKind filter_applied{
     "filter_applied", Severity::note,
     "The filter of Mip-Splatting (filter_3D) was applied to scales and opacities."};

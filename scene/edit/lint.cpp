@@ -165,6 +165,7 @@ constexpr Wording wordings[] = {
     {"outlying_splats", "splat", "splats", "is far from the others, or larger than their extent",
      "are far from the others, or larger than their extent"},
     {"duplicate_splats", "splat", "splats", "repeats an earlier splat", "repeat an earlier splat"},
+    {"large_near_limit", "", "", "", ""},  // describe() has a sentence for it
     {"zero_harmonics", "coefficient", "harmonics coefficients", "is 0 for all splats",
      "are 0 for all splats"},
 };
@@ -178,6 +179,9 @@ std::string describe(const LintFinding& finding) {
     return "the vertices lie too far from the origin for 32-bit floats: the extent is only " +
            std::to_string(finding.extent_over_offset) +
            " of the largest coordinate (below 0.0002); store them relative to an origin";
+  if (finding.id == LintFinding::Id::large_near_limit)
+    return "the near limit, the depth up to which no splat is drawn, is above half the radius in "
+           "which the splats lie: usual views lose splats";
   const bool single = finding.count == 1;
   const Wording& words = wordings[std::size_t(finding.id)];
   std::string text = std::to_string(finding.count) + " of " + std::to_string(finding.of) + " " +

@@ -49,6 +49,8 @@ struct LintFinding {
     outlying_splats,
     /// Splats with exactly the shape and place of an earlier one.
     duplicate_splats,
+    /// The near limit is so large that usual views lose splats: scene/near_limit.hpp.
+    large_near_limit,
     /// Harmonics coefficients that are 0 for all splats, from a degree on: the file can omit them.
     /// Counts coefficients, not splats.
     zero_harmonics

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "scene/edit/lint_findings.hpp"
+#include "scene/near_limit.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -97,7 +98,11 @@ Lint lint(const Splats& splats) {
   find_repeated(splats, repeated);
   if (number > 0) find_zero_harmonics(splats.color, zero);
   Lint result;
-  add_counted(result, {&transparent, &collapsed, &needles, &outlying, &repeated, &zero});
+  add_counted(result, {&transparent, &collapsed, &needles, &outlying, &repeated});
+  if (lower_near_limit(splats))
+    result.findings.push_back(
+        {.id = LintFinding::Id::large_near_limit, .count = number, .of = number});
+  add_counted(result, {&zero});
   add_distance_from_origin(result, bounds(splats));
   return result;
 }

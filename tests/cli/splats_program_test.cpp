@@ -52,6 +52,17 @@ TEST_F(SplatsProgram, AProfileThatDoesNotFitIsRefused) {
   EXPECT_EQ(run({"info", "scene.off", "gaussians.glb", "--profile", "mip"}).exit_code, 0);
 }
 
+TEST_F(SplatsProgram, ANearLimitThatHidesTheSceneIsReportedAndChanged) {
+  Splats splats = test::random_splats(test::splat_kinds[1], 300, 0.01, 1);
+  splats.profile.min_center_depth = 1000;
+  write_tureen_glb(scene_of(splats), folder / "small.glb");
+  EXPECT_THAT(run({"info", "small.glb"}).err, HasSubstr("--near-limit changes it"));
+  EXPECT_EQ(run({"info", "small.glb", "--strict"}).exit_code, 1);
+  ASSERT_EQ(run({"convert", "small.glb", "mended.glb", "--near-limit", "0.001"}).exit_code, 0);
+  EXPECT_EQ(run({"info", "mended.glb", "--strict"}).exit_code, 0);
+  expect_usage_error({"info", "scene.off", "--near-limit", "0.1"}, "has none");
+}
+
 TEST_F(SplatsProgram, LintIsReported) {
   Splats splats = test::random_splats(test::splat_kinds[1], 300, 0.01, 1);
   auto& gaussians = std::get<Gaussians>(splats.kernel);

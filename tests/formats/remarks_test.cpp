@@ -73,6 +73,8 @@ const std::vector<Remark> every_kind{
     {&remarks::render_mode_unknown, {{"mode", "other"}, {"profile", "3dgs"}}},
     {&remarks::octagon_q_assumed, {{"q", 4.0}}},
     {&remarks::near_limit_lowered, {{"radius", 0.1}, {"published", 0.2}, {"limit", 0.01}}},
+    {&remarks::near_limit_hides, {{"limit", 0.2}, {"hidden", 0.5}}},
+    {&remarks::near_limit_large, {{"limit", 0.2}, {"radius", 0.1}}},
     {&remarks::filter_applied},
     {&remarks::splat_extensions_ignored, {{"extensions", Counts{3, 258}}}},
     {&remarks::preset_applied, {{"edits", Names{"seal", "sort"}}}},
