@@ -29,7 +29,10 @@ TextScanner::TextScanner(Input& input, TextSyntax syntax)
   next_ = end_ = buffer_.data();
   if (input_.position() > 0) return;
   refill();
-  if (std::string_view(next_, std::size_t(end_ - next_)).starts_with("\xef\xbb\xbf")) next_ += 3;
+  const std::string_view start(next_, std::size_t(end_ - next_));
+  if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff"))
+    fail("the text is UTF-16", "save it as UTF-8");
+  if (start.starts_with("\xef\xbb\xbf")) next_ += 3;
 }
 
 void TextScanner::refill() {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/stray_text.hpp"
 #include "image/codecs/webp.hpp"
 #include "image/decoder_memory.hpp"
 #include "image/jpeg_tables.hpp"
@@ -137,6 +138,8 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
            std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
         fail(beyond(side(16), side(20)));
       refuse_damaged(bytes, name);
+      if (const auto stray = stray_text(bytes.first(std::min<std::size_t>(bytes.size(), 512))))
+        fail(stray->reason, stray->hint);
       fail("not a PNG, JPEG or WebP image: " + reason_of_stb());
     }
   }

@@ -50,9 +50,8 @@ std::optional<Remark> near_limit_remark(const Scene& scene) {
       const HiddenSplats view =
           hidden_by_near_limit(*splats, layer.world_from_layer, scene.cameras.front());
       if (100 * view.hidden > view.in_view)
-        return Remark{
-            &remarks::near_limit_hides,
-            {{"limit", limit}, {"hidden", double(view.hidden) / double(view.in_view)}}};
+        return Remark{&remarks::near_limit_hides,
+                      {{"limit", limit}, {"hidden", double(view.hidden) / double(view.in_view)}}};
     } else if (lower_near_limit(*splats)) {
       const double radius = middle_bounds(*splats).radius() * scale_of(layer.world_from_layer);
       return Remark{&remarks::near_limit_large, {{"limit", limit}, {"radius", radius}}};

@@ -19,10 +19,10 @@ inline constexpr RemarkKind screen_interpolation_dropped{
 inline constexpr RemarkKind splats_limited{
     "splats_limited", Severity::loss,
     "{kept} of {all} splats were read: those with the largest opacity times area"};
-inline constexpr RemarkKind near_limit_hides{
-    "near_limit_hides", Severity::assumption,
-    "the near limit of {limit} units hides {hidden:%} of the splats in the view of the first camera",
-    "near_limit"};
+inline constexpr RemarkKind near_limit_hides{"near_limit_hides", Severity::assumption,
+                                             "the near limit of {limit} units hides {hidden:%} of "
+                                             "the splats in the view of the first camera",
+                                             "near_limit"};
 inline constexpr RemarkKind near_limit_large{
     "near_limit_large", Severity::assumption,
     "the near limit of {limit} units hides splats in usual views: most of them lie within {radius} "

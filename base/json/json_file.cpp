@@ -18,6 +18,8 @@ namespace {
 /// infinities, which JSON does not have.
 std::string what_is_wrong(std::string_view text, std::size_t byte) {
   if (text.empty()) return "the file is empty";
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    return "the text is UTF-16; save it as UTF-8";
   for (const std::string_view word : {"NaN", "nan", "-Infinity", "Infinity", "-inf", "inf"})
     // The parser stops at the first letter that it rejects, which may lie within the word.
     for (std::size_t back = 0; back < word.size() && back <= byte; ++back)

@@ -26,8 +26,8 @@ struct ReadingChoice {
   bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds --vertex-colors, --up, --octagon-q, --profile, --near-limit and --max-splats. `choice` must live until
-/// the arguments are parsed.
+/// Adds --vertex-colors, --up, --octagon-q, --profile, --near-limit and --max-splats. `choice` must
+/// live until the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
 
 struct SceneArgument {

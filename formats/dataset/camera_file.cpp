@@ -24,6 +24,8 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
+constexpr const char* whole_sphere = "a photograph of the whole sphere has no pinhole camera";
+
 CameraFile from_transforms(const Json& root, const std::string& file) {
   // NeRF's synthetic scenes store no image size; their images have 800 x 800 pixels.
   constexpr int assumed_side = 800;
@@ -33,6 +35,10 @@ CameraFile from_transforms(const Json& root, const std::string& file) {
   for (const TransformsFrame& frame : read_transforms(root, file)) {
     if (!frame.defect.empty()) {
       skipped.add(frame.file_path, frame.defect);
+      continue;
+    }
+    if (frame.is_panorama) {
+      skipped.add(frame.file_path, whole_sphere);
       continue;
     }
     size_assumed = size_assumed || !frame.width || !frame.height;
@@ -200,7 +206,7 @@ CameraFile from_colmap(const fs::path& folder) {
     }
     const ColmapCamera& taken_by = model.cameras.at(image.camera);
     if (taken_by.is_panorama) {
-      skipped.add(image.name, "a photograph of the whole sphere has no pinhole camera");
+      skipped.add(image.name, whole_sphere);
       continue;
     }
     distorted = distorted || !taken_by.lens.is_pinhole();

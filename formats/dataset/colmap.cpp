@@ -122,9 +122,12 @@ void add_point(ColmapPoints& points, glm::dvec3 position, glm::u8vec3 color) {
     ++points.skipped;
 }
 
+constexpr const char* colmap_places[] = {"sparse", "colmap/sparse", "undistorted/sparse",
+                                         "dense/sparse", "dense/0/sparse"};
+
 std::vector<std::filesystem::path> colmap_folders(const std::filesystem::path& dataset) {
   namespace fs = std::filesystem;
-  for (const char* name : {"sparse", "colmap/sparse", "undistorted/sparse"}) {
+  for (const char* name : colmap_places) {
     std::vector<std::pair<int, fs::path>> numbered;
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(dataset / name, ignored)) {

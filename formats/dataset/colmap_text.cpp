@@ -156,13 +156,17 @@ ColmapPoints read_colmap_points_text(Input& input) {
   TextScanner text(input);
   ColmapPoints read;
   while (next_record(text)) {
-    read_double(text, "a point's number");
-    glm::dvec3 position;
-    for (int i = 0; i < 3; ++i) position[i] = read_double(text, "a point's position");
-    glm::u8vec3 color;
-    for (int i = 0; i < 3; ++i) color[i] = glm::u8(text.read_integer("a colour", 0, 255));
     input.make_room_in(read.points, 1, "the points");
-    add_point(read, position, color);
+    try {
+      read_double(text, "a point's number");
+      glm::dvec3 position;
+      for (int i = 0; i < 3; ++i) position[i] = read_double(text, "a point's position");
+      glm::u8vec3 color;
+      for (int i = 0; i < 3; ++i) color[i] = glm::u8(text.read_integer("a colour", 0, 255));
+      add_point(read, position, color);
+    } catch (const InputError&) {
+      ++read.skipped;  // the line is damaged; a training starts without this point
+    }
     // The mean error of its projections and the images that see it.
     if (!text.next_line()) break;
   }

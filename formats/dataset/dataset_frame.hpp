@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/dataset/lens.hpp"
 #include "formats/dataset/panorama.hpp"
@@ -34,5 +35,8 @@ struct DatasetFrame {
   glm::dmat4 view_from_world{1.0};  // the camera's
   std::string defect = {};          // why the photograph cannot be used; empty: it can
 };
+
+/// Adds six views of a photograph of the whole sphere: `frame`, which has the pose of its middle.
+void add_faces(const DatasetFrame& frame, std::vector<DatasetFrame>& frames);
 
 }  // namespace tureen

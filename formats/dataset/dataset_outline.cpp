@@ -131,8 +131,13 @@ std::string images_name(int images_folder) {
 }
 
 /// The folder of the photographs: images or images_N; without images, the largest images_N; without
-/// any, the dataset's own folder.
-fs::path images_of(const fs::path& folder, DatasetOutline& outline) {
+/// any, the dataset's own folder. `model` is the folder of the cameras, in that of the dataset.
+fs::path images_of(const fs::path& dataset, const fs::path& model, DatasetOutline& outline) {
+  // COLMAP's undistorted models have photographs of their own: dense/images for dense/sparse/0.
+  fs::path folder = model;
+  while (folder.filename() != "sparse" && folder != dataset) folder = folder.parent_path();
+  folder = folder == dataset ? dataset : folder.parent_path();
+  if (!is_there(folder / images_name(outline.images_folder))) folder = dataset;
   if (is_there(folder / images_name(outline.images_folder)))
     return folder / images_name(outline.images_folder);
   if (outline.images_folder > 1) return folder / images_name(outline.images_folder);
@@ -146,23 +151,6 @@ fs::path images_of(const fs::path& folder, DatasetOutline& outline) {
   return is_there(folder / "input") ? folder / "input" : folder;
 }
 
-/// Six views of a panorama instead of one frame: `frame`, with the pose of the middle.
-void add_faces(DatasetFrame frame, const Camera& photograph, Frames& frames) {
-  frame.size = glm::ivec2(photograph.width, photograph.height);
-  for (const PanoramaFace& face : panorama_faces) {
-    DatasetFrame view = frame;
-    view.name += "#" + std::string(face.name);
-    view.face = &face;
-    view.view_from_world = glm::dmat4(face.view_from_front) * frame.view_from_world;
-    view.camera = [pose = view.view_from_world](int width, int) {
-      Camera posed = face_camera(face_side(width));
-      posed.view_from_world = pose;
-      return posed;
-    };
-    frames.push_back(std::move(view));
-  }
-}
-
 DatasetOutline colmap_outline(const fs::path& folder, const std::vector<fs::path>& models,
                               const DatasetOptions& options, const MemoryBudget& budget) {
   DatasetOutline outline{.images_folder = options.images_folder};
@@ -170,7 +158,7 @@ DatasetOutline colmap_outline(const fs::path& folder, const std::vector<fs::path
   const ColmapModel model = read_colmap_poses(path, budget);
   add_remark_on_models(models, path, usable_images(model), outline.dataset.remarks);
   outline.file = path.string();
-  const fs::path images = images_of(folder, outline);
+  const fs::path images = images_of(folder, path, outline);
   Frames frames;
   for (const ColmapImage& image : model.images) {
     DatasetFrame frame;
@@ -180,7 +168,9 @@ DatasetOutline colmap_outline(const fs::path& folder, const std::vector<fs::path
     frame.defect = image.defect;
     frame.view_from_world = image.view_from_world;
     if (frame.defect.empty() && model.cameras.at(image.camera).is_panorama) {
-      add_faces(std::move(frame), model.cameras.at(image.camera).pinhole, frames);
+      const Camera& photograph = model.cameras.at(image.camera).pinhole;
+      frame.size = glm::ivec2(photograph.width, photograph.height);
+      add_faces(frame, frames);
       continue;
     }
     if (frame.defect.empty()) {
@@ -278,8 +268,9 @@ DatasetOutline read_outline(const fs::path& path, const DatasetOptions& options,
   throw InputError(
       {path.string()},
       "not a supported dataset: it has neither transforms_train.json nor transforms.json, nor "
-      "COLMAP's cameras in sparse/0, sparse, colmap/sparse, undistorted/sparse or the folder "
-      "itself, nor Bundler's bundle.out",
+      "COLMAP's cameras in sparse/0, sparse, colmap/sparse, undistorted/sparse, dense/sparse or "
+      "the "
+      "folder itself, nor Bundler's bundle.out",
       "pass the folder that contains them; docs/datasets.md lists what is read");
 }
 

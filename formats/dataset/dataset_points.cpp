@@ -13,6 +13,10 @@ void count_skipped(std::size_t skipped, std::vector<Remark>& list) {
   if (skipped > 0) list.push_back({&remarks::points_skipped, {{"count", std::uint64_t(skipped)}}});
 }
 
+Remark unreadable(const std::string& file, const InputError& error) {
+  return {&remarks::points_unreadable, {{"file", file}, {"reason", error.reason()}}};
+}
+
 }  // namespace
 
 FoundPoints points_of_ply(const std::filesystem::path& file, const std::string& name,
@@ -30,8 +34,7 @@ FoundPoints points_of_ply(const std::filesystem::path& file, const std::string& 
     count_skipped(read.skipped, found.remarks);
   } catch (const InputError& error) {
     if (is_about_memory(error)) throw;
-    found.remarks.push_back(
-        {&remarks::points_unreadable, {{"file", name}, {"reason", error.reason()}}});
+    found.remarks.push_back(unreadable(name, error));
   }
   return found;
 }
@@ -46,7 +49,15 @@ FoundPoints points_beside(const std::filesystem::path& folder, const MemoryBudge
 }
 
 FoundPoints points_of_model(const std::filesystem::path& model, const MemoryBudget& budget) {
-  ColmapPoints read = read_colmap_points(model, budget);
+  ColmapPoints read;
+  try {
+    read = read_colmap_points(model, budget);
+  } catch (const InputError& error) {
+    if (is_about_memory(error)) throw;
+    FoundPoints found = points_beside(model, budget);
+    found.remarks.push_back(unreadable(model.filename().string() + "/points3D", error));
+    return found;
+  }
   if (read.points.empty() && read.skipped == 0) return points_beside(model, budget);
   FoundPoints found{.points = std::move(read.points)};
   count_skipped(read.skipped, found.remarks);

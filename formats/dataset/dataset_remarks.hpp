@@ -36,7 +36,7 @@ inline constexpr RemarkKind points_unreadable{
     "The file with the dataset's points cannot be read: {file}: {reason}"};
 inline constexpr RemarkKind points_skipped{
     "points_skipped", Severity::loss,
-    "{count} {count:point is|points are} not finite and {count:was|were} skipped."};
+    "{count} {count:point is|points are} damaged or not finite and {count:was|were} skipped."};
 inline constexpr RemarkKind points_none{
     "points_none", Severity::note,
     "The dataset has no points; a training starts at random positions."};
@@ -67,6 +67,10 @@ inline constexpr RemarkKind models_several{
 inline constexpr RemarkKind split_named{
     "split_named", Severity::note,
     "{source} names {train} training and {test} test views; {unused} photographs are in no list."};
+inline constexpr RemarkKind split_names_unknown{
+    "split_names_unknown", Severity::loss,
+    "{source} names {count} {count:photograph|photographs} that the dataset does not have: "
+    "{names}."};
 inline constexpr RemarkKind split_empty{"split_empty", Severity::assumption,
                                         "The lists in {source} leave no training or no test views; "
                                         "every n-th photograph is a test view "

@@ -28,6 +28,29 @@ bool is_listed(const std::set<std::string>& names, const DatasetFrame& frame) {
   return names.contains(name) || names.contains(std::filesystem::path(name).filename().string());
 }
 
+/// A remark on names of the lists that fit no photograph.
+void add_remark_on_unknown(const NamedSplit& named, const Frames& frames,
+                           std::vector<Remark>& list) {
+  std::set<std::string> known;
+  for (const DatasetFrame& frame : frames) {
+    known.insert(plain(frame.name));
+    known.insert(std::filesystem::path(plain(frame.name)).filename().string());
+  }
+  std::set<std::string> unknown;
+  for (const auto* names : {&named.train, &named.validation, &named.test})
+    for (const std::string& name : *names)
+      if (!known.contains(plain(name))) unknown.insert(name);
+  if (unknown.empty()) return;
+  constexpr std::size_t most = 5;
+  std::vector<std::string> shown(
+      unknown.begin(), std::next(unknown.begin(), std::ptrdiff_t(std::min(most, unknown.size()))));
+  if (unknown.size() > most) shown.push_back("others");
+  list.push_back({&remarks::split_names_unknown,
+                  {{"source", named.source},
+                   {"count", std::uint64_t(unknown.size())},
+                   {"names", std::move(shown)}}});
+}
+
 }  // namespace
 
 void sort_by_name(Frames& frames) {
@@ -38,6 +61,7 @@ void sort_by_name(Frames& frames) {
 SplitFrames split(Frames all, const NamedSplit& named, int test_every, bool needs_test) {
   sort_by_name(all);
   SplitFrames result;
+  add_remark_on_unknown(named, all, result.remarks);
   const std::set<std::string> train = plain_names(named.train);
   const std::set<std::string> test =
       plain_names(named.test.empty() ? named.validation : named.test);
@@ -70,7 +94,8 @@ SplitFrames split(Frames all, const NamedSplit& named, int test_every, bool need
                                {"unused", std::uint64_t(0)}}});
     return result;
   }
-  result = {};
+  result.train.clear();
+  result.test.clear();
   if (has_lists) result.remarks.push_back({&remarks::split_empty, {{"source", named.source}}});
   if (all.size() == 1 && !needs_test) {
     result.train = std::move(all);

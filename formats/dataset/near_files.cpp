@@ -14,7 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* suffixes_of_images[] = {".png", ".jpg", ".jpeg", ".webp"};
+/// The last ones are not supported; a photograph that has one is found, to name what it is.
+constexpr const char* suffixes_of_images[] = {".png",  ".jpg",  ".jpeg", ".webp", ".heic",
+                                              ".heif", ".avif", ".tif",  ".tiff"};
 
 /// A dataset has thousands of photographs; a name that leads into a whole disk is not searched.
 constexpr std::size_t max_files = 200'000;

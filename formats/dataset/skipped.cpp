@@ -31,8 +31,12 @@ void SkippedPhotographs::add(const std::string& name, const std::string& reason)
 }
 
 std::string SkippedPhotographs::sentences() const {
+  constexpr std::size_t most = 3;
   std::string text;
-  for (const auto& [reason, names] : names_) {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (i == most && names_.size() > most + 1)
+      return text + "; and " + std::to_string(names_.size() - most) + " other reasons";
+    const auto& [reason, names] = names_[i];
     text += (text.empty() ? "" : "; ");
     std::string list;
     for (const std::string& name : first_names(names)) list += (list.empty() ? "" : ", ") + name;

@@ -79,12 +79,12 @@ DatasetFrame made_of(const TransformsFrame& frame, const std::filesystem::path& 
   if (!made.defect.empty()) return made;
   made.file = *file;
   if (frame.width && frame.height) made.size = glm::ivec2(*frame.width, *frame.height);
+  made.view_from_world = frame.view_from_world;
   made.camera = [frame](int width, int height) { return pinhole(frame, width, height); };
   made.lens = frame.is_fisheye ? fisheye(frame.lens) : brown(frame.lens);
   // Folders of smaller masks are named like those of smaller images.
   if (!frame.mask_path.empty())
     made.mask = in_folder("masks", frame.mask_path, images_folder).value_or(frame.mask_path);
-  made.view_from_world = frame.view_from_world;
   return made;
 }
 
@@ -103,9 +103,12 @@ TransformsDataset read_transforms_dataset(const std::filesystem::path& path, int
                    .source = path.filename().string()};
   const auto take = [&](const char* key) {
     for (const TransformsFrame& frame : read_transforms(root, input.name(), key)) {
-      DatasetFrame& made =
-          dataset.frames.emplace_back(made_of(frame, path.parent_path(), images_folder));
-      if (made.name.empty()) made.name = "frame " + std::to_string(dataset.frames.size() - 1);
+      DatasetFrame made = made_of(frame, path.parent_path(), images_folder);
+      if (made.name.empty()) made.name = "frame " + std::to_string(dataset.frames.size());
+      if (frame.is_panorama && made.defect.empty())
+        add_faces(made, dataset.frames);
+      else
+        dataset.frames.push_back(std::move(made));
     }
   };
   take("frames");

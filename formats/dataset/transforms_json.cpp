@@ -34,11 +34,17 @@ bool is_fisheye(const CameraJson& json) {
   return json.truth("is_fisheye") || json.text("camera_model") == "OPENCV_FISHEYE";
 }
 
+/// instant-ngp has a key for it; nerfstudio names the model.
+bool is_panorama(const CameraJson& json) {
+  return json.truth("equirectangular") || json.text("camera_model") == "EQUIRECTANGULAR";
+}
+
 bool is_full(const CameraJson& json) { return json.text("camera_model") == "FULL_OPENCV"; }
 
 std::string other_lens(const CameraJson& json) {
-  for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
+  for (const char* key : {"ftheta_p0", "latlong"})
     if (json.truth(key)) return key;
+  if (is_panorama(json)) return {};
   std::string model = json.text("camera_model");
   if (std::find(described.begin(), described.end(), model) == described.end()) return model;
   // The fourth radial number is ambiguous: in OpenCV it belongs to a quotient of polynomials,
@@ -53,6 +59,11 @@ TransformsFrame read_frame(const CameraJson& json) {
   frame.file_path = json.text("file_path");
   frame.width = json.maybe_side("w");
   frame.height = json.maybe_side("h");
+  frame.mask_path = json.text("mask_path");
+  frame.other_lens = other_lens(json);
+  frame.view_from_world = rigid_inverse(json.rigid("transform_matrix"));
+  frame.is_panorama = is_panorama(json);
+  if (frame.is_panorama) return frame;
   frame.fl_x = positive(json, "fl_x");
   frame.fl_y = positive(json, "fl_y");
   if (!frame.fl_x) frame.camera_angle_x = angle(json, "camera_angle_x");
@@ -73,9 +84,6 @@ TransformsFrame read_frame(const CameraJson& json) {
     frame.lens.p1 = coefficient("p1");
     frame.lens.p2 = coefficient("p2");
   }
-  frame.mask_path = json.text("mask_path");
-  frame.other_lens = other_lens(json);
-  frame.view_from_world = rigid_inverse(json.rigid("transform_matrix"));
   return frame;
 }
 

@@ -21,7 +21,8 @@ struct TransformsFrame {
   std::optional<double> fl_x, fl_y, cx, cy;
   std::optional<double> camera_angle_x, camera_angle_y;
   LensNumbers lens;
-  bool is_fisheye = false;  // then of fisheye_model, otherwise of brown_model
+  bool is_fisheye = false;   // then of fisheye_model, otherwise of brown_model
+  bool is_panorama = false;  // equirectangular: it has neither focal length nor lens
   /// The mask of the image, as spelled in the file; empty if missing. Black pixels (0) are not
   /// used.
   std::string mask_path;

@@ -53,6 +53,8 @@ const std::vector<Remark> every_kind{
     {&remarks::smaller_images, {{"folder", "images_4"}}},
     {&remarks::models_several, {{"chosen", "1"}, {"count", 9}, {"others", Names{"0"}}}},
     {&remarks::split_named, {{"source", "test.txt"}, {"train", 5}, {"test", 3}, {"unused", 0}}},
+    {&remarks::split_names_unknown,
+     {{"source", "test.txt"}, {"count", 1}, {"names", Names{"v_77.png"}}}},
     {&remarks::split_empty, {{"source", "test.txt"}}},
     {&remarks::split_without_test, {{"count", 3}}},
     {&remarks::alpha_is_background, {{"count", 3}, {"all", 9}}},

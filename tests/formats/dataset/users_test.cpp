@@ -104,6 +104,64 @@ TEST(UsersDataset, TakesNoFileForTwoPhotographs) {
   EXPECT_THAT(refusal(folder / ""), Names(3, 4, "cam0/d.png", "cam2/d.png"));
 }
 
+TEST(UsersDataset, NamesWhatStandsInsteadOfAPhotograph) {
+  const TemporaryFolder folder;
+  write_dataset(folder, 8);
+  write_text(folder / "images/a.png", "");
+  write_text(folder / "images/b.png", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+  write_text(folder / "images/c.png", "<!DOCTYPE html><html>404</html>");
+  std::filesystem::remove(folder / "images/d.png");
+  write_text(folder / "images/d.heic", std::string("\0\0\0\x18"
+                                                   "ftypheic\0\0\0\0",
+                                                   16));
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_EQ(dataset.train.size() + dataset.test.size(), 4u);
+  EXPECT_THAT(sentences(dataset),
+              AllOf(HasSubstr("the file is empty"), HasSubstr("Git LFS pointer"),
+                    HasSubstr("a web page"), HasSubstr("a HEIC image")));
+}
+
+TEST(UsersDataset, TakesThePhotographsBesideTheModel) {
+  const TemporaryFolder folder;
+  write_dataset(folder, 4);
+  std::filesystem::create_directory(folder / "dense");
+  std::filesystem::rename(folder / "sparse", folder / "dense/sparse");
+  EXPECT_EQ(read_dataset(folder / "").train.size(), 3u);
+  // The originals stay in images; the undistorted ones are beside the model.
+  std::filesystem::rename(folder / "images", folder / "dense/images");
+  for (const char* name : {"a.png", "b.png", "c.png", "d.png"})
+    write_text(folder / ("images/" + std::string(name)), "the originals");
+  EXPECT_EQ(read_dataset(folder / "").train.size(), 3u);
+}
+
+TEST(UsersDataset, ReadsTextThatItKnowsAndNamesUtf16) {
+  const TemporaryFolder folder;
+  write_dataset(folder, 4);
+  write_text(folder / "sparse/0/images.txt", std::string("\xff\xfe#\0 \0", 6));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("images.txt", "UTF-16"));
+  write_text(folder / "transforms.json", std::string("\xff\xfe{\0}\0", 6));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms.json", "UTF-16"));
+}
+
+TEST(UsersDataset, DoesWithoutPointsThatCannotBeRead) {
+  const TemporaryFolder folder;
+  write_dataset(folder, 4);
+  std::filesystem::remove(folder / "sparse/0/points3D.txt");
+  write_text(folder / "sparse/0/points3D.bin", "short");
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_THAT(dataset.points, IsEmpty());
+  EXPECT_THAT(sentences(dataset), HasSubstr("points cannot be read: 0/points3D"));
+}
+
+TEST(UsersDataset, ReportsNamesOfTestViewsThatDoNotExist) {
+  const TemporaryFolder folder;
+  write_dataset(folder, 4);
+  write_text(folder / "test.txt", "a.png\nsub/zz.png\n");
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_THAT(names(dataset.test), ElementsAre("a.png"));
+  EXPECT_THAT(sentences(dataset), HasSubstr("that the dataset does not have: sub/zz.png"));
+}
+
 // ---- One bad item costs that item -----------------------------------------------------------
 
 TEST(UsersDataset, SkipsPhotographsThatCannotBeUsed) {
@@ -125,7 +183,7 @@ TEST(UsersDataset, SkipsPhotographsThatCannotBeUsed) {
       sentences(dataset),
       AllOf(HasSubstr("(b.png): the file is missing in"), HasSubstr("c.png"), HasSubstr("5 x 5"),
             HasSubstr("(e.png): its pose is not finite"), HasSubstr("MYSTERY"),
-            Not(HasSubstr("UNUSED")), HasSubstr("1 point is not finite")));
+            Not(HasSubstr("UNUSED")), HasSubstr("1 point is damaged or not finite")));
   EXPECT_THAT(refusal(folder / "", {.is_strict = true}), Names("b.png", "--strict"));
   // Too few are left.
   for (const char* name : {"g", "h"})
