@@ -190,7 +190,9 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
         "Compression: the layer's rotation, scale or mirror is applied to the positions.");
   }
   if (with_photographs) {
-    request.photographs = read(arguments.photographs, DatasetPart::test).test;
+    Dataset dataset = read(arguments.photographs, DatasetPart::test);
+    say_list("Reading " + arguments.photographs.path + ":", notes_of(dataset.remarks));
+    request.photographs = std::move(dataset.test);
     if (request.photographs.empty())
       throw InputError({arguments.photographs.path}, "the dataset has no test photographs");
     if (scene.cameras.size() < min_representative_cameras)
