@@ -211,7 +211,7 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
   command.footer(
       R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
 with the baseline if it supports the scene. If the plan blends splats in tiles (--blend), the
-case "raster" has the other way. Every frame of splats includes projection and sorting; the
+case "raster" draws them by the GPU instead. Every frame of splats includes projection and sorting; the
 table lists the time of sorting. Warm-up frames run until the times are stable.
 A frame ends when the device has finished. First, the first case is compared with itself (A/A).
 "best ms" is the smallest of the rounds' medians; ratios use it. Two times are "equal" if
@@ -246,7 +246,7 @@ the output cannot be written.)");
                      "the number of rounds, to at least 1",
                      between(0.0, 1e6));
   command.add_flag("--processor-time", options->processor_time,
-                   "measure the processor time of all threads instead of elapsed time, for ratios "
+                   "measure the CPU time of all threads instead of elapsed time, for ratios "
                    "on a busy machine; software OpenGL only");
   add_bench_report_options(command, options->reports);
   command.does([options] { return bench(*options); });

@@ -154,9 +154,8 @@ void add_eval(Command& program) {
   command.footer(
       R"(Draws the scene from the cameras of the photographs. Prints PSNR, SSIM and FLIP for each
 view, and their means. Photographs with alpha are drawn over the background.
-Holes are the part of the background that shows through, 1 - alpha, as the mean over the opaque
-pixels of the photograph. Specks are the fraction of pixels that differ from the median of their
-5x5 neighbours by more than 0.15, where the photograph differs by less than 0.05.
+Holes: mean of 1 - alpha where the photograph is opaque. Specks: fraction of pixels that differ from
+the median of their 5x5 neighbours by more than 0.15, where the photograph differs by less than 0.05.
 
 Examples:
   tureen eval soup.glb lego

@@ -120,7 +120,7 @@ measurement has the frame time and E_render, the error against the oracle's imag
 unchanged scene. The reference for quality settings has 8 x 8 samples per pixel. With photographs,
 the report also has the error against them (E_model), for the baseline too. The choice is the
 fastest configuration within --least-psnr and --most-mismatch; of equally fast ones, the one with
-the fewest changes. Of the quality settings, it contains only the order of splats.
+the fewest changes. It never changes resolution or samples.
 docs/tradeoff.md describes the method.
 
 Examples:
@@ -187,7 +187,7 @@ on the device, or the output cannot be written.)");
       "--no-flip", [options] { options->with_flip = false; },
       "do not compute FLIP; saves most of the time for the metrics");
   command.add_flag("--processor-time", options->processor_time,
-                   "measure the processor time of all threads instead of elapsed time, for ratios "
+                   "measure the CPU time of all threads instead of elapsed time, for ratios "
                    "on a busy machine; software OpenGL only");
   add_context_option(command, options->backend);
   command.add_flag("--json", options->json, "print the result as JSON to standard output");

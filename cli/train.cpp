@@ -102,7 +102,7 @@ class TrainingWindow {
                       fs::absolute(files_.log).string()});
     } catch (const Error& error) {
       failed_ = true;
-      say(std::string("The training goes on without its window: ") + error.what());
+      say(std::string("The window failed; training continues: ") + error.what());
     }
   }
 
@@ -267,9 +267,8 @@ void add_file_options(Command& command, TrainOptions& options) {
                   "steps between checkpoints in OUT.checkpoint; every two minutes by default")
       .check(between(1, 10'000'000))
       .value_name("N");
-  command.add_flag(
-      "--resume", job.resume,
-      "continue from OUT.checkpoint; the scene is the same as without the interruption");
+  command.add_flag("--resume", job.resume,
+                   "continue from OUT.checkpoint; gives the same result as an uninterrupted run");
   command
       .add_option(
           "--preview-every", job.preview_every,
@@ -278,9 +277,10 @@ void add_file_options(Command& command, TrainOptions& options) {
           "ffmpeg is installed")
       .check(between(1, 10'000'000))
       .value_name("N");
-  command.add_flag("--watch", options.watch,
-                   "show the training in a window: the scene, curves, pause, stop and keep; the "
-                   "window's scene is OUT.watch.glb");
+  command.add_flag(
+      "--watch", options.watch,
+      "open a window with the scene and loss curves, to pause, stop or finish the run; its "
+      "scene is OUT.watch.glb");
 }
 
 }  // namespace
@@ -290,8 +290,8 @@ void add_train(Command& program) {
   Command command = program.add_command("train", "Train a scene from photographs");
   command.footer(
       R"(Trains a scene to match the photographs: triangles with lattice textures and a color MLP
-(--method diffsoup), Gaussians or, with --flat, discs (--method gaussians), soft or opaque triangles
-with one color each, which depends on the direction (--method triangles), or ellipsoids with a small
+(--method diffsoup), Gaussians or, with --flat, discs (--method gaussians), triangles (soft, or opaque
+with --opaque) with one view-dependent colour each (--method triangles), or ellipsoids with a small
 network each (--method neural). Writes the scene as OUT.glb and a log as OUT.jsonl, and measures the
 scene on the test views. Ctrl-C writes a checkpoint; --resume continues from it. Equal seeds give
 equal scenes on a CPU, with any number of threads. For all methods but diffsoup, --max-memory also
@@ -301,11 +301,11 @@ Examples:
   tureen train lego -o lego.glb
   tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
   tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
-  tureen train lego -o lego.glb --method gaussians --minutes 5   as much as 5 minutes allow
+  tureen train lego -o lego.glb --method gaussians --minutes 5   as many steps as fit in 5 minutes
   tureen train lego -o lego.glb --method triangles --opaque    a soup with one color each
   tureen train lego -o lego.glb --method neural --max-bytes 100000   a very small scene
   tureen train lego -o lego.glb --preview-every 500          write previews
-  tureen train lego -o lego.glb --watch                      show the training in a window
+  tureen train lego -o lego.glb --watch                      watch the training in a window
   tureen train lego -o better.glb --init lego.glb            continue from a trained soup
   tureen train lego --print-config > lego.json               all constants, for --config
 

@@ -16,8 +16,8 @@ struct BenchClock {
   std::function<double()> now;  // seconds; empty: the steady clock
 };
 
-/// The steady clock, or with --processor-time the processor time of all threads. Throws UsageError
-/// if that is requested for hardware, whose work takes no processor time.
+/// The steady clock, or with --processor-time the CPU time of all threads. Throws UsageError
+/// if that is requested for hardware, whose work takes no CPU time.
 BenchClock clock_for(const BenchDevice& device, bool processor_time);
 
 }  // namespace tureen::cli

@@ -53,7 +53,7 @@ std::function<void()> add_renderer_option(Command& command, const ProcessorRende
   for (const ProcessorRenderer& each : renderers) choices.emplace_back(each.name, &each);
   add_choice(command, "--renderer NAME", renderer, std::move(choices),
              "what draws: gl (default); oracle: the reference in double precision, seconds to "
-             "hours per image; tiles: splats on the processor. Only gl needs OpenGL");
+             "hours per image; tiles: splats on the CPU. Only gl needs OpenGL");
   std::vector<std::pair<std::string, Option>> options;
   for (const char* name : gl_options) options.emplace_back(name, command.option(name));
   return [&renderer, options = std::move(options)] {

@@ -18,7 +18,7 @@ struct ProcessorImages {
   std::function<void(double)> progress;  // called with the fraction done of an image
 };
 
-/// Draws whole images on the processor.
+/// Draws whole images on the CPU.
 struct ProcessorRenderer {
   const char* name;  // as --renderer takes it
   /// The scene must outlive the result. Throws UsageError for what it does not support.

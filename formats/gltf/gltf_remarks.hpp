@@ -13,8 +13,8 @@ inline constexpr RemarkKind corners_dropped{"corners_dropped", Severity::loss,
                                             "three; the incomplete triangle is skipped"};
 inline constexpr RemarkKind splat_colors_linear{
     "splat_colors_linear", Severity::loss,
-    "the splats were trained and are blended in linear light; they are drawn as if their colours "
-    "were display-referred, and look different"};
+    "colours will differ: the file expects blending in linear light, and Tureen blends "
+    "display-referred colours"};
 inline constexpr RemarkKind vertex_colors_srgb{"vertex_colors_srgb", Severity::note,
                                                "vertex colours are read as sRGB, as requested"};
 inline constexpr RemarkKind vertex_colors_linear{"vertex_colors_linear", Severity::note,

@@ -195,7 +195,7 @@ class DiffsoupMethod final : public TrainingMethod {
  private:
   OwnFact preset_note(const Dataset& dataset) const {
     return {"preset", std::string(config_.preset == Preset::object ? "object" : "scene"),
-            dataset.has_alpha ? "The images have alpha: --preset object"
+            dataset.has_alpha ? "Using preset object, because the images have alpha"
             : background_     ? "The images have no alpha, but borders of one colour, their "
                                 "background: --preset object"
                               : "The images have no alpha: --preset scene"};

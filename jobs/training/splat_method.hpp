@@ -72,7 +72,7 @@ class SplatMethod : public TrainingMethod {
   explicit SplatMethod(const TrainingOptions& options) : options_(options) {
     if (options.steps && options[minutes_option].number)
       throw UsageError("--steps and --minutes exclude each other",
-                       "--minutes fits the number of steps to the time");
+                       "use one: --minutes chooses the number of steps");
   }
 
   void resume(const std::filesystem::path& checkpoint) override {

@@ -10,7 +10,7 @@ using trainer::WindowConfig;
 const MethodOption opaque_option{
     .name = "opaque",
     .help = "triangles become opaque at the end; the result is a triangle soup",
-    .instead = "the triangles of a soup are always opaque, and Gaussians stay soft"};
+    .instead = "--method triangles can end with opaque triangles; those of a soup always are"};
 
 class TrianglesMethod final : public SplatMethod<WindowConfig, trainer::WindowParameters> {
  public:

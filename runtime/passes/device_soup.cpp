@@ -39,7 +39,7 @@ void DeviceSoup::set_first_slot(const gl::Program& program) const {
 
 void DeviceSoup::draw_faces(const gl::Program& opaque, const gl::Program& cut_out,
                             const FrameCamera& camera, const FrameTarget& target) {
-  if (search_rests_ > 0) --search_rests_;
+  if (frames_until_retry_ > 0) --frames_until_retry_;
   const auto& clusters = plan_.clusters;
   std::size_t opaque_clusters = 0;
   while (opaque_clusters < clusters.size() &&
@@ -61,7 +61,7 @@ void DeviceSoup::draw_clusters(const gl::Program& program, std::span<const Clust
   set_first_slot(program);
   order_.sort(clusters, glm::vec3(camera.eye), glm::vec3(forward_of(camera.camera)));
   const auto first = order_.first_vertices(), count = order_.vertex_counts();
-  if (covered_ && search_rests_ == 0 && covered_->begin_frame(camera, subpixel_bits_)) {
+  if (covered_ && frames_until_retry_ == 0 && covered_->begin_frame(camera, subpixel_bits_)) {
     draw_covered(first, count);
     return;
   }
@@ -76,7 +76,7 @@ void DeviceSoup::draw_covered(std::span<const std::int32_t> first,
   std::size_t all = 0;
   for (const std::int32_t each : count) all += static_cast<std::size_t>(each);
   if (static_cast<double>(vertices_.size()) > worthwhile * static_cast<double>(all))
-    search_rests_ = rested_frames;
+    frames_until_retry_ = retry_interval;
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, covered_vertices_.id());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                static_cast<GLsizeiptr>(vertices_.size() * sizeof vertices_[0]), vertices_.data(),

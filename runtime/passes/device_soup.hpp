@@ -78,8 +78,8 @@ class DeviceSoup {
   /// Culling costs time for every face. If more than this fraction of the faces remains, the next
   /// frames draw all faces; the image is the same.
   static constexpr double worthwhile = 0.7;
-  static constexpr int rested_frames = 30;  // the search then runs only once in 30 frames
-  int search_rests_ = 0;                    // frames
+  static constexpr int retry_interval = 30;  // the search is then retried every 30 frames
+  int frames_until_retry_ = 0;               // frames
 };
 
 }  // namespace tureen

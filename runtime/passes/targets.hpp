@@ -1,4 +1,4 @@
-// Textures and framebuffers of the window's size.
+// Textures and framebuffers of the frame's size.
 #pragma once
 
 #include <cstdint>

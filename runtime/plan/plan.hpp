@@ -1,5 +1,5 @@
 // The plan: the method of drawing a scene on a device, with the applied specialisations. It is
-// computed once, without GL; the pipelines follow it. plan_description.hpp describes it in English.
+// computed once, without GL; the passes follow it. plan_description.hpp describes it in English.
 // A test compares each specialisation with the plan made with `specialise = false`.
 #pragma once
 

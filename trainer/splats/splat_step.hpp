@@ -11,7 +11,7 @@
 
 namespace tureen::trainer {
 
-/// epsilon is that of 3DGS's code: smaller than any gradient that counts.
+/// epsilon is that of 3DGS's code: far below typical gradients.
 struct SplatAdam {
   float beta1 = 0.9f, beta2 = 0.999f;
   float epsilon = 1e-15f;

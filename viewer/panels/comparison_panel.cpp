@@ -25,8 +25,7 @@ void started_training_rows(State& state) {
   const Disabled disabled(state.started->is_stopped);
   if (button(state.started->is_stopped ? "Stopping .." : "Stop the training"))
     state.ask(StopTraining{});
-  tip("As Ctrl-C in a terminal. After its first step, a stopped training can continue from its "
-      "checkpoint.");
+  tip("Stops after the current step and writes a checkpoint, from which the training can continue");
 }
 
 void comparison_panel(State& state) {

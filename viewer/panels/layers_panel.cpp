@@ -67,7 +67,7 @@ bool numbers_row(const char* name, std::span<double> values, double speed, const
 bool place_rows(Similarity& numbers, double radius) {
   bool changed = numbers_row("Position", std::span(&numbers.position.x, 3), radius / 500,
                              length_format(radius).c_str());
-  tip("Of the layer's origin, in world units: x, y, z. Drag, or double-click to type");
+  tip("Position in world units (x, y, z). Drag, or double-click to type");
   changed |= numbers_row("Rotation", std::span(&numbers.angles.x, 3), 0.5, "%.5g");
   tip("In degrees, about the world's axes through the layer's origin: first about x, then y, then "
       "z; "

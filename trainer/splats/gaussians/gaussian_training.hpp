@@ -36,13 +36,13 @@ struct GaussianTraining {
   /// A factor of the rate of positions.
   static float position_rate(const Parameters&) { return 1; }
 
-  /// After a step: nothing is to be limited.
+  /// Gaussians need no limits after a step.
   static void limit(const Config&, int, Parameters&) {}
 
   /// The first splats are round; discs have random orientations. A size is their standard
-  /// deviation: a quarter of the side of a cube that is a splat's share of the volume, and at
-  /// points the mean distance to this many others (as 3DGS), if it is between the lowest and the
-  /// highest scale; coincident points have distance 0.
+  /// deviation. Random splats: a quarter of their mean spacing. At points: the mean distance to
+  /// this many others (as 3DGS), if it is between the lowest and the highest scale; coincident
+  /// points have distance 0.
   static constexpr std::size_t neighbours = 3;
   static double size_of_share(const Config&, double side) { return side / 4; }
   static double size_at_point(const Config& config, double distance, double spacing,

@@ -40,7 +40,7 @@ struct NeuralTraining {
   static DensifyReport densify(const Config& config, int step, int number, Random& random,
                                Parameters& parameters, SplatMemory& memory);
 
-  /// After a step: nothing is to be limited.
+  /// Neural densities need no limits after a step.
   static void limit(const Config&, int, Parameters&) {}
 
   /// The first densities are balls. A size is their radius: half of the side of a cube that is a
