@@ -47,6 +47,7 @@ Scene header_of(const SceneSource& source) {
       scene.layers[0].name = source.as_read(layers[0])->name;
   }
   scene.quality = document.quality;
+  if (document.background) scene.info.background = *document.background;
   choose_up(scene.info, glm::vec3(document.up));
   return scene;
 }

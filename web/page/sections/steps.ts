@@ -1,0 +1,48 @@
+// Undo, Redo, and the list of steps: a click goes to one.
+
+import type { Viewer } from '../../viewer/types.js';
+import { block, button, make } from '../../common/dom.js';
+import type { Loading } from '../loading.js';
+
+export class StepsSection {
+  private readonly undoButton = button('undo');
+  private readonly redoButton = button('redo');
+  private readonly list = block('steps');
+
+  constructor(private readonly viewer: Viewer, private readonly loading: Loading, private readonly tell: (sentence: string) => void) {
+    this.undoButton.addEventListener('click', () => void this.undo());
+    this.redoButton.addEventListener('click', () => void this.redo());
+    viewer.on('steps', () => this.update());
+    this.update();
+  }
+
+  async undo(): Promise<void> {
+    const { names, position } = this.viewer.steps, name = names[position - 1];
+    if (name === undefined) return this.tell('There is nothing to undo.');
+    if (await this.loading.step(name, (signal) => this.viewer.undo({ signal }))) this.tell(`Undone: ${name}`);
+  }
+
+  async redo(): Promise<void> {
+    const { names, position } = this.viewer.steps, name = names[position];
+    if (name === undefined) return this.tell('There is nothing to redo.');
+    if (await this.loading.step(name, (signal) => this.viewer.redo({ signal }))) this.tell(`Redone: ${name}`);
+  }
+
+  private update(): void {
+    const { names, position } = this.viewer.steps;
+    this.undoButton.disabled = position === 0;
+    this.redoButton.disabled = position === names.length;
+    block('steps-part').hidden = names.length === 0;
+    const hadFocus = this.list.contains(document.activeElement);
+    this.list.replaceChildren(...['Before the first step', ...names].map((name, index) => {
+      const go = make('button', {
+        type: 'button', class: `plain go${index > position ? ' undone' : ''}`, 'aria-current': index === position ? 'step' : null,
+      }, name);
+      go.addEventListener('click', () => void this.loading.step(name, (signal) => this.viewer.goToStep(index, { signal })));
+      return make('li', {}, go);
+    }));
+    const current = this.list.children[position];
+    if (hadFocus) (current?.firstElementChild as HTMLElement | null)?.focus();
+    current?.scrollIntoView({ block: 'nearest' });
+  }
+}
