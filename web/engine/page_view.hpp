@@ -29,9 +29,9 @@ struct LayerFacts {
 /// The data of a scene that its renderer does not have.
 struct ShownScene {
   Subject subject;
-  std::vector<Camera> cameras;
+  std::vector<Camera> cameras = {};
   glm::vec3 background{0.0f};
-  std::vector<std::string> names;  // of its layers
+  std::vector<std::string> names = {};  // of its layers
 };
 
 class PageView {
