@@ -43,7 +43,7 @@ set(limits
   "code cli 6360: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
-  "bytes page 420000: 2 s over a connection of 1.7 Mbit/s")
+  "bytes page 410000: 2 s over a connection of 1.7 Mbit/s")
 
 set(wrong "")
 

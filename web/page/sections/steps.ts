@@ -41,8 +41,9 @@ export class StepsSection {
       go.addEventListener('click', () => void this.loading.step(name, (signal) => this.viewer.goToStep(index, { signal })));
       return make('li', {}, go);
     }));
-    const current = this.list.children[position];
-    if (hadFocus) (current?.firstElementChild as HTMLElement | null)?.focus();
-    current?.scrollIntoView({ block: 'nearest' });
+    const current = this.list.children[position]!;
+    if (hadFocus) current.querySelector('button')!.focus();
+    // Scrolls only the list, not the panel around it.
+    this.list.scrollTop = current.getBoundingClientRect().top - this.list.children[0]!.getBoundingClientRect().top - this.list.clientHeight / 2;
   }
 }
