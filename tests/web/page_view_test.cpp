@@ -97,22 +97,22 @@ struct PageViews : testing::Test {
 };
 
 TEST_F(PageViews, UploadOnlyWhatTheDeviceLacks) {
-  const std::size_t bytes = view.renderer().device_bytes();
+  const std::size_t bytes = view.renderer()->device_bytes();
   const LayerId soup = id(0), splats = id(1), mesh = id(2);
   view.place_layer(soup, at_origin({0.2, 0, 0}));
   view.show_layer(splats, false);
   view.move_layer(mesh, 0);
   EXPECT_THAT(view.missing(), IsEmpty());
-  EXPECT_EQ(view.renderer().device_bytes(), bytes);
+  EXPECT_EQ(view.renderer()->device_bytes(), bytes);
   EXPECT_EQ(image().pixels, expected().pixels);
   view.remove_layer(soup);
-  EXPECT_LT(view.renderer().device_bytes(), bytes);
+  EXPECT_LT(view.renderer()->device_bytes(), bytes);
   EXPECT_EQ(image().pixels, expected().pixels);
   EXPECT_THAT(steps(), ElementsAre("Move soup", "Hide splats", "Reorder mesh", "Remove soup"));
   EXPECT_THAT(view.go_to(3), ElementsAre(soup));
   EXPECT_EQ(view.history().position(), 4u) << "nothing has changed";
   EXPECT_THAT(go_to(3), ElementsAre(soup));
-  EXPECT_EQ(view.renderer().device_bytes(), bytes);
+  EXPECT_EQ(view.renderer()->device_bytes(), bytes);
   EXPECT_THAT(go_to(0), IsEmpty());
   EXPECT_EQ(image().pixels, expected().pixels);
 }
@@ -191,7 +191,7 @@ TEST_F(PageViews, ADragIsOneStepAndAMovedViewIsNone) {
 
 TEST_F(PageViews, AddedLayersAreOneStepAfterAllAreUploaded) {
   const Document before = view.document();
-  const std::size_t bytes = view.renderer().device_bytes();
+  const std::size_t bytes = view.renderer()->device_bytes();
   const Image8 without = image();
   const Primitives soup = test::random_soup(9, {}),
                    splats = test::random_splats(test::splat_kinds[1], 20, 0.2, 3);
@@ -200,7 +200,7 @@ TEST_F(PageViews, AddedLayersAreOneStepAfterAllAreUploaded) {
   EXPECT_TRUE(same(view.document(), before));
   EXPECT_EQ(image().pixels, without.pixels) << "hidden until their step";
   view.drop_uploaded();
-  EXPECT_EQ(view.renderer().device_bytes(), bytes) << "cancelled";
+  EXPECT_EQ(view.renderer()->device_bytes(), bytes) << "cancelled";
   view.upload(prepared(soup), "soup 2");
   view.remove_layer(id(2));  // meanwhile
   view.upload(prepared(splats), "splats 2");
@@ -226,6 +226,7 @@ TEST_F(PageViews, KeepDocumentHistoryAndViewWhenTheDeviceIsLost) {
   const std::vector<LayerId> shown{id(0), id(1)};
   view.lose_device();
   EXPECT_FALSE(view.shows_scene());
+  EXPECT_EQ(view.renderer(), nullptr);
   EXPECT_EQ(view.missing(), shown);
   upload_again({shown[1], shown[0]});
   EXPECT_EQ(image().pixels, before.pixels);

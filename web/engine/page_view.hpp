@@ -59,7 +59,10 @@ class PageView {
   void drop_scene();
   /// Whether a frame shows a scene or a preview.
   bool shows_scene() const { return current() && current()->renderer; }
-  const Renderer& renderer() const { return *stage_->renderer; }
+  /// That of the scene; null without one, and after the device was lost.
+  const Renderer* renderer() const {
+    return stage_ && stage_->renderer ? &*stage_->renderer : nullptr;
+  }
 
   // The document, without primitives: that of the scene, not of a preview. Functions with a
   // LayerId throw UsageError if it lacks the layer. After each change, the device follows, and the

@@ -69,15 +69,18 @@ void clear(Engine& engine) {
 
 /// The scene's plan, number of drawn primitives, and memory.
 Json facts(Engine& engine, const Json&) {
-  const Renderer& renderer = engine.page().renderer();
-  std::size_t drawn = 0;
-  for (const std::shared_ptr<LayerPlan>& layer : renderer.plan().layers) {
-    const auto* soup = std::get_if<SoupPlan>(layer.get());
-    drawn += soup ? soup->faces.size() : std::get<SplatPlan>(*layer).drawn.size();
+  const Renderer* const renderer = engine.page().renderer();
+  Json plan = Json::array();
+  std::size_t drawn = 0, device_bytes = 0;
+  if (renderer) {
+    for (const std::shared_ptr<LayerPlan>& layer : renderer->plan().layers) {
+      const auto* soup = std::get_if<SoupPlan>(layer.get());
+      drawn += soup ? soup->faces.size() : std::get<SplatPlan>(*layer).drawn.size();
+    }
+    plan = describe(renderer->plan());
+    device_bytes = renderer->device_bytes();
   }
-  return object({{"plan", describe(renderer.plan())},
-                 {"drawn", drawn},
-                 {"device_bytes", renderer.device_bytes()}});
+  return object({{"plan", plan}, {"drawn", drawn}, {"device_bytes", device_bytes}});
 }
 
 // -- the document -------------------------------------------------------------------------------

@@ -107,9 +107,9 @@ class CanvasViewer implements Viewer {
   private readonly observer: ResizeObserver;
   private readonly ending = new AbortController();
   private loading: Loading | null = null;
-  /** Resolves when no load runs and no layers are being added. */
+  /** Resolves when no load runs, no layers are being added, and no step is under way. */
   private turn: Promise<unknown> = Promise.resolve();
-  /** Number of calls that cancel earlier loads and additions. */
+  /** Number of calls that cancel earlier loads, additions and steps. */
   private cancellations = 0;
   /** The description of the loaded scene, with the background, the up axis and the cameras. */
   private first: SceneDescription | null = null;
@@ -329,15 +329,15 @@ class CanvasViewer implements Viewer {
     this.ask();
   }
 
-  /** Removes the scene, if there is one. */
+  /** Removes the scene. */
   private removeScene(): void {
     this.engine.call('clear');
     if (this.shown) this.forgetScene();
     this.ask();
   }
 
-  /** After the engine has removed the scene. */
   private forgetScene(): void {
+    this.engine.call('drop_scene');
     this.first = this.shown = null;
     this.origins.clear();
     ++this.generation;
@@ -356,7 +356,7 @@ class CanvasViewer implements Viewer {
       this.beginScene({ source, description, level }, parcel, namesOf(description), 0);
     } catch (error) {
       if (this.isGone) throw new ViewerError('The browser reset the graphics device: open the scene again.', 'device');
-      if (this.shown) this.forgetScene();  // the engine has removed it
+      if (this.shown) this.forgetScene();  // the device held only one of them
       if (isShortage(error)) return error.message;
       throw error;
     }
