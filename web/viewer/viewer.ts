@@ -398,12 +398,12 @@ class CanvasViewer implements Viewer {
   }
 
   private reportLayers(): void {
-    this.emit('layers', this.layers);
+    if (this.listeners.layers?.size) this.emit('layers', this.layers);
     this.reportStep();
   }
 
   private reportStep(): void {
-    this.emit('steps', this.steps);
+    if (this.listeners.steps?.size) this.emit('steps', this.steps);
     this.ask();
   }
 
