@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { drawingRoutes } from './drawing.mjs';
 import { square } from './scenes.mjs';
 import { splatPly } from './splat_ply.mjs';
-import { drop, each, errors, image, often, scratch, stage, still, test } from './support.mjs';
+import { drop, each, errors, errorShown, image, often, scratch, stage, still, test } from './support.mjs';
 
 const files = { red: square(2, '255 0 0'), green: square(1.5, '0 255 0'), splats: splatPly(400) };
 const folder = scratch();
@@ -280,6 +280,11 @@ test('keys, buttons and the list undo and redo; dropped files return', () => vis
   await page.locator('#layers-part').waitFor({ state: 'hidden' });
   assert.equal(await page.isDisabled('#undo'), true);
   assert.deepEqual(await errors(page), []);
+  writeFileSync(join(folder, 'splats.ply'), files.green);
+  await page.keyboard.press('Control+y');
+  assert.match(await errorShown(page), /splats\.ply.*changed/);
+  assert.equal(await current(page), 'Before the first step', 'nothing has changed');
+  writeFileSync(join(folder, 'splats.ply'), files.splats);
 }));
 
 test('a text field has its own undo; a colour that is chosen is one step', () => visit('?scene=red.ply', async (page) => {

@@ -10,22 +10,17 @@ export class StepsSection {
   private readonly list = block('steps');
 
   constructor(private readonly viewer: Viewer, private readonly loading: Loading, private readonly tell: (sentence: string) => void) {
-    this.undoButton.addEventListener('click', () => void this.undo());
-    this.redoButton.addEventListener('click', () => void this.redo());
+    this.undoButton.addEventListener('click', () => void this.go('undo'));
+    this.redoButton.addEventListener('click', () => void this.go('redo'));
     viewer.on('steps', () => this.update());
     this.update();
   }
 
-  async undo(): Promise<void> {
-    const { names, position } = this.viewer.steps, name = names[position - 1];
-    if (name === undefined) return this.tell('There is nothing to undo.');
-    if (await this.loading.step(name, (signal) => this.viewer.undo({ signal }))) this.tell(`Undone: ${name}`);
-  }
-
-  async redo(): Promise<void> {
-    const { names, position } = this.viewer.steps, name = names[position];
-    if (name === undefined) return this.tell('There is nothing to redo.');
-    if (await this.loading.step(name, (signal) => this.viewer.redo({ signal }))) this.tell(`Redone: ${name}`);
+  async go(what: 'undo' | 'redo'): Promise<void> {
+    const { names, position } = this.viewer.steps, name = names[what === 'undo' ? position - 1 : position];
+    if (name === undefined) return this.tell(`There is nothing to ${what}.`);
+    if (await this.loading.step(name, (signal) => this.viewer[what]({ signal })))
+      this.tell(`${what === 'undo' ? 'Undone' : 'Redone'}: ${name}`);
   }
 
   private update(): void {
