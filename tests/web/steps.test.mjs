@@ -149,19 +149,28 @@ part('a source that is gone stops the undo, and nothing has changed', async (pag
 });
 
 part('steps wait for one another, and a new scene begins without them', async (page) => {
-  const { kind, names, positions } = await page.evaluate(async () => {
+  const { kinds, meanwhile, names, positions } = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
     const adding = viewer.addLayers({ url: 'green.ply' });
     const positions = [];
     viewer.on('steps', ({ position }) => positions.push(position));
     await Promise.all([adding, viewer.undo(), viewer.undo(), viewer.redo()]);
     viewer.removeLayer(0);
+    const reading = viewer.undo().then(() => null, (error) => error.kind);
+    await new Promise((resolve) => setTimeout(resolve));  // the undo reads the source
+    viewer.setLayer(0, { visible: false });
+    const kinds = [await reading], meanwhile = viewer.steps.names;
+    viewer.removeLayer(0);
+    await viewer.load({ url: 'red.ply' });
+    await viewer.addLayers({ url: 'green.ply' });
+    viewer.removeLayer(0);
     const undone = viewer.undo().then(() => null, (error) => error.kind);
     await viewer.load({ url: 'splats.ply' });
-    return { kind: await undone, names: viewer.steps.names, positions };
+    return { kinds: [...kinds, await undone], meanwhile, names: viewer.steps.names, positions };
   });
   assert.deepEqual(positions.slice(0, 3), [1, 0, 1]);
-  assert.equal(kind, 'cancelled');
+  assert.deepEqual(kinds, ['cancelled', 'cancelled']);
+  assert.deepEqual(meanwhile, ['Add green', 'Remove red', 'Hide green']);
   assert.deepEqual(names, []);
 });
 

@@ -261,8 +261,8 @@ export interface Viewer {
   readonly steps: Steps;
   /** While it is true, changes of the same thing are one step: set it while the user drags. */
   holding: boolean;
-  /** Undoes the last step, if there is one, after earlier loads and additions. `load`, `clear` and the signal cancel it;
-   *  then nothing has changed. Rejects with ViewerError, also if a source cannot be read again. */
+  /** Undoes the last step, if there is one, after earlier loads and additions. `load`, `clear`, the signal, and a step that
+   *  is made while sources are read cancel it; then nothing has changed. Rejects with ViewerError, also if a source cannot be read again. */
   undo(options?: { readonly signal?: AbortSignal }): Promise<void>;
   /** Repeats the next undone step; otherwise as undo(). */
   redo(options?: { readonly signal?: AbortSignal }): Promise<void>;

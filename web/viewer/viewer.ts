@@ -601,17 +601,20 @@ class CanvasViewer implements Viewer {
       if (wanted === position || wanted < 0 || wanted > names.length) return;
       this.requireDevice();
       const go = () => this.engine.call<number[]>('go_to', wanted), missing = go();
-      if (missing.length > 0) await this.inColors(() => this.goWith(missing, go, options.signal));
+      if (missing.length > 0)
+        await this.inColors(() => this.uploadFor(missing, options.signal, () => {
+          if (this.steps.position !== position || go().length > 0) throw cancelled();  // another step was made meanwhile
+        }));
       this.moved = true;  // the up axis may have changed
       this.report();
     });
   }
 
-  /** Goes to a step after reading the layers again that the device lacks. */
-  private async goWith(missing: readonly number[], go: () => readonly number[], signal: AbortSignal | undefined): Promise<void> {
+  /** Reads the layers again that the device lacks for a step, and goes to it. */
+  private async uploadFor(missing: readonly number[], signal: AbortSignal | undefined, go: () => void): Promise<void> {
     try {
       for (const [part, ids] of this.byPart(missing)) await this.uploadAgain(part, ids, signal);
-      if (go().length > 0) throw cancelled();  // by a change of the layers meanwhile
+      go();
     } catch (error) {
       this.engine.call('drop_uploaded');
       throw error;
