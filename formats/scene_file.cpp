@@ -52,8 +52,16 @@ struct Format {
   bool is_folder = false;
   bool (*recognises)(const Candidate&) = nullptr;
   Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: write only
-  std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&) = nullptr;
+  std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&,
+                                    const std::function<void(double)>& progress) = nullptr;
 };
+
+/// A writer that does not report its progress.
+template <auto write>
+std::vector<std::string> silent(const Scene& scene, const std::filesystem::path& path,
+                                const std::function<void(double)>&) {
+  return write(scene, path);
+}
 
 /// In the order of recognition: the first format that recognises a file reads it.
 const std::vector<Format>& formats() {
@@ -72,7 +80,7 @@ const std::vector<Format>& formats() {
        .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        .read = read_off,
-       .write = writes_files ? write_off : nullptr},
+       .write = writes_files ? silent<write_off> : nullptr},
       {.name = "PLY",
        .description = "triangles with one colour per face or vertex, or splats (3DGS, 2DGS, GaMeS, "
                       "SplatNet; compressed PLY is only read)",
@@ -80,13 +88,13 @@ const std::vector<Format>& formats() {
        .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
        .read = read_ply,
-       .write = writes_files ? write_ply : nullptr},
+       .write = writes_files ? silent<write_ply> : nullptr},
       {.name = "DiffSoup export",
        .description = "lattice textures and a color MLP, for the web",
        .is_folder = true,
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
-       .write = writes_files ? write_diffsoup_export : nullptr},
+       .write = writes_files ? silent<write_diffsoup_export> : nullptr},
 #ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
       {.name = "octagon mesh",
        .description = "REdiSplats: octagons as flat Gaussians",
@@ -244,8 +252,9 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
 
 void require_written_format(const std::filesystem::path& path) { format_to_write(path); }
 
-std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path) {
-  return format_to_write(path).write(scene, path);
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
+                                     const std::function<void(double)>& progress) {
+  return format_to_write(path).write(scene, path, progress);
 }
 
 std::vector<FormatInfo> known_formats() {

@@ -25,8 +25,10 @@ void require_written_format(const std::filesystem::path& path);
 /// Writes by the extension of `path`: .glb, .off, .coff, .ply, or a DiffSoup export folder if there
 /// is none. The output is complete or absent. Returns one sentence for each loss of the format.
 /// Throws UsageError if the format cannot store this scene or the extension is unknown. Throws
-/// OutputError if the output cannot be written.
-std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
+/// OutputError if the output cannot be written. `progress`: as that of write_tureen_glb(); other
+/// formats do not call it.
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
+                                     const std::function<void(double)>& progress = {});
 
 /// One row of the table of formats, for help texts.
 struct FormatInfo {

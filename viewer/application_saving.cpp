@@ -47,7 +47,8 @@ void Application::carry_out(const SaveScene& request) {
   const auto work = [this, wish, source = state_.source, state = state_.history.state(),
                      opened = opened_](const Worker::Progress& progress) {
     progress(0);
-    auto saved = std::make_shared<Saved>(save_scene(source, wish.file, wish.accepts_losses));
+    auto saved =
+        std::make_shared<Saved>(save_scene(source, wish.file, wish.accepts_losses, progress));
     return Worker::Completion([this, wish, source, state, opened, saved] {
       if (!saved->is_written) {
         state_.saving = {};

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ bool is_tureen_glb(const GlbContainer& glb);
 /// Memory in addition to the scene: the vertex colours for other glTF viewers (8 bytes a vertex of
 /// the glTF mesh, and as many a splat), the encoded images, and a second copy of the harmonics of
 /// splats, except triangle windows. Other arrays of the scene are written without a copy.
-std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path);
+///
+/// `progress`: called with 0..1; may throw to give up, then the file is as before.
+std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path,
+                                          const std::function<void(double)>& progress = {});
 
 }  // namespace tureen

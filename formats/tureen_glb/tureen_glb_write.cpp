@@ -383,6 +383,21 @@ bool has_splat_layers(const Scene& scene) {
   });
 }
 
+/// The pixels of the images that store the texels of soups.
+std::uint64_t image_pixels(const Scene& scene) {
+  std::uint64_t pixels = 0;
+  for (const Layer& layer : scene.layers) {
+    const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
+    if (!soup) continue;
+    if (const auto* lattice = std::get_if<LatticeTexture>(&soup->appearance))
+      if (std::holds_alternative<std::vector<std::uint8_t>>(lattice->texels))
+        pixels += 2 * lattice->texel_count();
+    if (const auto* textures = std::get_if<UvTextures>(&soup->appearance))
+      for (const Image8& image : textures->images) pixels += image.pixels.size();
+  }
+  return pixels;
+}
+
 /// Whether versions 1 and 3 can store everything about the layer except its primitives.
 bool is_plain(const Layer& layer) {
   return layer.name.empty() && layer.visible && is_translation(layer);
@@ -391,6 +406,10 @@ bool is_plain(const Layer& layer) {
 /// The document of one file: its arrays, its meshes for other glTF viewers, and its nodes.
 class Document {
  public:
+  void report_to(const std::function<void(double)>& progress, const Scene& scene) {
+    plan_.report_to(progress, image_pixels(scene));
+  }
+
   /// Adds the layer's geometry and appearance to `extension`, and its mesh. Returns the mesh's
   /// index, or null for a layer without faces: glTF does not allow an empty mesh.
   json add_primitives(json& extension, const Layer& layer) {
@@ -483,13 +502,15 @@ class Document {
 
 }  // namespace
 
-std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path) {
+std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path,
+                                          const std::function<void(double)>& progress) {
   if (scene.layers.size() > max_layers)
     throw UsageError("a GLB holds at most " + std::to_string(max_layers) +
                      " layers; this scene has " + std::to_string(scene.layers.size()));
   std::vector<std::string> losses;
   json extension = info_json(scene, losses);
   Document document;
+  document.report_to(progress, scene);
   const bool splats = has_splat_layers(scene);
   if (scene.layers.size() <= 1 && is_plain(only_layer(scene)) && !splats) {
     extension["version"] = tureen_extension_version;

@@ -2,10 +2,12 @@
 // JSON of the scene, and the file. Internal to tureen_glb_*.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -76,6 +78,8 @@ class BinaryPlan {
 
   std::size_t image(const Image8& image) {
     images.push_back({{"bufferView", owned_view(encode_png(image))}, {"mimeType", "image/png"}});
+    encoded_pixels_ += image.pixels.size();
+    report(0);
     return images.size() - 1;
   }
 
@@ -83,10 +87,22 @@ class BinaryPlan {
 
   void write(Output& output) const {
     static constexpr std::byte zeros[4]{};
+    constexpr std::size_t block = 16 << 20;  // a fraction of a second on a slow disk
+    std::uint64_t written = 0;
     for (const auto& piece : pieces_) {
-      output.write(piece);
+      for (std::size_t at = 0; at < piece.size(); at += block) {
+        const auto part = piece.subspan(at, std::min(block, piece.size() - at));
+        output.write(part);
+        report(double(written += part.size()) / double(size_));
+      }
       output.write(std::span(zeros).first((4 - piece.size() % 4) % 4));
     }
+  }
+
+  /// Called with 0..1; may throw. `pixels`: number that image() will get.
+  void report_to(std::function<void(double)> progress, std::uint64_t pixels) {
+    progress_ = std::move(progress);
+    pixels_ = double(pixels);
   }
 
   json buffer_views = json::array();
@@ -94,6 +110,16 @@ class BinaryPlan {
   json images = json::array();
 
  private:
+  /// `written`: part of the bytes. Encoding an image takes far longer than writing it.
+  void report(double written) const {
+    if (!progress_) return;
+    const double share = pixels_ > 0 ? 0.9 : 0;
+    progress_(share * (share > 0 ? double(encoded_pixels_) / pixels_ : 0) + (1 - share) * written);
+  }
+
+  std::function<void(double)> progress_;
+  double pixels_ = 0;
+  std::uint64_t encoded_pixels_ = 0;
   std::uint64_t size_ = 0;
   std::vector<std::span<const std::byte>> pieces_;
   std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move

@@ -28,6 +28,7 @@ struct Document {
   glm::dvec3 up{0.0, 1.0, 0.0};              // unit length
   Quality quality = {};                      // without a defect()
   std::optional<SplatProfile> profile = {};  // of all splats; default: their own
+  std::optional<glm::vec3> background = {};  // display-referred; default: that of the first file
   LayerId next_id = 1;                       // larger than all ids
 
   LayerId new_id() { return next_id++; }

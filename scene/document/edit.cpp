@@ -76,6 +76,9 @@ struct Apply {
   Edit operator()(const ChangeProfile& edit) const {
     return ChangeProfile{std::exchange(document.profile, edit.profile)};
   }
+  Edit operator()(const ChangeBackground& edit) const {
+    return ChangeBackground{std::exchange(document.background, edit.background)};
+  }
 };
 
 struct Describe {
@@ -103,6 +106,7 @@ struct Describe {
   std::string operator()(const ChangeUp&) const { return "Change the up axis"; }
   std::string operator()(const ChangeQuality&) const { return "Change the quality"; }
   std::string operator()(const ChangeProfile&) const { return "Change the profile"; }
+  std::string operator()(const ChangeBackground&) const { return "Change the background"; }
 };
 
 }  // namespace
@@ -119,7 +123,8 @@ bool sets_the_same(const Edit& first, const Edit& second) {
     return place->id == std::get<PlaceLayer>(second).id;
   if (const auto* name = std::get_if<RenameLayer>(&first))
     return name->id == std::get<RenameLayer>(second).id;
-  return std::holds_alternative<ChangeUp>(first) || std::holds_alternative<ChangeQuality>(first);
+  return std::holds_alternative<ChangeUp>(first) || std::holds_alternative<ChangeQuality>(first) ||
+         std::holds_alternative<ChangeBackground>(first);
 }
 
 std::size_t byte_size(const Edit& edit) {

@@ -44,9 +44,12 @@ struct ChangeQuality {
 struct ChangeProfile {
   std::optional<SplatProfile> profile;
 };
+struct ChangeBackground {
+  std::optional<glm::vec3> background;
+};
 
 using Edit = std::variant<AddLayers, RemoveLayers, PlaceLayer, RenameLayer, ShowLayer, ReorderLayer,
-                          ChangeUp, ChangeQuality, ChangeProfile>;
+                          ChangeUp, ChangeQuality, ChangeProfile, ChangeBackground>;
 
 /// Changes the document. Returns the edit that undoes the change: applied to the result, it gives
 /// the document before, except next_id. Ids that the document lacks are ignored, because a file

@@ -16,6 +16,7 @@ bool operator==(const Bounds& a, const Bounds& b) { return a.low == b.low && a.h
 /// What a user sees of the documents.
 bool same(const Document& a, const Document& b) {
   return a.up == b.up && a.quality == b.quality && a.profile == b.profile &&
+         a.background == b.background &&
          std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                     [](const DocumentLayer& x, const DocumentLayer& y) {
                       return x.id == y.id && x.primitives == y.primitives && x.name == y.name &&
@@ -62,7 +63,7 @@ Edit random_edit(Document& document, Random& random) {
   };
   const LayerId id =
       document.layers.empty() ? 0 : document.layers[below(document.layers.size())].id;
-  switch (below(9)) {
+  switch (below(10)) {
     case 0: {
       AddLayers add;
       for (std::size_t i = 0; i < 1 + below(2); ++i)
@@ -84,6 +85,8 @@ Edit random_edit(Document& document, Random& random) {
       return ChangeUp{glm::dvec3(0, 0, below(2) == 0 ? 1 : -1)};
     case 7:
       return ChangeQuality{{.supersampling = 1 + int(below(8))}};
+    case 8:
+      return ChangeBackground{glm::vec3(random.uniform(0, 1))};
     default:
       return ChangeProfile{profile_named(below(2) == 0 ? "3dgs" : "mip")};
   }

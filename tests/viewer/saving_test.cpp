@@ -52,6 +52,33 @@ Edit moved(const SceneSource& source, std::size_t layer) {
                     glm::rotate(at_origin({1, 2, 3}), 0.4, glm::dvec3(0, 0, 1))};
 }
 
+TEST_F(Saving, ReportsProgressAndCanBeCancelled) {
+  const SceneSource source = two_files();
+  const fs::path file = folder_ / "both.glb";
+  std::vector<double> reported;
+  save_scene(source, file, false, [&](double done) { reported.push_back(done); });
+  EXPECT_THAT(reported, SizeIs(testing::Ge(3)));
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_GT(reported.front(), 0);
+  EXPECT_NEAR(reported.back(), 1, 0.01) << "all but the last bytes of padding";
+  const auto size = fs::file_size(file);
+  SceneSource changed = source;
+  apply_edit(changed.document, RemoveLayers{{source.document.layers[0].id}});
+  for (std::size_t calls = 0; calls < 2; ++calls) {
+    std::size_t left = calls;
+    const auto cancel = [&](double) {
+      if (left-- == 0) throw std::runtime_error("cancelled");
+    };
+    EXPECT_THROW(save_scene(changed, file, false, cancel), std::runtime_error);
+    EXPECT_EQ(fs::file_size(file), size) << "the old file stays";
+  }
+  EXPECT_THROW(save_scene(changed, folder_ / "new.ply", true, [](double) { throw 1; }), int)
+      << "also in a format that reports nothing";
+  for (const auto& each : fs::directory_iterator(folder_))
+    EXPECT_THAT(each.path().extension(), testing::AnyOf(".glb", ".ply")) << each.path();
+  EXPECT_FALSE(fs::exists(folder_ / "new.ply"));
+}
+
 TEST_F(Saving, AGlbHoldsTheDocument) {
   SceneSource source = two_files();
   Document& document = source.document;

@@ -51,7 +51,10 @@ const listOfLayers = (how) => () => visit('?scene=soup.glb&scene=soup.glb', asyn
   await page.waitForFunction(() => document.querySelectorAll('#layers li').length === 2 && document.getElementById('loading').hidden);
   if (await page.isHidden('#panel')) await page.click('#toggle-panel');
   await page.click('#layers .go:has-text("soup 2")');
-  await assertAccessible(page, 'layers');
+  for (const box of ['uncheck', 'check']) await page[box]('[aria-label="Show soup 2"]');
+  await page.keyboard.press('Control+z');
+  await page.locator('#steps .undone').waitFor();
+  await assertAccessible(page, 'layers, and steps with an undone one');
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'the panel fits');
 }, how);
 test('a list of layers, on a phone', listOfLayers({ ...phone, colorScheme: 'dark' }));

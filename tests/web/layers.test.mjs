@@ -7,28 +7,11 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { drawingRoutes } from './drawing.mjs';
 import { readPng } from './png.mjs';
+import { square } from './scenes.mjs';
 import {
-  each, errorShown, image, middle, noticeShown, often, pick, programs, sceneShown, scratch, stage, still, test,
-  thorough, view,
+  drop, each, errorShown, image, noticeShown, often, pick, programs, sceneShown, scratch, stage, still, test, thorough, view,
 } from './support.mjs';
 
-/** A square in the plane z = 0 with its centre at the origin, of one colour. */
-const square = (side, color) => `ply
-format ascii 1.0
-element vertex 4
-property float x
-property float y
-property float z
-property uchar red
-property uchar green
-property uchar blue
-element face 2
-property list uchar int vertex_indices
-end_header
-${[[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => `${x * side / 2} ${y * side / 2} 0 ${color}`).join('\n')}
-3 0 1 2
-3 0 2 3
-`;
 const colors = { red: [255, 0, 0], green: [0, 255, 0], blue: [0, 0, 255] };
 const files = { red: square(2, '255 0 0'), green: square(2, '0 255 0'), blue: square(1, '0 0 255') };
 const folder = scratch();
@@ -437,21 +420,23 @@ part('a file of several layers, loaded and added', async (page) => {
   assert.deepEqual(await middleColor(page), colors.blue);
 });
 
-part('layers of a file that was cancelled are removed', async (page) => {
-  const { kind, before, after } = await page.evaluate(async () => {
+part('layers of a file that was cancelled are not added', async (page) => {
+  const { kind, uploaded, after, bytes } = await page.evaluate(async () => {
     await viewer.load({ url: 'red.ply' });
-    const ending = new AbortController();
-    let before = 0;
-    viewer.on('layers', ({ length }) => {
-      if (length === 2) setTimeout(() => ending.abort());
-      before = Math.max(before, length);
+    const ending = new AbortController(), before = viewer.scene.deviceBytes;
+    let uploads = 0;
+    viewer.on('progress', ({ stage }) => {
+      if (stage === 'upload' && ++uploads === 2) setTimeout(() => ending.abort());  // the second of three layers
     });
     const kind = await viewer.addLayers({ url: 'several.glb' }, { signal: ending.signal }).then(() => null, (error) => error.kind);
-    return { kind, before, after: viewer.layers.map(({ name }) => name) };
+    viewer.setLayer(0, { visible: true });
+    await viewer.addLayers({ url: 'red.ply' });
+    return { kind, uploaded: uploads, after: viewer.layers.map(({ name }) => name), bytes: viewer.scene.deviceBytes / before };
   });
   assert.equal(kind, 'cancelled');
-  assert.ok(before > 1);
-  assert.deepEqual(after, ['red']);
+  assert.ok(uploaded > 1);
+  assert.deepEqual(after, ['red', 'red 2']);
+  assert.equal(bytes, 2, 'nothing of it is left on the device');
 });
 
 test('of a file that does not fit, the layers that fit are drawn', () => visit('drawing.html', async (page, profile) => {
@@ -475,15 +460,6 @@ test('of a file that does not fit, the layers that fit are drawn', () => visit('
 test('by the interface', viewing((page, context) => each(context, onOnePage, page)));
 
 // -- the page -------------------------------------------------------------------------------------
-
-/** A drop with the system's events. */
-async function drop(page, paths) {
-  await page.locator('#actions:not([inert])').waitFor();
-  const { x, y } = await middle(page);
-  const client = await page.context().newCDPSession(page);
-  const data = { items: [], files: paths, dragOperationsMask: 1 };
-  for (const type of ['dragEnter', 'dragOver', 'drop']) await client.send('Input.dispatchDragEvent', { type, x, y, data });
-}
 
 /** The names in the list of layers. */
 const names = (page) => page.locator('#layers .go span').allTextContents();

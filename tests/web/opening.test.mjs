@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
-  distance, image, middle, patience, pick, programs, sceneShown, scratch, source, stage, still, test, view,
+  distance, drop, image, middle, patience, pick, programs, sceneShown, scratch, source, stage, still, test, view,
 } from './support.mjs';
 
 const example = join(source, 'examples/soup.glb');
@@ -99,18 +99,6 @@ test('a folder that is picked', () => visit('', async (page) => {
   assert.match(await page.textContent('#facts'), /7,000 triangles/);
 }));
 
-/** A drop with the system's events. */
-async function drop(page, path) {
-  await page.locator('#actions:not([inert])').waitFor();  // earlier drops are ignored
-  const { x, y } = await middle(page);
-  const client = await page.context().newCDPSession(page);
-  const data = { items: [], files: [path], dragOperationsMask: 1 };
-  for (const type of ['dragEnter', 'dragOver']) await client.send('Input.dispatchDragEvent', { type, x, y, data });
-  await page.locator('#drop-here').waitFor();  // the page accepts the drop, soon after the system's event
-  await client.send('Input.dispatchDragEvent', { type: 'drop', x, y, data });
-  await page.locator('#drop-here').waitFor({ state: 'hidden' });
-}
-
 test('a link without an up direction takes the scene\'s', () => visit('?scene=soup.glb#eye=4,-6,3&target=0,0,0', async (page) => {
   await sceneShown(page, 'soup');
   assert.deepEqual((await view(page)).up, [0, 0, 1]);
@@ -123,12 +111,12 @@ test('a link to a view of a file applies to the opened file', () => visit('#eye=
 }));
 
 test('a file that is dropped', () => visit('', async (page) => {
-  await drop(page, example);
+  await drop(page, [example]);
   await sceneShown(page, 'soup');
 }));
 
 test('a folder that is dropped', () => visit('', async (page) => {
-  await drop(page, diffsoup);
+  await drop(page, [diffsoup]);
   await sceneShown(page, 'bowl');
 }));
 

@@ -318,3 +318,15 @@ export async function middle(page) {
   const box = await page.locator('#canvas').boundingBox();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2, box };
 }
+
+/** A drop with the system's events. */
+export async function drop(page, paths) {
+  await page.locator('#actions:not([inert])').waitFor();  // earlier drops are ignored
+  const { x, y } = await middle(page);
+  const client = await page.context().newCDPSession(page);
+  const data = { items: [], files: paths, dragOperationsMask: 1 };
+  for (const type of ['dragEnter', 'dragOver']) await client.send('Input.dispatchDragEvent', { type, x, y, data });
+  await page.locator('#drop-here').waitFor();  // the page accepts the drop, soon after the system's event
+  await client.send('Input.dispatchDragEvent', { type: 'drop', x, y, data });
+  await page.locator('#drop-here').waitFor({ state: 'hidden' });
+}

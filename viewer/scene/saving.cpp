@@ -47,6 +47,7 @@ Scene header_of(const SceneSource& source) {
       scene.layers[0].name = source.as_read(layers[0])->name;
   }
   scene.quality = document.quality;
+  if (document.background) scene.info.background = *document.background;
   choose_up(scene.info, glm::vec3(document.up));
   return scene;
 }
@@ -107,19 +108,21 @@ std::string name_defect(const fs::path& file) {
   return fs::is_directory(folder, unknown) ? "" : "There is no folder " + folder.string() + ".";
 }
 
-Saved save_scene(const SceneSource& source, const fs::path& file, bool accepts_losses) {
+Saved save_scene(const SceneSource& source, const fs::path& file, bool accepts_losses,
+                 const std::function<void(double)>& progress) {
   const fs::path target = writable_file(file);
   const Scene scene = scene_of(source);
   Saved saved;
-  if (accepts_losses || is_glb_name(file)) {
-    saved.lost = write_scene(scene, target);
+  if (is_glb_name(file)) {
+    saved.lost = write_scene(scene, target, progress);
     saved.is_written = true;
   } else {  // writing finds the losses
     fs::path name = temporary_beside(target);
     name += target.extension();
     const TemporaryFile temporary(name);
     saved.lost = write_scene(scene, name);
-    saved.is_written = saved.lost.empty();
+    if (progress) progress(1);
+    saved.is_written = accepts_losses || saved.lost.empty();
     std::error_code failed;
     if (saved.is_written) fs::rename(name, target, failed);
     if (failed)

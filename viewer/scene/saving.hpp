@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,10 @@ struct Saved {
   SceneFile file = {};
 };
 /// Writes the scene by write_scene(), unless the format loses something and `accepts_losses` is
-/// false. The file is complete, or as it was. Throws OutputError and UsageError.
-Saved save_scene(const SceneSource& source, const std::filesystem::path& file, bool accepts_losses);
+/// false. The file is complete, or as it was. `progress`: called with 0..1; may throw to give up.
+/// Throws OutputError and UsageError.
+Saved save_scene(const SceneSource& source, const std::filesystem::path& file, bool accepts_losses,
+                 const std::function<void(double)>& progress = {});
 
 /// Makes the file that was written from `saved` the only file of the source. Only of a GLB it is
 /// known that reading it gives these layers: those of other formats then exist only in memory.

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/steady_seconds.hpp"
+#include "runtime/arrange_layers.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/splats/splat_sorter.hpp"
 
@@ -39,12 +40,6 @@ bool same_data(const DocumentLayer& a, const DocumentLayer& b) {
   return a.id == b.id && a.primitives == b.primitives;
 }
 
-template <class Layers>
-auto find_same(Layers& layers, const DocumentLayer& layer) {
-  return std::find_if(layers.begin(), layers.end(),
-                      [&](const DocumentLayer& each) { return same_data(each, layer); });
-}
-
 /// The document's layers that are on the device, in its order, and those that have to be uploaded.
 struct Difference {
   std::vector<DocumentLayer> present, missing;
@@ -55,7 +50,10 @@ Difference difference(const Stage& stage, const Document& document) {
     const bool is_refused =
         std::any_of(stage.refused.begin(), stage.refused.end(),
                     [&](const RefusedLayer& each) { return same_data(each.layer, layer); });
-    if (find_same(stage.layers, layer) != stage.layers.end())
+    const bool is_present =
+        std::any_of(stage.layers.begin(), stage.layers.end(),
+                    [&](const DocumentLayer& each) { return same_data(each, layer); });
+    if (is_present)
       result.present.push_back(layer);
     else if (!is_refused)
       result.missing.push_back(layer);
@@ -173,21 +171,11 @@ std::vector<DocumentLayer> sync(Stage& stage, const Document& document) {
       std::equal(present.begin(), present.end(), layers.begin(), layers.end(), same_data);
   // The passes of debug views refer to the layers.
   if (!same_order && stage.debug_views) stage.renderer.set_passes({});
-  for (std::size_t i = layers.size(); i-- > 0;) {
-    if (find_same(present, layers[i]) != present.end()) continue;
-    stage.renderer.remove_layer(i);
-    layers.erase(layers.begin() + std::ptrdiff_t(i));
+  arrange_layers(stage.renderer, layers, std::move(present), same_data);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    stage.renderer.place_layer(i, layers[i].world_from_layer);
+    stage.renderer.show_layer(i, layers[i].visible);
   }
-  for (std::size_t i = 0; i < present.size(); ++i) {
-    const auto at = std::size_t(find_same(layers, present[i]) - layers.begin());
-    if (at != i) {
-      stage.renderer.swap_layers(i, at);
-      std::swap(layers[i], layers[at]);
-    }
-    stage.renderer.place_layer(i, present[i].world_from_layer);
-    stage.renderer.show_layer(i, present[i].visible);
-  }
-  layers = std::move(present);
   if (!same_order && stage.debug_views) stage.debug_views.emplace(placed_layers(layers));
   return missing;
 }

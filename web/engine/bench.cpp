@@ -13,7 +13,6 @@
 #include "jobs/baseline/baseline.hpp"
 #include "jobs/timing/benchmark.hpp"
 #include "runtime/plan/plan_description.hpp"
-#include "web/engine/page_view.hpp"
 #include "web/engine/scene_path.hpp"
 #include "web/engine/unpacking.hpp"
 
@@ -41,21 +40,25 @@ struct BenchCase {
   std::vector<Part> parts;
 };
 
+}  // namespace
+
 struct Bench {
   std::vector<std::unique_ptr<BenchScene>> scenes;
   std::vector<BenchCase> cases;
   std::optional<BenchmarkRun> run;
 };
 
-Bench& bench() {
-  static Bench one;
-  return one;
+namespace {
+
+Bench& bench_of(Engine& engine) {
+  if (!engine.bench) engine.bench = std::make_shared<Bench>();
+  return *engine.bench;
 }
 
-BenchScene& scene_at(const Json& index) {
-  if (index.get<std::size_t>() >= bench().scenes.size())
+BenchScene& scene_at(Engine& engine, const Json& index) {
+  if (index.get<std::size_t>() >= bench_of(engine).scenes.size())
     throw UsageError("there is no scene " + index.dump());
-  return *bench().scenes[index.get<std::size_t>()];
+  return *bench_of(engine).scenes[index.get<std::size_t>()];
 }
 
 Json facts(const Renderer& renderer, double start) {
@@ -72,28 +75,28 @@ Json facts(const Renderer& renderer, double start) {
                  {"upload_ms", milliseconds() - start}});
 }
 
-void clear(const Json&) {
-  forget_head();
-  bench() = {};
+void clear(Engine& engine, const Json&) {
+  engine.arriving.reset();
+  engine.bench.reset();
 }
 
 /// {"scene": result of "read"}
-Json add_scene(const Json& arguments) {
+Json add_scene(Engine& engine, const Json& arguments) {
   const Json& scene = arguments.at("scene");
   const double start = milliseconds();
-  Renderer renderer(page_view().context(), unpacked());
+  Renderer renderer(engine.page().context(), unpacked(engine));
   renderer.set_background(glm::vec4(vector_of(scene.at("background")), 1.0f));
   const Json result = facts(renderer, start);
   auto added = std::make_unique<BenchScene>(
       BenchScene{std::move(renderer), {}, subject_of(scene.at("subject")), {}, {}});
   for (const Json& camera : scene.at("cameras")) added->recorded.push_back(camera_of(camera));
-  bench().scenes.push_back(std::move(added));
+  bench_of(engine).scenes.push_back(std::move(added));
   return result;
 }
 
 /// {"scene", "folder", "paths"}: adds the baseline for the same scene.
-Json add_published(const Json& arguments) {
-  BenchScene& to = scene_at(arguments.at("scene"));
+Json add_published(Engine& engine, const Json& arguments) {
+  BenchScene& to = scene_at(engine, arguments.at("scene"));
   Scene scene = read_scene(scene_path(arguments));
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
   options.plan.quality = scene.quality;
@@ -102,8 +105,8 @@ Json add_published(const Json& arguments) {
   const double start = milliseconds();
   RenderPlan plan = make_baseline_plan(soup, options.plan);
   const double planned = milliseconds();
-  const DeviceLimits limits = device_limits(page_view().capabilities());
-  to.published.emplace(page_view().context(),
+  const DeviceLimits limits = device_limits(engine.page().capabilities());
+  to.published.emplace(engine.page().context(),
                        prepare_baseline(placed_layers(scene).front(), limits, std::move(plan)),
                        options);
   Json result = facts(*to.published, planned);
@@ -150,8 +153,8 @@ std::vector<Camera> cameras_in(const std::string& text, int count, const Lens& l
 }
 
 /// {"scene", "width", "height", "set"} or {.., "file", "count"}
-void set_cameras(const Json& arguments) {
-  BenchScene& scene = scene_at(arguments.at("scene"));
+void set_cameras(Engine& engine, const Json& arguments) {
+  BenchScene& scene = scene_at(engine, arguments.at("scene"));
   const Lens lens{.width = arguments.at("width"), .height = arguments.at("height")};
   const auto file = arguments.find("file");
   scene.cameras = file != arguments.end()
@@ -161,14 +164,14 @@ void set_cameras(const Json& arguments) {
 
 // -- runs ---------------------------------------------------------------------------------------
 
-BenchCase bench_case_of(const Json& benchmark_case) {
+BenchCase bench_case_of(Engine& engine, const Json& benchmark_case) {
   BenchCase result{.name = benchmark_case.at("name").get<std::string>(), .parts = {}};
   if (const auto grid = benchmark_case.find("grid"); grid != benchmark_case.end()) {
     for (const Json& index : *grid)
-      result.parts.push_back({&scene_at(index).tureen, &scene_at(index)});
+      result.parts.push_back({&scene_at(engine, index).tureen, &scene_at(engine, index)});
     return result;
   }
-  BenchScene& scene = scene_at(benchmark_case.at("scene"));
+  BenchScene& scene = scene_at(engine, benchmark_case.at("scene"));
   const bool published = benchmark_case.at("published").get<bool>();
   if (published && !scene.published) throw UsageError("the baseline was not added");
   result.parts.push_back({published ? &*scene.published : &scene.tureen, &scene});
@@ -192,40 +195,41 @@ BenchmarkCase benchmark_case_of(const BenchCase& bench_case) {
 }
 
 /// {"entrants", "rounds", "least_sample_ms"}
-void begin(const Json& arguments) {
-  bench().run.reset();
-  bench().cases.clear();
+void begin(Engine& engine, const Json& arguments) {
+  bench_of(engine).run.reset();
+  bench_of(engine).cases.clear();
   std::size_t views = 0;
   for (const Json& benchmark_case : arguments.at("entrants")) {
-    bench().cases.push_back(bench_case_of(benchmark_case));
-    for (const auto& [renderer, scene] : bench().cases.back().parts) {
+    bench_of(engine).cases.push_back(bench_case_of(engine, benchmark_case));
+    for (const auto& [renderer, scene] : bench_of(engine).cases.back().parts) {
       if (scene->cameras.empty()) throw UsageError("a scene has no cameras yet");
       if (views > 0 && scene->cameras.size() != views)
         throw UsageError("all scenes must have the same number of cameras");
       views = scene->cameras.size();
     }
   }
-  if (bench().cases.empty() || views == 0) throw UsageError("there is no case to measure");
+  if (bench_of(engine).cases.empty() || views == 0) throw UsageError("there is no case to measure");
   std::vector<Camera> numbers(views);
   for (std::size_t i = 0; i < views; ++i) numbers[i].name = std::to_string(i);
   std::vector<BenchmarkCase> cases;
-  for (const BenchCase& bench_case : bench().cases) cases.push_back(benchmark_case_of(bench_case));
+  for (const BenchCase& bench_case : bench_of(engine).cases)
+    cases.push_back(benchmark_case_of(bench_case));
   BenchmarkOptions options{.rounds = std::max(arguments.at("rounds").get<int>(), 1)};
   options.min_sample_ms = arguments.at("least_sample_ms");
-  bench().run.emplace(cases, numbers, options);
+  bench_of(engine).run.emplace(cases, numbers, options);
 }
 
-BenchmarkRun& run() {
-  if (!bench().run) throw UsageError("no measurement is running");
-  return *bench().run;
+BenchmarkRun& run(Engine& engine) {
+  if (!bench_of(engine).run) throw UsageError("no measurement is running");
+  return *bench_of(engine).run;
 }
 
 /// Takes samples for `budget` milliseconds, at least one.
-Json step(const Json& budget) {
+Json step(Engine& engine, const Json& budget) {
   const double end = milliseconds() + budget.get<double>();
-  bool goes_on = run().step();
-  while (goes_on && milliseconds() < end) goes_on = run().step();
-  return object({{"done", !goes_on}, {"fraction", run().fraction()}});
+  bool goes_on = run(engine).step();
+  while (goes_on && milliseconds() < end) goes_on = run(engine).step();
+  return object({{"done", !goes_on}, {"fraction", run(engine).fraction()}});
 }
 
 Json rounds_of(const FrameTimes& times) {
@@ -257,9 +261,9 @@ std::string hash_of(const BenchCase& bench_case) {
   return pixels_hash(all);
 }
 
-Json result(const Json&) {
-  const BenchmarkResult measured = std::move(run()).result();
-  bench().run.reset();
+Json result(Engine& engine, const Json&) {
+  const BenchmarkResult measured = std::move(run(engine)).result();
+  bench_of(engine).run.reset();
   Json self_test = Json::array(), cases = Json::array();
   for (const FrameTimes& times : measured.self_test) self_test.push_back(rounds_of(times));
   for (std::size_t i = 0; i < measured.cases.size(); ++i) {
@@ -267,7 +271,7 @@ Json result(const Json&) {
     cases.push_back(object({{"name", benchmark_case.name},
                             {"stable", benchmark_case.stable},
                             {"frame_ms", rounds_of(benchmark_case.times)},
-                            {"pixels_hash", hash_of(bench().cases[i])},
+                            {"pixels_hash", hash_of(bench_of(engine).cases[i])},
                             {"statistics", to_json(statistics_of(benchmark_case.times))}}));
   }
   return object({{"frames_per_sample", measured.frames_per_sample},
@@ -277,10 +281,10 @@ Json result(const Json&) {
 }
 
 /// {"cells": [{"scene", "camera", "x", "y", "width", "height"}], "width", "height"}
-void show(const Json& arguments) {
-  page_view().clear_canvas(arguments.at("width"), arguments.at("height"));
+void show(Engine& engine, const Json& arguments) {
+  engine.page().clear_canvas(arguments.at("width"), arguments.at("height"));
   for (const Json& cell : arguments.at("cells")) {
-    BenchScene& scene = scene_at(cell.at("scene"));
+    BenchScene& scene = scene_at(engine, cell.at("scene"));
     Renderer& renderer = scene.tureen;
     const auto& cameras = scene.cameras;
     if (cameras.empty()) continue;

@@ -2,10 +2,11 @@
 
 #include <emscripten.h>
 
+#include <memory>
 #include <new>
 
 #include "base/error.hpp"
-#include "web/engine/splat_sorting.hpp"
+#include "web/engine/engine.hpp"
 
 namespace tureen::web {
 
@@ -18,11 +19,6 @@ EM_JS(void, tureen_pull_block, (int blob, double offset, void* out, int size), {
 })
 // clang-format on
 
-std::vector<std::byte>& buffer() {
-  static std::vector<std::byte> bytes;
-  return bytes;
-}
-
 void report_progress(double fraction) { tureen_report_progress(fraction); }
 
 void pull_block(std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
@@ -32,13 +28,6 @@ void pull_block(std::size_t blob, std::uint64_t offset, std::span<std::byte> out
 namespace {
 
 constexpr const char* no_memory = "the page has not enough memory for this scene";
-
-/// JSON for the next command. JavaScript writes it here: Emscripten's own strings go to the stack,
-/// which is too small for a scene with many cameras.
-std::string& arguments() {
-  static std::string text;
-  return text;
-}
 
 Commands all_commands() {
   Commands commands = loader_commands();
@@ -53,10 +42,10 @@ Json failure(const char* kind, const std::string& message) {
 }
 
 /// Converts every error to a value: JavaScript would get an exception only as a number.
-Json run(const std::string& name, const std::string& given) {
-  static const Commands commands = all_commands();
+Json run(Engine& engine, const std::string& name) {
   try {
-    return object({{"result", commands.at(name)(Json::parse(given))}});
+    const Command& command = engine.commands.at(name);
+    return object({{"result", command(engine, Json::parse(engine.arguments))}});
   } catch (const InputError& error) {
     return failure("input", error.without_hint());
   } catch (const UsageError& error) {
@@ -76,40 +65,47 @@ Json run(const std::string& name, const std::string& given) {
 
 extern "C" {
 
+/// The engine of this instance, which JavaScript passes to all other functions. It is never freed.
+EMSCRIPTEN_KEEPALIVE Engine* tureen_engine() {
+  auto engine = std::make_unique<Engine>();
+  engine->commands = all_commands();
+  return engine.release();
+}
+
 /// Allocates `size` bytes of UTF-8 JSON for the next command. Returns null if the memory is full.
-EMSCRIPTEN_KEEPALIVE char* tureen_arguments(int size) {
+EMSCRIPTEN_KEEPALIVE char* tureen_arguments(Engine* engine, int size) {
   try {
-    arguments().resize(std::size_t(size));
+    engine->arguments.resize(std::size_t(size));
   } catch (const std::bad_alloc&) {
     return nullptr;
   }
-  return arguments().data();
+  return engine->arguments.data();
 }
 
 /// Returns {"result": ..} or {"error": {"kind", "message"}}, valid until the next call.
-EMSCRIPTEN_KEEPALIVE const char* tureen_call(const char* name) {
-  static std::string answer;
+EMSCRIPTEN_KEEPALIVE const char* tureen_call(Engine* engine, const char* name) {
+  std::string& answer = engine->answer;
   try {
     // Names in files may not be UTF-8.
-    answer = run(name, arguments()).dump(-1, ' ', false, Json::error_handler_t::replace);
+    answer = run(*engine, name).dump(-1, ' ', false, Json::error_handler_t::replace);
   } catch (const std::bad_alloc&) {
     answer = failure("memory", no_memory).dump();
   }
   return answer.c_str();
 }
 
-/// Resizes buffer() and returns its address, or null if the memory is full. A negative size does
+/// Resizes the buffer and returns its address, or null if the memory is full. A negative size does
 /// not change it.
-EMSCRIPTEN_KEEPALIVE void* tureen_buffer(int size) {
+EMSCRIPTEN_KEEPALIVE void* tureen_buffer(Engine* engine, int size) {
   try {
-    if (size >= 0) buffer().resize(std::size_t(size));
+    if (size >= 0) engine->buffer.resize(std::size_t(size));
   } catch (const std::bad_alloc&) {
     return nullptr;
   }
-  return buffer().data();
+  return engine->buffer.data();
 }
 
-EMSCRIPTEN_KEEPALIVE int tureen_buffer_size() { return int(buffer().size()); }
+EMSCRIPTEN_KEEPALIVE int tureen_buffer_size(Engine* engine) { return int(engine->buffer.size()); }
 }
 
 }  // namespace tureen::web

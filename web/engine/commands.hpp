@@ -14,27 +14,27 @@
 
 namespace tureen::web {
 
+struct Engine;
+
 /// `arguments`: a JSON value. A command without a result returns null.
-using Command = std::function<Json(const Json& arguments)>;
+using Command = std::function<Json(Engine& engine, const Json& arguments)>;
 using Commands = std::map<std::string, Command>;
 
 /// A command without a result.
 template <class Action>
 Command does(Action action) {
-  return [action](const Json& arguments) {
-    action(arguments);
+  return [action](Engine& engine, const Json& arguments) {
+    action(engine, arguments);
     return Json();
   };
 }
-
-/// The bytes of a command: input from the caller, or output for the caller. All commands share it;
-/// it is valid until the next command that uses it.
-std::vector<std::byte>& buffer();
 
 /// Commands of the instance in the worker, which reads and prepares scenes.
 Commands loader_commands();
 /// Commands of the instance in the page, which draws prepared scenes.
 Commands viewer_commands();
+/// Commands of both.
+Commands sorting_commands();
 /// Commands of the instance in bench.html; none in the page's program (no_bench.cpp).
 Commands bench_commands();
 

@@ -1,6 +1,5 @@
-// Reads a scene and prepares it for the device of another instance.
+// Commands that read a scene and prepare it for the device of another instance.
 #include <algorithm>
-#include <deque>
 #include <limits>
 #include <optional>
 #include <span>
@@ -9,12 +8,11 @@
 #include "camera/up_axis.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/scene_preview.hpp"
-#include "formats/tureen_glb/early_texels.hpp"
 #include "runtime/debug_views/debug_view.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/render_options.hpp"
 #include "scene/edit/edits.hpp"
-#include "web/engine/commands.hpp"
+#include "web/engine/engine.hpp"
 #include "web/engine/page_options.hpp"
 #include "web/engine/prepared_archive.hpp"
 #include "web/engine/scene_path.hpp"
@@ -22,23 +20,6 @@
 namespace tureen::web {
 
 namespace {
-
-struct Loader {
-  std::optional<Scene> scene;
-  std::deque<TriangleSoup> reduced;       // lower lattice levels, to save memory; stays in place
-  std::vector<PlacedLayer> placed;        // the scene's layers, or their reductions
-  std::optional<PreparedScene> prepared;  // reads the placed layers
-};
-
-Loader& loader() {
-  static Loader one;
-  return one;
-}
-
-EarlyTexels& early_texels() {
-  static EarlyTexels one;
-  return one;
-}
 
 /// The reason of the first layer without this debug view, or nullopt.
 std::optional<std::string> why_not_all(DebugView what, const Scene& scene) {
@@ -119,15 +100,15 @@ Json describe(const Scene& scene) {
 }
 
 /// Frees the scene and the buffer: a scene that is read next needs the memory.
-void forget() {
-  loader() = {};
-  std::vector<std::byte>().swap(buffer());
+void forget(Engine& engine) {
+  engine.loader = {};
+  std::vector<std::byte>().swap(engine.buffer);
 }
 
-Json take(Scene scene) {
-  forget();
-  loader().scene = std::move(scene);
-  return describe(*loader().scene);
+Json take(Engine& engine, Scene scene) {
+  forget(engine);
+  engine.loader.scene = std::move(scene);
+  return describe(*engine.loader.scene);
 }
 
 /// Ends read_scene() before the memory for the splats is taken.
@@ -145,11 +126,11 @@ double load_bytes(std::uint64_t splats, std::uint64_t bytes) {
 /// {"folder", "paths", "memory" or "max_splats"}: reads any scene from the file system of this
 /// instance. Returns its description, or {"offer": {"splats", "bytes", "fitting"}} if its splats
 /// need more than `memory`.
-Json read(const Json& arguments) {
-  forget();  // a preview
+Json read(Engine& engine, const Json& arguments) {
+  forget(engine);  // a preview
   ReadOptions options = read_options(arguments);
   options.progress = report_progress;
-  EarlyTexels early = std::exchange(early_texels(), {});
+  EarlyTexels early = std::exchange(engine.early_texels, {});
   options.early_texels = &early;
   if (!options.max_splats)
     options.found_splats = [memory = arguments.at("memory").get<double>()](std::uint64_t splats,
@@ -157,7 +138,7 @@ Json read(const Json& arguments) {
       if (load_bytes(splats, bytes) > memory) throw TooManySplats{splats, bytes};
     };
   try {
-    return take(read_scene(scene_path(arguments), options));
+    return take(engine, read_scene(scene_path(arguments), options));
   } catch (const TooManySplats& many) {
     const double bytes = load_bytes(many.splats, many.bytes);
     const double fitting = arguments.at("memory").get<double>() / bytes * double(many.splats);
@@ -171,55 +152,56 @@ Json read(const Json& arguments) {
 /// {"name", "shown": number of bytes of the last preview}; the buffer holds the first bytes of a
 /// file. Returns {"size": number of bytes for a preview, 0 if there is no further one,
 /// "has_splats"}; null if more bytes are needed to decide.
-Json preview_size(const Json& arguments) {
-  const auto next = tureen::preview_size(buffer(), arguments.at("name").get<std::string>(),
+Json preview_size(Engine& engine, const Json& arguments) {
+  const auto next = tureen::preview_size(engine.buffer, arguments.at("name").get<std::string>(),
                                          arguments.at("shown").get<std::uint64_t>());
   if (!next) return nullptr;
   return object({{"size", next->bytes}, {"has_splats", next->has_splats}});
 }
 
 /// {"name"}; the buffer holds at least the number of bytes from "preview_size".
-Json preview(const Json& arguments) {
-  loader() = {};  // the preview before
-  auto scene = read_preview(buffer(), arguments.at("name").get<std::string>());
-  return scene ? take(std::move(*scene)) : Json();
+Json preview(Engine& engine, const Json& arguments) {
+  engine.loader = {};  // the preview before
+  auto scene = read_preview(engine.buffer, arguments.at("name").get<std::string>());
+  return scene ? take(engine, std::move(*scene)) : Json();
 }
 
 /// The scene's layers, with lattices of at most this level.
-void place_layers(std::optional<int> level) {
-  const Scene& scene = loader().scene.value();
-  loader().reduced.clear();
-  loader().placed = placed_layers(scene);
-  for (PlacedLayer& layer : loader().placed)
+void place_layers(Loader& loader, std::optional<int> level) {
+  const Scene& scene = loader.scene.value();
+  loader.reduced.clear();
+  loader.placed = placed_layers(scene);
+  for (PlacedLayer& layer : loader.placed)
     if (level && layer.soup && std::holds_alternative<LatticeTexture>(layer.soup->appearance))
-      layer.soup = &loader().reduced.emplace_back(
+      layer.soup = &loader.reduced.emplace_back(
           edited(*layer.soup, {.lattice_level = *level}, report_progress));
 }
 
 /// {"limits": result of "start", "level"?: maximum lattice level, "layer"?: only this layer}.
 /// Writes the head to the buffer and returns the blobs.
-Json prepare(const Json& arguments) {
-  loader().prepared.reset();
+Json prepare(Engine& engine, const Json& arguments) {
+  Loader& loader = engine.loader;
+  loader.prepared.reset();
   const auto level = arguments.find("level"), layer = arguments.find("layer");
-  place_layers(level == arguments.end() ? std::nullopt : std::optional(level->get<int>()));
-  std::span<const PlacedLayer> chosen = loader().placed;
+  place_layers(loader, level == arguments.end() ? std::nullopt : std::optional(level->get<int>()));
+  std::span<const PlacedLayer> chosen = loader.placed;
   if (layer != arguments.end()) chosen = chosen.subspan(layer->get<std::size_t>(), 1);
   const Json& limits = arguments.at("limits");
-  loader().prepared = prepare_scene(chosen, limits_of(limits),
-                                    page_options(*loader().scene, blending_of(limits.at("blend"))));
-  buffer() = pack_head(*loader().prepared);
+  loader.prepared = prepare_scene(chosen, limits_of(limits),
+                                  page_options(*loader.scene, blending_of(limits.at("blend"))));
+  engine.buffer = pack_head(*loader.prepared);
   Json blobs = Json::array();
-  for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)
-    blobs.push_back(object({{"size", blob_size(*loader().prepared, i)},
-                            {"grain", blob_grain(*loader().prepared, i)},
-                            {"is_store", store_of(*loader().prepared, i).source != nullptr}}));
+  for (std::size_t i = 0; i < blob_count(*loader.prepared); ++i)
+    blobs.push_back(object({{"size", blob_size(*loader.prepared, i)},
+                            {"grain", blob_grain(*loader.prepared, i)},
+                            {"is_store", store_of(*loader.prepared, i).source != nullptr}}));
   return blobs;
 }
 
 /// {"limits"}: the bytes that each layer will need on that device. Layers are planned alone,
 /// because they are uploaded one after the other.
-Json forecast(const Json& arguments) {
-  const Scene& scene = loader().scene.value();
+Json forecast(Engine& engine, const Json& arguments) {
+  const Scene& scene = engine.loader.scene.value();
   const DeviceLimits limits = limits_of(arguments.at("limits"));
   const PlanPreferences preferences =
       page_options(scene, blending_of(arguments.at("limits").at("blend"))).plan;
@@ -234,9 +216,10 @@ Json forecast(const Json& arguments) {
 }
 
 /// {"blob", "offset", "size"}: writes the bytes to the buffer.
-void read_block(const Json& arguments) {
-  buffer().resize(arguments.at("size").get<std::size_t>());
-  read_blob(loader().prepared.value(), arguments.at("blob"), arguments.at("offset"), buffer());
+void read_block(Engine& engine, const Json& arguments) {
+  engine.buffer.resize(arguments.at("size").get<std::size_t>());
+  read_blob(engine.loader.prepared.value(), arguments.at("blob"), arguments.at("offset"),
+            engine.buffer);
 }
 
 Json range_json(const FileRange& range) {
@@ -245,12 +228,12 @@ Json range_json(const FileRange& range) {
 
 /// The buffer holds the first bytes of a file. Returns the places of the strips of texels that can
 /// be decoded before the whole file is there.
-Json begin_texels(const Json&) {
+Json begin_texels(Engine& engine, const Json&) {
   // The header alone decides about this memory. Larger scenes are read as without early texels.
   constexpr std::uint64_t max_bytes = 512 << 20;
-  early_texels() = {};
+  engine.early_texels = {};
   // The caller ignores errors: "read" reports them again.
-  std::vector<TexelStrip> strips = texel_strips(buffer(), std::string());
+  std::vector<TexelStrip> strips = texel_strips(engine.buffer, std::string());
   std::uint64_t bytes = 0;
   Json list = Json::array();
   for (const TexelStrip& strip : strips) {
@@ -258,20 +241,22 @@ Json begin_texels(const Json&) {
     list.push_back(range_json(strip.range()));
   }
   if (bytes > max_bytes) return Json::array();
-  early_texels() = EarlyTexels(std::move(strips));
+  engine.early_texels = EarlyTexels(std::move(strips));
   return list;
 }
 
 /// The buffer holds the bytes of the strip with this index. Returns the width of its two images,
 /// the size of each inflated stream, and the pieces of each zlib stream in these bytes; null if
 /// they are damaged.
-Json deflated_images(const Json& index) {
-  const auto strip = deflated_strip(early_texels().strips()[index.get<std::size_t>()], buffer());
+Json deflated_images(Engine& engine, const Json& index) {
+  const auto strip =
+      deflated_strip(engine.early_texels.strips()[index.get<std::size_t>()], engine.buffer);
   if (!strip) return nullptr;
-  const auto pieces_of = [](const DeflatedPng& image) {
+  const auto pieces_of = [&](const DeflatedPng& image) {
     Json pieces = Json::array();
     for (const auto& piece : image.pieces)
-      pieces.push_back(range_json({std::uint64_t(piece.data() - buffer().data()), piece.size()}));
+      pieces.push_back(
+          range_json({std::uint64_t(piece.data() - engine.buffer.data()), piece.size()}));
     return pieces;
   };
   return object({{"width", strip->low.width},
@@ -281,16 +266,16 @@ Json deflated_images(const Json& index) {
 
 /// {"width"}: of both images of the next strip. The buffer holds their inflated streams, which have
 /// the same size. Decodes the texels for "read"; returns whether they are intact.
-Json add_texels(const Json& arguments) {
-  const std::span<std::byte> streams = buffer();
+Json add_texels(Engine& engine, const Json& arguments) {
+  const std::span<std::byte> streams = engine.buffer;
   const std::size_t half = streams.size() / 2;
-  return early_texels().add(arguments.at("width"), streams.first(half), streams.subspan(half));
+  return engine.early_texels.add(arguments.at("width"), streams.first(half), streams.subspan(half));
 }
 
 /// The highest level of the scene's lattices, or null.
-Json lattice_level(const Json&) {
+Json lattice_level(Engine& engine, const Json&) {
   Json highest;
-  for (const PlacedLayer& layer : placed_layers(loader().scene.value())) {
+  for (const PlacedLayer& layer : placed_layers(engine.loader.scene.value())) {
     const auto* texture =
         layer.soup ? std::get_if<LatticeTexture>(&layer.soup->appearance) : nullptr;
     if (!texture) continue;

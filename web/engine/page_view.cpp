@@ -1,62 +1,36 @@
 #include "web/engine/page_view.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "runtime/gl/api.hpp"
-#include "web/engine/splat_sorting.hpp"
 
 namespace tureen::web {
 
-namespace {
+PageView::PageView(gl::Context context, SplatBlending blending, MakeSorter make_sorter)
+    : context_(std::move(context)), blending_(blending), make_sorter_(std::move(make_sorter)) {}
 
-std::unique_ptr<PageView>& slot() {
-  static std::unique_ptr<PageView> one;
-  return one;
+void PageView::lose_device() {
+  drop_preview();
+  uploaded_.clear();
+  if (!stage_) return;
+  stage_->debug_views.reset();
+  stage_->renderer.reset();
+  stage_->layers.clear();
+  debug_view_ = DebugView::color;
 }
 
-std::vector<ShownLayer> layers_of(const PreparedScene& prepared) {
-  std::vector<ShownLayer> layers;
-  for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
-    const PreparedLayer& layer = prepared.layers[i];
-    const LayerPlan& plan = *prepared.plan.layers[i];
-    const auto* splats = std::get_if<SplatPlan>(&plan);
-    layers.push_back({.place = {layer.framed, layer.place.world_from_layer, layer.place.visible},
-                      .triangles = splats ? 0 : std::get<SoupPlan>(plan).soup_faces,
-                      .splats = splats ? splats->splats : 0});
-  }
-  return layers;
-}
-
-/// Notes the memory of the layers of an ordinary frame's renderer.
-void weigh(std::vector<ShownLayer>& layers, const Renderer& renderer) {
-  for (std::size_t i = 0; i < layers.size(); ++i) layers[i].device_bytes = renderer.layer_bytes(i);
-}
-
-}  // namespace
-
-void start_page_view(SplatBlending blending) { slot() = std::make_unique<PageView>(blending); }
-
-PageView& page_view() { return *slot(); }
-
-PageView::PageView(SplatBlending blending)
-    : context_(gl::Context::external(nullptr, gl::Api::es)), blending_(blending) {}
-
-PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene) const {
-  std::vector<ShownLayer> layers = layers_of(prepared);
+PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene,
+                                     glm::vec3 background) const {
   Renderer renderer(context_, std::move(prepared));
-  weigh(layers, renderer);
-  renderer.set_background(glm::vec4(background_, 1.0f));
+  renderer.set_background(glm::vec4(background, 1.0f));
   CameraControls controls(scene.subject);
   if (viewport_) controls.set_viewport(viewport_->x, viewport_->y);
   if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
   controls.reset();
   controls.arrive();
-  return {{}, std::move(renderer), std::move(scene), controls, std::move(layers)};
+  return {{}, std::move(renderer), std::move(scene), controls, {}};
 }
 
 void PageView::keep_view(Stage& stage) const {
@@ -66,18 +40,41 @@ void PageView::keep_view(Stage& stage) const {
 }
 
 void PageView::show_preview(PreparedScene prepared, ShownScene scene) {
-  Stage stage = make_stage(std::move(prepared), std::move(scene));
+  const glm::vec3 background = preview_ ? background_ : scene.background;
+  Stage stage = make_stage(std::move(prepared), std::move(scene), background);
   keep_view(stage);
+  if (!preview_) background_before_ = std::exchange(background_, background);
   preview_.emplace(std::move(stage));
 }
 
+void PageView::drop_preview() {
+  if (!preview_) return;
+  preview_.reset();
+  background_ = background_before_;
+}
+
 void PageView::show(PreparedScene prepared, ShownScene scene) {
-  Stage stage = make_stage(std::move(prepared), std::move(scene));
-  keep_view(stage);
-  drop_preview();
   drop_scene();
+  std::vector<DocumentLayer> layers;
+  for (std::size_t i = 0; i < prepared.layers.size(); ++i) {
+    layers.push_back(described(prepared, i, document_.new_id()));
+    layers[i].name = scene.names.at(i);
+  }
+  const Quality quality = prepared.plan.quality;
+  const glm::vec3 background = preview_ ? background_ : scene.background;
+  Stage stage = make_stage(std::move(prepared), std::move(scene), background);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    stage.layers.push_back(layers[i].id);
+    facts_[stage.layers[i]].device_bytes = stage.renderer->layer_bytes(i);
+  }
+  keep_view(stage);
+  document_.layers = std::move(layers);
+  document_.quality = quality;
+  document_.up = stage.controls.up();
+  document_.background = background_ = background;
+  preview_.reset();
   stage_.emplace(std::move(stage));
-  stage_->renderer->sort_splats_with(make_page_sorter());
+  stage_->renderer->sort_splats_with(make_sorter_());
 }
 
 void PageView::set_viewport(int width, int height) {
@@ -88,102 +85,33 @@ void PageView::set_viewport(int width, int height) {
 void PageView::drop_scene() {
   stage_.reset();
   read_scene_.reset();
-}
-
-const std::vector<ShownLayer>& PageView::layers() const {
-  static const std::vector<ShownLayer> none;
-  return stage_ ? stage_->layers : none;
-}
-
-PageView::Stage& PageView::stage_with(std::size_t layer) {
-  if (!stage_ || layer >= stage_->layers.size())
-    throw UsageError("there is no layer " + std::to_string(layer) + ", counted from 0");
-  return *stage_;
-}
-
-PageView::Stage& PageView::colors_with(std::size_t layer) {
-  Stage& stage = stage_with(layer);
-  if (stage.debug_views) throw UsageError("a debug view is shown: show the colours first");
-  return stage;
-}
-
-/// Gives the controls the box around the visible layers; around all if none is visible.
-void PageView::follow_layers(Stage& stage) {
-  const bool any = std::any_of(stage.layers.begin(), stage.layers.end(),
-                               [](const ShownLayer& layer) { return layer.place.visible; });
-  std::vector<LayerPlace> boxes;
-  for (const ShownLayer& layer : stage.layers)
-    if (layer.place.visible || !any) boxes.push_back(layer.place);
-  stage.scene.subject = subject_of(boxes, stage.scene.subject.up, stage.scene.cameras);
-  stage.controls.set_subject(stage.scene.subject);
-}
-
-void PageView::add_layers(PreparedScene prepared) {
-  Stage& stage = colors_with(0);
-  if (stage.layers.size() + prepared.layers.size() > max_layers)
-    throw UsageError("at most " + std::to_string(max_layers) +
-                     " layers can be drawn together: remove layers first");
-  if (prepared.plan.reversed_depth != stage.renderer->plan().reversed_depth)
-    throw UsageError("the layer was prepared for another device");
-  std::vector<ShownLayer> added = layers_of(prepared);
-  stage.renderer->add_layers(std::move(prepared));
-  read_scene_.reset();
-  stage.layers.insert(stage.layers.end(), added.begin(), added.end());
-  weigh(stage.layers, *stage.renderer);
-  follow_layers(stage);
-}
-
-void PageView::place_layer(std::size_t layer, const glm::dmat4& world_from_layer) {
-  Stage& stage = stage_with(layer);
-  if (const auto reason = defect(Layer{.world_from_layer = world_from_layer}))
-    throw UsageError("the layer cannot be placed: " + *reason);
-  stage.renderer->place_layer(layer, world_from_layer);
-  stage.layers[layer].place.world_from_layer = world_from_layer;
-  follow_layers(stage);
-}
-
-void PageView::show_layer(std::size_t layer, bool visible) {
-  Stage& stage = stage_with(layer);
-  stage.renderer->show_layer(layer, visible);
-  stage.layers[layer].place.visible = visible;
-  follow_layers(stage);
-}
-
-void PageView::remove_layer(std::size_t layer) {
-  Stage& stage = colors_with(layer);
-  if (stage.layers.size() == 1)
-    throw UsageError("the only layer cannot be removed: remove the scene");
-  const auto at = static_cast<std::ptrdiff_t>(layer);
-  stage.renderer->remove_layer(layer);
-  stage.layers.erase(stage.layers.begin() + at);
-  if (read_scene_) read_scene_->layers.erase(read_scene_->layers.begin() + at);
-  follow_layers(stage);
-}
-
-void PageView::move_layer(std::size_t from, std::size_t to) {
-  colors_with(to);
-  Stage& stage = colors_with(from);
-  for (std::size_t at = from; at != to;) {
-    const std::size_t next = from < to ? at + 1 : at - 1;
-    stage.renderer->swap_layers(at, next);
-    std::swap(stage.layers[at], stage.layers[next]);
-    if (read_scene_) std::swap(read_scene_->layers[at], read_scene_->layers[next]);
-    at = next;
-  }
+  const LayerId next = document_.next_id;  // ids of layers that were shown are not used again
+  document_ = {};
+  document_.next_id = next;
+  forget_steps();
+  uploaded_.clear();
+  facts_.clear();
+  placements_.clear();
 }
 
 std::vector<PlacedLayer> PageView::read_layers() const {
-  const ReadScene& read = read_scene_.value();
   std::vector<PlacedLayer> layers;
-  for (std::size_t i = 0; i < read.layers.size(); ++i)
-    layers.push_back(placed_layer(*read.layers[i], stage_->layers[i].place));
+  for (const LayerId id : stage_->layers)
+    layers.push_back(placed_layer(*read_scene_.value().layers.at(id), layer_with(id)));
   return layers;
+}
+
+bool PageView::has_read_scene() const {
+  return read_scene_ && std::all_of(document_.layers.begin(), document_.layers.end(),
+                                    [&](const DocumentLayer& layer) {
+                                      return read_scene_->layers.count(layer.id) > 0;
+                                    });
 }
 
 void PageView::show(DebugView what, const FeatureChoice& features) {
   const bool shows_debug_view = what != DebugView::color;
   if (!stage_ && !shows_debug_view) return;
-  if (!stage_) throw UsageError("there is no scene for a debug view");
+  if (!stage_ || !stage_->renderer) throw UsageError("there is no scene for a debug view");
   Stage& stage = *stage_;
   if (shows_debug_view) DebugViews(read_layers()).require(what, features);
   if (const bool had_debug_views = stage.debug_views.has_value();
@@ -214,7 +142,7 @@ void PageView::prepare_renderer(bool for_debug_views) {
   const DeviceLimits limits = device_limits(capabilities());
   stage.renderer.emplace(context_, for_debug_views ? prepare_debug_views(layers, limits, options)
                                                    : prepare_scene(layers, limits, options));
-  stage.renderer->sort_splats_with(make_page_sorter());
+  stage.renderer->sort_splats_with(make_sorter_());
   if (for_debug_views) stage.debug_views.emplace(layers);
   stage.renderer->set_background(glm::vec4(background_, 1.0f));
 }
@@ -241,10 +169,11 @@ bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   return point.has_value();
 }
 
-void PageView::set_background(glm::vec3 background) {
+void PageView::paint(glm::vec3 background) {
   background_ = background;
   for (std::optional<Stage>* stage : {&stage_, &preview_})
-    if (*stage) (*stage)->renderer->set_background(glm::vec4(background, 1.0f));
+    if (*stage && (*stage)->renderer)
+      (*stage)->renderer->set_background(glm::vec4(background, 1.0f));
 }
 
 PageView::Next PageView::draw(int width, int height, double seconds) {
@@ -287,7 +216,7 @@ void PageView::clear_after_presentation() const {
 }
 
 void PageView::sort_in_frames() {
-  if (stage_) stage_->renderer->sort_splats_with(nullptr);
+  if (stage_ && stage_->renderer) stage_->renderer->sort_splats_with(nullptr);
 }
 
 void PageView::clear_canvas(int width, int height) const {

@@ -1,9 +1,9 @@
 #include "web/engine/splat_sorting.hpp"
 
-#include <optional>
 #include <utility>
 
 #include "web/engine/archive.hpp"
+#include "web/engine/engine.hpp"
 
 namespace tureen::web {
 
@@ -11,47 +11,34 @@ namespace {
 
 // -- the instance in the page ---------------------------------------------------------------------
 
-struct SortTask {
-  std::vector<SplatsInView> views;
-  bool sent = false;
-  std::optional<SplatOrder> order;
-};
-
-struct SortTasks {
-  std::optional<SortTask> current;
-  int number = 0;             // of the current task
-  bool sent_centers = false;  // whether the worker has the centres of the current task
-};
-
-SortTasks& tasks() {
-  static SortTasks all;
-  return all;
-}
-
 class PageSplatSorter final : public SplatSorter {
  public:
+  explicit PageSplatSorter(SplatSorting& sorting) : sorting_(sorting) {}
   ~PageSplatSorter() override { forget(); }
   void begin(std::vector<SplatsInView> views) override {
-    tasks().current.emplace().views = std::move(views);
-    ++tasks().number;
+    sorting_.current.emplace().views = std::move(views);
+    ++sorting_.number;
   }
   bool take(SplatOrder& order) override {
-    std::optional<SortTask>& task = tasks().current;
+    std::optional<SortTask>& task = sorting_.current;
     if (!task || !task->order) return false;
     order = std::move(*task->order);
     task.reset();
     return true;
   }
   void forget() override {
-    tasks().current.reset();
-    tasks().sent_centers = false;  // the next task may have others
+    sorting_.current.reset();
+    sorting_.sent_centers = false;  // the next task may have others
   }
+
+ private:
+  SplatSorting& sorting_;
 };
 
 /// Returns the next task, {"number", "layers": [{"axis", "offset", "behind"}]}, or null. Writes the
 /// centres to the buffer; nothing if the worker has them.
-Json sort_task(const Json&) {
-  SortTasks& all = tasks();
+Json sort_task(Engine& engine, const Json&) {
+  SplatSorting& all = engine.sorting;
   if (!all.current || all.current->sent) return nullptr;
   Json layers = Json::array();
   ArchiveWriter centers;
@@ -60,18 +47,18 @@ Json sort_task(const Json&) {
         object({{"axis", to_json(view.axis)}, {"offset", view.offset}, {"behind", view.behind}}));
     if (!all.sent_centers) centers(view.centers);
   }
-  buffer() = centers.take();
+  engine.buffer = centers.take();
   all.current->sent = all.sent_centers = true;
   return object({{"number", all.number}, {"layers", layers}});
 }
 
 /// number of the task: the buffer holds its order. Returns whether the task is current.
-Json sorted(const Json& number) {
-  SortTasks& all = tasks();
+Json sorted(Engine& engine, const Json& number) {
+  SplatSorting& all = engine.sorting;
   if (!all.current || number != all.number) return false;
   std::vector<std::uint32_t> splats;
   std::vector<SplatRun> runs;
-  ArchiveReader archive(buffer());
+  ArchiveReader archive(engine.buffer);
   archive(splats, runs);
   all.current->order.emplace(std::move(splats), std::move(runs));
   return true;
@@ -81,13 +68,13 @@ Json sorted(const Json& number) {
 
 /// {"layers"} of a task. The buffer has the centres; it is empty if they are those of the last
 /// task. Writes the order to the buffer.
-void sort(const Json& task) {
-  static std::vector<std::vector<glm::vec3>> centers;
-  static SplatOrder order;
+void sort(Engine& engine, const Json& task) {
+  auto& centers = engine.sorting.centers;
+  SplatOrder& order = engine.sorting.order;
   const Json& layers = task.at("layers");
-  if (!buffer().empty()) {
+  if (!engine.buffer.empty()) {
     centers.assign(layers.size(), {});
-    ArchiveReader archive(buffer());
+    ArchiveReader archive(engine.buffer);
     for (std::vector<glm::vec3>& each : centers) archive(each);
   }
   std::vector<SplatsInView> views;
@@ -99,12 +86,14 @@ void sort(const Json& task) {
   order.sort(views);
   ArchiveWriter archive;
   archive(order.splats(), order.runs());
-  buffer() = archive.take();
+  engine.buffer = archive.take();
 }
 
 }  // namespace
 
-std::unique_ptr<SplatSorter> make_page_sorter() { return std::make_unique<PageSplatSorter>(); }
+std::unique_ptr<SplatSorter> make_page_sorter(SplatSorting& sorting) {
+  return std::make_unique<PageSplatSorter>(sorting);
+}
 
 Commands sorting_commands() {
   return {{"sort_task", sort_task}, {"sorted", sorted}, {"sort", does(sort)}};

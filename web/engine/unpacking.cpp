@@ -1,36 +1,21 @@
 #include "web/engine/unpacking.hpp"
 
-#include <optional>
 #include <utility>
-
-#include "web/engine/arriving_scene.hpp"
 
 namespace tureen::web {
 
-namespace {
-
-std::optional<ArrivingScene>& arriving() {
-  static std::optional<ArrivingScene> one;
-  return one;
+void take_head(Engine& engine) {
+  engine.arriving.reset();
+  engine.arriving.emplace(std::exchange(engine.buffer, {}), engine.read_blob);
 }
 
-}  // namespace
-
-void take_head(const Json&) {
-  static const BlobReader read = pull_block;  // the scene refers to it
-  arriving().reset();
-  arriving().emplace(std::exchange(buffer(), {}), read);
+void upload_block(Engine& engine, const Json& arguments) {
+  engine.arriving.value().upload(arguments.at("blob"), arguments.at("offset"), engine.buffer);
 }
 
-void upload_block(const Json& arguments) {
-  arriving().value().upload(arguments.at("blob"), arguments.at("offset"), buffer());
-}
-
-void forget_head() { arriving().reset(); }
-
-PreparedScene unpacked() {
-  ArrivingScene scene = std::move(arriving().value());
-  arriving().reset();
+PreparedScene unpacked(Engine& engine) {
+  ArrivingScene scene = std::move(engine.arriving.value());
+  engine.arriving.reset();
   return std::move(scene).take();
 }
 

@@ -3,20 +3,17 @@
 #pragma once
 
 #include "runtime/prepared_scene.hpp"
-#include "web/engine/commands.hpp"
+#include "web/engine/engine.hpp"
 
 namespace tureen::web {
 
 /// Takes the head of a scene from the buffer, for unpacked(). Forgets an earlier one.
-void take_head(const Json& arguments);
+void take_head(Engine& engine);
 
 /// {"blob", "offset"}: uploads the bytes in the buffer (ArrivingScene::upload).
-void upload_block(const Json& arguments);
-
-/// Forgets the scene of the head, and frees its memory on the device.
-void forget_head();
+void upload_block(Engine& engine, const Json& arguments);
 
 /// The scene of the head. Its sources read Module.blobs, except those that were uploaded.
-PreparedScene unpacked();
+PreparedScene unpacked(Engine& engine);
 
 }  // namespace tureen::web

@@ -11,7 +11,7 @@ import { isVector } from '../common/numbers.js';
 import { isPose } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =
-  ['progress', 'preview', 'scene', 'layers', 'notice', 'frame', 'view', 'context'];
+  ['progress', 'preview', 'scene', 'layers', 'steps', 'notice', 'frame', 'view', 'context'];
 
 function refuse(what: string): never { throw new ViewerError(what, 'usage'); }
 
@@ -98,6 +98,12 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
     ['setLayer', ([index, change]) => viewer.setLayer(whole(index, 'The layer'), layerChange(change))],
     ['removeLayer', ([index]) => viewer.removeLayer(whole(index, 'The layer'))],
     ['moveLayer', ([from, to]) => viewer.moveLayer(whole(from, 'from'), whole(to, 'to'))],
+    ['steps', () => viewer.steps],
+    ['setHolding', ([held]) => { viewer.holding = truth(held, 'The switch'); }],
+    ['undo', () => viewer.undo()],
+    ['redo', () => viewer.redo()],
+    ['goToStep', ([position]) => viewer.goToStep(whole(position, 'The position'))],
+    ['forgetSteps', () => viewer.forgetSteps()],
     ['scene', () => viewer.scene],
     ['stats', () => viewer.stats],
     ['legend', () => viewer.legend],

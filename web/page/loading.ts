@@ -21,7 +21,7 @@ export class Loading {
   private readonly what = block('loading-what');
   private readonly progress = block('progress');
   private readonly bar = block('progress-bar');
-  /** The loads and additions that are not over. The viewer runs them in this order; the card shows the first. */
+  /** The loads, additions and steps that are not over. The viewer runs them in this order; the card shows the first. */
   private readonly pending: { readonly name: string; readonly ending: AbortController }[] = [];
   private preview = '';
   private progressNow: LoadProgress = { stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null, deviceBytes: null };
@@ -41,7 +41,7 @@ export class Loading {
 
   get busy(): boolean { return this.pending.length > 0; }
 
-  /** Cancels the running load or addition. */
+  /** Cancels the first of them. */
   cancel(): void { this.pending[0]?.ending.abort(); }
 
   /** Removes the scene, and cancels loads and additions. */
@@ -60,7 +60,7 @@ export class Loading {
     this.messages.clearErrors();
     for (const listener of this.listeners) listener();
     this.pending.length = 0;  // the viewer cancels them
-    return this.run(source, (signal) => this.viewer.load(source, { signal }));
+    return this.run(nameOf(source), (signal) => this.viewer.load(source, { signal }));
   }
 
   /** The added layers; null if that failed (the page then shows the error) or was cancelled. */
@@ -70,7 +70,15 @@ export class Loading {
 
   /** The same, but rejects with the error for the caller. */
   attemptToAdd(source: SceneSource): Promise<readonly SceneLayer[]> {
-    return this.run(source, (signal) => this.viewer.addLayers(source, { signal }));
+    return this.run(nameOf(source), (signal) => this.viewer.addLayers(source, { signal }));
+  }
+
+  /** Goes to a step, which may read sources again. Returns whether it succeeded; otherwise the page shows the error. */
+  step(name: string, start: (signal: AbortSignal) => Promise<void>): Promise<boolean> {
+    return this.run(name, start).then(() => true, (error: unknown) => {
+      this.messages.thrown(error);
+      return false;
+    });
   }
 
   private report(error: unknown, source: SceneSource): null {
@@ -78,8 +86,8 @@ export class Loading {
     return null;
   }
 
-  private async run<T>(source: SceneSource, start: (signal: AbortSignal) => Promise<T>): Promise<T> {
-    const mine = { name: nameOf(source), ending: new AbortController() };
+  private async run<T>(name: string, start: (signal: AbortSignal) => Promise<T>): Promise<T> {
+    const mine = { name, ending: new AbortController() };
     this.pending.push(mine);
     if (this.pending[0] === mine) this.begin(mine.name);
     try {

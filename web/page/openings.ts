@@ -190,6 +190,7 @@ export class Openings {
     this.incomplete = !all;
     await this.look(isUnmoved() ? view : { ...view, pose: null, named: null },
                     scenes.filter(({ origin }) => origin.kind === 'address').map(({ source }) => source));
+    this.viewer.forgetSteps();  // all of this was the opening
     this.reportOpened();
     return true;
   }

@@ -5,7 +5,7 @@ import { block, byId, input, make, takesText } from '../common/dom.js';
 import { recall, remember } from './memory.js';
 
 export interface Shortcut {
-  /** A value of KeyboardEvent.key, in lower case. */
+  /** A value of KeyboardEvent.key, in lower case; with "ctrl+" or "ctrl+shift+" before it for both on any system. */
   readonly key: string;
   /** The text in the help; null if another row lists the key. */
   readonly meaning: string | null;
@@ -28,8 +28,8 @@ const movingRows: readonly Row[] = [
   ['1 to 9', 'front, back, sides, top, bottom, corners'],
 ];
 
-/** The label of a key. */
-const capOf = (key: string) => (key.length === 1 ? key.toUpperCase() : key);
+/** The label of a key: "Ctrl+Z". */
+const capOf = (key: string) => key.split('+').map((part) => part[0]!.toUpperCase() + part.slice(1)).join('+');
 
 function table(title: string, rows: readonly Row[], cap: (text: string) => Node | string): HTMLElement {
   return make('section', {}, make('h3', {}, title), make('dl', { class: 'keys' }, ...rows.map(([what, meaning]) =>
@@ -59,13 +59,15 @@ export class Shortcuts {
   }
 
   private press(event: KeyboardEvent): void {
-    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+    if (event.defaultPrevented || event.altKey || event.repeat) return;
     if (takesText(event.target) || document.querySelector('dialog[open]')) return;
-    if (!this.everywhere.checked && event.target !== this.canvas) return;
+    const control = event.ctrlKey || event.metaKey;
+    if (!control && !this.everywhere.checked && event.target !== this.canvas) return;
     // A focused list uses letters to find its entries.
-    if (event.target instanceof HTMLSelectElement) return;
+    if (!control && event.target instanceof HTMLSelectElement) return;
     const digit = event.shiftKey ? null : /^(?:Digit|Numpad)(\d)$/.exec(event.code);  // on any layout
-    const key = digit ? digit[1]! : event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const plain = digit ? digit[1]! : event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const key = (control ? `ctrl+${event.shiftKey ? 'shift+' : ''}` : '') + plain;
     const shortcut = this.shortcuts.find((one) => one.key === key);
     if (!shortcut) return;
     event.preventDefault();

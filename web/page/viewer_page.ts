@@ -21,6 +21,7 @@ import { LayersSection } from './sections/layers.js';
 import { SavedSection } from './sections/saved.js';
 import { SceneSection } from './sections/scene.js';
 import { TimesSection } from './sections/times.js';
+import { StepsSection } from './sections/steps.js';
 import { ViewsSection } from './sections/views.js';
 import { Shortcuts } from './shortcuts.js';
 import { chooseSplats } from './splat_choice.js';
@@ -90,6 +91,7 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
 
   const panel = new Panel(), fullScreen = new FullScreen();
   new SceneSection(viewer, loading);
+  const steps = new StepsSection(viewer, loading, tell);
   new LayersSection(viewer, tell, failed);
   const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
   const saved = new SavedSection(viewer, tell);
@@ -119,6 +121,9 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
     { key: 'i', meaning: 'turn the scene upside down', run: () => views.turnOver() },
     { key: '[', meaning: 'previous recorded camera', run: () => cameras.step(-1) },
     { key: ']', meaning: 'next recorded camera', run: () => cameras.step(1) },
+    { key: 'ctrl+z', meaning: 'undo', run: () => void steps.go('undo') },
+    { key: 'ctrl+y', meaning: 'redo', run: () => void steps.go('redo') },
+    { key: 'ctrl+shift+z', meaning: null, run: () => void steps.go('redo') },
     { key: 'k', meaning: 'save this view', run: () => saved.save() },
     { key: 'v', meaning: 'next debug view', run: () => debugViews.next() },
     { key: 'p', meaning: 'save the image', run: () => void image.save() },

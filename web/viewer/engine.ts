@@ -36,7 +36,12 @@ export class Engine {
   /** Called with 0..1 during long commands. */
   onProgress: ((fraction: number) => void) | null = null;
 
-  private constructor(private readonly module: TureenModule) {}
+  /** The engine in its memory, for all its functions. */
+  private readonly self: number;
+
+  private constructor(private readonly module: TureenModule) {
+    this.self = module.ccall('tureen_engine', 'number', [], []);
+  }
 
   /** Rejects with ViewerError if there is no memory for another instance. */
   static async create(program: WebAssembly.Module): Promise<Engine> {
@@ -65,10 +70,10 @@ export class Engine {
   private ask(name: string, given: unknown): string {
     const json = utf8.encode(JSON.stringify(given));
     try {
-      const at = this.module.ccall('tureen_arguments', 'number', ['number'], [json.length]);
+      const at = this.module.ccall('tureen_arguments', 'number', ['number', 'number'], [this.self, json.length]);
       if (at === 0) throw new RangeError('no memory for the command');
       this.module.HEAPU8.set(json, at);
-      return this.module.ccall('tureen_call', 'string', ['string'], [name]);
+      return this.module.ccall('tureen_call', 'string', ['number', 'string'], [this.self, name]);
     } catch (trap) {
       // WebAssembly traps if its memory cannot grow or its stack overflows.
       throw new ViewerError(`The engine has stopped (${trap instanceof Error ? trap.message : String(trap)}): ` +
@@ -79,7 +84,7 @@ export class Engine {
   /** Sets the bytes for the next command: those of all parts, one after the other. */
   setBuffer(...parts: readonly Uint8Array[]): void {
     const size = parts.reduce((sum, { length }) => sum + length, 0);
-    let at = this.module.ccall('tureen_buffer', 'number', ['number'], [size]);
+    let at = this.module.ccall('tureen_buffer', 'number', ['number', 'number'], [this.self, size]);
     if (at === 0 && size > 0)
       throw new ViewerError('The page has not enough memory for this scene.', 'memory');
     for (const part of parts) {
@@ -90,8 +95,8 @@ export class Engine {
 
   /** The bytes from the last command; a view of memory that is valid until the next call. */
   buffer(): Uint8Array {
-    const at = this.module.ccall('tureen_buffer', 'number', ['number'], [-1]);
-    const size = this.module.ccall('tureen_buffer_size', 'number', [], []);
+    const at = this.module.ccall('tureen_buffer', 'number', ['number', 'number'], [this.self, -1]);
+    const size = this.module.ccall('tureen_buffer_size', 'number', ['number'], [this.self]);
     return this.module.HEAPU8.subarray(at, at + size);
   }
 

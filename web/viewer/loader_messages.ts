@@ -51,15 +51,25 @@ export interface Block {
 /** One layer of a source, prepared alone. */
 export interface PreparedLayer {
   readonly description: SceneDescription;
+  /** Without the head and the blobs that were sent before. */
   readonly parcel: Parcel;
   /** Number of the layer in its source, from 0. */
   readonly index: number;
-  /** Forecast of the bytes on the device, for each layer of the source. */
-  readonly forecasts: readonly number[];
+  /** Forecast of its bytes on the device. */
+  readonly forecast: number;
+  /** Number of layers that are loaded, and of those that follow. */
+  readonly count: number;
+  readonly left: number;
 }
 
-/** scene: the scene that the page shows; layers: added to the shown scene, one after the other. */
-export type LoadRole = 'scene' | 'layers';
+/** Layers of a source: all or those with these numbers, from 0, with lattices of at most this level. */
+export interface WantedLayers {
+  readonly indices: readonly number[] | null;
+  readonly level: number | null;
+}
+
+/** The scene that the page shows, or layers for it, one after the other. */
+export type LoadRole = 'scene' | WantedLayers;
 
 export type ToLoader =
   | LoadMessage
@@ -118,7 +128,7 @@ export type FromLoader =
   | { readonly kind: 'preview'; readonly scene: PreparedScene }
   /** The loader waits for the answer, 'splats'. */
   | { readonly kind: 'offer'; readonly offer: SplatOffer }
-  /** The head of a large scene, whose blocks and 'scene' follow. */
+  /** The head of a large scene or layer, whose blocks and 'scene' or 'layer' follow. */
   | { readonly kind: 'head'; readonly head: ArrayBuffer }
   | { readonly kind: 'block'; readonly block: Block }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }

@@ -32,7 +32,7 @@ class Loader {
   private loaded = 0;
   private total: number | null = null;
   private told = { stage: '', permille: -1 };
-  private forecasts: readonly number[] = [];  // of added layers
+  private wanted: readonly { readonly index: number; readonly forecast: number }[] = [];  // layers
   private nextLayer = 0;
   readonly sending = new Sending(() => this.engine, post);
 
@@ -64,8 +64,15 @@ class Loader {
     this.engine.onProgress = (fraction) => this.tell('read', this.readFrom + (1 - this.readFrom) * fraction);
     this.description = await this.read(files);
     this.readMs = performance.now() - begin;
-    if (this.message.role === 'scene') return this.send();
-    this.forecasts = this.engine.call<number[]>('forecast', { limits: await this.limits });
+    const { role } = this.message;
+    if (role === 'scene') return this.send();
+    this.level = role.level;
+    const forecasts = this.engine.call<number[]>('forecast', { limits: await this.limits });
+    this.wanted = (role.indices ?? [...forecasts.keys()]).map((index) => {
+      const forecast = forecasts[index];
+      if (forecast === undefined) throw new ViewerError(`${source.name} has changed: it has no layer ${index + 1} any more.`, 'input');
+      return { index, forecast };
+    });
     await this.sendLayer();
   }
 
@@ -85,11 +92,12 @@ class Loader {
 
   /** Sends the next layer. */
   async sendLayer(): Promise<void> {
-    const index = this.nextLayer++, { forecasts } = this;
-    this.engine.onProgress = (fraction) => this.tell('prepare', (index + fraction) / forecasts.length);
-    const parcel = this.sending.parcel(this.prepare(await this.limits, index));
-    this.tell('upload', index / forecasts.length);
-    post({ kind: 'layer', layer: { description: this.description!, parcel, index, forecasts } });
+    const number = this.nextLayer++, count = this.wanted.length, { index, forecast } = this.wanted[number]!;
+    this.engine.onProgress = (fraction) => this.tell('prepare', (number + fraction) / count);
+    const prepared = this.prepare(await this.limits, index);
+    this.tell('upload', number / count);
+    const parcel = await this.sending.send(prepared);
+    post({ kind: 'layer', layer: { description: this.description!, parcel, index, forecast, count, left: count - number - 1 } });
   }
 
   /** Sends the scene again with the next lower lattice level. `why`: the device's message. */
@@ -187,8 +195,8 @@ class Loader {
     const permille = fraction === null ? Math.floor(this.loaded / 1e5) : Math.floor(1000 * fraction);
     if (this.told.stage === stage && this.told.permille === permille) return;
     this.told = { stage, permille };
-    const left = this.forecasts.slice(Math.max(this.nextLayer - 1, 0));
-    const deviceBytes = left.length ? left.reduce((sum, bytes) => sum + bytes, 0) : null;
+    const left = this.wanted.slice(Math.max(this.nextLayer - 1, 0));
+    const deviceBytes = left.length ? left.reduce((sum, { forecast }) => sum + forecast, 0) : null;
     post({ kind: 'progress', progress: { stage, fraction, loadedBytes: this.loaded, totalBytes: this.total, deviceBytes } });
   }
 }

@@ -8,13 +8,13 @@ interface CommonEvents {
   progress(progress: LoadProgress): void;
   /** Resolves to the number of splats to read. */
   offer(offer: SplatOffer, signal: AbortSignal): Promise<number>;
+  /** Begins a large scene or layer; its blocks follow. */
+  head(head: ArrayBuffer): void;
+  block(block: Block): Taken;
 }
 
 export interface LoadingEvents extends CommonEvents {
   preview(scene: PreparedScene): void;
-  /** Begins a large scene; its blocks follow. */
-  head(head: ArrayBuffer): void;
-  block(block: Block): Taken;
   /** Uploads the scene to the device. Returns null, or the reason if the device's memory is too small; the
    *  scene then arrives again with a lower lattice level. */
   scene(scene: PreparedScene): string | null;
@@ -115,9 +115,9 @@ export class Loading {
       switch (message.kind) {
         case 'progress': return events.progress(message.progress);
         case 'preview': return (events as LoadingEvents).preview(message.scene);
-        case 'head': return (events as LoadingEvents).head(message.head);
+        case 'head': return events.head(message.head);
         case 'block': {
-          const { block } = message, taken = (events as LoadingEvents).block(block);
+          const { block } = message, taken = events.block(block);
           const bytes = taken === 'kept' ? new ArrayBuffer() : block.bytes;
           return this.worker!.postMessage({ kind: 'taken', taken, bytes } satisfies ToLoader, [bytes]);
         }
@@ -132,7 +132,7 @@ export class Loading {
         case 'layer': {
           const { layer } = message;
           (events as AddingEvents).layer(layer);
-          if (layer.index + 1 === layer.forecasts.length) this.end();
+          if (layer.left === 0) this.end();
           else this.worker!.postMessage({ kind: 'next' } satisfies ToLoader);
         }
       }

@@ -1,7 +1,7 @@
 // The files of a scene in the form that the engine reads: one file, or a folder.
 
 import type { Engine } from './engine.js';
-import type { SceneFile } from './types.js';
+import { ViewerError, type SceneFile } from './types.js';
 
 /** The engine's folder for files; paths in errors are relative to it. */
 const folder = '/scene';
@@ -18,7 +18,9 @@ export function oneFile(name: string, bytes: Uint8Array<ArrayBuffer>): OpenedFil
 }
 
 export async function openFiles(files: readonly SceneFile[], name: string): Promise<OpenedFiles> {
-  const bytesOf = async ({ data }: SceneFile) => new Uint8Array(await data.arrayBuffer());
+  const bytesOf = async ({ path, data }: SceneFile) => new Uint8Array(await data.arrayBuffer().catch(() => {
+    throw new ViewerError(`${path} cannot be read: it was changed, moved or removed. Open it again.`, 'input');
+  }));
   if (files.length === 1) return oneFile(files[0]!.path, await bytesOf(files[0]!));
   const whole = name.replaceAll('/', ' '), bytes = new Map<string, Uint8Array<ArrayBuffer>>();
   for (const file of files) bytes.set(`${whole}/${file.path}`, await bytesOf(file));

@@ -1,25 +1,14 @@
 // The summary of a scene for the page, from the loader's description and the device's facts.
 
 import type { SceneDescription } from './loader_messages.js';
-import type { DebugViewChoice, Placement, SceneSummary } from './types.js';
+import type { DebugViewChoice, SceneLayer, SceneSummary } from './types.js';
 
-/** A layer on the device: web/engine/viewer.cpp. */
-export interface ShownLayer {
-  readonly triangles: number;
-  readonly splats: number;
-  readonly visible: boolean;
-  readonly transform: readonly number[];
-  readonly placement: Placement;
-  readonly device_bytes: number;
-}
-
-/** The result of the commands "show", "add_layers", "remove_layer" and "move_layer": web/engine/viewer.cpp. */
+/** The result of the command "facts": web/engine/viewer.cpp. */
 export interface ShownFacts {
   readonly plan: readonly string[];
   /** Number of drawn triangles and splats. */
   readonly drawn: number;
   readonly device_bytes: number;
-  readonly layers: readonly ShownLayer[];
 }
 
 export const lowerLevelSentence = (level: number) =>
@@ -42,15 +31,16 @@ function debugViewsOf(sources: readonly SceneDescription[]): readonly DebugViewC
 }
 
 /** `sources`: descriptions of the sources with layers; `first`: that of the loaded scene. */
-export function sceneSummary(first: SceneDescription, sources: readonly SceneDescription[], facts: ShownFacts): SceneSummary {
+export function sceneSummary(first: SceneDescription, sources: readonly SceneDescription[], layers: readonly SceneLayer[],
+                             facts: ShownFacts): SceneSummary {
   const { background, cameras, subject, up_reason } = first;
   const distinct = (texts: readonly string[]) => [...new Set(texts.filter(Boolean))];
   return {
     name: sources[0]!.name,
     source: distinct(sources.map(({ source }) => source)).join('; '),
     notes: distinct([...sources.flatMap(({ notes }) => notes), facts.drawn ? '' : nothingDrawn]),
-    triangles: facts.layers.reduce((sum, layer) => sum + layer.triangles, 0),
-    splats: facts.layers.reduce((sum, layer) => sum + layer.splats, 0),
+    triangles: layers.reduce((sum, layer) => sum + layer.triangles, 0),
+    splats: layers.reduce((sum, layer) => sum + layer.splats, 0),
     appearance: distinct(sources.map(({ appearance }) => appearance)).join(', '),
     background,
     plan: facts.plan,

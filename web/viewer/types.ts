@@ -74,6 +74,8 @@ export interface Placement {
 
 /** A set of triangles or splats of the current scene. At equal depth the earlier layer is visible. */
 export interface SceneLayer {
+  /** No other layer of the viewer has it; a removed layer that returns keeps it. */
+  readonly id: number;
   /** Unique among the layers: "fox", "fox 2". */
   readonly name: string;
   readonly triangles: number;
@@ -87,6 +89,14 @@ export interface SceneLayer {
   /** The argument of `load` or `addLayers`, and the layer's number in it, from 0. */
   readonly source: SceneSource;
   readonly sourceLayer: number;
+}
+
+/** What the user can undo: the steps since the scene was opened. */
+export interface Steps {
+  /** "Move fox", "Change the up axis", ..; the oldest first. */
+  readonly names: readonly string[];
+  /** Number of steps that are done; the others are undone. */
+  readonly position: number;
 }
 
 /** Largest number of layers of a scene: the device stores a layer's number in 8 bits. */
@@ -189,6 +199,8 @@ export interface ViewerEvents {
   scene: SceneSummary | null;
   /** The list of layers, or a member of it, changed. */
   layers: readonly SceneLayer[];
+  /** Steps were made, undone, redone or forgotten. */
+  steps: Steps;
   /** A message for the user, for example about a lower lattice level because of too little memory. */
   notice: string;
   /** A frame was drawn. Use it sparingly. */
@@ -230,7 +242,7 @@ export interface Viewer {
   // Layers. A loaded scene has at least one. Background, up axis and cameras stay those of the loaded scene.
 
   readonly layers: readonly SceneLayer[];
-  /** Adds the layers of another source after the present ones, and resolves to them; the view stays. Without
+  /** Adds the layers of another source after the present ones, together, and resolves to them; the view stays. Without
    *  a scene it loads the source. Several calls run one after the other; `load`, `clear` and the signal
    *  cancel them. A layer that the device's memory cannot hold is not added: a notice names it and its
    *  bytes, and the others are drawn. Rejects with ViewerError, also if no layer was added, or if there would
@@ -242,6 +254,22 @@ export interface Viewer {
   removeLayer(index: number): Promise<void>;
   /** Moves a layer to another place in the list. */
   moveLayer(from: number, to: number): Promise<void>;
+
+  // Steps. Each call above that changes layers, setUp(), and a change of `background` is a step. A moved view is none. A
+  // loaded scene begins without steps. Removed layers are read again from their sources when they return.
+
+  readonly steps: Steps;
+  /** While it is true, changes of the same thing are one step: set it while the user drags. */
+  holding: boolean;
+  /** Undoes the last step, if there is one, after earlier loads and additions. `load`, `clear`, the signal, and a step that
+   *  is made while sources are read cancel it; then nothing has changed. Rejects with ViewerError, also if a source cannot be read again. */
+  undo(options?: { readonly signal?: AbortSignal }): Promise<void>;
+  /** Repeats the next undone step; otherwise as undo(). */
+  redo(options?: { readonly signal?: AbortSignal }): Promise<void>;
+  /** Undoes or repeats steps until Steps.position is this; otherwise as undo(). */
+  goToStep(position: number, options?: { readonly signal?: AbortSignal }): Promise<void>;
+  /** The present state can no longer be undone. */
+  forgetSteps(): void;
 
   on<E extends keyof ViewerEvents>(event: E, listener: (what: ViewerEvents[E]) => void): () => void;
 

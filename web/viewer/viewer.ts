@@ -6,9 +6,9 @@ import { urlOf } from './addresses.js';
 import { ArrivingScene } from './arriving_scene.js';
 import { assetsAt } from './assets.js';
 import { attachControls } from './controls.js';
-import { compile, Engine } from './engine.js';
+import { compile, Engine, type Parcel } from './engine.js';
 import { FrameTimes } from './frame_times.js';
-import type { LoadRole, PreparedScene, SceneDescription } from './loader_messages.js';
+import type { PreparedLayer, PreparedScene, SceneDescription, WantedLayers } from './loader_messages.js';
 import { isShortage, Loading } from './loading.js';
 import { defaultMemory } from './memory.js';
 import { ResolutionKeeper } from './resolution.js';
@@ -16,12 +16,12 @@ import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
 import { SplatSorting } from './splat_sorting.js';
 import {
-  lowerLevelSentence, nothingDrawn, othersDrawn, sceneSummary, tooLargeSentence, type ShownFacts, type ShownLayer,
+  lowerLevelSentence, nothingDrawn, othersDrawn, sceneSummary, tooLargeSentence, type ShownFacts,
 } from './scene_summary.js';
 import {
   maxLayers, ViewerError, type Assets, type FrameStats, type LegendEntry, type Matrix, type NamedView,
   type NavigationMode, type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
-  type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
+  type Steps, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
 } from './types.js';
 
 /** Starts the engine on this canvas. Rejects with ViewerError. */
@@ -50,7 +50,7 @@ interface Device {
 const isSame = (a: SceneSource, b: SceneSource) =>
   a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name);
 
-/** A source with layers in the scene. */
+/** A source that was read. */
 interface Part {
   readonly source: SceneSource;
   readonly description: SceneDescription;
@@ -58,28 +58,34 @@ interface Part {
   readonly level: number | null;
 }
 
-/** The origin of a layer; its other facts are the engine's. */
-interface LayerRecord {
+/** The origin of a layer: its number in its source. */
+interface LayerOrigin {
   readonly part: Part;
-  /** The layer's number in its source. */
   readonly index: number;
-  readonly name: string;
-  /** As it was given to setLayer(): the angles of a transform are not unique. Null: computed from the transform. */
-  readonly placement: Placement | null;
 }
+
+/** Further arguments of calls that read sources. */
+interface Cancelling { readonly signal?: AbortSignal }
 
 /** `wanted`, or with the first free number: "fox 2". */
-function freeName(wanted: string, taken: readonly LayerRecord[]): string {
-  const isFree = (name: string) => taken.every((layer) => layer.name !== name);
-  if (isFree(wanted)) return wanted;
+function freeName(wanted: string, taken: readonly string[]): string {
+  if (!taken.includes(wanted)) return wanted;
   for (let number = 2; ; ++number)
-    if (isFree(`${wanted} ${number}`)) return `${wanted} ${number}`;
+    if (!taken.includes(`${wanted} ${number}`)) return `${wanted} ${number}`;
 }
 
-/** The file's name for a layer if there are several, otherwise the scene's. */
-const ownName = ({ name, layer_names }: SceneDescription, index: number) =>
-  (layer_names.length > 1 && layer_names[index]) || name;
+/** The file's name for a layer if there are several, otherwise the scene's; with a number if it is taken. */
+const nameOf = ({ name, layer_names }: SceneDescription, index: number, taken: readonly string[]) =>
+  freeName((layer_names.length > 1 && layer_names[index]) || name, taken);
 
+const namesOf = (description: SceneDescription) => {
+  const names: string[] = [];
+  for (const index of description.layer_names.keys()) names.push(nameOf(description, index, names));
+  return names;
+};
+
+const reason = (error: unknown) => (error instanceof Error ? error.message : String(error));
+const isCancelled = (error: unknown) => error instanceof ViewerError && error.kind === 'cancelled';
 const cancelled = () => new ViewerError('Loading was cancelled.', 'cancelled');
 
 /** Listeners of each event. */
@@ -101,15 +107,16 @@ class CanvasViewer implements Viewer {
   private readonly observer: ResizeObserver;
   private readonly ending = new AbortController();
   private loading: Loading | null = null;
-  /** Resolves when no load runs and no layers are being added. */
+  /** Resolves when no load runs, no layers are being added, and no step is under way. */
   private turn: Promise<unknown> = Promise.resolve();
-  /** Number of calls that cancel earlier loads and additions. */
+  /** Number of calls that cancel earlier loads, additions and steps. */
   private cancellations = 0;
   /** The description of the loaded scene, with the background, the up axis and the cameras. */
   private first: SceneDescription | null = null;
-  private parts: readonly Part[] = [];  // another list after each change
-  private records: readonly LayerRecord[] = [];
-  private layers_: readonly SceneLayer[] = [];
+  /** The origins of all layers, by id: those that the engine's document has, and removed ones, which may return. */
+  private readonly origins = new Map<number, LayerOrigin>();
+  /** Number of scenes that were shown or removed. */
+  private generation = 0;
   private shown: SceneSummary | null = null;
   private previewed = false;
   /** A large scene whose blocks arrive. */
@@ -118,10 +125,9 @@ class CanvasViewer implements Viewer {
   private debugViewsAsked = 0;
   /** Resolves when no debug view is being shown by show(). */
   private showing: Promise<unknown> = Promise.resolve();
-  private opening: { readonly parts: readonly Part[]; readonly done: Promise<void> } | null = null;
+  private opening: { readonly generation: number; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
-  private background_: Vec3 = [0, 0, 0];
-  private backgroundBefore: Vec3 = [0, 0, 0];
+  private holding_ = false;
   private gliding_ = true;
   smooth = true;
   /** Numbers of splats that were chosen for sources whose splats do not all fit. */
@@ -148,6 +154,8 @@ class CanvasViewer implements Viewer {
       event.preventDefault();  // otherwise the browser does not restore the context
       this.dropPreview();  // its view and background are not the scene's, which restore() shows again
       this.lost = true;
+      this.arriving = null;
+      this.engine.call('lose_device');
       this.loading?.cancel(new ViewerError(
         'The browser reset the graphics device while the scene was loading: open the scene again.', 'device'));
       this.emit('context', 'lost');
@@ -160,75 +168,70 @@ class CanvasViewer implements Viewer {
   }
 
   private async startEngine(): Promise<void> {
-    const engine = await Engine.create(await this.program);
-    engine.takeCanvas(this.canvas);
-    this.engine = engine;
-    this.device = engine.call<Device>('start', { blend: this.options.blend });
-    this.sorting?.end();
-    this.sorting = new SplatSorting(this.assets, this.program, engine, () => this.ask());
+    this.engine = await Engine.create(await this.program);
+    this.sorting = new SplatSorting(this.assets, this.program, this.engine, () => this.ask());
+    this.startDevice();
+  }
+
+  private startDevice(): void {
+    this.engine.takeCanvas(this.canvas);
+    this.device = this.engine.call<Device>('start', { blend: this.options.blend });
     this.lost = false;
-    engine.call('background', this.background_);
-    engine.call('gliding', this.gliding_);
-    engine.call('smooth_at_rest', this.smooth);
-    engine.call('mode', this.navigation);
+    this.engine.call('gliding', this.gliding_);
+    this.engine.call('smooth_at_rest', this.smooth);
+    this.engine.call('mode', this.navigation);
     this.lay();
   }
 
-  /** Starts a new engine and loads the scene again: the old context and the old engine's memory are lost. */
+  /** Reads the layers of the document again: the old context is lost. The engine has all else. */
   private async restore(): Promise<void> {
-    const view = this.shown ? this.getView() : null, { background, debugView_: shown } = this;
-    const { first, parts, layers_: layers } = this;
+    const { debugView_: shown } = this;
+    this.debugView_ = { ...shown, name: 'color' };
     try {
-      await (this.started = this.startEngine());
-      if (this.ending.signal.aborted) return;
-      let restored = false;
-      for (const { source } of parts) {
-        try {
-          await (restored ? this.addLayers(source) : this.load(source, {}, first));
-          restored = true;
-        } catch (error) {
-          // The other sources can be restored, unless a load cancelled this one or the device is lost again.
-          if (this.isGone || (error instanceof ViewerError && error.kind === 'cancelled')) throw error;
-          if (!restored) this.forgetScene();
-          this.emit('notice', error instanceof Error ? error.message : String(error));
-        }
-      }
-      if (restored) {
-        await this.arrange(layers);
-        if (view) {
-          this.setView(view);
-          this.background = background;
-        }
-        if (shown.name !== 'color') await this.show(shown.name, shown.features);
-      }
+      this.startDevice();
+      if (this.shown) await this.readAllAgain();
+      if (this.shown && shown.name !== 'color') await this.show(shown.name, shown.features);
     } catch (error) {
-      // A load of another scene may have cancelled this one.
-      if (!(error instanceof ViewerError && error.kind === 'cancelled')) {
-        if (!this.lost) this.engine.call('clear');
-        this.forgetScene();
-        this.emit('notice', error instanceof Error ? error.message : String(error));
+      if (!isCancelled(error)) {  // a load of another scene may have cancelled this one
+        this.removeScene();
+        this.emit('notice', reason(error));
       }
     }
     if (!this.lost) this.emit('context', 'restored');
     this.ask();
   }
 
+  private async readAllAgain(): Promise<void> {
+    const lost: number[] = [], { generation } = this;
+    for (const [part, ids] of this.byPart(this.engine.call<number[]>('missing'))) {
+      try {
+        await this.uploadAgain(part, ids);
+      } catch (error) {
+        // The other sources can be restored, unless a load cancelled this one or the device is lost again.
+        if (this.isGone || isCancelled(error)) throw error;
+        lost.push(...ids);
+        this.emit('notice', reason(error));
+      }
+      if (this.generation !== generation) throw cancelled();
+    }
+    if (lost.length === this.layers.length) return this.removeScene();
+    this.engine.call('give_up', lost);
+    this.report();
+  }
+
   // -- scenes -----------------------------------------------------------------------------------
 
   get scene(): SceneSummary | null { return this.shown; }
 
-  /** `first`: as in showScene(). */
-  load(source: SceneSource, options: { readonly signal?: AbortSignal } = {},
-       first: SceneDescription | null = null): Promise<SceneSummary> {
+  load(source: SceneSource, options: Cancelling = {}): Promise<SceneSummary> {
     ++this.cancellations;
-    const loaded = this.replace(source, options, first);
+    const loaded = this.replace(source, options);
     this.turn = loaded.catch(() => {});
     return loaded;
   }
 
-  private async replace(source: SceneSource, options: { readonly signal?: AbortSignal },
-                        first: SceneDescription | null = null): Promise<SceneSummary> {
-    if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
+  private async replace(source: SceneSource, options: Cancelling): Promise<SceneSummary> {
+    this.requireDevice();
     const { cancellations } = this;
     this.loading?.cancel();
     this.dropArriving();
@@ -245,7 +248,7 @@ class CanvasViewer implements Viewer {
         block: (block) => this.arriving!.take(block),
         scene: (scene) => {
           layers = scene.description.layer_names.length;
-          return this.showScene(scene, source, first ?? scene.description);
+          return this.showScene(scene, source);
         },
       });
     } catch (error) {
@@ -255,7 +258,7 @@ class CanvasViewer implements Viewer {
       }
       if (layers === 1 || !isShortage(error)) throw error;
       if (this.cancellations !== cancellations) throw cancelled();
-      await this.add(source, options.signal, first);  // layer by layer: draws those that fit
+      await this.add(source, options.signal);  // layer by layer: draws those that fit
     }
     return this.shown!;
   }
@@ -282,7 +285,7 @@ class CanvasViewer implements Viewer {
     return this.loadingOf(source, this.started.then(() => this.device.limits), 'scene');
   }
 
-  private loadingOf(source: SceneSource, limits: Promise<unknown>, role: LoadRole): Loading {
+  private loadingOf(source: SceneSource, limits: Promise<unknown>, role: 'scene' | WantedLayers): Loading {
     return new Loading(this.assets, this.program, limits, source, this.options.memory, this.maxSplats.get(source) ?? null, role);
   }
 
@@ -302,16 +305,13 @@ class CanvasViewer implements Viewer {
   }
 
   private showPreview(scene: PreparedScene): void {
-    const before = this.background;
     try {
-      this.unpack(scene, 'preview');
+      this.unpack(scene.description, scene.parcel, 'preview');
     } catch (error) {
       // The memory is too small for two scenes, or the device is lost. The complete scene will replace the old one.
-      if (!this.previewed) this.background = before;
       if (isShortage(error) || this.isGone) return;
       throw error;
     }
-    if (!this.previewed) this.backgroundBefore = before;
     this.previewed = true;
     this.emit('preview', { triangles: scene.description.triangles, splats: scene.description.splats });
   }
@@ -324,85 +324,92 @@ class CanvasViewer implements Viewer {
     if (!this.previewed) return;
     this.previewed = false;
     this.engine.call('drop_preview');
-    this.background = this.backgroundBefore;
     this.emit('scene', this.shown);
     this.moved = true;  // the view has changed too
     this.ask();
   }
 
+  /** Removes the scene. */
+  private removeScene(): void {
+    this.engine.call('clear');
+    if (this.shown) this.forgetScene();
+    this.ask();
+  }
+
   private forgetScene(): void {
-    if (this.shown) this.setNoScene();
-  }
-
-  private setNoScene(): void {
-    this.setScene(null, [], []);
+    this.engine.call('drop_scene');
+    this.first = this.shown = null;
+    this.origins.clear();
+    ++this.generation;
     this.debugView_ = { ...this.debugView_, name: 'color' };
-    this.setLayers([]);
     this.emit('scene', null);
-    this.emit('layers', []);
+    this.reportLayers();
   }
 
-  private setScene(first: SceneDescription | null, parts: readonly Part[], records: readonly LayerRecord[]): void {
-    this.first = first;
-    this.parts = parts;
-    this.records = records;
-    if (!first) this.shown = null;
-  }
-
-  /** Shows a scene with the background, up axis and cameras of `first`. Returns null, or the reason if the
-   *  device's memory is too small. */
-  private showScene(scene: PreparedScene, source: SceneSource, first: SceneDescription): string | null {
-    let facts;
+  /** Shows a scene. Returns null, or the reason if the device's memory is too small. */
+  private showScene({ description, parcel, level }: PreparedScene, source: SceneSource): string | null {
     try {
       const { arriving } = this;
       this.arriving = null;
       if (arriving) this.engine.call('drop_scene');
       arriving?.finish();
-      facts = this.unpack({ description: first, parcel: scene.parcel }, 'scene');
+      this.beginScene({ source, description, level }, parcel, namesOf(description), 0);
     } catch (error) {
       if (this.isGone) throw new ViewerError('The browser reset the graphics device: open the scene again.', 'device');
-      this.forgetScene();  // the engine has removed it
+      if (this.shown) this.forgetScene();  // the device held only one of them
       if (isShortage(error)) return error.message;
       throw error;
     }
-    this.previewed = false;
-    this.debugView_ = { ...this.debugView_, name: 'color' };
-    const { description, level } = scene, part = { source, description, level };
-    const records: LayerRecord[] = [];
-    for (let index = 0; index < facts.layers.length; ++index)
-      records.push({ part, index, name: freeName(ownName(description, index), records), placement: null });
-    this.setScene(first, [part], records);
-    this.showFacts(facts);
-    if (facts.drawn === 0) this.emit('notice', nothingDrawn);
-    if (scene.level !== null)
-      this.emit('notice', lowerLevelSentence(scene.level));
+    if (this.engine.call<ShownFacts>('facts').drawn === 0) this.emit('notice', nothingDrawn);
+    if (level !== null) this.emit('notice', lowerLevelSentence(level));
     return null;
   }
 
+  /** Shows layers of a source instead of the scene: those from number `from` on, with these names. */
+  private beginScene(part: Part, parcel: Parcel, names: readonly string[], from: number): void {
+    this.unpack(part.description, parcel, 'scene', names);
+    this.previewed = false;
+    this.debugView_ = { ...this.debugView_, name: 'color' };
+    this.first = part.description;
+    this.origins.clear();
+    ++this.generation;
+    this.engine.call<SceneLayer[]>('layers').forEach(({ id }, at) => this.origins.set(id, { part, index: from + at }));
+    this.report();
+  }
+
+  /** The sources of the layers, those that came first in front. */
+  private parts(): readonly Part[] { return [...this.byPart(this.layers.map(({ id }) => id)).keys()]; }
+
+  private byPart(ids: readonly number[]): ReadonlyMap<Part, readonly number[]> {
+    const parts = new Map<Part, number[]>();
+    for (const id of [...ids].sort((a, b) => a - b)) {
+      const { part } = this.origins.get(id)!;
+      parts.set(part, [...parts.get(part) ?? [], id]);
+    }
+    return parts;
+  }
+
   /** Reports a change of the scene's layers. */
-  private showFacts(facts: ShownFacts): void {
-    this.shown = sceneSummary(this.first!, this.parts.map(({ description }) => description), facts);
-    this.setLayers(facts.layers);
+  private report(): void {
+    const descriptions = this.parts().map(({ description }) => description);
+    this.shown = sceneSummary(this.first!, descriptions, this.layers, this.engine.call<ShownFacts>('facts'));
     this.emit('scene', this.shown);
-    this.emit('layers', this.layers_);
+    this.reportLayers();
+  }
+
+  private reportLayers(): void {
+    if (this.listeners.layers?.size) this.emit('layers', this.layers);
+    this.reportStep();
+  }
+
+  private reportStep(): void {
+    if (this.listeners.steps?.size) this.emit('steps', this.steps);
     this.ask();
   }
 
-  /** `shown`: the engine's layers, one for each record. */
-  private setLayers(shown: readonly ShownLayer[]): void {
-    this.layers_ = this.records.map(({ part, index, name, placement }, at) => {
-      const { device_bytes, ...facts } = shown[at]!;
-      return {
-        name, ...facts, placement: placement ?? facts.placement, deviceBytes: device_bytes,
-        source: part.source, sourceLayer: index,
-      };
-    });
-  }
-
-  private unpack({ description, parcel }: Pick<PreparedScene, 'description' | 'parcel'>, role: 'preview' | 'scene'): ShownFacts {
-    if (role === 'preview' || !this.previewed) this.background = description.background;
+  private unpack(scene: SceneDescription, parcel: Parcel, role: 'preview' | 'scene', names: readonly string[] = []): void {
     try {
-      return this.engine.give<ShownFacts>(parcel, 'show', { scene: description, role });
+      this.engine.give(parcel, 'show', { scene, role, names });
     } finally {
       this.engine.call('gliding', this.gliding_);
       this.engine.call('mode', this.navigation);
@@ -414,153 +421,207 @@ class CanvasViewer implements Viewer {
   clear(): void {
     ++this.cancellations;
     this.loading?.cancel();
-    if (!this.lost) this.engine.call('clear');
     this.previewed = false;
-    this.setNoScene();
-    this.ask();
+    this.engine.call('clear');
+    this.forgetScene();
   }
 
   // -- layers -----------------------------------------------------------------------------------
 
-  get layers(): readonly SceneLayer[] { return this.layers_; }
+  get layers(): readonly SceneLayer[] {
+    return this.engine.call<Omit<SceneLayer, 'source' | 'sourceLayer'>[]>('layers').map((layer) => {
+      const { part, index } = this.origins.get(layer.id)!;
+      return { ...layer, source: part.source, sourceLayer: index };
+    });
+  }
 
-  addLayers(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<readonly SceneLayer[]> {
+  /** Runs `what` after earlier loads, additions, steps and debug views. load(), clear() and the signal cancel it. */
+  private inTurn<T>({ signal }: Cancelling, what: () => T | Promise<T>): Promise<T> {
     const { turn, showing, cancellations } = this;
-    const added = (async () => {
+    const done = (async () => {
       await turn;
       await showing;
-      if (this.cancellations !== cancellations || options.signal?.aborted) throw cancelled();
+      if (this.cancellations !== cancellations || signal?.aborted) throw cancelled();
+      return what();
+    })();
+    this.turn = done.catch(() => {});
+    return done;
+  }
+
+  addLayers(source: SceneSource, options: Cancelling = {}): Promise<readonly SceneLayer[]> {
+    return this.inTurn(options, async () => {
       if (this.shown) return this.inColors(() => this.add(source, options.signal));
       await this.replace(source, options);
-      return this.layers_;
-    })();
-    this.turn = added.catch(() => {});
-    return added;
+      return this.layers;
+    });
   }
 
-  /** Adds the layers of a source; the first is the scene if there is none, with the cameras of `first` if it is
-   *  given. If this fails, it adds none. */
-  private async add(source: SceneSource, signal: AbortSignal | undefined,
-                    first: SceneDescription | null = null): Promise<readonly SceneLayer[]> {
-    if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
+  /** Adds the layers of a source; they are the scene if there is none. If this fails, it adds none. */
+  private async add(source: SceneSource, signal: AbortSignal | undefined): Promise<readonly SceneLayer[]> {
     this.requireRoom(1);
-    const refused: string[] = [];
-    const loading = this.loadingOf(source, Promise.resolve(this.device.limits), 'layers');
-    let part: Part | null = null, total = 0;
+    const refused: string[] = [], opens = !this.shown, before = this.layers;
+    const names = before.map(({ name }) => name), indices: number[] = [];
+    let part: Part | null = null;
     try {
-      await this.run(loading, signal, {
-        progress: (progress) => this.emit('progress', progress),
-        offer: this.offering(source),
-        layer: ({ description, parcel, index, forecasts }) => {
-          if (index === 0) this.requireRoom(forecasts.length);
-          total = forecasts.length;
-          part ??= { source, description, level: null };
-          const name = freeName(ownName(description, index), this.records);
-          let facts;
-          try {
-            facts = this.shown ? this.engine.give<ShownFacts>(parcel, 'add_layers', {})
-                               : this.unpack({ description: first ?? description, parcel }, 'scene');
-          } catch (error) {
-            if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');
-            if (!isShortage(error)) throw error;
-            refused.push(tooLargeSentence(name, forecasts[index]!));
-            return;
+      await this.readLayers(source, { indices: null, level: null }, signal, ({ description, parcel, index, forecast, count }) => {
+        if (index === 0) this.requireRoom(count);
+        part ??= { source, description, level: null };
+        const name = nameOf(description, index, names);
+        try {
+          if (this.shown) {
+            this.upload(parcel, { name });
+            indices.push(index);
+          } else {
+            this.takeArriving();
+            this.beginScene(part, parcel, [name], index);
           }
-          const parts = this.parts.includes(part) ? this.parts : [...this.parts, part];
-          this.setScene(this.first ?? first ?? description, parts, [...this.records, { part, index, name, placement: null }]);
-          this.showFacts(facts);
-        },
+          names.push(name);
+        } catch (error) {
+          if (this.isGone) throw new ViewerError('The browser reset the graphics device: add the layers again.', 'device');
+          if (!isShortage(error)) throw error;
+          refused.push(tooLargeSentence(name, forecast));
+        }
       });
+      if (names.length === before.length) throw new ViewerError(refused.join(' '), 'memory');
     } catch (error) {
-      this.removePart(part);
+      if (!opens) this.engine.call('drop_uploaded');
+      else if (this.shown && !this.ending.signal.aborted) this.removeScene();
       throw error;
     }
-    if (refused.length === total) throw new ViewerError(refused.join(' '), 'memory');
+    this.engine.call<number[]>('add_uploaded', !opens).forEach((id, at) => this.origins.set(id, { part: part!, index: indices[at]! }));
+    this.report();
     for (const sentence of refused) this.emit('notice', `${sentence} ${othersDrawn}`);
-    // The user may have removed some of them.
-    return this.layers_.filter((_, index) => this.records[index]!.part === part);
+    return this.layers.slice(-(names.length - before.length));
   }
 
-  /** Removes the layers of a source whose addition failed. */
-  private removePart(part: Part | null): void {
-    const kept = this.records.filter((record) => record.part !== part);
-    if (kept.length === this.records.length || this.ending.signal.aborted) return;
-    if (kept.length === 0) {
-      if (!this.isGone) this.engine.call('clear');
-      this.forgetScene();
-      this.ask();
-    } else if (this.isGone) {  // restore() will not add them
-      this.layers_ = this.layers_.filter((_, index) => this.records[index]!.part !== part);
-      this.setScene(this.first, this.parts.filter((one) => one !== part), kept);
-      this.emit('layers', this.layers_);
-    } else {
-      let facts: ShownFacts | null = null;
-      for (let index = this.records.length - 1; index >= 0; --index)
-        if (this.records[index]!.part === part) facts = this.engine.call<ShownFacts>('remove_layer', index);
-      this.setScene(this.first, this.parts.filter((one) => one !== part), kept);
-      this.showFacts(facts!);
+  /** Reads a source and passes its layers on, prepared, one after the other. */
+  private async readLayers(source: SceneSource, wanted: WantedLayers, signal: AbortSignal | undefined,
+                           layer: (layer: PreparedLayer) => void): Promise<void> {
+    this.requireDevice();
+    try {
+      await this.run(this.loadingOf(source, Promise.resolve(this.device.limits), wanted), signal, {
+        progress: (progress) => this.emit('progress', progress),
+        offer: this.offering(source),
+        head: (head) => { this.arriving = new ArrivingScene(this.engine, head, null); },
+        block: (block) => this.arriving!.take(block),
+        layer,
+      });
+    } finally {
+      if (this.loading === null) this.dropArriving();
     }
+  }
+
+  private takeArriving(): void {
+    const { arriving } = this;
+    this.arriving = null;
+    arriving?.finish();
+  }
+
+  /** Uploads a layer, which its step will show. `what`: its id, or the name of a new layer. */
+  private upload(parcel: Parcel, what: { readonly id: number } | { readonly name: string }): void {
+    this.takeArriving();
+    this.engine.give(parcel, 'upload_layer', what);
+  }
+
+  /** Reads layers of a source again and uploads them under their ids. */
+  private uploadAgain({ source, level }: Part, ids: readonly number[], signal?: AbortSignal): Promise<void> {
+    const indices = ids.map((id) => this.origins.get(id)!.index);
+    return this.readLayers(source, { indices, level }, signal, ({ parcel, index }) =>
+      this.upload(parcel, { id: ids[indices.indexOf(index)]! }));
+  }
+
+  private requireDevice(): void {
+    if (this.isGone) throw new ViewerError('The browser reset the graphics device: try again when it is available.', 'device');
   }
 
   private requireRoom(more: number): void {
-    if (this.layers_.length + more <= maxLayers) return;
-    throw new ViewerError(`A scene has at most ${maxLayers} layers, and this one would have ` +
-                          `${this.layers_.length + more}: remove layers first.`, 'usage');
+    const count = this.layers.length + more;
+    if (count <= maxLayers) return;
+    throw new ViewerError(`A scene has at most ${maxLayers} layers, and this one would have ${count}: remove layers first.`, 'usage');
   }
 
-  private requireLayer(index: number): void {
-    if (!(Number.isInteger(index) && index >= 0 && index < this.layers_.length))
-      throw new ViewerError(`There is no layer ${index}: the scene has ${this.layers_.length}, counted from 0.`, 'usage');
+  private layerAt(index: number): SceneLayer {
+    const { layers } = this, layer = layers[index];
+    if (layer) return layer;
+    throw new ViewerError(`There is no layer ${index}: the scene has ${layers.length}, counted from 0.`, 'usage');
   }
 
   setLayer(index: number, change: { readonly visible?: boolean; readonly transform?: Matrix | Placement }): void {
-    this.requireLayer(index);
-    const { visible, transform } = change;
+    const { id } = this.layerAt(index), { visible, transform } = change;
     const placement = transform && 'position' in transform ? transform : null;
     const matrix = placement ? undefined : transform as Matrix | undefined;
     const numbers = placement ? [...placement.position, ...placement.rotation, placement.scale] : matrix;
     if (numbers && !(numbers.length === (placement ? 7 : 16) && numbers.every(Number.isFinite)))
       throw new ViewerError('A transform needs 16 numbers, column by column, or a position, a rotation and a scale above 0.', 'usage');
     if (this.lost) return;
-    const shown = this.engine.call<ShownLayer[]>('set_layer', {
-      layer: index, ...(matrix && { transform: matrix }), ...(placement && { placement }), ...(visible !== undefined && { visible }),
+    this.engine.call('set_layer', {
+      layer: id, ...(matrix && { transform: matrix }), ...(placement && { placement }), ...(visible !== undefined && { visible }),
     });
-    if (transform) this.records = this.records.map((record, at) => (at === index ? { ...record, placement } : record));
-    this.setLayers(shown);
-    this.emit('layers', this.layers_);
-    this.ask();
+    this.reportLayers();
   }
 
   async removeLayer(index: number): Promise<void> {
-    this.requireLayer(index);
-    if (this.layers_.length === 1) return this.clear();
-    const leaving = this.records[index]!;
-    await this.inColors(() => {
-      const at = this.records.indexOf(leaving);
-      if (this.lost || at < 0) return;
-      const facts = this.engine.call<ShownFacts>('remove_layer', at);
-      const records = this.records.filter((record) => record !== leaving);
-      this.setScene(this.first, this.parts.filter((part) => records.some((record) => record.part === part)), records);
-      this.showFacts(facts);
-    });
+    const { id } = this.layerAt(index);
+    if (this.layers.length === 1) return this.clear();
+    if (this.lost) return;
+    this.engine.call('remove_layer', id);
+    this.report();
   }
 
   async moveLayer(from: number, to: number): Promise<void> {
-    this.requireLayer(from);
-    this.requireLayer(to);
-    if (from === to) return;
-    await this.inColors(() => {
-      if (this.lost) return;
-      this.requireLayer(Math.max(from, to));
-      const facts = this.engine.call<ShownFacts>('move_layer', { from, to });
-      const records = [...this.records];
-      records.splice(to, 0, ...records.splice(from, 1));
-      this.setScene(this.first, this.parts, records);
-      this.showFacts(facts);
+    const { id } = this.layerAt(from);
+    this.layerAt(to);
+    if (this.lost) return;
+    this.engine.call('move_layer', [id, to]);
+    this.report();
+  }
+
+  // -- steps ------------------------------------------------------------------------------------
+
+  get steps(): Steps { return this.engine.call<Steps>('steps'); }
+  get holding(): boolean { return this.holding_; }
+  set holding(held: boolean) {
+    if (held !== this.holding_) this.engine.call('hold', held);
+    this.holding_ = held;
+  }
+  undo(options: Cancelling = {}): Promise<void> { return this.step((position) => position - 1, options); }
+  redo(options: Cancelling = {}): Promise<void> { return this.step((position) => position + 1, options); }
+  goToStep(position: number, options: Cancelling = {}): Promise<void> {
+    if (Number.isInteger(position) && position >= 0 && position <= this.steps.names.length) return this.step(() => position, options);
+    throw new ViewerError(`There is no step ${position}: there are ${this.steps.names.length}.`, 'usage');
+  }
+  forgetSteps(): void {
+    this.engine.call('forget_steps');
+    this.reportStep();
+  }
+
+  private step(target: (position: number) => number, options: Cancelling): Promise<void> {
+    return this.inTurn(options, async () => {
+      const { names, position } = this.steps, wanted = target(position);
+      if (wanted === position || wanted < 0 || wanted > names.length) return;
+      this.requireDevice();
+      const go = () => this.engine.call<number[]>('go_to', wanted), missing = go();
+      if (missing.length > 0)
+        await this.inColors(() => this.uploadFor(missing, options.signal, () => {
+          if (this.steps.position !== position || go().length > 0) throw cancelled();  // another step was made meanwhile
+        }));
+      this.moved = true;  // the up axis may have changed
+      this.report();
     });
   }
 
-  /** Runs a change of the layers, which needs the colours, and returns to the debug view. */
+  /** Reads the layers again that the device lacks for a step, and goes to it. */
+  private async uploadFor(missing: readonly number[], signal: AbortSignal | undefined, go: () => void): Promise<void> {
+    try {
+      for (const [part, ids] of this.byPart(missing)) await this.uploadAgain(part, ids, signal);
+      go();
+    } catch (error) {
+      this.engine.call('drop_uploaded');
+      throw error;
+    }
+  }
+
+  /** Runs an upload of layers, which needs the colours, and returns to the debug view. */
   private async inColors<T>(change: () => T | Promise<T>): Promise<T> {
     const { name, features } = this.debugView_, { cancellations } = this;
     if (name === 'color') return change();
@@ -570,25 +631,9 @@ class CanvasViewer implements Viewer {
     } finally {
       if (this.shown && !this.lost && this.cancellations === cancellations)
         await this.showNow(name, features).catch((error: unknown) => {
-          this.emit('notice', error instanceof Error ? error.message : String(error));
+          this.emit('notice', reason(error));
         });
     }
-  }
-
-  /** Gives the layers the order, places, visibility and names that `wanted` had; removes the others. */
-  private async arrange(wanted: readonly SceneLayer[]): Promise<void> {
-    let next = 0;
-    for (const { source, sourceLayer, name, transform, placement, visible } of wanted) {
-      const at = this.layers_.findIndex((layer, index) =>
-        index >= next && layer.source === source && layer.sourceLayer === sourceLayer);
-      if (at < 0) continue;  // refused by the device
-      await this.moveLayer(at, next);
-      this.setLayer(next, { transform, visible });
-      this.records = this.records.map((record, index) => (index === next ? { ...record, name, placement } : record));
-      ++next;
-    }
-    while (next > 0 && this.layers_.length > next) await this.removeLayer(next);
-    if (next > 0) this.setLayer(0, {});  // reports the names
   }
 
   // -- events -----------------------------------------------------------------------------------
@@ -649,13 +694,19 @@ class CanvasViewer implements Viewer {
     return found;
   }
   frame(): void { this.moveTo('frame'); }
-  home(): void { this.moveTo('home'); }
+  home(): void {
+    this.moveTo('home');
+    this.reportStep();
+  }
   showNamedView(view: NamedView, options: { readonly glide?: boolean } = {}): void {
     this.moveTo('named_view', view);
     if (options.glide === false) this.change('arrive', null);
   }
   showCamera(index: number): void { this.move('camera', index); }
-  setUp(axis: Vec3): void { this.move('up', axis); }
+  setUp(axis: Vec3): void {
+    this.move('up', axis);
+    this.reportStep();
+  }
   getView(): ViewPose { return this.engine.call<ViewPose>('pose'); }
   setView(pose: ViewPose, options: { readonly glide?: boolean } = {}): void {
     this.move('set_pose', { pose, glide: options.glide ?? false });
@@ -667,8 +718,11 @@ class CanvasViewer implements Viewer {
 
   // -- drawing ----------------------------------------------------------------------------------
 
-  get background(): Vec3 { return this.background_; }
-  set background(color: Vec3) { this.background_ = color; this.change('background', color); }
+  get background(): Vec3 { return this.engine.call<Vec3>('background'); }
+  set background(color: Vec3) {
+    this.engine.call('set_background', color);
+    this.reportStep();
+  }
 
   get resolution(): Resolution { return this.resolutionKeeper.resolution; }
   set resolution(resolution: Resolution) { this.resolutionKeeper.resolution = resolution; this.ask(); }
@@ -693,9 +747,9 @@ class CanvasViewer implements Viewer {
   private async showNow(name: string, features: { readonly first: number; readonly count: number }): Promise<void> {
     const mine = this.debugViewsAsked;
     if (name !== 'color' && !this.engine.call<boolean>('is_read_for_debug_views')) {
-      if (!this.opening || this.opening.parts !== this.parts)
-        this.opening = { parts: this.parts, done: this.readForDebugViews() };
-      const { opening } = this;
+      if (this.opening?.generation !== this.generation)
+        this.opening = { generation: this.generation, done: this.readForDebugViews() };
+      const opening = this.opening!;
       try {
         await opening.done;
       } finally {
@@ -710,17 +764,18 @@ class CanvasViewer implements Viewer {
 
   /** Reads all sources again: the renderer holds too little data for debug views. */
   private async readForDebugViews(): Promise<void> {
-    const { parts } = this;
+    const { generation } = this, parts = this.parts();
     if (parts.length === 0) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
-    for (const [index, { source, description: { name }, level }] of parts.entries()) {
+    for (const [number, { source, description: { name }, level }] of parts.entries()) {
       const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
                                     : await openFiles(source.files, source.name ?? name);
-      if (this.parts !== parts) throw new ViewerError('Another scene is open now.', 'cancelled');
+      if (this.generation !== generation) throw new ViewerError('Another scene is open now.', 'cancelled');
       const splats = this.maxSplats.get(source);
       readWith(this.engine, 'read_for_debug_views', files,
-               { source: index, ...(level !== null && { level }), ...(splats !== undefined && { max_splats: splats }) });
+               { source: number, ...(level !== null && { level }), ...(splats !== undefined && { max_splats: splats }) });
     }
-    this.engine.call('keep_read_layers', this.records.map(({ part, index }) => [parts.indexOf(part), index]));
+    this.engine.call('keep_read_layers', [...this.origins].filter(([, { part }]) => parts.includes(part))
+      .map(([id, { part, index }]) => [parts.indexOf(part), index, id]));
   }
 
   get stats(): FrameStats {

@@ -36,7 +36,10 @@ export class DrawingSection {
       viewer.smoothAtRest = this.smooth.checked;
       remember('smooth', this.smooth.checked);
     });
+    // While the browser's dialog is open, all changes are one step.
+    this.background.addEventListener('change', () => { viewer.holding = false; });
     this.background.addEventListener('input', () => {
+      viewer.holding = true;
       viewer.background = colorFromHex(this.background.value) ?? viewer.background;
     });
     button('own-background').addEventListener('click', () => {
@@ -44,6 +47,7 @@ export class DrawingSection {
       this.update();
     });
     viewer.on('scene', () => this.update());
+    viewer.on('steps', () => { this.background.value = hexColor(viewer.background); });
     this.update();
   }
 
