@@ -18,8 +18,9 @@ namespace {
 
 /// Extensions that a file may require. The mesh and texture extensions are applied; materials are
 /// always drawn unlit.
-constexpr std::array known_extensions = {"KHR_gaussian_splatting", "KHR_materials_unlit",
-                                         "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::array known_extensions = {"KHR_gaussian_splatting",     "KHR_materials_ior",
+                                         "KHR_materials_transmission", "KHR_materials_unlit",
+                                         "KHR_mesh_quantization",      "KHR_texture_transform"};
 
 /// tinygltf's messages as one line without a full stop.
 std::string one_line(std::string text) {
