@@ -31,6 +31,10 @@ struct ShowLayer {
   LayerId id = 0;
   bool visible = true;
 };
+struct SetMaterial {
+  LayerId id = 0;  // of a soup
+  std::optional<Material> material;
+};
 struct ReorderLayer {
   LayerId id = 0;
   std::size_t to = 0;  // its index afterwards; beyond the end: last
@@ -48,8 +52,8 @@ struct ChangeBackground {
   std::optional<glm::vec3> background;
 };
 
-using Edit = std::variant<AddLayers, RemoveLayers, PlaceLayer, RenameLayer, ShowLayer, ReorderLayer,
-                          ChangeUp, ChangeQuality, ChangeProfile, ChangeBackground>;
+using Edit = std::variant<AddLayers, RemoveLayers, PlaceLayer, RenameLayer, ShowLayer, SetMaterial,
+                          ReorderLayer, ChangeUp, ChangeQuality, ChangeProfile, ChangeBackground>;
 
 /// Changes the document. Returns the edit that undoes the change: applied to the result, it gives
 /// the document before, except next_id. Ids that the document lacks are ignored, because a file
