@@ -24,7 +24,7 @@
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "scene/edit/baked_transform.hpp"
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 #include "scene/similarity.hpp"
 #include "scene/spherical_harmonics.hpp"
 

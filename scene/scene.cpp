@@ -9,8 +9,8 @@
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
+#include "scene/edit/opaque_windows.hpp"
 #include "scene/near_limit.hpp"
-#include "scene/opaque_windows.hpp"
 
 namespace tureen {
 

@@ -10,7 +10,7 @@
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
 #include "scene/edit/moved_normals.hpp"
-#include "scene/opaque_windows.hpp"
+#include "scene/edit/opaque_windows.hpp"
 
 namespace tureen {
 

@@ -19,8 +19,8 @@
 #include "image/srgb.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
+#include "scene/edit/opaque_windows.hpp"
 #include "scene/lattice.hpp"
-#include "scene/opaque_windows.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "scene/opaque_windows.hpp"
+#include "scene/edit/opaque_windows.hpp"
 
 namespace tureen {
 

@@ -12,7 +12,7 @@
 #include "formats/scene_file.hpp"
 #include "image/metrics.hpp"
 #include "oracle/oracle.hpp"
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 
 namespace tureen {
 namespace shipped_soup_test {

@@ -13,7 +13,7 @@
 
 #include "oracle/hits.hpp"
 #include "runtime/renderer.hpp"
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/numerics/vertex_probe.hpp"

@@ -1,4 +1,4 @@
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

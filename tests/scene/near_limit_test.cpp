@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 #include "scene/scene_remarks.hpp"
 #include "tests/support/random_splats.hpp"
 

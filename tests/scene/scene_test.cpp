@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "formats/splat/splat_remarks.hpp"
-#include "scene/opaque_windows.hpp"
+#include "scene/edit/opaque_windows.hpp"
 
 namespace tureen {
 namespace scene_test {

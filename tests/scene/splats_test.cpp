@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "scene/edit/morton_order.hpp"
+#include "scene/edit/opaque_windows.hpp"
 #include "scene/edit/splat_edits.hpp"
-#include "scene/opaque_windows.hpp"
 #include "scene/scene_remarks.hpp"
 #include "scene/spherical_harmonics.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"
 #include "scene/edit/mean_color.hpp"
-#include "scene/opaque_windows.hpp"
+#include "scene/edit/opaque_windows.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"

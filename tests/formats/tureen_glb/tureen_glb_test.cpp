@@ -14,7 +14,7 @@
 #include "image/srgb.hpp"
 #include "scene/edit/edits.hpp"
 #include "scene/edit/mean_color.hpp"
-#include "scene/opaque_windows.hpp"
+#include "scene/edit/opaque_windows.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb/glb_schema.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "scene/edit/opaque_windows.hpp"
 #include "scene/edit/splat_edits.hpp"
-#include "scene/opaque_windows.hpp"
 
 namespace tureen::trainer {
 

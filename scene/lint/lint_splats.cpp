@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "scene/edit/lint_findings.hpp"
+#include "scene/lint/lint_findings.hpp"
 #include "scene/near_limit.hpp"
 #include "scene/spherical_harmonics.hpp"
 

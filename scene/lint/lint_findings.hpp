@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 
 namespace tureen {
 

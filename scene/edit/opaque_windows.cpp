@@ -1,4 +1,4 @@
-#include "scene/opaque_windows.hpp"
+#include "scene/edit/opaque_windows.hpp"
 
 #include "scene/edit/splat_edits.hpp"
 #include "scene/scene_remarks.hpp"

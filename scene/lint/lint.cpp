@@ -1,13 +1,13 @@
-#include "scene/edit/lint.hpp"
+#include "scene/lint/lint.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "scene/edit/lint_findings.hpp"
 #include "scene/finite.hpp"
 #include "scene/lattice.hpp"
+#include "scene/lint/lint_findings.hpp"
 
 namespace tureen {
 
