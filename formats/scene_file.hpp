@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ void require_written_format(const std::filesystem::path& path);
 /// Throws UsageError if the format cannot store this scene or the extension is unknown. Throws
 /// OutputError if the output cannot be written.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
+
+/// The up axis that readers assume of this scene in the format of `path`, which stores none;
+/// nullopt if it stores the axis. Throws UsageError like require_written_format().
+std::optional<glm::vec3> assumed_up_of(const Scene& scene, const std::filesystem::path& path);
 
 /// One row of the table of formats, for help texts.
 struct FormatInfo {
