@@ -187,6 +187,11 @@ Option Option::comma_list() {
   return split_at_commas();
 }
 
+Option Option::repeatable() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
 bool Option::is_given() const { return option_->count() > 0; }
 
 Command Command::add_command(const std::string& name, const std::string& description) {
