@@ -25,6 +25,7 @@ struct ShownLayer {
 struct ShownScene {
   Subject subject;
   std::vector<Camera> cameras;
+  std::optional<Camera> first_view;  // first_view_of() (camera/capture.hpp)
 };
 
 class PageView {

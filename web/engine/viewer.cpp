@@ -41,7 +41,9 @@ Json start(const Json& options) {
 // -- scenes -------------------------------------------------------------------------------------
 
 ShownScene scene_of(const Json& scene) {
-  ShownScene shown{.subject = subject_of(scene.at("subject")), .cameras = {}};
+  ShownScene shown{.subject = subject_of(scene.at("subject")), .cameras = {}, .first_view = {}};
+  if (const Json& view = scene.at("first_view"); !view.is_null())
+    shown.first_view = camera_of(view);
   for (const Json& camera : scene.at("cameras")) shown.cameras.push_back(camera_of(camera));
   return shown;
 }
