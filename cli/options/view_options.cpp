@@ -236,11 +236,7 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
                                   .seconds = options.turntable}),
                        rate);
   } else if (options.turntable > 0 && capture) {
-    return animation(turntable({.first = view_of(*capture, 0, lens),
-                                .distance = capture->distance,
-                                .up = capture->up,
-                                .seconds = options.turntable}),
-                     rate);
+    return animation(turntable(*capture, lens, options.turntable), rate);
   } else if (options.turntable > 0) {
     return animation(turntable(subject, {0.0, orbit_elevation}, lens, options.turntable), rate);
   } else if (options.orbit > 0) {

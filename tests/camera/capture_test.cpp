@@ -47,7 +47,7 @@ TEST(Capture, IsWhatMostCamerasLookAt) {
   EXPECT_NEAR(capture->distance, std::hypot(4, 1.5), 0.05);
   EXPECT_NEAR(capture->bearing.elevation, std::atan2(1.5, 4), 0.02);
   EXPECT_NEAR(capture->half_tangent, std::tan(25 * degree), 1e-12);
-  EXPECT_TRUE(capture->is_all_around);
+  EXPECT_TRUE(capture->is_all_around());
   EXPECT_FALSE(capture_of(ring(2), up));
   // Parallel lines of sight meet nowhere.
   std::vector<Camera> parallel;
@@ -74,9 +74,17 @@ TEST(Capture, ViewsGoAroundPlacesAndFrameObjects) {
     EXPECT_NEAR(glm::distance(view.eye(), center), capture->distance, 1e-9);
     EXPECT_NEAR(view.eye().z - center.z, 1.5, 1e-9);
   }
-  // The first is from the middle of the cameras: an angle of 0.475 radians.
-  const glm::dvec3 first = views[0].eye() - center;
-  EXPECT_NEAR(std::atan2(first.y, first.x), 0.475, 0.01);
+  // From the second camera to the last but one: a twentieth is cut at each end.
+  const auto angle_of = [](const Camera& view) {
+    const glm::dvec3 direction = view.eye() - center;
+    return std::atan2(direction.y, direction.x);
+  };
+  EXPECT_NEAR(angle_of(views[0]), 0.05, 1e-9);
+  EXPECT_NEAR(angle_of(views[7]), 0.9, 1e-9);
+  const CameraPath swing(turntable(*capture, lens, 4));
+  EXPECT_TRUE(swing.is_loop());
+  for (const auto& [seconds, angle] : {std::pair(0.0, 0.475), {1.0, 0.9}, {3.0, 0.05}})
+    EXPECT_NEAR(angle_of(swing.at(seconds, 30, 60)), angle, 1e-6);
 }
 
 TEST(Capture, TheFirstViewIsStoredOrOneOfTheCameras) {
