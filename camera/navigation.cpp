@@ -56,15 +56,19 @@ Box in_world(const LayerPlace& placed) {
   return result;
 }
 
-/// The part of the box in the region of the cameras, if most cameras are inside the box. Otherwise,
-/// or if the region is elsewhere, the whole box.
-Box without_surroundings(const Box& box, std::span<const Camera> cameras) {
+bool most_are_inside(const Box& box, std::span<const Camera> cameras) {
   const auto is_inside = [&](const Camera& camera) {
     const glm::dvec3 eye = camera.eye();
     return glm::all(glm::greaterThan(eye, box.low)) && glm::all(glm::lessThan(eye, box.high));
   };
   const auto inside = std::count_if(cameras.begin(), cameras.end(), is_inside);
-  if (2 * std::size_t(inside) <= cameras.size()) return box;
+  return 2 * std::size_t(inside) > cameras.size();
+}
+
+/// The part of the box in the region of the cameras, if most cameras are inside the box. Otherwise,
+/// or if the region is elsewhere, the whole box.
+Box without_surroundings(const Box& box, std::span<const Camera> cameras) {
+  if (!most_are_inside(box, cameras)) return box;
   const std::optional<Region> region = region_of_cameras(cameras);
   if (!region) return box;
   const Box part{glm::max(box.low, region->center - region->half_side),
@@ -96,6 +100,10 @@ Subject subject_of(std::span<const LayerPlace> boxes, const glm::dvec3& up,
   }
   if (boxes.empty()) low = high = glm::dvec3(0.0);
   return {low, high, up};
+}
+
+bool most_are_inside(const LayerPlace& layer, std::span<const Camera> cameras) {
+  return most_are_inside(in_world(layer), cameras);
 }
 
 glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {

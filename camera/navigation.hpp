@@ -35,6 +35,9 @@ Subject subject_of(const Scene& scene);
 Subject subject_of(std::span<const LayerPlace> boxes, const glm::dvec3& up,
                    std::span<const Camera> cameras = {});
 
+/// Whether most of the cameras are inside the world's box around this layer.
+bool most_are_inside(const LayerPlace& layer, std::span<const Camera> cameras);
+
 /// The optics of a view.
 struct Lens {
   int width = 1280;

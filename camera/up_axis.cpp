@@ -17,18 +17,6 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
   return v / length;
 }
 
-int longest_component(const glm::dvec3& v) {
-  const glm::dvec3 a(std::abs(v.x), std::abs(v.y), std::abs(v.z));
-  return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-}
-
-glm::dvec3 nearest_axis(const glm::dvec3& v) {
-  const int longest = longest_component(v);
-  glm::dvec3 axis(0);
-  axis[longest] = v[longest] < 0 ? -1 : 1;
-  return axis;
-}
-
 std::optional<UpGuess> from_cameras(std::span<const Camera> cameras) {
   glm::dvec3 sum(0);
   for (const Camera& camera : cameras)
@@ -55,18 +43,6 @@ std::optional<UpGuess> from_box(const glm::dvec3& extent) {
 }
 
 }  // namespace
-
-std::string axis_name(const glm::dvec3& axis) {
-  const auto direction = unit(axis);
-  if (!direction) return "nothing";
-  const glm::dvec3 nearest = nearest_axis(*direction);
-  if (glm::length(*direction - nearest) < 1e-6) {
-    const int longest = longest_component(nearest);
-    return std::string(nearest[longest] < 0 ? "-" : "") + "xyz"[longest];
-  }
-  return "(" + short_decimal(direction->x, 3) + ", " + short_decimal(direction->y, 3) + ", " +
-         short_decimal(direction->z, 3) + ")";
-}
 
 UpEvidence evidence_of(const Scene& scene, const Subject& subject) {
   return {.stored = glm::dvec3(scene.info.up),

@@ -8,6 +8,7 @@
 #include "camera/navigation.hpp"
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen {
 
@@ -52,8 +53,5 @@ std::string describe(const UpGuess& guess);
 /// - The reader's assumption; without one, y.
 /// Non-finite values count as missing.
 UpGuess guess_up(const UpEvidence& evidence);
-
-/// "x", "-y"; "(0.1, 0.9, 0.4)" if the axis differs from a coordinate axis by more than 1e-6.
-std::string axis_name(const glm::dvec3& axis);
 
 }  // namespace tureen

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 
@@ -17,8 +18,12 @@
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/options/scene_argument.hpp"
+#include "cli/options/values.hpp"
+#include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "scene/edit/moved_scene.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen::cli {
 
@@ -34,6 +39,9 @@ struct ConvertOptions {
   std::string output;
   bool output_is_argument = false;  // without -o
   std::string layer;                // the only layer to write; empty: all
+  Similarity move = {};             // of the whole scene
+  bool moves = false;
+  std::string view;  // the first view to store: an index or "FILE:3"; empty: the scene's own
   bool force = false;
   bool json = false;
   Edits edits;
@@ -103,6 +111,8 @@ void check_output(const ConvertOptions& options) {
     throw UsageError(
         "only .glb and .html store --supersample, --resolution-scale, --splat-order and "
         "--material");
+  if (!options.view.empty() && extension_of(output) != ".glb" && !is_scene_page(output))
+    throw UsageError("only .glb and .html store a first view (--view)");
   require_not_inputs(output, options.scene);
   // These checks do not depend on --force.
   if (is_export(output))
@@ -134,6 +144,31 @@ void apply(const Edits& edits, Scene& scene) {
   scene.info.notes.push_back("reduced by tureen convert: " + describe(changes));
 }
 
+/// Moves the scene. A format without an up axis gets it as the axis that its readers assume, if the
+/// user has named the axis.
+void move(Scene& scene, const ConvertOptions& options) {
+  if (options.moves) move_scene(scene, matrix_of(options.move));
+  if (options.scene.choice.up.empty() || is_scene_page(options.output)) return;
+  const glm::vec3 before = scene.info.up;
+  const std::optional<glm::vec3> assumed = assumed_up_of(scene, options.output);
+  if (!assumed || glm::distance(before, *assumed) < 1e-6f) return;
+  move_scene(scene, glm::dmat4(rotation_between(before, *assumed)));
+  scene.info.up = *assumed;
+  say(options.output + " stores no up axis: " + axis_name(before) + " is turned to " +
+      axis_name(*assumed) + ", which readers assume");
+}
+
+/// Sets the first view to the one that `view` names.
+void set_first_view(Scene& scene, const std::string& view, const std::string& scene_path) {
+  const bool is_index = view.find_first_not_of("0123456789") == view.npos;
+  const std::string argument = is_index ? scene_path + ":" + view : view;
+  if (is_index && scene.cameras.empty())
+    throw UsageError("--view " + view + " is a recorded camera; the scene has none");
+  const Views views = recorded_views(argument, "0", scene, scene_path);
+  if (views.cameras.size() != 1) throw UsageError("--view " + view + " names several cameras");
+  scene.first_view = views.cameras.front();
+}
+
 Json figures_of(const Scene& scene, const std::vector<std::string>& lost) {
   return {{"notes", notes_of(scene.info)},
           {"remarks", remarks_json(scene.info.remarks)},
@@ -153,7 +188,8 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.choice == ReadingChoice{} &&
          options.edits == Edits{} && !options.quality.any() && options.materials.empty() &&
-         options.layer.empty() && options.scene.paths.size() == 1 &&
+         options.layer.empty() && !options.moves && options.view.empty() &&
+         options.scene.paths.size() == 1 &&
          is_our_glb(options.scene.paths.front());
 }
 
@@ -188,6 +224,8 @@ ExitCode convert_scene(ConvertOptions options) {
   if (triangle_count(scene) + splat_count(scene) == 0)
     throw UsageError("there is nothing to write: no triangles or splats are left");
   options.quality.apply_to(scene.quality);
+  move(scene, options);
+  if (!options.view.empty()) set_first_view(scene, options.view, options.scene.paths.front());
   const Json figures = page ? write_page(*page, std::move(scene), options)
                             : write(std::move(scene), options, options.output);
   const std::uint64_t bytes = bytes_on_disk(options.output);
@@ -213,6 +251,34 @@ std::string written_formats() {
   return text +
          "  .html           page: Tureen's GLB and the viewer from ./dev web; opens by "
          "double-click\n";
+}
+
+void add_moving_options(Command& command, ConvertOptions& options) {
+  Similarity& move = options.move;
+  const auto moves = [&options] { options.moves = true; };
+  command.add_option(
+      "--rotate X,Y,Z",
+      [&move, moves](const std::string& text) {
+        move.angles = parse_vector(text);
+        moves();
+      },
+      "turn the whole scene with its cameras by these degrees about the world's x, then y, then z "
+      "axis");
+  command.add_option(
+      "--resize FACTOR",
+      [&move, moves](const std::string& text) {
+        move.scale = *number_from(text);
+        moves();
+      },
+      "make the whole scene this many times as large, about the world's origin",
+      between(1e-9, 1e9));
+  command.add_option(
+      "--translate X,Y,Z",
+      [&move, moves](const std::string& text) {
+        move.position = parse_vector(text);
+        moves();
+      },
+      "move the whole scene, after turning and resizing it");
 }
 
 }  // namespace
@@ -241,8 +307,15 @@ Examples:
                                               one layer, at its place
   tureen convert room.glb ball.glb -o both.glb --material ball=glass:1.33
                                               stores the layer "ball" as water, for rays
+  tureen convert table.glb guitar.ply -o room.glb --place guitar=at:0,0,1.2/turn:0,0,90/scale:0.5
+                                              one layer on the other, turned and made smaller
+  tureen convert soup.glb turned.ply --rotate 90,0,0 --resize 0.01
+                                              the whole scene turned, and in metres
+  tureen convert soup.glb view.glb --view 12  programs show camera 12 first
   tureen convert soup.glb soup.html           a page to share
-  tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
+  tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1
+  tureen convert lying.ply upright.ply --up 0,1,0
+                                              turned: y becomes the axis that readers assume)");
   command
       .add_option("IN", options->first,
                   "scene: a file or a folder; its content determines the format")
@@ -252,6 +325,11 @@ Examples:
   command.add_option("-o,--output OUT", options->output, "file or folder to write, instead of OUT");
   command.add_option("--layer NAME", options->layer, "write only this layer, with its transform");
   add_reading_options(command, options->scene.choice);
+  add_placing_options(command, options->scene.choice);
+  add_moving_options(command, *options);
+  command.add_option("--view CAMERA", options->view,
+                     "store the view that programs show first: the index of a recorded camera, or "
+                     "FILE[:N] as for render --camera");
   add_memory_option(command);
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json,

@@ -339,7 +339,8 @@ void say_scene(const InfoOptions& options, const Scene& scene, const Subject& su
   if (only && (!is_translation(*only->layer) || !only->layer->visible))
     table.row({"place", place_text(*only->layer)});
   table.row({"up", vector_text(scene.info.up)});
-  table.row({"cameras", std::to_string(scene.cameras.size())});
+  table.row({"cameras", std::to_string(scene.cameras.size()) +
+                            (scene.first_view ? ", and a first view" : "")});
   if (scene.quality != Quality{}) table.row({"quality", describe(scene.quality)});
   say_list(fmt::format("{}: {}", listed(options.scene),
                        scene.info.source.empty() ? "a scene" : scene.info.source),

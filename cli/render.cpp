@@ -274,16 +274,21 @@ void add_render(Command& program) {
   auto options = std::make_shared<RenderOptions>();
   Command command = program.add_command("render", "Draw images of a scene");
   command.footer(
-      R"(The default view is the scene's first camera. Without cameras, it is a view of the whole
-scene from the front, slightly from the right and from above.
+      R"(The default view is the first view that the scene stores (convert --view); without one, the
+recorded camera that looks most directly at what the cameras photographed, from their usual distance
+and height. Without cameras, it is a view of the whole scene from the front, slightly from the right
+and from above. Orbits and turntables of captured places go around that point, among the cameras.
 
 Examples:
   tureen render soup.glb -o image.png
   tureen render house.glb fox.glb -o both.png             several scenes in one image
+  tureen render table.glb guitar.ply -o both.png --place guitar=at:0,0,1.2/turn:0,0,90/scale:0.5
+                                                          one layer moved, turned and made smaller
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
   tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
+  tureen render soup.glb --path cameras -o flight.mp4     along the recorded cameras
   tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
                                                           the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples per pixel
@@ -298,6 +303,7 @@ Examples:
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 the scene does not fit on the device, or an image cannot be written.)");
   add_scene_arguments(command, options->scene);
+  add_placing_options(command, options->scene.choice);
   add_memory_option(command);
   command.add_option(
       "-o,--output OUT.png", options->output,

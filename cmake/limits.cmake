@@ -29,18 +29,18 @@ set(limits
 
   "code base 2350: fundamentals that no library has, and the code for POSIX"
   "code image 2080: images, metrics, video files"
-  "code scene 4600: the model and its edits"
-  "code camera 1500: navigation"
-  "code formats 14100: a reader per format with its remarks, checked against hostile files"
+  "code scene 4880: the model, its edits, places as text"
+  "code camera 1800: navigation, views around captures, paths along cameras"
+  "code formats 14160: a reader per format with its remarks, checked against hostile files"
   "code oracle 1710: the reference stays readable"
   "code splatting 3250: loops in vectors, per kernel"
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 13200: four methods, CPU and CUDA"
   "code jobs 5740: work that the programs share, and the whole of a training run; what measures and reports grows no further"
-  "code viewer 7180: the window"
+  "code viewer 7260: the window"
   "code web 9400: the page"
-  "code cli 6360: the command line computes nothing"
+  "code cli 6390: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
   "bytes page 410000: 2 s over a connection of 1.7 Mbit/s")

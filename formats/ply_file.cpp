@@ -1,8 +1,10 @@
 #include "formats/ply_file.hpp"
 
 #include "formats/mesh/mesh_ply.hpp"
+#include "formats/mesh/plain_mesh.hpp"
 #include "formats/ply/ply_header.hpp"
 #include "formats/splat/compressed_ply.hpp"
+#include "formats/splat/splat_builder.hpp"
 #include "formats/splat/splat_ply.hpp"
 
 namespace tureen {
@@ -17,6 +19,10 @@ Scene read_ply(Input& input, const ReadOptions& options) {
 Scene read_ply(const std::filesystem::path& path, const ReadOptions& options) {
   Input input = Input::open(path);
   return read_ply(input, options);
+}
+
+glm::vec3 assumed_up_of_ply(const Scene& scene) {
+  return fits_splat_ply(scene) ? splat_up : assumed_up;
 }
 
 std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path) {

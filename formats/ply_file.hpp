@@ -16,6 +16,9 @@ namespace tureen {
 Scene read_ply(Input& input, const ReadOptions& options = {});
 Scene read_ply(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// The up axis that readers assume of the PLY that write_ply() makes of this scene.
+glm::vec3 assumed_up_of_ply(const Scene& scene);
+
 /// Splats if fits_splat_ply() (formats/splat/splat_ply.hpp), otherwise polygons. Returns the
 /// losses. Throws OutputError.
 std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path);

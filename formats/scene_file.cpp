@@ -12,6 +12,7 @@
 #include "formats/gltf_file.hpp"
 #include "formats/mesh/mobilenerf.hpp"
 #include "formats/mesh/off.hpp"
+#include "formats/mesh/plain_mesh.hpp"
 #include "formats/mesh/stray_content.hpp"
 #include "formats/ply/ply_header.hpp"
 #include "formats/ply_file.hpp"
@@ -54,6 +55,7 @@ struct Format {
   Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: write only
   std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&,
                                     const std::function<void(double)>& progress) = nullptr;
+  glm::vec3 (*assumed_up)(const Scene&) = nullptr;  // null: files store the up axis
 };
 
 /// A writer that does not report its progress.
@@ -80,7 +82,8 @@ const std::vector<Format>& formats() {
        .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        .read = read_off,
-       .write = writes_files ? silent<write_off> : nullptr},
+       .write = writes_files ? silent<write_off> : nullptr,
+       .assumed_up = [](const Scene&) { return assumed_up; }},
       {.name = "PLY",
        .description = "triangles with one colour per face or vertex, or splats (3DGS, 2DGS, GaMeS, "
                       "SplatNet; compressed PLY is only read)",
@@ -88,7 +91,8 @@ const std::vector<Format>& formats() {
        .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
        .read = read_ply,
-       .write = writes_files ? silent<write_ply> : nullptr},
+       .write = writes_files ? silent<write_ply> : nullptr,
+       .assumed_up = assumed_up_of_ply},
       {.name = "DiffSoup export",
        .description = "lattice textures and a color MLP, for the web",
        .is_folder = true,
@@ -255,6 +259,12 @@ void require_written_format(const std::filesystem::path& path) { format_to_write
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
                                      const std::function<void(double)>& progress) {
   return format_to_write(path).write(scene, path, progress);
+}
+
+std::optional<glm::vec3> assumed_up_of(const Scene& scene, const std::filesystem::path& path) {
+  const Format& format = format_to_write(path);
+  if (!format.assumed_up) return std::nullopt;
+  return format.assumed_up(scene);
 }
 
 std::vector<FormatInfo> known_formats() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ void require_written_format(const std::filesystem::path& path);
 /// formats do not call it.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
                                      const std::function<void(double)>& progress = {});
+
+/// The up axis that readers assume of this scene in the format of `path`, which stores none;
+/// nullopt if it stores the axis. Throws UsageError like require_written_format().
+std::optional<glm::vec3> assumed_up_of(const Scene& scene, const std::filesystem::path& path);
 
 /// One row of the table of formats, for help texts.
 struct FormatInfo {

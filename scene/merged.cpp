@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "scene/edit/moved_scene.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_remarks.hpp"
 
@@ -67,7 +68,7 @@ void add(Scene&& scene, const std::string& name, DistinctNames& layer_names, Sce
 
 }  // namespace
 
-Scene merged(std::vector<Scene> scenes) {
+Scene merged(std::vector<Scene> scenes, UpAxes differing) {
   assert(!scenes.empty());
   require_few_layers(scenes);
   if (scenes.size() == 1) return std::move(scenes.front());
@@ -75,6 +76,7 @@ Scene merged(std::vector<Scene> scenes) {
   Scene result;
   const Scene& first = scenes.front();
   result.cameras = first.cameras;
+  result.first_view = first.first_view;
   result.quality = first.quality;
   result.info = first.info;
   result.info.remarks.clear();
@@ -84,6 +86,7 @@ Scene merged(std::vector<Scene> scenes) {
     Scene& scene = scenes[i];
     const std::string name = scene_names.take(scene.info.name.empty() ? "scene" : scene.info.name);
     if (scene.info.compressed) result.info.compressed = true;
+    if (differing == UpAxes::turn) turn_upright(scene, result.info.up);
     if (i > 0)
       if (auto dropped = dropped_settings(scene, result); !dropped.empty())
         scene.info.remarks.push_back(

@@ -38,4 +38,9 @@ Region region_of_interest(const Dataset& dataset);
 /// region is not finite.
 std::optional<Region> region_of_cameras(std::span<const Camera> cameras);
 
+/// The point that the cameras look at: the least sum of distances to their optical axes, so that a
+/// few cameras that look elsewhere hardly move it. nullopt if the axes do not determine it, or if
+/// it is behind half of the cameras or more. Least squares, weighted anew ten times.
+std::optional<glm::dvec3> looked_at_point(std::span<const Camera> cameras);
+
 }  // namespace tureen

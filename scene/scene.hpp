@@ -78,6 +78,8 @@ struct Scene {
   std::vector<Camera> cameras;
   SceneInfo info;
   Quality quality = {};  // without a defect()
+  /// The view that programs show first; by default one of the cameras (camera/capture.hpp).
+  std::optional<Camera> first_view = {};
 };
 
 /// A scene of one visible layer without a name, at `origin` in world coordinates.
@@ -111,8 +113,13 @@ bool has_visible_layer(const Scene& scene);
 /// Bytes in the vectors of all layers.
 std::size_t byte_size(const Scene& scene);
 
+/// Whether merged() turns scenes whose up axis differs from the first scene's.
+enum class UpAxes { turn, keep };
+
 /// One scene with all layers, in order. Needs at least one scene; a single scene stays as it is.
-/// Cameras, quality and info are those of the first scene, except:
+/// Cameras, first view, quality and info are those of the first scene, except:
+/// - A further scene with another up axis is turned upright, with a remark
+/// (scene/edit/moved_scene.hpp).
 /// - Layers without a name get the name of their scene. Equal names get numbers: "fox", "fox 2".
 /// - Remarks and notes are those of all scenes, with the scene's name. Notes of a scene with
 /// several
@@ -120,7 +127,7 @@ std::size_t byte_size(const Scene& scene);
 ///   of a further scene that differ from the first scene's and are dropped.
 /// - `compressed` is true if one scene is.
 /// Throws UsageError for more than max_layers layers.
-Scene merged(std::vector<Scene> scenes);
+Scene merged(std::vector<Scene> scenes, UpAxes differing = UpAxes::turn);
 
 /// Sums over all layers, hidden ones too.
 std::size_t triangle_count(const Scene& scene);

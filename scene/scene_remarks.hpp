@@ -31,5 +31,10 @@ inline constexpr RemarkKind near_limit_large{
 inline constexpr RemarkKind settings_dropped{
     "settings_dropped", Severity::loss,
     "these settings differ from those of the first scene and are ignored: {settings}"};
+inline constexpr RemarkKind turned_upright{"turned_upright", Severity::assumption,
+                                           "turned about the world's origin, so that its up axis, "
+                                           "{from}, becomes that of the first scene, "
+                                           "{to}",
+                                           "keep_axes"};
 
 }  // namespace tureen::remarks

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
@@ -60,6 +61,11 @@ Similarity similarity_of(const glm::dmat4& matrix) {
 
 namespace {
 
+int longest_component(const glm::dvec3& v) {
+  const glm::dvec3 a(std::abs(v.x), std::abs(v.y), std::abs(v.z));
+  return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+}
+
 std::string text_of(const glm::dvec3& v) {
   return "(" + short_decimal(v.x, 6) + ", " + short_decimal(v.y, 6) + ", " + short_decimal(v.z, 6) +
          ")";
@@ -87,6 +93,40 @@ std::string describe(const Similarity& similarity) {
     text += ", " + short_decimal(similarity.scale, 6) + " times as large";
   if (similarity.mirror) text += ", mirrored";
   return text;
+}
+
+glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 a = glm::normalize(from), b = glm::normalize(to);
+  const double cosine = glm::dot(a, b);
+  // Nearer to opposite directions, the axis below has lost half of its digits.
+  if (cosine < -1 + 1e-8) {
+    const glm::dvec3 other = std::abs(a.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 axis = glm::normalize(other - glm::dot(other, a) * a);
+    return 2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1.0);
+  }
+  // Rodrigues: R = I + [v] + [v]^2 / (1 + cosine), for v = a x b.
+  const glm::dvec3 v = glm::cross(a, b);
+  const glm::dmat3 cross(0, v.z, -v.y, -v.z, 0, v.x, v.y, -v.x, 0);
+  return glm::dmat3(1.0) + cross + cross * cross / (1 + cosine);
+}
+
+glm::dvec3 nearest_axis(const glm::dvec3& v) {
+  const int longest = longest_component(v);
+  glm::dvec3 axis(0);
+  axis[longest] = v[longest] < 0 ? -1 : 1;
+  return axis;
+}
+
+std::string axis_name(const glm::dvec3& axis) {
+  const double length = glm::length(axis);
+  if (!(length > 0) || !std::isfinite(length)) return "nothing";
+  const glm::dvec3 direction = axis / length, nearest = nearest_axis(direction);
+  if (glm::length(direction - nearest) < 1e-6) {
+    const int longest = longest_component(nearest);
+    return std::string(nearest[longest] < 0 ? "-" : "") + "xyz"[longest];
+  }
+  return "(" + short_decimal(direction.x, 3) + ", " + short_decimal(direction.y, 3) + ", " +
+         short_decimal(direction.z, 3) + ")";
 }
 
 }  // namespace tureen

@@ -1,6 +1,7 @@
-// A similarity as numbers that a person reads and edits.
+// Similarities and axes as numbers and words that a person reads and edits.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -28,5 +29,15 @@ Similarity similarity_of(const glm::dmat4& matrix);
 /// digits, and only the parts that differ from the identity, except the position. Coordinates
 /// within rounding noise of 0 are printed as 0.
 std::string describe(const Similarity& similarity);
+
+/// The smallest rotation from one direction to another. Opposite directions: half a turn about the
+/// x axis, or about y if they lie along x. The lengths do not matter; neither is 0.
+glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to);
+
+/// The coordinate axis that is nearest to `v`, with its sign; of equally near ones the first.
+glm::dvec3 nearest_axis(const glm::dvec3& v);
+
+/// "x", "-y"; "(0.1, 0.9, 0.4)" if the axis differs from a coordinate axis by more than 1e-6.
+std::string axis_name(const glm::dvec3& axis);
 
 }  // namespace tureen

@@ -11,6 +11,7 @@
 #include "viewer/names.hpp"
 #include "viewer/page_command.hpp"
 #include "viewer/render_command.hpp"
+#include "viewer/scene/saving.hpp"
 #include "viewer/writing.hpp"
 
 namespace tureen::viewer {
@@ -63,18 +64,24 @@ void Application::carry_out(const TakeImage& request) {
 
 void Application::carry_out(const SavePage&) {
   if (!has_scene()) return;
-  if (!state_.source.is_as_read()) {
+  if (!state_.source.is_from_files()) {
     state_.note("The page is made from files: save the changed layers as .glb first (Ctrl+S).");
     return;
   }
   const fs::path page = image_path(".html");
+  fs::path view = page;
+  view += ".camera.json";
+  const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   const std::vector<std::string> arguments = page_arguments(state_.source,
                                                             {.choice = state_.stage->choice,
                                                              .max_splats = options_.max_splats,
                                                              .max_memory = max_memory(),
-                                                             .up = state_.controls.up()},
+                                                             .up = state_.controls.up(),
+                                                             .view = view},
                                                             page);
-  write(page, [arguments, page](const StageRequest& with) {
+  write(page, [arguments, page, view, camera](const StageRequest& with) {
+    const TemporaryFile temporary(view);
+    write_file(view, cameras_to_json(std::span(&camera, 1)));
     run_to_end(tureen_program(), arguments, page, [&] { with.progress(0); });
   });
 }
@@ -157,10 +164,6 @@ void Application::carry_out(const LoadPath& request) {
 
 void Application::carry_out(const CopyCommand&) {
   if (!has_scene()) return;
-  if (!state_.source.is_as_read()) {
-    state_.note("The command draws files: save the changed layers as .glb first (Ctrl+S).");
-    return;
-  }
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   fs::path file;
   if (needs_camera_file(camera)) {
@@ -172,8 +175,31 @@ void Application::carry_out(const CopyCommand&) {
     choice.quality = quality_of(choice, *state_.source.scene);
     choice.quality->supersampling = samples_at_rest;
   }
-  window_.set_clipboard(render_command(state_.source, choice, state_.debug_view, camera, file));
-  state_.note("Copied the command for this image to the clipboard");
+  const auto copy = [this, choice, debug_view = state_.debug_view, camera, file](
+                        const SceneSource& source, std::optional<std::uint64_t> max_splats) {
+    window_.set_clipboard(render_command(source, choice, debug_view, camera, file, max_splats));
+    state_.note("Copied the command for this image to the clipboard");
+  };
+  if (state_.source.is_from_files()) return copy(state_.source, options_.max_splats);
+  // Layers that exist only in memory: the command draws a file with all layers.
+  const fs::path glb = image_path(".glb");
+  const auto work = [this, copy, glb, source = state_.source](const Worker::Progress& progress) {
+    progress(0);
+    auto saved = std::make_shared<Saved>(save_scene(source, glb, true));
+    return Worker::Completion([this, copy, glb, source, saved] {
+      SceneSource written = source;
+      adopt_file(written, source, std::move(saved->file));
+      copy(written, {});
+      state_.note("It draws " + glb.string() + ", which was saved for it.");
+    });
+  };
+  const auto failed = [this, glb](const std::string& reason) {
+    state_.error(short_name(glb) + " was not saved", reason);
+  };
+  writer_.start({.kind = JobKind::writing,
+                 .what = "saving " + short_name(glb),
+                 .work = work,
+                 .failed = failed});
 }
 
 }  // namespace tureen::viewer

@@ -23,6 +23,8 @@ std::vector<std::string> page_arguments(const SceneSource& scene, const PageRequ
   if (request.max_splats) add("--max-splats", std::to_string(*request.max_splats));
   if (request.max_memory != default_max_memory)
     add("--max-memory", std::to_string(request.max_memory));
+  if (!request.view.empty()) add("--view", request.view.string());
+  for (const std::string& argument : place_arguments(scene)) arguments.push_back(argument);
   const auto quality = quality_arguments(scene, request.choice, "--resolution-scale");
   arguments.insert(arguments.end(), quality.begin(), quality.end());
   return arguments;

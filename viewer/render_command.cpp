@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/document/place_text.hpp"
 #include "viewer/axes.hpp"
 
 namespace tureen::viewer {
@@ -65,6 +66,44 @@ std::string quoted_command(const std::vector<std::string>& arguments) {
   return command;
 }
 
+std::vector<std::string> place_arguments(const SceneSource& scene) {
+  if (scene.is_as_read()) return {};
+  // What the command reads: the whole files.
+  std::vector<Scene> headers;
+  std::vector<const DocumentLayer*> layers;  // null if removed
+  for (std::size_t file = 0; file < scene.files.size(); ++file) {
+    if (!has_layers(scene, file)) continue;
+    headers.push_back(*scene.files[file].header);
+    for (std::size_t i = 0; i < headers.back().layers.size(); ++i) {
+      layers.push_back(nullptr);
+      for (const DocumentLayer& layer : scene.document.layers)
+        if (const LayerOrigin& origin = scene.origins.at(layer.id);
+            origin.file == file && origin.index == i)
+          layers.back() = &layer;
+    }
+  }
+  if (headers.empty()) return {};
+  const Scene read = merged(std::move(headers));
+  const auto name_of_layer = [&](std::size_t index) {
+    const std::string name = label(read.layers[index], index);
+    const auto same = std::count_if(read.layers.begin(), read.layers.end(),
+                                    [&](const Layer& layer) { return layer.name == name; });
+    return same > 1 ? label({}, index) : name;
+  };
+  // Without the first file, the others would be turned upright for another one.
+  const bool all = !has_layers(scene, 0);
+  std::vector<std::string> arguments;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const Layer& from = read.layers[i];
+    const bool visible = layers[i] && layers[i]->visible;
+    const glm::dmat4& place = layers[i] ? layers[i]->world_from_layer : from.world_from_layer;
+    if (!all && place == from.world_from_layer && visible == from.visible) continue;
+    arguments.emplace_back("--place");
+    arguments.push_back(place_text(name_of_layer(i), similarity_of(place), visible));
+  }
+  return arguments;
+}
+
 std::vector<std::string> quality_arguments(const SceneSource& scene, const DrawingChoice& choice,
                                            const char* resolution_scale) {
   std::vector<std::string> arguments;
@@ -100,9 +139,12 @@ bool needs_camera_file(const Camera& camera) {
 
 std::string render_command(const SceneSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
-                           const std::filesystem::path& camera_file) {
+                           const std::filesystem::path& camera_file,
+                           std::optional<std::uint64_t> max_splats) {
   std::string command = "tureen render";
   for (const std::filesystem::path& path : scene.paths()) command += " " + quoted(path.string());
+  if (max_splats) command += fmt::format(" --max-splats {}", *max_splats);
+  for (const std::string& argument : place_arguments(scene)) command += " " + quoted(argument);
   if (needs_camera_file(camera)) {
     command += " --camera " + quoted(camera_file.string());
   } else {

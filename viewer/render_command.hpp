@@ -1,7 +1,9 @@
 // The command line that draws what the window shows, without a window.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +13,20 @@
 
 namespace tureen::viewer {
 
+/// The --place options with which reading paths() gives the document: for moved, hidden and shown
+/// layers; layers that were removed alone from their file are hidden. Their order in the document
+/// is not carried over. Every layer of the document needs an origin.
+std::vector<std::string> place_arguments(const SceneSource& scene);
+
 /// "tureen render ..." of all files of the scene, with enough digits to give the same camera.
+/// `max_splats`: ReadOptions::max_splats.
 /// --eye, --target and --fov cannot describe a shifted principal point or two focal lengths.
 /// needs_camera_file() detects these cameras; for them the command reads `camera_file`, which the
 /// caller writes.
 std::string render_command(const SceneSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
-                           const std::filesystem::path& camera_file);
+                           const std::filesystem::path& camera_file,
+                           std::optional<std::uint64_t> max_splats = {});
 
 /// The options of `tureen render` and `tureen convert` for the profile and the quality where the
 /// choice differs from the files. Without splats, none about splats: the commands refuse them.

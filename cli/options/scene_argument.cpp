@@ -11,6 +11,7 @@
 #include "cli/options/values.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "scene/document/place_text.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/near_limit.hpp"
 
@@ -50,6 +51,9 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
 void apply(const ReadingChoice& choice, Scene& scene) {
   if (!choice.profile.empty()) choose_profile(scene, choice.profile);
   if (choice.near_limit) choose_near_limit(scene, *choice.near_limit);
+  std::vector<PlaceChange> places;
+  for (const std::string& text : choice.places) places.push_back(parse_place(text));
+  place_layers(scene, places);
 }
 
 }  // namespace
@@ -85,6 +89,23 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
                      between(0.0, 1e30));
 }
 
+void add_placing_options(Command& command, ReadingChoice& choice) {
+  command
+      .add_option("--place NAME=PARTS", choice.places,
+                  "place, hide or show a layer; once for each layer. PARTS are separated by "
+                  "slashes: at:X,Y,Z, turn:X,Y,Z (degrees about x, then y, then z), scale:FACTOR, "
+                  "mirror or mirror:no, hidden or visible. Missing parts stay as they are; info "
+                  "prints names and places",
+                  [](const std::string& text) {
+                    parse_place(text);
+                    return std::string();
+                  })
+      .repeatable();
+  command.add_flag(
+      "--keep-axes", [&choice] { choice.up_axes = UpAxes::keep; },
+      "do not turn further scenes whose up axis differs from that of the first scene");
+}
+
 void add_scene_argument(Command& command, SceneArgument& argument) {
   command.add_option("SCENE", argument.path, scene_help).required();
   add_reading_options(command, argument.choice);
@@ -117,7 +138,7 @@ Scene read(const SceneArguments& arguments) {
     Scene& scene = scenes.emplace_back(read_file(path, arguments.choice));
     if (arguments.paths.size() > 1 && scene.info.name.empty()) scene.info.name = stem_of(path);
   }
-  Scene scene = merged(std::move(scenes));
+  Scene scene = merged(std::move(scenes), arguments.choice.up_axes);
   apply(arguments.choice, scene);
   return scene;
 }

@@ -22,6 +22,8 @@ struct ReadingChoice {
   std::optional<double> octagon_q = {};          // ReadOptions::octagon_q
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
   bool keep_rows = false;                        // ReadOptions::keep_rows; not an option
+  std::vector<std::string> places = {};          // of layers (scene/document/place_text.hpp)
+  UpAxes up_axes = UpAxes::turn;                 // of several scenes
 
   bool operator==(const ReadingChoice&) const = default;
 };
@@ -29,6 +31,9 @@ struct ReadingChoice {
 /// Adds --vertex-colors, --up, --octagon-q, --profile, --near-limit and --max-splats. `choice` must
 /// live until the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
+
+/// Adds --place and --keep-axes, for commands that read SceneArguments.
+void add_placing_options(Command& command, ReadingChoice& choice);
 
 struct SceneArgument {
   std::string path;

@@ -10,7 +10,8 @@
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "camera/camera_path.hpp"
-#include "camera/navigation.hpp"
+#include "camera/capture.hpp"
+#include "camera/recorded_path.hpp"
 #include "cli/options/values.hpp"
 #include "cli/report.hpp"
 #include "formats/dataset/camera_file.hpp"
@@ -66,9 +67,35 @@ Views animation(CameraPathData data, const FrameRate& rate) {
   return {frames(path, rate), {}, rate.frames_per_second};
 }
 
-Views animation_along(const fs::path& file, FrameRate rate, const std::optional<ImageSize>& size) {
-  require_there(file);
-  CameraPathData path = read_path(file);
+/// "cameras" or "cameras:SECONDS"; nullopt for the name of a file.
+struct AlongCameras {
+  std::optional<double> seconds;
+};
+std::optional<AlongCameras> along_cameras(const std::string& text) {
+  constexpr std::string_view word = "cameras";
+  if (text == word) return AlongCameras{};
+  if (!text.starts_with(word) || text[word.size()] != ':') return std::nullopt;
+  const std::optional<double> seconds = number_from(text.substr(word.size() + 1));
+  if (!seconds || !(*seconds >= 0.001 && *seconds <= 36000))
+    throw UsageError("--path " + text + " needs seconds from 0.001 to 36000");
+  return AlongCameras{*seconds};
+}
+
+CameraPathData path_named(const std::string& text, const Scene& scene) {
+  if (const auto along = along_cameras(text)) {
+    if (scene.cameras.empty())
+      throw UsageError("--path cameras needs recorded cameras; the scene has none",
+                       "--turntable SECONDS needs none; ./cameras is a file of this name");
+    CameraPathData path = path_along(scene.cameras, along->seconds);
+    if (path.keyframes.empty())
+      throw InputError({}, "no recorded camera of the scene can be used for a path");
+    return path;
+  }
+  require_there(text);
+  return read_path(text);
+}
+
+Views animation_along(CameraPathData path, FrameRate rate, const std::optional<ImageSize>& size) {
   const Camera& first = path.keyframes.front().camera;
   rate.width = size ? size->width : first.width;
   rate.height = size ? size->height : first.height;
@@ -93,9 +120,10 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
 namespace {
 
 void add_animation_options(Command& command, ViewOptions& options) {
-  Option path = command.add_option("--path FILE.json", options.path,
-                                   "draw the frames along a camera path: a JSON file with "
-                                   "\"cameras\" and their \"seconds\" (docs/camera-paths.md)");
+  Option path = command.add_option(
+      "--path FILE.json|cameras[:SECONDS]", options.path,
+      "draw the frames along a camera path: a JSON file with \"cameras\" and their \"seconds\" "
+      "(docs/camera-paths.md), or a smooth flight along the scene's recorded cameras");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
     path.excludes(command.option(other));
   Option turntable =
@@ -114,6 +142,7 @@ void add_animation_options(Command& command, ViewOptions& options) {
 
 void check(const ViewOptions& options) {
   if (!options.size.empty()) parse_any_size(options.size);
+  along_cameras(options.path);
   if (options.frames_per_second && !options.is_animation())
     throw UsageError("--fps needs --path or --turntable");
 }
@@ -133,18 +162,24 @@ void add_view_options(Command& command, ViewOptions& options) {
                       "eye position in world coordinates; the view direction is towards --target")
           .excludes(camera);
   command
-      .add_option("--target X,Y,Z", options.target,
-                  "point in the centre of the image, in world coordinates; the centre of the scene "
-                  "by default")
+      .add_option(
+          "--target X,Y,Z", options.target,
+          "point in the centre of the image, in world coordinates; by default the point that "
+          "the recorded cameras look at, or the centre of the scene")
       .needs(eye);
   command
       .add_option("--fov DEGREES", options.fov_degrees,
-                  "full vertical field of view in degrees, 40 by default", between(0.1, 179.0))
+                  "full vertical field of view in degrees; that of the recorded cameras for views "
+                  "around the point that they look at, otherwise 40",
+                  between(0.1, 179.0))
       .excludes(camera);
   command
       .add_option(
           "--orbit N", options.orbit,
-          "draw N views around the up axis, slightly from above; each shows the whole scene",
+          "draw N views around the up axis: around the point that the recorded cameras look at, at "
+          "their distance and height; or, without cameras and for an object that they stand "
+          "around, "
+          "slightly from above, each of the whole scene",
           between(1, max_orbit_views))
       .excludes(camera)
       .excludes(eye);
@@ -157,14 +192,16 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
 
   FrameRate rate;
   rate.frames_per_second = options.frames_per_second.value_or(default_frames_per_second);
-  if (!options.path.empty()) return animation_along(options.path, rate, size);
+  if (!options.path.empty()) return animation_along(path_named(options.path, scene), rate, size);
 
   Views views;
   if (!options.camera.empty()) {
     views = recorded_views(options.camera, "0", scene, scene_path);
   } else if (options.eye.empty() && options.orbit == 0 && !options.is_animation() &&
-             !options.fov_degrees && !scene.cameras.empty()) {
-    views.cameras = {scene.cameras.front()};
+             !options.fov_degrees) {
+    if (const auto first =
+            first_view_of(scene.first_view, scene.cameras, glm::dvec3(scene.info.up)))
+      views.cameras = {*first};
   }
   if (!views.cameras.empty()) {
     if (size)
@@ -172,19 +209,24 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
     return views;
   }
 
+  const std::vector<LayerPlace> boxes = boxes_of(scene);
+  const glm::dvec3 up(scene.info.up);
+  const Subject subject = subject_of(boxes, up, scene.cameras);
+  const std::optional<Capture> capture = capture_of(scene.cameras, up, boxes);
   Lens lens;
   if (size) {
     lens.width = size->width;
     lens.height = size->height;
   }
+  if (capture && options.eye.empty()) lens = lens_of(*capture, lens.width, lens.height);
   rate.width = lens.width;
   rate.height = lens.height;
   if (options.fov_degrees) lens.fov_y = *options.fov_degrees * radians_per_degree;
-  const Subject subject = subject_of(scene);
   if (!options.eye.empty()) {
     const glm::dvec3 eye = parse_vector(options.eye);
-    const glm::dvec3 target =
-        options.target.empty() ? subject.center() : parse_vector(options.target);
+    const glm::dvec3 target = !options.target.empty() ? parse_vector(options.target)
+                              : capture               ? capture->center
+                                                      : subject.center();
     if (!(glm::length(eye - target) > 0)) throw UsageError("--eye and --target are the same point");
     views.cameras = {look_at(eye, target, subject.up, lens.fov_y, lens.width, lens.height)};
     if (options.turntable > 0)
@@ -193,10 +235,15 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
                                   .up = subject.up,
                                   .seconds = options.turntable}),
                        rate);
+  } else if (options.turntable > 0 && capture) {
+    return animation(turntable(*capture, lens, options.turntable), rate);
   } else if (options.turntable > 0) {
     return animation(turntable(subject, {0.0, orbit_elevation}, lens, options.turntable), rate);
   } else if (options.orbit > 0) {
-    views.cameras = orbit(subject, options.orbit, {0.0, orbit_elevation}, lens);
+    views.cameras = capture ? orbit(*capture, options.orbit, lens)
+                            : orbit(subject, options.orbit, {0.0, orbit_elevation}, lens);
+  } else if (capture) {
+    views.cameras = {view_of(*capture, 0, lens)};
   } else {
     views.cameras = {frame(subject, three_quarter_view, lens)};
   }

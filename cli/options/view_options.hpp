@@ -18,7 +18,7 @@ struct ViewOptions {
   std::string target;                 // "x,y,z"
   std::optional<double> fov_degrees;  // full vertical angle
   int orbit = 0;                      // number of views
-  std::string path;                   // file (docs/camera-paths.md)
+  std::string path;                   // file (docs/camera-paths.md), or "cameras:SECONDS"
   double turntable = 0;               // seconds per turn
   std::optional<double> frames_per_second;
 
@@ -39,10 +39,10 @@ struct Views {
 void check(const ViewOptions& options);
 
 /// The cameras, in this order of preference: --camera; the frames of --path or --turntable; --eye;
-/// --orbit; the scene's first camera; a three-quarter view of the whole scene. Without --size, a
-/// recorded camera keeps its size, the frames of a path have the size of its first camera, and all
-/// other views have 1280x720. `scene_path`: path of the scene; for --camera with this path, returns
-/// the scene's cameras. Throws UsageError and InputError.
+/// --orbit; first_view_of() the scene (camera/capture.hpp); a three-quarter view of the whole
+/// scene. Without --size, a recorded camera keeps its size, the frames of a path have the size of
+/// its first camera, and all other views have 1280x720. `scene_path`: path of the scene; for
+/// --camera with this path, returns the scene's cameras. Throws UsageError and InputError.
 Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path);
 
 /// The cameras that "FILE", "FILE:3" or "FILE:all" names. `which_without`: the part after the colon

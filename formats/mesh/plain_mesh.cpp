@@ -1,9 +1,12 @@
 #include "formats/mesh/plain_mesh.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <utility>
 
+#include "base/decimal_text.hpp"
 #include "formats/common/format_remarks.hpp"
 #include "formats/mesh/mesh_remarks.hpp"
 #include "image/quantise.hpp"
@@ -140,15 +143,13 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
     soup_ = &std::get<TriangleSoup>(layer.primitives);
   }
   if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
-  if (!is_translation(layer)) use_baked_positions(layer, format);
+  if (layer.world_from_layer != glm::dmat4(1.0)) use_world_positions(layer, format);
   if (scene.info.up != assumed_up)
     lost.push_back(format + " stores no up axis; readers assume (0, 0, 1).");
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
   if (layer.material) lost.push_back(format + " holds no mirrors and no glass.");
-  if (origin_of(layer) != glm::dvec3(0.0))
-    lost.push_back(format + " holds no origin: positions are written relative to it.");
 }
 
 void PlainMesh::use_mean_colors(const std::string& format) {
@@ -165,12 +166,25 @@ void PlainMesh::use_mean_colors(const std::string& format) {
   }
 }
 
-void PlainMesh::use_baked_positions(const Layer& layer, const std::string& format) {
+void PlainMesh::use_world_positions(const Layer& layer, const std::string& format) {
   // The colours are means over directions by now, so the transform does not change them.
   if (!own_) own_ = *soup_;
   soup_ = &*own_;
-  own_->positions = baked_positions(own_->positions, layer);
   move_normals(own_->normals, glm::dmat3(layer.world_from_layer));
+  const double radius = bounds(*own_).radius() * glm::length(glm::dvec3(layer.world_from_layer[0]));
+  double error = 0;
+  for (glm::vec3& position : own_->positions) {
+    const glm::dvec3 exact(layer.world_from_layer * glm::dvec4(position, 1.0));
+    position = glm::vec3(exact);
+    const glm::dvec3 rounded = glm::abs(glm::dvec3(position) - exact);
+    error = std::max({error, rounded.x, rounded.y, rounded.z});
+  }
+  // A millionth of the radius is a hundredth of a pixel in an image with 20,000 rows.
+  if (error > 1e-6 * radius)
+    lost.push_back(
+        format + " holds positions with 24 bits: in world coordinates they are rounded by up to " +
+        short_decimal(error, 2) + " units.");
+  if (is_translation(layer)) return;
   // Other programs take the side of a triangle from the order of its corners; a mirror swaps it.
   if (glm::determinant(glm::dmat3(layer.world_from_layer)) < 0)
     for (glm::uvec3& triangle : own_->triangles) std::swap(triangle.y, triangle.z);

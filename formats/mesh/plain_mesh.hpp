@@ -74,8 +74,8 @@ class MeshBuilder {
 
 /// A scene as coloured triangles: its own soup if that has FaceColors or VertexColors. Otherwise a
 /// copy of its triangles with the mean colour of each face (scene/edit/mean_color.hpp), and a
-/// sentence in `lost`. A rotation, scale or mirror of the layer is applied to positions and
-/// normals, also with a sentence.
+/// sentence in `lost`. Positions and normals are in world coordinates; a sentence reports a
+/// rotation, scale or mirror, and rounding by more than a millionth of the mesh's radius.
 class PlainMesh {
  public:
   /// `format` is the format's name in the sentences. Keeps a reference to the scene if possible.
@@ -94,7 +94,7 @@ class PlainMesh {
 
  private:
   void use_mean_colors(const std::string& format);
-  void use_baked_positions(const Layer& layer, const std::string& format);
+  void use_world_positions(const Layer& layer, const std::string& format);
 
   std::optional<TriangleSoup> own_;
   const TriangleSoup* soup_ = nullptr;  // the scene's, or own_

@@ -1,5 +1,10 @@
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+
 #include "base/json/json_vector.hpp"
 #include "formats/glb/glb_material.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
@@ -61,6 +66,18 @@ JsonView tureen_extension_of(const GlbArrays& arrays) {
   return extension;
 }
 
+std::optional<std::string> view_defect(const Camera& view) {
+  const glm::dmat3 axes(view.view_from_world);
+  if (!(view.fx > 0 && view.fy > 0)) return "a view without a focal length";
+  // Six digits of a rotation survive in floats; files of others may have been through them.
+  const glm::dmat3 difference = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  for (int column = 0; column < 3; ++column)
+    if (!(glm::length(difference[column]) < 1e-5) || view.view_from_world[column][3] != 0)
+      return "a view whose matrix is no rotation with a translation";
+  if (!(glm::determinant(axes) > 0)) return "a mirrored view";
+  return std::nullopt;
+}
+
 bool has_layers(const JsonView& extension) {
   return extension["version"].natural() >= std::uint64_t(tureen_layers_version);
 }
@@ -76,6 +93,10 @@ void read_info(const JsonView& extension, Scene& scene) {
   info.background = json_vector<3, float>(extension["background"]);
   const JsonView cameras = extension["cameras"];
   for (std::size_t i = 0; i < cameras.size(); ++i) scene.cameras.push_back(camera(cameras.at(i)));
+  if (const auto view = extension.find("first_view")) {
+    scene.first_view = camera(*view);
+    if (const auto reason = view_defect(*scene.first_view)) view->fail(*reason);
+  }
 }
 
 Layer read_layer_at_origin(const JsonView& extension) {

@@ -15,7 +15,11 @@ JsonView tureen_extension_of(const GlbArrays& arrays);
 /// layer.
 bool has_layers(const JsonView& extension);
 
-/// Name, source, notes, up, background and cameras.
+/// The reason why no program can begin with this view. Recorded cameras are not checked: they are
+/// shown on request.
+std::optional<std::string> view_defect(const Camera& view);
+
+/// Name, source, notes, up, background, cameras and first view.
 void read_info(const JsonView& extension, Scene& scene);
 
 /// The layer of a file without has_layers(), at its origin and without primitives.

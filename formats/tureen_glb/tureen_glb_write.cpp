@@ -11,6 +11,7 @@
 #include "base/output.hpp"
 #include "formats/glb/glb_material.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb_geometry.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
 #include "formats/tureen_glb/tureen_glb_splats.hpp"
@@ -348,6 +349,25 @@ void MaterialList::write(json& document) const {
         if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
+json camera_json(const Camera& camera, std::vector<std::string>& losses) {
+  const std::vector<double> matrix = numbers_of(camera.view_from_world);
+  const std::string what = "camera \"" + camera.name + "\"";
+  for (const int side : {camera.width, camera.height})
+    if (side < 1 || side > max_image_side)
+      throw UsageError("a GLB cannot hold " + what + " of " + std::to_string(camera.width) + " x " +
+                       std::to_string(camera.height) + " pixels");
+  require_finite(matrix, what);
+  require_finite(std::array{camera.fx, camera.fy, camera.cx, camera.cy}, what);
+  return {{"name", utf8(camera.name, losses)},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"view_from_world", matrix}};
+}
+
 json info_json(const Scene& scene, std::vector<std::string>& losses) {
   const SceneInfo& info = scene.info;
   if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of length 0");
@@ -358,23 +378,12 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
                     {"background", array_of(info.background, "the background")},
                     {"cameras", json::array()}};
   for (const std::string& note : all_notes(info)) extension["notes"].push_back(utf8(note, losses));
-  for (const Camera& camera : scene.cameras) {
-    const std::vector<double> matrix = numbers_of(camera.view_from_world);
-    const std::string what = "camera \"" + camera.name + "\"";
-    for (const int side : {camera.width, camera.height})
-      if (side < 1 || side > max_image_side)
-        throw UsageError("a GLB cannot hold " + what + " of " + std::to_string(camera.width) +
-                         " x " + std::to_string(camera.height) + " pixels");
-    require_finite(matrix, what);
-    require_finite(std::array{camera.fx, camera.fy, camera.cx, camera.cy}, what);
-    extension["cameras"].push_back({{"name", utf8(camera.name, losses)},
-                                    {"width", camera.width},
-                                    {"height", camera.height},
-                                    {"fx", camera.fx},
-                                    {"fy", camera.fy},
-                                    {"cx", camera.cx},
-                                    {"cy", camera.cy},
-                                    {"view_from_world", matrix}});
+  for (const Camera& camera : scene.cameras)
+    extension["cameras"].push_back(camera_json(camera, losses));
+  if (scene.first_view) {
+    if (const auto reason = view_defect(*scene.first_view))
+      throw UsageError("a GLB cannot hold the first view: it is " + *reason);
+    extension["first_view"] = camera_json(*scene.first_view, losses);
   }
   if (scene.quality != Quality{}) {
     require_sound(scene.quality);

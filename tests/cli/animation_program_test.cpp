@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/dataset/camera_file.hpp"
+#include "formats/scene_file.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/video_file.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/support/errors.hpp"
@@ -62,6 +64,27 @@ TEST_F(Animation, FramesAlongAPathPassTheViewsOfItsKeyframes) {
   }
   EXPECT_FALSE(same_image("frame_0000.png", "frame_0001.png"));
   EXPECT_FALSE(same_image("frame_0001.png", "frame_0002.png"));
+}
+
+TEST_F(Animation, FramesAlongTheRecordedCameras) {
+  write_scene();
+  EXPECT_THAT(run({"render", "scene.off", "--path", "cameras"}).err,
+              HasSubstr("the scene has none"));
+  Scene scene = read_scene(folder / "scene.off");
+  for (int i = 0; i < 9; ++i)
+    scene.cameras.push_back(look_at({0.5 * i - 2, -5, 1}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30));
+  write_tureen_glb(scene, folder / "scene.glb");
+  const ChildResult result =
+      run({"render", "scene.glb", "--path", "cameras:2", "--fps", "4", "-o", "f.png", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["output"].size(), 9u);
+  EXPECT_EQ(json["width"], 40);
+  EXPECT_FALSE(same_image("f_0.png", "f_8.png"));
+  EXPECT_THAT(run({"render", "scene.glb", "--path", "cameras:0"}).err,
+              HasSubstr("needs seconds from 0.001"));
+  if (!have_ffmpeg()) GTEST_SKIP() << ffmpeg_missing;
+  EXPECT_EQ(run({"render", "scene.glb", "--path", "cameras:1", "-o", "f.mp4"}).exit_code, 0);
 }
 
 TEST_F(Animation, ALoopDoesNotShowItsFirstFrameTwice) {

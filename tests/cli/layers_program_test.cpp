@@ -1,6 +1,8 @@
 // Program tests of scenes with several layers: convert, info, render, and commands for one layer.
 #include <gmock/gmock.h>
 
+#include <glm/geometric.hpp>
+
 #include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/cli/program_fixture.hpp"
@@ -11,6 +13,7 @@ namespace layers_program_test {
 
 using test::ChildResult;
 using test::Names;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -170,6 +173,94 @@ TEST_F(LayersProgram, HiddenLayersAreReported) {
   write_scene_file("hidden.glb", scene);
   EXPECT_THAT(image("hidden.glb"), HasSubstr("All layers are hidden:"));
   EXPECT_THAT(run({"info", "hidden.glb"}).err, HasSubstr("All layers are hidden:"));
+}
+
+TEST_F(LayersProgram, LayersArePlacedByName) {
+  const ChildResult result =
+      run({"convert", "scene.off", "two.glb", "-o", "placed.glb", "--place",
+           "turned=at:1,2,3/turn:0,0,30/mirror/visible", "--place", "scene=scale:2/hidden"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // The option has what info prints.
+  EXPECT_THAT(run({"info", "placed.glb"}).err,
+              AllOf(HasSubstr("at (1, 2, 3), turned by (0, 0, 30) degrees about x, y and z, "
+                              "2 times as large, mirrored\n"),
+                    HasSubstr("at (0, 0, 0), 2 times as large; hidden")));
+  const auto image = [&](const std::string& scene, const std::string& place) {
+    std::vector<std::string> arguments{"render",    scene,    "--size", "32x24",
+                                       "--context", "osmesa", "-o",     scene + ".png"};
+    if (!place.empty()) arguments.insert(arguments.end(), {"--place", place});
+    const ChildResult drawn = run(arguments);
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    return read_png(scene + ".png").pixels;
+  };
+  ASSERT_EQ(run({"convert", "scene.off", "moved.glb", "--place", "layer 1=turn:0,0,90"}).exit_code,
+            0);
+  EXPECT_EQ(image("scene.off", "layer 1=turn:0,0,90"), image("moved.glb", ""));
+  EXPECT_NE(image("scene.off", ""), image("moved.glb", ""));
+  expect_usage_error({"render", "scene.off", "--place", "fox=hidden"}, "the layers are: layer 1");
+  expect_usage_error({"render", "scene.off", "--place", "fox=up"}, "mirror:no, hidden or visible");
+}
+
+TEST_F(LayersProgram, ScenesAreTurnedUpright) {
+  ASSERT_EQ(run({"convert", "fox.off", "lying.glb", "--up", "0,1,0"}).exit_code, 0);
+  const ChildResult result = run({"convert", "scene.off", "lying.glb", "-o", "both.glb"});
+  EXPECT_THAT(result.err, HasSubstr("fox: turned about the world's origin, so that its up axis, y, "
+                                    "becomes that of the first scene, z; --keep-axes changes it"));
+  const auto up_of = [&](const std::string& name) {
+    return read_scene(folder / name).layers[1].world_from_layer * glm::dvec4(0, 1, 0, 0);
+  };
+  EXPECT_EQ(up_of("both.glb"), glm::dvec4(0, 0, 1, 0));
+  ASSERT_EQ(run({"convert", "scene.off", "lying.glb", "-o", "kept.glb", "--keep-axes"}).exit_code,
+            0);
+  EXPECT_EQ(up_of("kept.glb"), glm::dvec4(0, 1, 0, 0));
+}
+
+TEST_F(LayersProgram, AWholeSceneIsMoved) {
+  const auto first = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"convert", "fox.off", "moved.ply", "--force"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return only_soup(read_scene(folder / "moved.ply")).positions[0];
+  };
+  EXPECT_EQ(first({}), glm::vec3(5, 0, 0));
+  EXPECT_LT(glm::distance(first({"--translate", "1,2,3", "--rotate", "0,0,90", "--resize", "2"}),
+                          glm::vec3(1, 12, 3)),
+            1e-6f);
+  // PLY stores no up axis: readers assume z, and the named axis becomes z.
+  EXPECT_EQ(first({"--up", "1,0,0"}), glm::vec3(0, 0, 5));
+  EXPECT_THAT(run({"convert", "fox.off", "up.ply", "--up", "1,0,0"}).err,
+              HasSubstr("up.ply stores no up axis: x is turned to z, which readers assume"));
+  EXPECT_EQ(first({"--up", "0,0,1"}), glm::vec3(5, 0, 0));
+  ASSERT_EQ(run({"convert", "fox.off", "up.glb", "--up", "1,0,0"}).exit_code, 0);
+  EXPECT_EQ(only_layer(read_scene(folder / "up.glb")).world_from_layer, glm::dmat4(1.0));
+  expect_usage_error({"convert", "fox.off", "no.ply", "--resize", "0"}, "--resize");
+}
+
+TEST_F(LayersProgram, TheFirstViewIsStoredAndShown) {
+  Scene scene = read_scene(folder / "scene.off");
+  for (int i = 0; i < 2; ++i)
+    scene.cameras.push_back(
+        look_at({3.0 * i - 1, -4, 1}, {0, 0, 0}, {0, 0, 1}, 0.7, 40 + 8 * i, 30));
+  write_scene_file("cameras.glb", scene);
+  const auto size = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "cameras.glb", "--context", "osmesa"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    return read_png("out.png").width;
+  };
+  EXPECT_EQ(size({}), 40) << "the first camera: two are no capture";
+  ASSERT_EQ(run({"convert", "cameras.glb", "first.glb", "--view", "1"}).exit_code, 0);
+  EXPECT_EQ(read_scene(folder / "first.glb").first_view, scene.cameras[1]);
+  ASSERT_EQ(run({"convert", "first.glb", "cameras.glb", "--force"}).exit_code, 0);
+  EXPECT_EQ(size({}), 48);
+  EXPECT_EQ(size({"--camera", "cameras.glb:0"}), 40);
+  ASSERT_EQ(run({"convert", "scene.off", "other.glb", "--view", "cameras.glb:0"}).exit_code, 0);
+  EXPECT_EQ(read_scene(folder / "other.glb").first_view, scene.cameras[0]);
+  expect_usage_error({"convert", "scene.off", "no.glb", "--view", "0"}, "the scene has none");
+  expect_usage_error({"convert", "cameras.glb", "no.glb", "--view", "2"}, "from 0 to 1");
+  expect_usage_error({"convert", "cameras.glb", "no.glb", "--view", "cameras.glb:all"}, "several");
+  expect_usage_error({"convert", "cameras.glb", "no.ply", "--view", "1"}, "only .glb and .html");
 }
 
 TEST_F(LayersProgram, ConvertExtractsALayer) {

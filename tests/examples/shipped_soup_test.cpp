@@ -32,6 +32,8 @@ TEST(ShippedSoup, LoadsWithoutNotesOrLint) {
   EXPECT_THAT(all_notes(scene().info), testing::IsEmpty());
   EXPECT_EQ(scene().info.up, glm::vec3(0, 0, 1));
   EXPECT_GE(scene().cameras.size(), 1u);
+  ASSERT_TRUE(scene().first_view) << "tureen convert --view examples/first_view.json";
+  EXPECT_EQ(scene().first_view->width, 1280);
   EXPECT_LT(std::filesystem::file_size(file), 3'000'000u);
 }
 

@@ -241,7 +241,6 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
   EXPECT_THAT(write_off(scene, folder / "a.off"),
               ElementsAre("OFF stores no up axis; readers assume (0, 0, 1).",
                           "OFF holds no background colour.", "OFF holds no cameras.",
-                          "OFF holds no origin: positions are written relative to it.",
                           "OFF holds colours in 8 bits: they are rounded."));
   // Rounding is half up, so an alpha of one half stays visible.
   EXPECT_THAT(face_rgba(read_off(folder / "a.off")),
@@ -260,11 +259,10 @@ TEST(Off, AppliesTheTransformOfALayerToItsPositions) {
   scene.layers[0].world_from_layer[1] = {0, 0, 2, 0};
   scene.layers[0].world_from_layer[2] = {0, 2, 0, 0};
   const TemporaryFolder folder;
-  EXPECT_THAT(write_off(scene, folder / "a.off"),
-              ElementsAre(Names("OFF", "transform"), Names("OFF", "origin")));
+  EXPECT_THAT(write_off(scene, folder / "a.off"), ElementsAre(Names("OFF", "transform")));
   Scene again = read_off(folder / "a.off");
   EXPECT_THAT(only_soup(again).positions,
-              ElementsAre(glm::vec3(0), glm::vec3(-2, 0, 0), glm::vec3(0, 0, 2)));
+              ElementsAre(glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(1, 0, 2)));
   EXPECT_THAT(only_soup(again).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
 
   // A mirror alone exchanges two corners, so that the same side faces outwards.
@@ -276,6 +274,13 @@ TEST(Off, AppliesTheTransformOfALayerToItsPositions) {
   EXPECT_THAT(only_soup(again).triangles, ElementsAre(glm::uvec3(0, 2, 1)));
   // The scene itself is unchanged.
   EXPECT_EQ(only_soup(scene).positions, soup.positions);
+
+  // Far away, floats are 4 units apart: the error is reported.
+  scene.layers[0].world_from_layer = at_origin({5e7, 0, 0});
+  EXPECT_THAT(write_off(scene, folder / "far.off"),
+              ElementsAre("OFF holds positions with 24 bits: in world coordinates they are rounded "
+                          "by up to 1 units."));
+  EXPECT_EQ(only_soup(read_off(folder / "far.off")).positions[0], glm::vec3(5e7f, 0, 0));
 
   scene.layers.resize(2);
   EXPECT_THROW(write_off(scene, folder / "c.off"), UsageError);

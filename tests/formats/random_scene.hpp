@@ -211,6 +211,8 @@ class RandomScene {
       camera.cx += 1.0 / 3.0;
       result.cameras.push_back(camera);
     }
+    result.first_view = look_at({real(), 4, real()}, {0, 0, 0}, {0, 0, 1}, 1.1, 32, 65536);
+    result.first_view->name = "first";
     return result;
   }
 
@@ -343,6 +345,9 @@ inline std::string difference(const Scene& a, const Scene& b) {
   if (a.cameras.size() != b.cameras.size()) return "number of cameras";
   for (std::size_t i = 0; i < a.cameras.size(); ++i)
     if (!same(a.cameras[i], b.cameras[i])) return "camera " + std::to_string(i);
+  if (a.first_view.has_value() != b.first_view.has_value() ||
+      (a.first_view && !same(*a.first_view, *b.first_view)))
+    return "first view";
   return "";
 }
 

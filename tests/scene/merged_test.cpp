@@ -1,10 +1,16 @@
 // Several scenes as one: layers, names, remarks, and the settings of the first.
 #include <gmock/gmock.h>
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include "base/error.hpp"
+#include "formats/common/format_remarks.hpp"
 #include "formats/mesh/mesh_remarks.hpp"
+#include "scene/edit/moved_scene.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_remarks.hpp"
+#include "scene/similarity.hpp"
 
 namespace tureen {
 namespace merged_test {
@@ -65,7 +71,7 @@ TEST(Merged, SettingsAreThoseOfTheFirstScene) {
   first.quality.supersampling = 2;
   second.cameras.resize(2);
   second.info.compressed = true;
-  const Scene result = merged({first, second, first});
+  const Scene result = merged({first, second, first}, UpAxes::keep);
   EXPECT_EQ(result.info.name, "first");
   EXPECT_EQ(result.info.source, "by hand");
   EXPECT_EQ(result.info.up, glm::vec3(0, 0, 1));
@@ -84,6 +90,61 @@ TEST(Merged, SettingsAreThoseOfTheFirstScene) {
             "up axis, background, quality");
   // Equal settings are not dropped.
   EXPECT_TRUE(merged({second, second}).info.remarks.empty());
+}
+
+TEST(Merged, FurtherScenesAreTurnedUpright) {
+  Scene first = scene_named("first"), second = scene_named("second", 1);
+  first.info.up = {0, 0, 1};
+  second.info.up = {0, -1, 0};
+  second.info.up_is_assumed = true;
+  second.info.remarks = {{&remarks::up_unknown_to_format, {{"format", "PLY"}}}};
+  first.first_view = Camera{.name = "first view"};
+  const Scene result = merged({first, second});
+  EXPECT_EQ(result.first_view, first.first_view);
+  // The smallest rotation takes -y to z, and keeps x.
+  const glm::dmat4& place = result.layers[1].world_from_layer;
+  EXPECT_EQ(place * glm::dvec4(0, -1, 0, 0), glm::dvec4(0, 0, 1, 0));
+  EXPECT_EQ(place * glm::dvec4(1, 0, 0, 0), glm::dvec4(1, 0, 0, 0));
+  ASSERT_EQ(result.info.remarks.size(), 1u);
+  EXPECT_EQ(describe(result.info.remarks[0]),
+            "second: turned about the world's origin, so that its up axis, -y, becomes that of the "
+            "first scene, z");
+  const Scene kept = merged({first, second}, UpAxes::keep);
+  EXPECT_EQ(kept.layers[1].world_from_layer, second.layers[0].world_from_layer);
+}
+
+TEST(Merged, RotationsBetweenAxesAreTheSmallest) {
+  const glm::dvec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6, -0.8, 0}, {1e-9, 0, -1}};
+  for (const glm::dvec3& from : axes)
+    for (const glm::dvec3& to : axes)
+      for (const double sign : {1.0, -1.0}) {
+        const glm::dmat3 turn = rotation_between(2.0 * from, 3 * sign * to);
+        // Between nearly opposite axes, the formula loses half of the digits.
+        EXPECT_LT(glm::distance(turn * from, sign * to), 1e-7);
+        EXPECT_NEAR(glm::determinant(turn), 1, 1e-7);
+        const double cosine = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1);
+        EXPECT_NEAR(cosine, sign * glm::dot(from, to), 1e-7) << "turns no farther than it must";
+      }
+}
+
+TEST(Merged, AMovedSceneLooksTheSameFromItsCameras) {
+  Scene scene = scene_named("moved", 1);
+  scene.cameras = {look_at({3, 1, 2}, {0, 0, 0}, {0, 0, 1}, 1, 64, 48)};
+  scene.first_view = scene.cameras[0];
+  const glm::dvec3 before(scene.cameras[0].view_from_world *
+                          (scene.layers[0].world_from_layer * glm::dvec4(0.1, 0.2, 0.3, 1)));
+  for (const bool mirror : {false, true}) {
+    Scene moved = scene;
+    move_scene(
+        moved,
+        matrix_of({.position = {1, 2, 3}, .angles = {10, 20, 30}, .scale = 2, .mirror = mirror}));
+    for (const Camera& camera : {moved.cameras[0], *moved.first_view}) {
+      const glm::dvec3 after(camera.view_from_world *
+                             (moved.layers[0].world_from_layer * glm::dvec4(0.1, 0.2, 0.3, 1)));
+      EXPECT_LT(glm::distance(after, 2.0 * before * glm::dvec3(mirror ? -1 : 1, 1, 1)), 1e-12);
+      EXPECT_NEAR(glm::determinant(camera.world_from_view_rotation()), 1, 1e-12);
+    }
+  }
 }
 
 TEST(Merged, RemarksAndNotesNameTheirScene) {

@@ -11,8 +11,9 @@ using testing::ElementsAre;
 
 SceneSource source() {
   SceneSource result;
+  const auto header = std::make_shared<const Scene>(scene_of(TriangleSoup()));
   for (const char* path : {"/scenes/a.glb", "/scenes/b.ply"})
-    result.files.push_back({.path = path, .watch = {}, .header = nullptr});
+    result.files.push_back({.path = path, .watch = {}, .header = header});
   result.document.layers = {{{}, 1, std::make_shared<const Primitives>(TriangleSoup())},
                             {{}, 2, std::make_shared<const Primitives>(Splats())}};
   result.origins = {{1, {0}}, {2, {1}}};
@@ -45,6 +46,15 @@ TEST(PageCommand, OfASoupHasNoOptionsForSplats) {
   choice.quality = Quality{.splat_order = Quality::SplatOrder::exact};
   EXPECT_THAT(page_arguments(soup, {.choice = choice, .up = {0, 0, 1}}, "/a.html"),
               ElementsAre("convert", "/scenes/a.glb", "-o", "/a.html"));
+}
+
+TEST(PageCommand, HasTheViewAndThePlaces) {
+  SceneSource moved = source();
+  moved.document.layers[1].world_from_layer = at_origin({1, 2, 3});
+  EXPECT_THAT(
+      page_arguments(moved, {.up = {0, 0, 1}, .view = "v.json"}, "/a.html"),
+      ElementsAre("convert", "/scenes/a.glb", "/scenes/b.ply", "-o", "/a.html", "--view", "v.json",
+                  "--place", "scene 2=at:1,2,3/turn:0,0,0/scale:1/mirror:no/visible"));
 }
 
 TEST(PageCommand, HasTheWindowsLimitOfMemory) {

@@ -39,9 +39,11 @@ glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string
   return v;
 }
 
+const auto header = std::make_shared<const Scene>(scene_of(TriangleSoup()));
+
 SceneSource source(const std::string& path) {
   SceneSource result;
-  result.files.push_back({.path = path, .watch = {}, .header = nullptr});
+  result.files.push_back({.path = path, .watch = {}, .header = header});
   result.document.layers = {{{}, 1, std::make_shared<const Primitives>(Splats())}};
   result.origins = {{1, {0}}};
   result.scene = std::make_shared<const Scene>();
@@ -51,7 +53,7 @@ SceneSource source(const std::string& path) {
 TEST(RenderCommand, NamesAllFilesWithLayers) {
   SceneSource scene = source("a.glb");
   for (const char* path : {"removed.glb", "b c.glb"})
-    scene.files.push_back({.path = path, .watch = {}, .header = nullptr});
+    scene.files.push_back({.path = path, .watch = {}, .header = header});
   scene.document.layers = {{{}, 1}, {{}, 2}};
   scene.origins = {{1, {0}}, {2, {2}}};
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);

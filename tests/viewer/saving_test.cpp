@@ -13,8 +13,10 @@
 
 #include "base/error.hpp"
 #include "formats/scene_file.hpp"
+#include "scene/document/place_text.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
+#include "viewer/render_command.hpp"
 
 namespace tureen::viewer {
 namespace saving_test {
@@ -130,6 +132,39 @@ TEST_F(Saving, AMaterialIsAChange) {
   EXPECT_EQ(reread.document.layers[0].material, mirror_material());
   save_scene(source, folder_ / "mirror.glb", false);
   EXPECT_EQ(read({"mirror.glb"}).document.layers[0].material, mirror_material());
+}
+
+/// What the copied command reads is what the window shows.
+TEST_F(Saving, PlaceArgumentsGiveTheDocument) {
+  SceneSource source = two_files();
+  EXPECT_THAT(place_arguments(source), IsEmpty());
+  // The soup's up axis is y, the splats' is -y: they were turned, as the command turns them.
+  EXPECT_NE(source.document.layers[1].world_from_layer, glm::dmat4(1.0));
+  const auto check = [&](const std::vector<std::string>& files, std::vector<bool> visible) {
+    std::vector<Scene> scenes;
+    for (const std::string& file : files) scenes.push_back(read_scene(folder_ / file));
+    scenes.back().info.name = "splats";
+    Scene scene = merged(std::move(scenes));
+    std::vector<PlaceChange> changes;
+    const std::vector<std::string> arguments = place_arguments(source);
+    for (std::size_t i = 1; i < arguments.size(); i += 2) {
+      EXPECT_EQ(arguments[i - 1], "--place");
+      changes.push_back(parse_place(arguments[i]));
+    }
+    place_layers(scene, changes);
+    ASSERT_EQ(scene.layers.size(), visible.size());
+    for (std::size_t i = 0; i < visible.size(); ++i)
+      EXPECT_EQ(scene.layers[i].visible, visible[i]) << i;
+    const glm::dmat4& shown = source.document.layers.back().world_from_layer;
+    for (int column = 0; column < 4; ++column)  // angles and back: rounding
+      EXPECT_LT(glm::distance(scene.layers.back().world_from_layer[column], shown[column]), 1e-12);
+  };
+  apply_edit(source.document, moved(source, 1));
+  apply_edit(source.document, ShowLayer{source.document.layers[0].id, false});
+  check({"soup.glb", "splats.ply"}, {false, true});
+  // The first file is no longer read: the second is not turned for it.
+  apply_edit(source.document, RemoveLayers{{source.document.layers[0].id}});
+  check({"splats.ply"}, {true});
 }
 
 TEST_F(Saving, ASingleLayerWithoutANameStaysOne) {

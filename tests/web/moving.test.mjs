@@ -142,8 +142,7 @@ mouse('I turns the scene upside down, and back', async (page, before) => {
 });
 
 mouse('views, cameras and saved views of the panel', async (page, before) => {
-  await page.click('#camera-next');  // the first camera is the current view
-  await page.click('#camera-next');
+  await page.click('#camera-next');  // the first camera; the example stores another first view
   const camera = await viewChanged(page, before);
   await page.fill('#view-name', 'mine');
   await page.press('#view-name', 'Enter');

@@ -7,6 +7,7 @@
 #include "base/steady_seconds.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/scene_preview.hpp"
+#include "scene/edit/moved_scene.hpp"
 #include "scene/middle_bounds.hpp"
 #include "viewer/names.hpp"
 #include "viewer/scene/scene_source.hpp"
@@ -36,6 +37,8 @@ ReadOptions options_of(const ReadRequest& request, std::function<void(double)> p
 void append_scene(SceneSource& source, const fs::path& path, const FileWatch& watch, Scene read) {
   auto scene = std::make_shared<Scene>(std::move(read));
   if (scene->info.name.empty()) scene->info.name = fs::path(short_name(path)).stem().string();
+  // As merged() does, which the commands use.
+  if (!source.files.empty()) turn_upright(*scene, source.files.front().header->info.up);
   for (std::size_t i = 0; i < scene->layers.size(); ++i) {
     Layer& layer = scene->layers[i];
     DocumentLayer& added = source.document.layers.emplace_back();

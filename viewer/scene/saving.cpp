@@ -21,18 +21,6 @@ namespace fs = std::filesystem;
 
 bool is_glb_name(const fs::path& file) { return extension_of(file) == ".glb"; }
 
-/// A file that is removed at the end of its scope, if it still exists.
-struct TemporaryFile {
-  fs::path path;
-  explicit TemporaryFile(fs::path file) : path(std::move(file)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
-};
-
 /// The scene without primitives.
 Scene header_of(const SceneSource& source) {
   Scene scene = *source.scene;

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "viewer/scene/scene_source.hpp"
@@ -23,6 +25,18 @@ std::filesystem::path proposed_file(const SceneSource& source);
 
 /// The reason why a scene cannot be saved under this name, or "". For the user.
 std::string name_defect(const std::filesystem::path& file);
+
+/// A file that is removed at the end of its scope, if it still exists.
+struct TemporaryFile {
+  std::filesystem::path path;
+  explicit TemporaryFile(std::filesystem::path file) : path(std::move(file)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
 
 struct Saved {
   std::vector<std::string> lost;  // one sentence for each loss of the format

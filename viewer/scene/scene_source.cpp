@@ -86,6 +86,11 @@ bool SceneSource::is_as_read() const {
   return at == document.layers.size();
 }
 
+bool SceneSource::is_from_files() const {
+  return std::all_of(document.layers.begin(), document.layers.end(),
+                     [&](const DocumentLayer& layer) { return origins.contains(layer.id); });
+}
+
 bool has_splats(const SceneSource& source) {
   const auto& layers = source.document.layers;
   return std::any_of(layers.begin(), layers.end(), [](const DocumentLayer& layer) {

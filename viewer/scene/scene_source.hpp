@@ -63,6 +63,8 @@ struct SceneSource {
   /// Whether reading paths() gives these layers: none was moved, hidden, renamed, reordered, or
   /// removed alone from its file.
   bool is_as_read() const;
+  /// Whether all layers are those of files, which commands can read.
+  bool is_from_files() const;
 };
 
 /// Whether the document has a layer of this file, or this layer of it.

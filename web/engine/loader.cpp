@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "camera/capture.hpp"
 #include "camera/up_axis.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/scene_preview.hpp"
@@ -84,6 +85,7 @@ Json describe(const Scene& scene) {
   const UpGuess up = guess_up(evidence_of(scene, subject));
   subject.up = up.axis;
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
+  const auto first = first_view_of(scene.first_view, scene.cameras, up.axis);
   return object({{"name", scene.info.name},
                  {"source", scene.info.source},
                  {"notes", notes_of(scene)},
@@ -92,6 +94,7 @@ Json describe(const Scene& scene) {
                  {"splats", splats},
                  {"appearance", appearances_of(layers)},
                  {"cameras", cameras},
+                 {"first_view", first ? to_json(*first) : Json()},
                  {"background", to_json(glm::dvec3(scene.info.background))},
                  {"subject", to_json(subject)},
                  {"up_reason", describe(up)},

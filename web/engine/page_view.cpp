@@ -27,7 +27,7 @@ PageView::Stage PageView::make_stage(PreparedScene prepared, ShownScene scene,
   renderer.set_background(glm::vec4(background, 1.0f));
   CameraControls controls(scene.subject);
   if (viewport_) controls.set_viewport(viewport_->x, viewport_->y);
-  if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
+  controls.set_first_view(scene.first_view);
   controls.reset();
   controls.arrive();
   return {{}, std::move(renderer), std::move(scene), controls, {}};

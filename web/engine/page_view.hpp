@@ -30,6 +30,7 @@ struct LayerFacts {
 struct ShownScene {
   Subject subject;
   std::vector<Camera> cameras = {};
+  std::optional<Camera> first_view = {};  // first_view_of() (camera/capture.hpp)
   glm::vec3 background{0.0f};
   std::vector<std::string> names = {};  // of its layers
 };

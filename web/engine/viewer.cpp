@@ -46,8 +46,11 @@ Json start(Engine& engine, const Json& options) {
 ShownScene scene_of(const Json& scene, const Json& names) {
   ShownScene shown{.subject = subject_of(scene.at("subject")),
                    .cameras = {},
+                   .first_view = {},
                    .background = glm::vec3(vector_of(scene.at("background"))),
                    .names = names.get<std::vector<std::string>>()};
+  if (const Json& view = scene.at("first_view"); !view.is_null())
+    shown.first_view = camera_of(view);
   for (const Json& camera : scene.at("cameras")) shown.cameras.push_back(camera_of(camera));
   return shown;
 }

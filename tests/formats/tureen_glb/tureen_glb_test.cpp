@@ -199,6 +199,25 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   expect_refusal([&](auto& j) { j["extensions"][x]["cameras"][0]["height"] = 0; },
                  "cameras[0].height");
   expect_refusal([&](auto& j) { j["extensions"][x]["up"] = {0, 0, 0}; }, "up");
+  const auto expect_view_refusal = [&](const char* key, const nlohmann::json& value,
+                                       const char* reason) {
+    expect_refusal([&](auto& j) { j["extensions"][x]["first_view"][key] = value; }, "first_view",
+                   reason);
+  };
+  expect_view_refusal("width", 0, "width");
+  expect_view_refusal("fx", 0, "without a focal length");
+  expect_view_refusal("fy", -1e308, "without a focal length");
+  expect_view_refusal("view_from_world", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1},
+                      "no rotation");
+  expect_view_refusal("view_from_world", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                      "no rotation");
+  expect_view_refusal("view_from_world", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                      "mirrored");
+  expect_view_refusal("view_from_world", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                      "no rotation");
+  expect_view_refusal("view_from_world", {1e308, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                      "no rotation");
+  expect_refusal([&](auto& j) { j["extensions"][x]["first_view"] = 3; }, "first_view");
 
   // The writer rejects scenes that the reader would reject.
   const Scene good = scene;
@@ -209,6 +228,9 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
   scene = good;
   scene.cameras[0].fx = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
+  scene = good;
+  scene.first_view->view_from_world[0] *= 2;
   EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
   EXPECT_FALSE(std::filesystem::exists(test::temporary_glb("never")));
 }
