@@ -211,7 +211,7 @@ ExitCode train(const TrainOptions& options) {
   };
   events.progress = [&](const trainer::SessionStatus& now) {
     if (!progress) progress.emplace("training", output);
-    progress->update(double(now.step) / now.steps, describe(now));
+    progress->update(now.fraction, describe(now));
   };
   events.interrupted = [&](const trainer::SessionStatus& now) {
     progress.reset();

@@ -36,7 +36,7 @@ set(limits
   "code splatting 3250: loops in vectors, per kernel"
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
-  "code trainer 13200: four methods, CPU and CUDA"
+  "code trainer 13250: four methods, CPU and CUDA, fitted to a time"
   "code jobs 5740: work that the programs share, and the whole of a training run; what measures and reports grows no further"
   "code viewer 7150: the window"
   "code web 9000: the page"

@@ -66,7 +66,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
   for (const auto& [option, methods] : all_method_options()) {
     Option added = add_method_option(command, *option, options.own[option->name]);
     if (*option->value_name) added.value_name(option->value_name);
-    added.group("Options of " + names_of(methods, ", "));
+    if (methods.size() < training_methods().size())
+      added.group("Options of " + names_of(methods, ", "));
   }
 }
 

@@ -123,6 +123,7 @@ class DiffsoupMethod final : public TrainingMethod {
     if (is_new && background_ && base.preset == Preset::object && options_.file.empty())
       for (int c = 0; c < 3; ++c) base.background[c] = (*background_)[c];
     config_ = with_options(base, options_);
+    replaced_minutes_ = options_.steps ? base.minutes : 0;
     // Without the dataset, a preset that no option names is unknown.
     if (checkpoint_ && (dataset || !is_new))
       if (const auto reason = difference(config_, checkpoint_->config))
@@ -149,9 +150,11 @@ class DiffsoupMethod final : public TrainingMethod {
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     RunPlan plan = plan_for(dataset);
     plan.steps = config_.steps;
+    plan.minutes = config_.minutes;
     plan.last = std::uint64_t(config_.triangles);
     if (!checkpoint_ && !preset_of(options_) && options_.file.empty())
       plan.notes.push_back(preset_note(dataset));
+    if (replaced_minutes_ > 0) plan.notes.push_back(replaced_minutes(replaced_minutes_));
     const auto preparing = run.preparing;
     const int threads = run.threads;
     trainer::TrainingRequest request{.config = config_,
@@ -206,6 +209,7 @@ class DiffsoupMethod final : public TrainingMethod {
   std::optional<Checkpoint> checkpoint_;
   std::optional<glm::vec3> background_;  // of photographs without alpha
   Config config_;
+  double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 
 }  // namespace
@@ -220,7 +224,7 @@ const MethodOption export_option{
 const TrainingMethodInfo diffsoup_method{
     .name = "diffsoup",
     .summary = "opaque triangles with textures",
-    .options = {&preset_option, &compat_option, &triangles_option, &batch_option, &level_option,
+    .options = {&minutes_option, &preset_option, &compat_option, &triangles_option, &batch_option, &level_option,
                 &device_option, &export_option},
     .constants = [] { return names_of_fields(trainer::config_fields()); },
     .reference = &trainer::config_reference,
@@ -239,6 +243,7 @@ Config with_options(const Config& base, const TrainingOptions& options) {
     set_whole(config.triangles, triangles, "triangles", fields);
   }
   set_whole(config.steps, options.steps, "steps", fields);
+  set_time(config.minutes, options);
   set_whole(config.batch, options[batch_option].whole, "batch", fields);
   config.seed = options.seed.value_or(config.seed);
   if (const auto& level = options[level_option].whole) {

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "trainer/common/snapshot_timer.hpp"
+#include "trainer/common/session_timers.hpp"
 
 namespace tureen::trainer {
 namespace run_control_test {
