@@ -143,6 +143,8 @@ class DiffsoupMethod final : public TrainingMethod {
         "--init random needs no scene"};
   }
 
+  double minutes() const override { return config_.minutes; }
+
   std::string constants() const override { return trainer::config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
@@ -224,11 +226,14 @@ const MethodOption export_option{
 const TrainingMethodInfo diffsoup_method{
     .name = "diffsoup",
     .summary = "opaque triangles with textures",
-    .options = {&minutes_option, &preset_option, &compat_option, &triangles_option, &batch_option, &level_option,
-                &device_option, &export_option},
+    .options = {&minutes_option, &preset_option, &compat_option, &triangles_option, &batch_option,
+                &level_option, &device_option, &export_option},
+    .aliases = {},
     .constants = [] { return names_of_fields(trainer::config_fields()); },
     .reference = &trainer::config_reference,
     .magic = trainer::diffsoup_magic,
+    .cost_of_pixel = 4,  // four photographs a step
+    .least_steps = 2000,
     .make = [](const TrainingOptions& options) -> std::unique_ptr<TrainingMethod> {
       return std::make_unique<DiffsoupMethod>(options);
     }};

@@ -107,6 +107,8 @@ class SplatMethod : public TrainingMethod {
         hint_for(splats->kernel)};
   }
 
+  double minutes() const override { return config_.minutes; }
+
   std::string constants() const override { return trainer::splat_config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
@@ -231,14 +233,19 @@ class SplatMethod : public TrainingMethod {
 template <class Method, class Config>
 TrainingMethodInfo splat_method_info(const char* name, const char* summary,
                                      std::vector<const MethodOption*> own,
-                                     trainer::CheckpointMagic magic) {
+                                     trainer::CheckpointMagic magic, double cost_of_pixel,
+                                     int least_steps,
+                                     decltype(TrainingMethodInfo::aliases) aliases = {}) {
   own.insert(own.begin(), {&minutes_option, &max_splats_option, &max_bytes_option});
   return {.name = name,
           .summary = summary,
           .options = std::move(own),
+          .aliases = std::move(aliases),
           .constants = [] { return names_of_fields(trainer::splat_config_fields<Config>()); },
           .reference = &trainer::splat_config_reference<Config>,
           .magic = magic,
+          .cost_of_pixel = cost_of_pixel,
+          .least_steps = least_steps,
           .make = [](const TrainingOptions& options) -> std::unique_ptr<TrainingMethod> {
             return std::make_unique<Method>(options);
           }};

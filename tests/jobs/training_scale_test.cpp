@@ -1,9 +1,16 @@
 #include "jobs/training/training_scale.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "jobs/training/photograph_size.hpp"
+#include "jobs/training/run_input.hpp"
 
 namespace tureen {
 namespace training_scale_test {
@@ -38,6 +45,68 @@ TEST(TrainingScale, LeavesUsualScenesAndScalesOthersToThem) {
     EXPECT_EQ(back.layers[0].world_from_layer[1][1], 1 / scale);
     EXPECT_LT(glm::distance(back.cameras[0].eye(), eye), 1e-9 * radius);
   }
+}
+
+TEST(PhotographSize, IsTheLargestThatTheTimeAllows) {
+  TimeForSteps time{.pixels = 1e6, .shorter_side = 900, .seconds_per_pixel = 1e-7, .steps = 2000};
+  // 0.1 s a step at full size, a quarter of that at half the sides.
+  for (const auto& [seconds, scale] : {std::pair{200.0, 1.0},
+                                       {199.0, 0.5},
+                                       {50.0, 0.5},
+                                       {49.0, 0.25},
+                                       {12.0, 0.125},
+                                       {1.0, 0.125}}) {
+    time.seconds = seconds;
+    EXPECT_EQ(scale_for(time), scale) << seconds;
+  }
+  time.shorter_side = 300;  // at a quarter, the side would have 75 pixels
+  EXPECT_EQ(scale_for(time), 0.5);
+  time.shorter_side = 60;
+  EXPECT_EQ(scale_for(time), 1);
+}
+
+TEST(PhotographSize, IsInTheNote) {
+  Camera camera;
+  camera.width = 1200;
+  camera.height = 1000;
+  const TrainingMethodInfo& method = *training_methods()[1];
+  const PhotographSize size = photographs_for(1, {camera}, method, 1e-7);
+  EXPECT_EQ(size.scale, 0.5);
+  EXPECT_EQ(std::get<double>(size.note.value), 0.5);
+  EXPECT_THAT(size.note.text, testing::HasSubstr("--scale 0.5"));
+  EXPECT_GT(measured_seconds_per_pixel(1), 0);
+}
+
+TEST(RunInput, ComesBackFromTheLog) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "tureen_run_input";
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path log = folder / "a.jsonl";
+  std::filesystem::remove(log);
+  EXPECT_FALSE(input_of_log(log));
+  const auto write = [&](const std::string& plan) { std::ofstream(log) << plan << "\n{\n"; };
+  RunInput input{"photos/ball", {.scale = 0.25, .images_folder = 2, .test_every = 5}};
+  input.options.alpha = AlphaMeaning::mask;
+  input.options.is_strict = true;
+  write(R"({"step":0,"plan":{"input":)" + to_json(input, log) + "}}");
+  const auto read = input_of_log(log);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->dataset, std::filesystem::absolute("photos/ball"));
+  EXPECT_EQ(read->options.scale, 0.25);
+  EXPECT_EQ(read->options.images_folder, 2);
+  EXPECT_EQ(read->options.test_every, 5);
+  EXPECT_EQ(read->options.alpha, AlphaMeaning::mask);
+  EXPECT_TRUE(read->options.is_strict);
+  write(R"({"step":0,"plan":{}})");  // of an earlier version
+  EXPECT_FALSE(input_of_log(log));
+  for (const char* bad : {R"("scale":0)", R"("scale":2)", R"("images":0)", R"("test_every":1)",
+                          R"("alpha":"x")", R"("dataset":3)"}) {
+    nlohmann::json damaged = nlohmann::json::parse(to_json(input, log));
+    damaged.merge_patch(nlohmann::json::parse("{" + std::string(bad) + "}"));
+    write(R"({"step":0,"plan":{"input":)" + damaged.dump() + "}}");
+    EXPECT_THROW(input_of_log(log), InputError) << bad;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace training_scale_test

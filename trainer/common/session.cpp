@@ -49,7 +49,9 @@ std::string describe(const SessionStatus& now) {
   std::string text = fmt::format("{}{}{}{}", now.paused ? "paused, " : "", now.step,
                                  now.fits_steps ? " of about " : "/", now.steps);
   if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
-  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
+  if (now.test_psnr_db)
+    text +=
+        fmt::format(", {:.2f} dB of {}", *now.test_psnr_db, counted(now.measured_views, "view"));
   if (now.seconds_per_step > 0)
     text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
                         duration_text(now.seconds_left));
@@ -69,9 +71,7 @@ TrainingSession::TrainingSession(Trainable& run, SessionOptions options)
   recent_.begin = options_.seconds_before;
 }
 
-double TrainingSession::seconds() const {
-  return options_.seconds_before + clock_() - start_;
-}
+double TrainingSession::seconds() const { return options_.seconds_before + clock_() - start_; }
 
 void TrainingSession::run() {
   keep_if_it_fails([this] { train_to_the_end(); });
@@ -202,10 +202,11 @@ SessionStatus TrainingSession::status(bool paused) const {
           .steps = run_.steps(),
           .loss = loss_,
           .test_psnr_db = shown_test_psnr_,
+          .measured_views = measured_views_.size(),
           .seconds_per_step = pace_.steps > 0 ? pace_.seconds / pace_.steps : 0,
           .seconds_left = seconds_left(),
           .fraction = fit_.seconds() > 0 ? std::min(seconds() / fit_.seconds(), 1.0)
-                                      : double(run_.steps_done()) / run_.steps(),
+                                         : double(run_.steps_done()) / run_.steps(),
           .fits_steps = fit_.is_pending(),
           .paused = paused};
 }

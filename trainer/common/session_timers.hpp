@@ -50,24 +50,26 @@ class TimeFit {
     work_ += work;
     if (!is_due(run, now)) return;
     const int before = run.steps();
-    const int steps =
-        std::max(run.steps_in(left(now), (now - begin_) / work_), run.steps_done() + 1);
-    const bool stays = run.steps_done() < before && now < settles_at * seconds_ &&
-                       std::abs(steps - before) < small_change * before;
-    if (!stays) run.set_steps(steps);
+    int steps = run.steps_in(left(now), (now - begin_) / work_);
+    // A forecast from few steps swings: an early one moves the steps by half of it.
+    if (next_ > 0 && now < settles_at * seconds_ && run.steps_done() < before) {
+      if (std::abs(steps - before) < small_change * before) steps = before;
+      steps = int(std::sqrt(double(steps) * before));
+    }
+    run.set_steps(std::max(steps, run.steps_done() + 1));
     next_ = fits_until(now) + 1;
     begin_ = now;
     work_ = 0;
   }
 
  private:
-  /// A fit at each twentieth of the time: if the last forecast is wrong by its whole length, the run
-  /// still uses 95 % of its time.
+  /// A fit at each twentieth of the time: if the last forecast is wrong by its whole length, the
+  /// run still uses 95 % of its time.
   static constexpr int fits = 20;
   /// The first fit may come earlier, after as many steps as caches and the processor's clock need.
   static constexpr int first_fit_steps = 20;
-  /// Until this fraction of the time, a fit that changes the steps by less than 5 % changes nothing:
-  /// the intervals of densification follow the number of steps, and would be cut short.
+  /// Until this fraction of the time, fits are damped, and a change of less than 5 % is none: the
+  /// intervals of densification follow the number of steps, and would be cut short.
   static constexpr double settles_at = 0.8, small_change = 0.05;
 
   int fits_until(double now) const {

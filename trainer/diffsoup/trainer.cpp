@@ -124,8 +124,8 @@ Trainer::Trainer(const Config& config, std::span<const TrainingView> views,
   step_ = state.step;
   faces_ = state.model.faces();
   // A fit of the steps may have moved the lift; the levels tell whether it has been.
-  is_lifted_ = step_ >= lift_step() ||
-               (config.minutes > 0 && state.model.max_level != config.coarse_level);
+  is_lifted_ =
+      step_ >= lift_step() || (config.minutes > 0 && state.model.max_level != config.coarse_level);
   backend_->upload(state);
 }
 
