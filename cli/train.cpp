@@ -188,13 +188,9 @@ void take_from_the_run(TrainOptions& options) {
 void choose_size(TrainOptions& options, const TrainingMethod& method) {
   TrainingJob& job = options.job;
   if (method.minutes() == 0 || job.resume || options.is_given("--scale")) return;
-  DatasetOptions wanted = options.dataset.options;
-  wanted.part = DatasetPart::train;
-  std::vector<Camera> cameras;
-  for (const DatasetSummary::View& view : read_dataset_summary(options.dataset.path, wanted).train)
-    cameras.push_back(view.camera);
-  const PhotographSize size = photographs_for(method.minutes(), cameras, *job.training.method,
-                                              measured_seconds_per_pixel(job.threads));
+  const PhotographSize size = photographs_for(
+      method.minutes(), full_photographs(options.dataset.path, options.dataset.options),
+      *job.training.method, measured_seconds_per_pixel(job.threads));
   options.dataset.options.scale = size.scale;
   job.notes.push_back(size.note);
 }
@@ -270,11 +266,9 @@ ExitCode train(TrainOptions options) {
   };
   events.interrupted = [&](const trainer::SessionStatus& now) {
     progress.reset();
-    say(
-        fmt::format("wrote {} after step {} of {}; the same command with --resume continues from "
-                    "it",
+    say(fmt::format("wrote {} after step {} of {}; tureen train -o {} --resume continues from it",
                     files.checkpoint.string(), counted(std::uint64_t(now.step)),
-                    counted(std::uint64_t(now.steps))));
+                    counted(std::uint64_t(now.steps)), job.output.string()));
   };
   if (options.watch) events.snapshot = [&](const Scene& scene) { window.show(scene); };
   events.finished = [&](const Scene& scene) -> std::vector<std::string> {

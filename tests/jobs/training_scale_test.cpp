@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -48,32 +49,33 @@ TEST(TrainingScale, LeavesUsualScenesAndScalesOthersToThem) {
 }
 
 TEST(PhotographSize, IsTheLargestThatTheTimeAllows) {
-  TimeForSteps time{.pixels = 1e6, .shorter_side = 900, .seconds_per_pixel = 1e-7, .steps = 2000};
-  // 0.1 s a step at full size, a quarter of that at half the sides.
-  for (const auto& [seconds, scale] : {std::pair{200.0, 1.0},
-                                       {199.0, 0.5},
-                                       {50.0, 0.5},
-                                       {49.0, 0.25},
-                                       {12.0, 0.125},
-                                       {1.0, 0.125}}) {
-    time.seconds = seconds;
-    EXPECT_EQ(scale_for(time), scale) << seconds;
+  TimeForSteps time{.pixels = 4e6, .seconds_per_pixel = 1e-7, .steps = 1000};
+  for (const double scale : {1.0, 0.5, 0.25, 0.125}) {
+    time.seconds = 1000 * time.of_step(scale);
+    EXPECT_EQ(scale_for(time), scale);
+    time.seconds *= 0.99;
+    EXPECT_EQ(scale_for(time), std::max(scale / 2, 0.125));
   }
-  time.shorter_side = 300;  // at a quarter, the side would have 75 pixels
-  EXPECT_EQ(scale_for(time), 0.5);
-  time.shorter_side = 60;
+  EXPECT_GT(time.of_step(0.5), time.of_step(1) / 4);  // a part does not depend on the size
+  time.seconds = 1;
+  time.pixels = 600'000;  // 37,500 at a quarter
+  EXPECT_EQ(scale_for(time), 0.25);
+  time.pixels = 20'000;
   EXPECT_EQ(scale_for(time), 1);
 }
 
 TEST(PhotographSize, IsInTheNote) {
-  Camera camera;
-  camera.width = 1200;
-  camera.height = 1000;
+  FullPhotographs full;
+  full.cameras.resize(2);
+  for (Camera& camera : full.cameras) camera.width = camera.height = 1000;
   const TrainingMethodInfo& method = *training_methods()[1];
-  const PhotographSize size = photographs_for(1, {camera}, method, 1e-7);
+  const double pixel = 60.0 / (method.least_steps * 500'000);  // full size: half of the steps
+  const PhotographSize size = photographs_for(1, full, method, pixel);
   EXPECT_EQ(size.scale, 0.5);
   EXPECT_EQ(std::get<double>(size.note.value), 0.5);
   EXPECT_THAT(size.note.text, testing::HasSubstr("--scale 0.5"));
+  full.of_an_object = true;
+  EXPECT_EQ(photographs_for(1, full, method, pixel).scale, 1);
   EXPECT_GT(measured_seconds_per_pixel(1), 0);
 }
 
