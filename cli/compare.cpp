@@ -1,4 +1,5 @@
-// `tureen compare`: metrics of the difference between two images.
+// `tureen compare`: metrics of the difference between two images, and of two scenes against the
+// same photographs.
 #include <fmt/format.h>
 
 #include <array>
@@ -7,7 +8,9 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/extension.hpp"
 #include "cli/commands.hpp"
+#include "cli/compare_scenes.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/memory_option.hpp"
@@ -15,6 +18,7 @@
 #include "cli/options/values.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
+#include "formats/scene_file.hpp"
 #include "image/heat_map.hpp"
 #include "image/metrics.hpp"
 
@@ -47,7 +51,8 @@ constexpr std::array named_metrics{
 };
 
 struct CompareOptions {
-  std::string a, b, diff, background = "black";
+  std::string a, b, diff, background;  // empty: black
+  SceneComparison scenes;
   const NamedMetric* metric = &named_metrics.front();  // that --tolerance limits
   std::optional<double> tolerance;
   MetricOptions metrics;
@@ -67,13 +72,29 @@ Json json_of(const CompareOptions& options, const Metrics& metrics, std::optiona
   return json;
 }
 
+/// Whether the path is a scene and no image.
+bool is_scene_file(const std::string& path) {
+  try {
+    return extension_of(path) != ".png" && is_scene(path);
+  } catch (const InputError&) {
+    return false;  // reading it as an image reports the reason
+  }
+}
+
 ExitCode compare_images(const CompareOptions& options) {
+  for (const std::string& path : {options.a, options.b})
+    if (is_scene_file(path))
+      throw UsageError(path + " is a scene; two scenes are compared on photographs",
+                       "tureen compare A.glb B.glb DATASET");
+  if (!options.scenes.folder.empty())
+    throw UsageError("-o needs DATASET", "--diff writes an image");
   if (!options.diff.empty()) {
     require_png_name(options.diff);
     for (const std::string& input : {options.a, options.b}) require_not_input(options.diff, input);
     require_writable_file(options.diff);
   }
-  const glm::vec3 background(parse_background(options.background));
+  const glm::vec3 background(
+      parse_background(options.background.empty() ? "black" : options.background));
   const ImageF a = composited(to_float(read_image(options.a)), background);
   const ImageF b = composited(to_float(read_image(options.b)), background);
   const Metrics metrics = compare(a, b, options.metrics);
@@ -103,8 +124,11 @@ ExitCode compare_images(const CompareOptions& options) {
 
 void add_compare(Command& program) {
   auto options = std::make_shared<CompareOptions>();
-  Command command = program.add_command("compare", "Compare two images");
-  command.footer(R"(Images with alpha are drawn over --background before the comparison.
+  Command command =
+      program.add_command("compare", "Compare two images, or two scenes on photographs");
+  command.footer(
+      R"(Images with alpha are drawn over --background before the comparison. With DATASET, A and B are
+scenes: both are drawn from the cameras of the photographs, with PSNR, SSIM and FLIP for each view.
 
 Examples:
   tureen compare ours.png theirs.png
@@ -112,11 +136,14 @@ Examples:
                                                                    difference is larger
   tureen compare ours.png theirs.png --metric psnr_db --tolerance 45
                                                                    exit with 1 below 45 dB
+  tureen compare soup.glb splats.glb lego -o report                two scenes, view by view
   tureen compare ours.png theirs.png --diff where.png              with a heat map
 
-Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot be read.)");
-  command.add_option("A", options->a, "first image, PNG or JPEG").required();
-  command.add_option("B", options->b, "second image, of the same size").required();
+Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an input cannot be read,
+4 no OpenGL context for scenes.)");
+  command.add_option("A", options->a, "first image, PNG or JPEG, or scene").required();
+  command.add_option("B", options->b, "second image, of the same size, or scene").required();
+  add_scene_comparison(command, options->scenes);
   command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
   command.add_option("--tolerance VALUE", options->tolerance,
                      "limit for --metric; exit with 1 if the metric is worse",
@@ -145,11 +172,24 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot b
                          "or uniform7 (scikit-image)");
   command.add_option(
       "--background COLOR", options->background,
-      "colour behind transparent pixels: black (default), white, or r,g,b from 0 to 1");
+      "colour behind transparent pixels: a name, #rrggbb, or r,g,b from 0 to 1; by default black, "
+      "of scenes that of A");
   command.add_option("--diff OUT.png", options->diff,
                      "image to write: A, B and a heat map of their differences, side by side");
   add_memory_option(command);
-  command.does([options] { return compare_images(*options); });
+  command.does([options, command] {
+    SceneComparison& scenes = options->scenes;
+    if (scenes.dataset.path.empty()) return compare_images(*options);
+    for (const char* name :
+         {"--tolerance", "--metric", "--pixel-tolerance", "--ssim-border", "--diff"})
+      if (command.option(name).is_given())
+        throw UsageError(std::string(name) + " is for two images, without DATASET");
+    scenes.a = options->a;
+    scenes.b = options->b;
+    scenes.background = options->background;
+    scenes.json = options->json;
+    return compare_scenes(scenes);
+  });
 }
 
 }  // namespace tureen::cli

@@ -223,8 +223,8 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   }
   const Json remarks = remarks_json(scene.info.remarks);
   // The file stores the losses of reading and of compressing.
-  scene.info.notes = notes_of(scene.info);
-  const Json notes = scene.info.notes;
+  const Json notes = notes_of(scene.info);
+  scene.info.notes = all_notes(scene.info);
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
   // This concerns the file and not the scene, so the notes omit it.

@@ -1,13 +1,13 @@
 // `tureen eval`: image metrics of a scene against the photographs of a dataset.
 #include <fmt/format.h>
 
-#include <iterator>
 #include <memory>
 #include <optional>
 
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/files/eval_images.hpp"
+#include "cli/files/eval_result.hpp"
 #include "cli/files/result_files.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/dataset_argument.hpp"
@@ -19,8 +19,6 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
-#include "jobs/bench/plan_json.hpp"
-#include "jobs/eval/eval_json.hpp"
 #include "jobs/eval/evaluation.hpp"
 
 namespace tureen::cli {
@@ -35,39 +33,9 @@ struct EvalOptions {
   DatasetPart split = DatasetPart::test;
   std::string background;  // empty: the scene's own
   std::string folder;
+  bool verbose = false;
   bool json = false;
 };
-
-const char* split_name(DatasetPart split) {
-  constexpr const char* names[] = {"train", "test", "all"};
-  return names[std::size_t(split)];
-}
-
-/// The photographs of the split, moved out of the dataset.
-std::vector<Photograph> photographs_of(Dataset& dataset) {
-  std::vector<Photograph> photographs = std::move(dataset.train);
-  photographs.insert(photographs.end(), std::make_move_iterator(dataset.test.begin()),
-                     std::make_move_iterator(dataset.test.end()));
-  return photographs;
-}
-
-Json report(const EvalOptions& options, const Evaluation& result,
-            const std::vector<std::string>& output) {
-  const bool with_flip = options.evaluation.metrics.with_flip;
-  Json views = Json::array();
-  for (const ViewMetrics& view : result.views) views.push_back(results::to_json(view, with_flip));
-  return {{"views", views},
-          {"mean", results::to_json(result.mean, with_flip)},
-          {"scene", options.scene.path},
-          {"dataset", options.dataset.path},
-          {"split", split_name(options.split)},
-          {"ssim_border", name(options.evaluation.metrics.ssim_border)},
-          {"context", result.context},
-          {"renderer", result.renderer},
-          {"plan", result.plan},
-          {"specialisations", results::specialisations_json(result.specialisations)},
-          {"output", output}};
-}
 
 ExitCode evaluate_scene(EvalOptions options) {
   // Wrong arguments are reported before anything is read.
@@ -96,11 +64,8 @@ ExitCode evaluate_scene(EvalOptions options) {
   evaluation.backend = options.drawing.backend;
   Dataset dataset = read(options.dataset, options.split);
   require_sides(options.dataset, dataset, {.least = ssim_window});
-  const std::vector<Photograph> photographs = photographs_of(dataset);
-  if (photographs.empty())
-    throw InputError(
-        {options.dataset.path},
-        std::string("the dataset has no photographs for --split ") + split_name(options.split));
+  const EvalSubject subject{options.scene.path, options.dataset, options.split, evaluation};
+  const std::vector<Photograph> photographs = photographs_of(dataset, subject);
 
   std::optional<EvalImages> images;
   if (!options.folder.empty()) {
@@ -120,11 +85,10 @@ ExitCode evaluate_scene(EvalOptions options) {
   say_list("Reading " + options.scene.path + ":", notes_of(scene.info));
   say_what_is_hidden(scene);
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
-  say_list("Plan:", result.plan);
-  say(fmt::format("{} against {} photographs ({}), on {} ({}); SSIM with border {}",
-                  primitives_text(triangle_count(scene), splat_count(scene)), photographs.size(),
-                  split_name(options.split), result.renderer, result.context,
-                  name(evaluation.metrics.ssim_border)));
+  if (options.verbose) say_list("Plan:", result.plan);
+  say(fmt::format("{} against {}, on {} ({})",
+                  primitives_text(triangle_count(scene), splat_count(scene)),
+                  describe(subject, photographs), result.renderer, result.context));
   Table table(
       {"view", "PSNR dB", "SSIM", evaluation.metrics.with_flip ? "FLIP" : "", "holes", "specks"});
   const auto add_row = [&](const std::string& name, const ViewMetrics& view) {
@@ -139,10 +103,10 @@ ExitCode evaluate_scene(EvalOptions options) {
     say(fmt::format("wrote {} images to {}", output.size(), options.folder));
     const std::vector<std::filesystem::path> files = result_files(options.folder, "eval");
     for (const std::filesystem::path& file : files) output.push_back(file.string());
-    write_result(options.folder, "eval", json_text(report(options, result, output)));
+    write_result(options.folder, "eval", json_text(to_json(subject, result, output)));
     for (const std::filesystem::path& file : files) say("wrote " + file.string());
   }
-  if (options.json) print_json(report(options, result, output));
+  if (options.json) print_json(to_json(subject, result, output));
   return ExitCode::done;
 }
 
@@ -172,28 +136,20 @@ context, 5 the scene does not fit on the device, or the output cannot be written
   add_scene_argument(command, options->scene);
   add_dataset_argument(command, options->dataset);
   add_memory_option(command);
-  add_choice<DatasetPart>(
-      command, "--split NAME", options->split,
-      {{"test", DatasetPart::test}, {"train", DatasetPart::train}, {"all", DatasetPart::all}},
-      "photographs to use: test (default), train or all");
+  add_split_option(command, options->split);
   command.add_option(
       "-o,--output FOLDER", options->folder,
       "folder for report.html, eval.json, contact_sheet.png, and an image per view: photograph, "
       "rendering, heat map, and holes and specks (magenta and yellow) side by side");
   command.add_option("--background COLOR", options->background,
-                     "colour behind the scene and behind photographs with alpha: white, black, or "
-                     "r,g,b from 0 to 1; the scene's own by default");
-  std::vector<std::pair<std::string, SsimBorder>> borders;
-  for (const SsimBorder border : {SsimBorder::valid, SsimBorder::zero_pad, SsimBorder::uniform7})
-    borders.emplace_back(name(border), border);
-  add_choice<SsimBorder>(command, "--ssim-border MODE", options->evaluation.metrics.ssim_border,
-                         borders,
-                         "SSIM window at the image border: valid (default, as in DiffSoup on "
-                         "photographs), zero_pad (3DGS), or uniform7 (scikit-image)");
+                     "colour behind the scene and behind photographs with alpha: a name, "
+                     "#rrggbb, or r,g,b from 0 to 1; the scene's own by default");
+  add_eval_border(command, options->evaluation.metrics);
   command.add_flag(
       "--no-flip", [options] { options->evaluation.metrics.with_flip = false; },
       "do not compute FLIP; saves more than half of the time for the metrics");
   add_drawing_options(command, options->drawing);
+  command.add_flag("--verbose", options->verbose, "also print the plan");
   command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
   command.does([options] { return evaluate_scene(*options); });
 }

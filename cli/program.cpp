@@ -66,22 +66,22 @@ Exit codes: 0 done, 1 a comparison or check failed, 2 wrong usage, 3 invalid inp
   try {
     action = line.parse(arguments);
   } catch (const UsageError& error) {
-    say(std::string("tureen: ") + error.what());
+    say_error(std::string("tureen: ") + error.what());
     const std::string command = line.chosen_command();
-    say("Try: tureen " + (command.empty() ? "" : command + " ") + "--help");
+    say_error("Try: tureen " + (command.empty() ? "" : command + " ") + "--help");
     return int(ExitCode::usage);
   }
 
   try {
     return int(action());
   } catch (const Interrupted&) {
-    say("tureen: interrupted");
+    say_error("tureen: interrupted");
     return int(ExitCode::other);
   } catch (const std::bad_alloc&) {
-    say("tureen: out of memory");
+    say_error("tureen: out of memory");
     return int(ExitCode::other);
   } catch (const std::exception& error) {
-    say(std::string("tureen: ") + error.what());
+    say_error(std::string("tureen: ") + error.what());
     return int(exit_code_of(error));
   }
 }

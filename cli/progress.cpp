@@ -9,6 +9,7 @@
 #include "base/shown_text.hpp"
 #include "base/steady_seconds.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/report.hpp"
 
 namespace tureen::cli {
 
@@ -34,6 +35,7 @@ Progress::~Progress() {
 
 void Progress::update(double fraction, const std::string& detail) {
   throw_if_interrupted();
+  if (is_quiet()) return;
   const double now = output_.seconds();
   const double pause =
       output_.terminal ? (shown_ ? bar_seconds : quiet_seconds) : output_.line_seconds;

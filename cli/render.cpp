@@ -43,6 +43,8 @@ struct RenderOptions {
   MaterialChoices materials;
   MeasuredOutputs measured;
   int frames = 0;
+  bool force = false;
+  bool verbose = false;
   bool json = false;
 };
 
@@ -55,12 +57,14 @@ struct Drawn {
   std::size_t device_bytes = 0;
 };
 
+/// An animation has hundreds of similar frames, for which a contact sheet is useless.
+bool has_sheet(int count, const Views& views) { return count > 1 && views.frames_per_second == 0; }
+
 /// Images, or an animation.
 WrittenImages draw_views(const Drawer& drawer, const Views& views, const std::string& output) {
   if (is_video_name(output))
     return draw_video(drawer, views.cameras, views.frames_per_second, output);
-  // An animation has hundreds of similar frames, for which a contact sheet is useless.
-  const Sheet sheet = views.frames_per_second > 0 ? Sheet::none : Sheet::of_several;
+  const Sheet sheet = has_sheet(int(views.cameras.size()), views) ? Sheet::of_several : Sheet::none;
   return draw_images(drawer, views.cameras, {output, sheet});
 }
 
@@ -121,11 +125,31 @@ void require_shown(const DebugViewOption& show, const Scene& scene) {
   }
 }
 
+/// Throws UsageError if a file exists. An image of another scene or view may be the only one.
+void require_new(const std::filesystem::path& path, const RenderOptions& options) {
+  std::error_code unknown;
+  if (!options.force && std::filesystem::exists(path, unknown))
+    throw UsageError(path.string() + " exists", "choose another name, or replace it with --force");
+}
+
+/// The same for all images of a run, once their number is known.
+void require_new_images(const RenderOptions& options, const Views& views) {
+  const int count = int(views.cameras.size());
+  std::vector<std::string> patterns{options.output};
+  for (const MeasuredOutput& each : options.measured.list) patterns.push_back(each.pattern);
+  for (const std::string& pattern : patterns)
+    for (int i = 0; i < count && !pattern.empty() && !is_video_name(pattern); ++i)
+      require_new(image_name(pattern, i, count), options);
+  if (has_sheet(count, views) && !is_video_name(options.output))
+    require_new(contact_sheet_name(options.output), options);
+}
+
 /// Throws UsageError and OutputError for the names of one image for each view.
 void check_images(const std::string& pattern, const RenderOptions& options) {
   const int count = std::max(options.views.orbit, 1);
   for (int i = 0; i < count; ++i) require_not_inputs(image_name(pattern, i, count), options.scene);
   const std::filesystem::path first = image_name(pattern, 0, count);
+  require_new(first, options);
   // The number of views in a camera file or an animation, and so the names of the images, are not
   // known yet.
   if (options.views.is_animation() || !options.views.camera.empty())
@@ -152,6 +176,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
   require_not_inputs(options.output, options.scene);
   require_writable_file(options.output);
+  require_new(options.output, options);
 }
 
 /// Prints the files and the scales of depths.
@@ -188,7 +213,12 @@ void say_written(const WrittenImages& images, const Views& views) {
     say("wrote " + paths.front() + " to " + paths.back());
     return;
   }
-  for (const std::string& path : paths) say("wrote " + path);
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    say("wrote " + paths[i] +
+        (i < views.cameras.size() && i < images.ms.size()
+             ? fmt::format(", {} x {}, {:.3g} s", views.cameras[i].width, views.cameras[i].height,
+                           images.ms[i] / 1000)
+             : ""));
 }
 
 ExitCode render(RenderOptions options) {
@@ -204,15 +234,17 @@ ExitCode render(RenderOptions options) {
   const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
+  require_new_images(options, views);
   const Camera& first = views.cameras.front();
   if (options.renderer) {
     const WrittenImages images = draw_without_gl(scene, options, background, views);
     say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
     say_what_is_hidden(scene);
     say_list("Cameras:", views.notes);
-    say(fmt::format("{}; {} x {} by {}; {:.2f} s per image",
-                    primitives_text(triangle_count(scene), splat_count(scene)), first.width,
-                    first.height, options.renderer->name, median(images.ms) / 1000));
+    if (options.verbose)
+      say(fmt::format("{}; {} x {} by {}; {:.2f} s per image",
+                      primitives_text(triangle_count(scene), splat_count(scene)), first.width,
+                      first.height, options.renderer->name, median(images.ms) / 1000));
     say_written(images, views);
     if (options.json)
       print_json({{"width", first.width},
@@ -240,14 +272,16 @@ ExitCode render(RenderOptions options) {
   say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
   say_what_is_hidden(scene);
   say_list("Cameras:", views.notes);
-  say_list("Plan:", drawn.plan);
+  if (options.verbose) say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);
-  say(fmt::format("{}, {} on the device; {} x {} on {} ({})",
-                  primitives_text(triangle_count(scene), splat_count(scene)),
-                  bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
-                  context.description()));
-  say(fmt::format("{:.2f} ms per frame (median of {}, 95 % within {:.2f} ms)", median_ms,
-                  images.ms.size(), p95_ms));
+  if (options.verbose)
+    say(fmt::format("{}, {} on the device; {} x {} on {} ({})",
+                    primitives_text(triangle_count(scene), splat_count(scene)),
+                    bytes_text(drawn.device_bytes), first.width, first.height, device.renderer,
+                    context.description()));
+  if (options.verbose || options.frames > 0)
+    say(fmt::format("{:.2f} ms per frame (median of {}, 95 % within {:.2f} ms)", median_ms,
+                    images.ms.size(), p95_ms));
   say_written(images, views);
   say_measured(measured);
   if (options.json) {
@@ -311,7 +345,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       "--path or --turntable, .mp4 or .webm writes a video with ffmpeg");
   add_view_options(command, options->views);
   command.add_option("--background COLOR", options->background,
-                     "colour of pixels without a triangle: white, black, transparent, or r,g,b "
+                     "colour of pixels without a triangle: a name, #rrggbb, transparent, or r,g,b "
                      "from 0 to 1; the scene's own by default");
   add_material_option(command, options->materials);
   add_drawing_options(command, options->drawing);
@@ -330,6 +364,9 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       .excludes(show);
   command.add_flag("--json", options->json,
                    "print the images, the plan and the frame times as JSON to standard output");
+  command.add_flag("--verbose", options->verbose,
+                   "also print the plan, the device and the time of a frame");
+  command.add_flag("--force", options->force, "replace images that exist");
   const auto check_renderer = add_renderer_option(command, options->renderer);
   command.does([options, check_renderer] {
     check_renderer();

@@ -43,7 +43,18 @@ void print_text(const std::string& text) {
     throw OutputError({}, "standard output cannot be written");
 }
 
-void say(const std::string& line) { std::fprintf(stderr, "%s\n", shown_line(line).c_str()); }
+namespace {
+bool quiet = false;  // of the program, which has one command line
+}
+
+void be_quiet() { quiet = true; }
+bool is_quiet() { return quiet; }
+
+void say_error(const std::string& line) { std::fprintf(stderr, "%s\n", shown_line(line).c_str()); }
+
+void say(const std::string& line) {
+  if (!quiet) say_error(line);
+}
 
 void say_list(const std::string& heading, const std::vector<std::string>& lines) {
   if (lines.empty()) return;

@@ -15,6 +15,13 @@ struct SceneInfo;
 
 namespace tureen::cli {
 
+/// After this, say() and progress print nothing: --quiet.
+void be_quiet();
+bool is_quiet();
+
+/// Prints the line even with --quiet: errors.
+void say_error(const std::string& line);
+
 /// Prints one line on standard error. Escapes control characters and line breaks from files, so
 /// that they neither control the terminal nor imitate another message (base/shown_text.hpp).
 void say(const std::string& line);

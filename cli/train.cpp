@@ -11,6 +11,7 @@
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"
+#include "cli/files/scene_page.hpp"
 #include "cli/files/window_program.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/arguments.hpp"
@@ -25,6 +26,8 @@
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/training/diffsoup_options.hpp"
+#include "jobs/training/photograph_size.hpp"
+#include "jobs/training/run_input.hpp"
 #include "jobs/training/training_run.hpp"
 #include "trainer/common/kernels/projection.hpp"
 
@@ -37,6 +40,7 @@ namespace fs = std::filesystem;
 struct TrainOptions {
   DatasetArgument dataset;
   TrainingJob job;
+  std::function<bool(const char* option)> is_given = {};
   bool print_config = false;
   bool watch = false;
   bool json = false;
@@ -73,7 +77,11 @@ void say_result(const TrainOptions& options, const Dataset& dataset,
   say(sentence);
   if (training.non_finite > 0) say("skipped " + counted(training.non_finite, "non-finite number"));
   if (training.run.test_psnr_db) {
-    Table table({counted(dataset.test.size(), "test view"), "PSNR dB", "SSIM", "FLIP"});
+    const Camera& first = dataset.test.front().camera;
+    say(fmt::format("{} of {} x {} (--scale {:g}), one sample per pixel:",
+                    counted(dataset.test.size(), "test view"), first.width, first.height,
+                    options.dataset.options.scale));
+    Table table({"", "PSNR dB", "SSIM", "FLIP"});
     table.row({"drawn by the trainer", fmt::format("{:.2f}", *training.run.test_psnr_db)});
     if (result.evaluation) {
       const ViewMetrics& mean = result.evaluation->mean;
@@ -153,6 +161,40 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
   }
 }
 
+/// With --resume: the method of the checkpoint, and of the dataset what is not given as the log has
+/// it. Throws UsageError if the dataset is unknown.
+void take_from_the_run(TrainOptions& options) {
+  TrainingJob& job = options.job;
+  if (job.resume && !job.output.empty()) {
+    const trainer::TrainingFiles files = files_of(job);
+    if (!options.is_given("--method"))
+      if (const auto* method = method_of_checkpoint(files.checkpoint)) job.training.method = method;
+    if (std::optional<RunInput> input = input_of_log(files.log)) {
+      DatasetOptions& now = options.dataset.options;
+      if (options.dataset.path.empty()) options.dataset.path = input->dataset;
+      if (options.is_given("--scale")) input->options.scale = now.scale;
+      if (options.is_given("--images")) input->options.images_folder = now.images_folder;
+      if (options.is_given("--test-every")) input->options.test_every = now.test_every;
+      if (options.is_given("--alpha")) input->options.alpha = now.alpha;
+      input->options.is_strict |= now.is_strict;
+      now = input->options;
+    }
+  }
+  if (options.dataset.path.empty())
+    throw UsageError("DATASET is required", "--resume needs none, if the log of the run is there");
+}
+
+/// With --minutes and without --scale, chooses the size of the photographs.
+void choose_size(TrainOptions& options, const TrainingMethod& method) {
+  TrainingJob& job = options.job;
+  if (method.minutes() == 0 || job.resume || options.is_given("--scale")) return;
+  const PhotographSize size = photographs_for(
+      method.minutes(), full_photographs(options.dataset.path, options.dataset.options),
+      *job.training.method, measured_seconds_per_pixel(job.threads));
+  options.dataset.options.scale = size.scale;
+  job.notes.push_back(size.note);
+}
+
 Dataset read_dataset(const TrainOptions& options) {
   Dataset dataset =
       before_the_first_step(options, [&] { return read(options.dataset, DatasetPart::all); });
@@ -171,18 +213,27 @@ ExitCode print_config(const TrainOptions& options) {
   return ExitCode::done;
 }
 
-ExitCode train(const TrainOptions& options) {
+ExitCode train(TrainOptions options) {
+  take_from_the_run(options);
   if (options.print_config) return print_config(options);
   outlive_readers();  // a closed pipe must not end hours of training
   const TrainingJob& job = options.job;
   if (job.output.empty()) throw UsageError("-o OUT.glb is required");
   // Wrong arguments are reported before the photographs are read.
+  std::optional<ScenePageTemplate> page;
+  if (is_scene_page(job.output)) page = ScenePageTemplate::find();
+  options.job.write = [&](const Scene& scene) {
+    say_list("Lost in " + job.output.string() + ":",
+             page ? write_page(*page, scene, job.output) : write_scene(scene, job.output));
+  };
   const fs::path diffsoup_export = checked_export(options, files_of(job));
   TrainingRun run(job);
   const trainer::TrainingFiles& files = run.files();
   const std::optional<Scene> start = before_the_first_step(
       options, [&] { return job.resume ? std::nullopt : read_start(job.training, run.method()); });
+  choose_size(options, run.method());
   Dataset dataset = read_dataset(options);
+  options.job.input = to_json(RunInput{options.dataset.path, options.dataset.options}, files.log);
 
   Progress::Output output = Progress::standard_error();
   output.line_seconds = 10;
@@ -211,15 +262,13 @@ ExitCode train(const TrainOptions& options) {
   };
   events.progress = [&](const trainer::SessionStatus& now) {
     if (!progress) progress.emplace("training", output);
-    progress->update(double(now.step) / now.steps, describe(now));
+    progress->update(now.fraction, describe(now));
   };
   events.interrupted = [&](const trainer::SessionStatus& now) {
     progress.reset();
-    say(
-        fmt::format("wrote {} after step {} of {}; the same command with --resume continues from "
-                    "it",
+    say(fmt::format("wrote {} after step {} of {}; tureen train -o {} --resume continues from it",
                     files.checkpoint.string(), counted(std::uint64_t(now.step)),
-                    counted(std::uint64_t(now.steps))));
+                    counted(std::uint64_t(now.steps)), job.output.string()));
   };
   if (options.watch) events.snapshot = [&](const Scene& scene) { window.show(scene); };
   events.finished = [&](const Scene& scene) -> std::vector<std::string> {
@@ -247,7 +296,8 @@ ExitCode train(const TrainOptions& options) {
         "renderer: " +
         result.why_not_drawn);
   say_result(options, dataset, result);
-  if (options.json) print_json_line(to_json(result, dataset.test.size()));
+  if (options.json)
+    print_json_line(to_json(result, dataset.test.size(), options.dataset.options.scale));
   return ExitCode::done;
 }
 
@@ -255,7 +305,8 @@ void add_file_options(Command& command, TrainOptions& options) {
   TrainingJob& job = options.job;
   command
       .add_option(
-          "-o,--output", [&job](const std::string& path) { job.output = path; }, "scene to write")
+          "-o,--output", [&job](const std::string& path) { job.output = path; },
+          "scene to write: .glb, .ply or .html, a page")
       .value_name("OUT.glb");
   command
       .add_option(
@@ -268,7 +319,8 @@ void add_file_options(Command& command, TrainOptions& options) {
       .check(between(1, 10'000'000))
       .value_name("N");
   command.add_flag("--resume", job.resume,
-                   "continue from OUT.checkpoint; gives the same result as an uninterrupted run");
+                   "continue from OUT.checkpoint; gives the same result as an uninterrupted run; "
+                   "needs nothing but -o");
   command
       .add_option(
           "--preview-every", job.preview_every,
@@ -300,8 +352,9 @@ limits the number of splats.
 Examples:
   tureen train lego -o lego.glb
   tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
-  tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
-  tureen train lego -o lego.glb --method gaussians --minutes 5   as many steps as fit in 5 minutes
+  tureen train -o fox.glb --resume                           after Ctrl-C
+  tureen train lego -o lego.glb --minutes 5                  as many steps as fit in 5 minutes
+  tureen train lego -o lego.ply --method gaussians           a file for other viewers
   tureen train lego -o lego.glb --method triangles --opaque    a soup with one color each
   tureen train lego -o lego.glb --method neural --max-bytes 100000   a very small scene
   tureen train lego -o lego.glb --preview-every 500          write previews
@@ -312,7 +365,8 @@ Examples:
 Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other constants,
 3 the photographs, the checkpoint or the configuration cannot be read,
 4 no GPU for --device cuda, 5 interrupted, or the scene cannot be written.)");
-  add_dataset_argument(command, options->dataset);
+  add_dataset_argument(command, options->dataset).required(false);
+  options->is_given = [command](const char* option) { return command.option(option).is_given(); };
   add_memory_option(command,
                     [options](std::uint64_t bytes) { options->job.training.max_memory = bytes; });
   add_file_options(command, *options);

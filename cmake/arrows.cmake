@@ -70,7 +70,7 @@ set(arrows
   "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
   "jobs/report: base"
-  "jobs/training: base image scene formats runtime/gl jobs/eval trainer/*"
+  "jobs/training: base image scene formats formats/dataset runtime/gl jobs/eval trainer/*"
 
   "viewer/input: base scene camera"
   "viewer/gui: base image scene runtime/gl runtime/passes viewer/input"

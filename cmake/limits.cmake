@@ -36,11 +36,11 @@ set(limits
   "code splatting 3250: loops in vectors, per kernel"
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
-  "code trainer 13200: four methods, CPU and CUDA"
-  "code jobs 5740: work that the programs share, and the whole of a training run; what measures and reports grows no further"
+  "code trainer 13250: four methods, CPU and CUDA, fitted to a time"
+  "code jobs 5980: work that the programs share, and the whole of a training run with the size of its photographs; what measures and reports grows no further"
   "code viewer 7260: the window"
   "code web 9400: the page"
-  "code cli 6390: the command line computes nothing"
+  "code cli 6800: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
   "bytes page 410000: 2 s over a connection of 1.7 Mbit/s")

@@ -203,7 +203,7 @@ class Bench:
     def gpu(self):
         """Frame times of tureen, the baseline and the upper limits of the device, from 1280x720 to 3840x2160."""
         drawn = json.loads(self.run('gpu-device', TUREEN, 'render', EXAMPLE, '--size', '16x16', '-o',
-                                    self.out / 'device.png', '--json') or '{}')
+                                    self.out / 'device.png', '--force', '--json') or '{}')
         if drawn.get('software') and not self.quick:
             return self.skip('gpu', 'OpenGL is software on this machine')
         scenes = {name: (path, 'hemisphere:8') for name, path in self.scenes().items()}

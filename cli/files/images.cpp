@@ -106,6 +106,10 @@ Drawer drawer_of(ImageSource& source, std::function<void(double)>& progress, boo
           .warms_up = false};
 }
 
+std::filesystem::path contact_sheet_name(const std::string& pattern) {
+  return image_name(pattern, 0, 2).replace_filename("contact_sheet.png");
+}
+
 WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& cameras,
                           const ImageNames& names) {
   const bool with_sheet = cameras.size() > 1 && names.sheet == Sheet::of_several;
@@ -127,8 +131,7 @@ WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& camer
     result.paths.push_back(path.string());
   }
   if (with_sheet) {
-    const std::filesystem::path sheet =
-        image_name(names.pattern, 0, count).replace_filename("contact_sheet.png");
+    const std::filesystem::path sheet = contact_sheet_name(names.pattern);
     write_image(contact_sheet(thumbnails), sheet);
     result.paths.push_back(sheet.string());
   }

@@ -1,6 +1,7 @@
 // Draws views, measures the time of each, and writes them as images or as a video.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct ImageNames {
   std::string pattern;  // of image_name(), cli/files/image_file.hpp
   Sheet sheet = Sheet::of_several;
 };
+
+/// The contact sheet beside the images of this pattern.
+std::filesystem::path contact_sheet_name(const std::string& pattern);
 
 /// Writes one image per camera. With Sheet::of_several and more than one camera, also writes
 /// contact_sheet.png beside them. Images beyond the limits of the device are drawn in tiles; their

@@ -5,6 +5,7 @@
 #include "base/existing_path.hpp"
 #include "base/extension.hpp"
 #include "base/input.hpp"
+#include "formats/scene_file.hpp"
 #include "jobs/bench/json_reading.hpp"
 #include "jobs/bench/provenance.hpp"
 #include "jobs/bench/web_bench.hpp"
@@ -69,6 +70,11 @@ std::vector<ReportResult> web_bench(const std::string& file) {
 }
 
 std::vector<ReportResult> read_file(const std::string& file) {
+  if (fs::is_regular_file(file) && is_scene(file))
+    throw UnknownResult({file},
+                        "this is a scene; a report takes results of bench, tradeoff, eval or "
+                        "compare (.json), and logs of train (.jsonl)",
+                        "tureen eval SCENE DATASET -o FOLDER measures a scene");
   std::string text = Input::open(file).read_text();
   if (text.empty()) throw UnknownResult({file}, "is empty");
   if (text.starts_with("{\"step\":")) return {training(file, text)};  // every log begins with this
@@ -94,6 +100,14 @@ std::vector<ReportResult> read_file(const std::string& file) {
   if (format == "null" && document.contains("views") && document.contains("mean")) {
     check_eval(root);
     return {{file, "eval", text}};
+  }
+  if (format == "null" && document.contains("a") && document.contains("b")) {
+    std::vector<ReportResult> sides;
+    for (const char* side : {"a", "b"}) {
+      check_eval(root[side]);
+      sides.push_back({file, "eval", document[side].dump()});
+    }
+    return sides;
   }
   throw UnknownResult({file}, "not a result of bench, tradeoff, train, eval or ./dev");
 }

@@ -13,7 +13,9 @@
 #include "base/input.hpp"
 #include "base/output.hpp"
 #include "base/platform/program_folder.hpp"
+#include "cli/files/scratch.hpp"
 #include "formats/glb/glb_container.hpp"
+#include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 
 namespace tureen::cli {
@@ -90,6 +92,14 @@ void ScenePageTemplate::write(const fs::path& glb, const std::string& name,
     output.write(base64(std::span(piece).first(count)));
   output.write(text.substr(digits_begin));
   output.commit();
+}
+
+std::vector<std::string> write_page(const ScenePageTemplate& page, const Scene& scene,
+                                    const fs::path& output) {
+  const Scratch glb(output.string() + ".glb", "the scene for the page");
+  const std::vector<std::string> lost = write_scene(scene, glb.path());
+  page.write(glb.path(), scene.info.name, output);
+  return lost;
 }
 
 }  // namespace tureen::cli

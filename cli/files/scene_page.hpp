@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 
@@ -42,6 +45,11 @@ class ScenePageTemplate {
   std::string text_;
   std::size_t element_ = 0;  // offset of the scene element
 };
+
+/// The scene as a page, by a file beside it that is removed. Returns one sentence for each loss.
+/// Throws the errors of write_scene() and ScenePageTemplate::write().
+std::vector<std::string> write_page(const ScenePageTemplate& page, const Scene& scene,
+                                    const std::filesystem::path& output);
 
 /// Whether the file is a Tureen GLB. A page contains its bytes unchanged.
 bool is_our_glb(const std::filesystem::path& path);

@@ -198,7 +198,9 @@ bool Option::is_given() const { return option_->count() > 0; }
 
 Command Command::add_command(const std::string& name, const std::string& description) {
   app_->require_subcommand(1);
-  return {app_->add_subcommand(name, description), chosen_};
+  Command command(app_->add_subcommand(name, description), chosen_);
+  command.add_flag("--quiet", be_quiet, "print only errors, and what --json asks for");
+  return command;
 }
 
 void Command::footer(const std::string& text) { app_->footer(text); }
@@ -280,6 +282,7 @@ void Command::does(Action action) {
 
 void Command::does_with_rest(std::function<ExitCode(const std::vector<std::string>&)> action) {
   app_->set_help_flag();
+  app_->remove_option(app_->get_option("--quiet"));
   app_->prefix_command();
   app_->callback([app = app_, chosen = chosen_, action = std::move(action)] {
     *chosen = [action, rest = app->remaining()] { return action(rest); };

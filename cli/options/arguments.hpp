@@ -90,7 +90,7 @@ inline constexpr bool holds_option =
 /// parsed. `help` is the description in --help. `check` precedes the checks of Option::check().
 class Command {
  public:
-  /// Adds a subcommand. Parsing then fails unless one is chosen.
+  /// Adds a subcommand with --quiet. Parsing then fails unless one is chosen.
   Command add_command(const std::string& name, const std::string& description);
   /// Sets the text at the end of --help. Commands added later inherit it.
   void footer(const std::string& text);

@@ -45,8 +45,21 @@ void add_config_options(Command& command, TrainingOptions& options) {
     summaries += (summaries.empty() ? "" : "; ") + names.back() +
                  (names.size() == 1 ? " (default)" : "") + ": " + method->summary;
   }
-  const auto choose = [&](std::size_t index) { options.method = training_methods()[index]; };
-  add_word_option(command, "--method", std::move(names), choose, summaries).value_name("NAME");
+  std::vector<std::pair<const TrainingMethodInfo*, const MethodOption*>> meanings;  // of names
+  for (const TrainingMethodInfo* method : training_methods()) meanings.push_back({method, nullptr});
+  for (const TrainingMethodInfo* method : training_methods())
+    for (const auto& [alias, flag] : method->aliases) {
+      names.emplace_back(alias);
+      meanings.push_back({method, flag});
+      summaries += "; " + names.back() + ": " + method->name + (flag ? " --" : "") +
+                   (flag ? flag->name : "");
+    }
+  const auto choose = [&options, meanings](std::size_t index) {
+    const auto& [method, flag] = meanings[index];
+    options.method = method;
+    if (flag) options.own[flag->name].flag = true;
+  };
+  add_word_option(command, "--method", names, choose, summaries).value_name("NAME");
   command.add_option("--config", options.file, "JSON file with constants; --list-config lists them")
       .value_name("FILE");
   command
@@ -66,7 +79,8 @@ void add_config_options(Command& command, TrainingOptions& options) {
   for (const auto& [option, methods] : all_method_options()) {
     Option added = add_method_option(command, *option, options.own[option->name]);
     if (*option->value_name) added.value_name(option->value_name);
-    added.group("Options of " + names_of(methods, ", "));
+    if (methods.size() < training_methods().size())
+      added.group("Options of " + names_of(methods, ", "));
   }
 }
 

@@ -30,7 +30,7 @@ std::string stem_of(const std::string& path) {
 Scene read_file(const std::string& name, const ReadingChoice& choice) {
   glm::dvec3 up(0.0);
   if (!choice.up.empty()) {
-    up = parse_vector(choice.up);
+    up = parse_direction(choice.up);
     if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 has no direction");
   }
   const std::filesystem::path path = name;
@@ -65,8 +65,9 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
                                 {"linear", VertexColorSpace::linear}},
                                "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
                                "on its generator), srgb or linear");
-  command.add_option("--up X,Y,Z", choice.up,
-                     "up direction in world coordinates; the scene's own by default");
+  command.add_option("--up AXIS", choice.up,
+                     "up direction in world coordinates: x, -y, z .. or X,Y,Z; the scene's own by "
+                     "default");
   command.add_option(
       "--octagon-q Q", choice.octagon_q,
       "--quant of REdiSplats' generate_mesh.py, which wrote an .npz: the corners are at sqrt(Q) "

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <optional>
@@ -34,6 +35,33 @@ std::optional<int> whole_number(const std::string& text, int low, int high) {
   return int(value);
 }
 
+/// The basic colours of CSS, and some that people name (https://www.w3.org/TR/css-color-4).
+struct NamedColor {
+  const char* name;
+  std::uint32_t rgb;
+};
+constexpr NamedColor named_colors[] = {
+    {"aqua", 0x00ffff},      {"beige", 0xf5f5dc}, {"black", 0x000000},     {"blue", 0x0000ff},
+    {"brown", 0xa52a2a},     {"cyan", 0x00ffff},  {"darkgray", 0xa9a9a9},  {"darkgrey", 0xa9a9a9},
+    {"fuchsia", 0xff00ff},   {"gold", 0xffd700},  {"gray", 0x808080},      {"green", 0x008000},
+    {"grey", 0x808080},      {"ivory", 0xfffff0}, {"lightblue", 0xadd8e6}, {"lightgray", 0xd3d3d3},
+    {"lightgrey", 0xd3d3d3}, {"lime", 0x00ff00},  {"magenta", 0xff00ff},   {"maroon", 0x800000},
+    {"navy", 0x000080},      {"olive", 0x808000}, {"orange", 0xffa500},    {"pink", 0xffc0cb},
+    {"purple", 0x800080},    {"red", 0xff0000},   {"silver", 0xc0c0c0},    {"skyblue", 0x87ceeb},
+    {"teal", 0x008080},      {"white", 0xffffff}, {"yellow", 0xffff00}};
+
+glm::vec4 color_of(std::uint32_t rgb) {
+  return {glm::vec3(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255) / 255.0f, 1};
+}
+
+/// The number of "#rrggbb".
+std::optional<std::uint32_t> hexadecimal(const std::string& text) {
+  if (text.size() != 7 || text[0] != '#' ||
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    return {};
+  return std::uint32_t(std::strtoul(text.c_str() + 1, nullptr, 16));
+}
+
 }  // namespace
 
 ImageSize parse_any_size(const std::string& text) {
@@ -62,14 +90,24 @@ glm::dvec3 parse_vector(const std::string& text) {
   throw UsageError("'" + text + "' is not a vector", "write it as 1,-2.5,3");
 }
 
+glm::dvec3 parse_direction(const std::string& text) {
+  const bool is_negative = text.starts_with('-');
+  const std::string axis = text.substr(is_negative || text.starts_with('+') ? 1 : 0);
+  if (axis.size() != 1 || axis < "x" || axis > "z") return parse_vector(text);
+  glm::dvec3 direction(0.0);
+  direction[axis[0] - 'x'] = is_negative ? -1 : 1;
+  return direction;
+}
+
 glm::vec4 parse_background(const std::string& text) {
-  if (text == "white") return glm::vec4(1);
-  if (text == "black") return {0, 0, 0, 1};
   if (text == "transparent") return glm::vec4(0);
+  for (const NamedColor& named : named_colors)
+    if (text == named.name) return color_of(named.rgb);
+  if (const auto rgb = hexadecimal(text)) return color_of(*rgb);
   const auto color = three_numbers(text);
   if (!color || *color != glm::clamp(*color, 0.0, 1.0))
     throw UsageError("'" + text + "' is not a background",
-                     "write white, black, transparent or 0.2,0.4,1");
+                     "write a name such as white, #ff8000, transparent or 0.2,0.4,1");
   return {glm::vec3(*color), 1};
 }
 

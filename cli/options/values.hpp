@@ -22,7 +22,11 @@ ImageSize parse_any_size(const std::string& text);
 /// "1,-2.5,3e2"; finite.
 glm::dvec3 parse_vector(const std::string& text);
 
-/// "white", "black", "transparent" (black with alpha 0), or "r,g,b" with each from 0 to 1.
+/// The same, or an axis: "z", "-y".
+glm::dvec3 parse_direction(const std::string& text);
+
+/// A colour of CSS by its name ("white"), "#rrggbb", "transparent" (black with alpha 0), or "r,g,b"
+/// with each from 0 to 1.
 glm::vec4 parse_background(const std::string& text);
 
 /// A whole number from `low` to `high`.

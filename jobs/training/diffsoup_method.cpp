@@ -123,6 +123,7 @@ class DiffsoupMethod final : public TrainingMethod {
     if (is_new && background_ && base.preset == Preset::object && options_.file.empty())
       for (int c = 0; c < 3; ++c) base.background[c] = (*background_)[c];
     config_ = with_options(base, options_);
+    replaced_minutes_ = options_.steps ? base.minutes : 0;
     // Without the dataset, a preset that no option names is unknown.
     if (checkpoint_ && (dataset || !is_new))
       if (const auto reason = difference(config_, checkpoint_->config))
@@ -142,6 +143,8 @@ class DiffsoupMethod final : public TrainingMethod {
         "--init random needs no scene"};
   }
 
+  double minutes() const override { return config_.minutes; }
+
   std::string constants() const override { return trainer::config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
@@ -149,9 +152,11 @@ class DiffsoupMethod final : public TrainingMethod {
     if (checkpoint_) require_same_views(dataset, checkpoint_->views);
     RunPlan plan = plan_for(dataset);
     plan.steps = config_.steps;
+    plan.minutes = config_.minutes;
     plan.last = std::uint64_t(config_.triangles);
     if (!checkpoint_ && !preset_of(options_) && options_.file.empty())
       plan.notes.push_back(preset_note(dataset));
+    if (replaced_minutes_ > 0) plan.notes.push_back(replaced_minutes(replaced_minutes_));
     const auto preparing = run.preparing;
     const int threads = run.threads;
     trainer::TrainingRequest request{.config = config_,
@@ -206,6 +211,7 @@ class DiffsoupMethod final : public TrainingMethod {
   std::optional<Checkpoint> checkpoint_;
   std::optional<glm::vec3> background_;  // of photographs without alpha
   Config config_;
+  double replaced_minutes_ = 0;  // of a file, by --steps; 0: none
 };
 
 }  // namespace
@@ -220,11 +226,14 @@ const MethodOption export_option{
 const TrainingMethodInfo diffsoup_method{
     .name = "diffsoup",
     .summary = "opaque triangles with textures",
-    .options = {&preset_option, &compat_option, &triangles_option, &batch_option, &level_option,
-                &device_option, &export_option},
+    .options = {&minutes_option, &preset_option, &compat_option, &triangles_option, &batch_option,
+                &level_option, &device_option, &export_option},
+    .aliases = {},
     .constants = [] { return names_of_fields(trainer::config_fields()); },
     .reference = &trainer::config_reference,
     .magic = trainer::diffsoup_magic,
+    .cost_of_pixel = 4,  // four photographs a step
+    .least_steps = 2000,
     .make = [](const TrainingOptions& options) -> std::unique_ptr<TrainingMethod> {
       return std::make_unique<DiffsoupMethod>(options);
     }};
@@ -239,6 +248,7 @@ Config with_options(const Config& base, const TrainingOptions& options) {
     set_whole(config.triangles, triangles, "triangles", fields);
   }
   set_whole(config.steps, options.steps, "steps", fields);
+  set_time(config.minutes, options);
   set_whole(config.batch, options[batch_option].whole, "batch", fields);
   config.seed = options.seed.value_or(config.seed);
   if (const auto& level = options[level_option].whole) {

@@ -33,6 +33,9 @@ constexpr std::uint64_t max_gaussians = 20'000;
 /// its time here. Less than 1,500 steps are too few for surfaces in the distance.
 constexpr int max_steps_ratio = 3;
 
+/// Of the minutes of a run, at most.
+constexpr double share_of_time = 0.15;
+
 TrainingView small_view(const Photograph& photograph, const FirstGaussians& first,
                         const Region& region) {
   TrainingView view =
@@ -60,7 +63,9 @@ void fit_steps(trainer::GaussianTrainer& trainer, double seconds, double spent, 
 
 GaussianConfig constants(const Config& config) {
   GaussianConfig constants;
-  constants.steps = std::min(config.gaussian_steps, max_steps_ratio * config.steps);
+  constants.steps = config.minutes > 0
+                        ? config.gaussian_steps
+                        : std::min(config.gaussian_steps, max_steps_ratio * config.steps);
   constants.max_splats = max_gaussians;
   constants.seed = config.seed;
   std::ranges::copy(config.background, constants.background);
@@ -104,7 +109,10 @@ Scene train_first_gaussians(const Dataset& dataset, const FirstGaussians& first,
 Scene first_gaussians(const Dataset& dataset, const Config& config, Region region, int threads,
                       const std::function<void(double fraction)>& progress) {
   if (config.box > 0) region.half_side = config.box;
-  return train_first_gaussians(dataset, {.constants = constants(config), .max_pixels = max_pixels},
+  return train_first_gaussians(dataset,
+                               {.constants = constants(config),
+                                .max_pixels = max_pixels,
+                                .seconds = share_of_time * 60 * config.minutes},
                                region, threads, progress);
 }
 

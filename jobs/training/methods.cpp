@@ -1,5 +1,7 @@
 #include "jobs/training/methods.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,34 @@ std::span<const TrainingMethodInfo* const> training_methods() {
       &neural_method,
   };
   return methods;
+}
+
+const MethodOption minutes_option{
+    .name = "minutes",
+    .type = MethodOption::Type::number,
+    .help =
+        "time for the training, more than 0: the number of steps is fitted to it, and without "
+        "--scale the size of the photographs; replaces the steps of --config",
+    .instead = "--steps sets the length of the training",
+    .value_name = "N"};
+
+void set_time(double& minutes, const TrainingOptions& options) {
+  const auto& given = options[minutes_option].number;
+  if (options.steps && given)
+    throw UsageError("--steps and --minutes exclude each other",
+                     "--minutes fits the number of steps to the time");
+  // In a file, 0 means a fixed number of steps; on the command line, --steps does.
+  if (given && !(*given > 0))
+    throw UsageError("--minutes: " + trainer::double_text(*given) +
+                         " is out of range; the time must be more than 0",
+                     "--steps sets a fixed number of steps");
+  if (options.steps) minutes = 0;
+  if (given) minutes = *given;
+}
+
+OwnFact replaced_minutes(double minutes) {
+  return {"replaced_minutes", minutes,
+          fmt::format("--steps replaces the {} min of the constants", minutes)};
 }
 
 void require_scene(trainer::Initialisation initialisation, const TrainingOptions& options) {

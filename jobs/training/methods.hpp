@@ -19,6 +19,15 @@ namespace tureen {
 
 extern const TrainingMethodInfo diffsoup_method, gaussians_method, triangles_method, neural_method;
 
+/// The time of a run, which all methods fit their steps to.
+extern const MethodOption minutes_option;
+
+/// Sets the constant `minutes`: that of --minutes, or 0 with --steps. Throws UsageError for both.
+void set_time(double& minutes, const TrainingOptions& options);
+
+/// The note that --steps replaces the minutes of a file.
+OwnFact replaced_minutes(double minutes);
+
 /// Throws UsageError if the first primitives should be those of a scene, but the options name none.
 void require_scene(trainer::Initialisation initialisation, const TrainingOptions& options);
 

@@ -67,6 +67,7 @@ std::vector<std::string> describe(const RunPlan& plan) {
 
 Json to_json(const RunPlan& plan) {
   return {{"method", plan.method},
+          {"input", plan.input.empty() ? Json() : Json::parse(plan.input)},
           {"train_views", plan.train_views},
           {"test_views", plan.test_views},
           {"width", plan.width},

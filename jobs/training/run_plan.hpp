@@ -34,6 +34,7 @@ struct RunPlan {
   std::vector<OwnFact> details = {};  // phrases: "textures of level 4"
   std::vector<OwnFact> notes = {};    // sentences: why the constants are as they are, and warnings
   std::string constants = {};         // JSON, as --config takes it
+  std::string input = {};             // JSON: how the program read the photographs; may be empty
   /// The constants in the units of the dataset, with the values that `constants` leaves to it;
   /// empty: the run uses `constants` as they are.
   std::string settled = {};

@@ -36,14 +36,6 @@ inline const MethodOption max_bytes_option{
         "chooses the degree of their harmonics",
     .instead = "--triangles and --level set the size of a soup",
     .value_name = "N"};
-inline const MethodOption minutes_option{
-    .name = "minutes",
-    .type = MethodOption::Type::number,
-    .help =
-        "time for the training, more than 0; the number of steps is fitted to it and replaces "
-        "the steps of --config",
-    .instead = "--steps sets the length of the training",
-    .value_name = "N"};
 
 /// A run on a dataset that was scaled: its callbacks receive scenes in the units of the world, and
 /// the evaluation finds the dataset in them.
@@ -69,11 +61,7 @@ class SplatMethod : public TrainingMethod {
  public:
   using Checkpoint = trainer::SplatCheckpoint<Config, Parameters>;
 
-  explicit SplatMethod(const TrainingOptions& options) : options_(options) {
-    if (options.steps && options[minutes_option].number)
-      throw UsageError("--steps and --minutes exclude each other",
-                       "use one: --minutes chooses the number of steps");
-  }
+  explicit SplatMethod(const TrainingOptions& options) : options_(options) {}
 
   void resume(const std::filesystem::path& checkpoint) override {
     require_checkpoint_of(*options_.method, checkpoint);
@@ -119,6 +107,8 @@ class SplatMethod : public TrainingMethod {
         hint_for(splats->kernel)};
   }
 
+  double minutes() const override { return config_.minutes; }
+
   std::string constants() const override { return trainer::splat_config_to_json(config_); }
 
   TrainingSummary train(Dataset& dataset, const Scene* start, trainer::RunRequest run,
@@ -153,10 +143,7 @@ class SplatMethod : public TrainingMethod {
            fmt::format("--max-bytes {} allows {} with harmonics of degree {}, of {} bytes each",
                        *bytes, counted(config_.max_splats, "splat"), config_.degree,
                        trainer::bytes_of_splat<Parameters>(config_.degree))});
-    if (replaced_minutes_ > 0)
-      plan.notes.push_back(
-          {"replaced_minutes", replaced_minutes_,
-           fmt::format("--steps replaces the {} min of the constants", replaced_minutes_)});
+    if (replaced_minutes_ > 0) plan.notes.push_back(replaced_minutes(replaced_minutes_));
     trainer::SplatRequest<Config, Parameters> request{.config = config_,
                                                       .start = start,
                                                       .checkpoint = std::move(checkpoint_),
@@ -199,17 +186,9 @@ class SplatMethod : public TrainingMethod {
     const auto fields = trainer::splat_config_fields<Config>();
     set_own(config);
     set_whole(config.steps, options_.steps, "steps", fields);
-    if (options_.steps) config.minutes = 0;
     set_whole(config.max_splats, options_[max_splats_option].whole, "max_splats", fields);
     if (const auto& bytes = options_[max_bytes_option].whole) set_bytes(config, *bytes);
-    if (const auto& minutes = options_[minutes_option].number) {
-      // In a file, 0 means a fixed number of steps; on the command line, --steps does.
-      if (!(*minutes > 0))
-        throw UsageError("--minutes: " + trainer::double_text(*minutes) +
-                             " is out of range; the time must be more than 0",
-                         "--steps sets a fixed number of steps");
-      config.minutes = *minutes;
-    }
+    set_time(config.minutes, options_);
     config.seed = options_.seed.value_or(config.seed);
     set_initialisation(config.initialisation, options_);
     if (const std::optional<std::string> reason = trainer::splat_config_defect(config))
@@ -254,14 +233,19 @@ class SplatMethod : public TrainingMethod {
 template <class Method, class Config>
 TrainingMethodInfo splat_method_info(const char* name, const char* summary,
                                      std::vector<const MethodOption*> own,
-                                     trainer::CheckpointMagic magic) {
-  own.insert(own.begin(), {&max_splats_option, &max_bytes_option, &minutes_option});
+                                     trainer::CheckpointMagic magic, double cost_of_pixel,
+                                     int least_steps,
+                                     decltype(TrainingMethodInfo::aliases) aliases = {}) {
+  own.insert(own.begin(), {&minutes_option, &max_splats_option, &max_bytes_option});
   return {.name = name,
           .summary = summary,
           .options = std::move(own),
+          .aliases = std::move(aliases),
           .constants = [] { return names_of_fields(trainer::splat_config_fields<Config>()); },
           .reference = &trainer::splat_config_reference<Config>,
           .magic = magic,
+          .cost_of_pixel = cost_of_pixel,
+          .least_steps = least_steps,
           .make = [](const TrainingOptions& options) -> std::unique_ptr<TrainingMethod> {
             return std::make_unique<Method>(options);
           }};

@@ -51,6 +51,9 @@ class TrainingMethod {
   /// early check: train() may still refuse the scene.
   virtual std::optional<UnsuitableStart> unsuitable(const Scene& start) const = 0;
 
+  /// The time of the run; 0: the number of steps is given.
+  virtual double minutes() const = 0;
+
   /// The constants as a --config file.
   virtual std::string constants() const = 0;
 
@@ -67,10 +70,16 @@ struct TrainingMethodInfo {
   const char* name;     // as --method takes it
   const char* summary;  // "opaque triangles with textures"
   std::vector<const MethodOption*> options;
+  /// Other names, and the flag that each sets; or null.
+  std::vector<std::pair<const char*, const MethodOption*>> aliases;
   std::vector<std::string> (*constants)();  // names
   /// All constants as text: name, default, meaning, range or words.
   std::string (*reference)();
   trainer::CheckpointMagic magic;
+  // For the size of the photographs by --minutes (photograph_size.hpp). Measured on a room, a
+  // bottle and lego.
+  double cost_of_pixel;  // time of a step for each pixel of a photograph, over that of Gaussians
+  int least_steps;       // with fewer, smaller photographs give better scenes
   std::unique_ptr<TrainingMethod> (*make)(const TrainingOptions& options);
 };
 

@@ -19,9 +19,10 @@ void evaluate(TrainingOutcome& outcome, const Scene& scene, std::span<const Phot
   }
 }
 
-Json to_json(const TrainingOutcome& outcome, std::size_t views) {
+Json to_json(const TrainingOutcome& outcome, std::size_t views, double scale) {
   const TrainingSummary& training = outcome.training;
   Json test{{"views", views}};
+  if (views > 0) test.update({{"scale", scale}, {"samples_per_pixel", 1}});
   if (outcome.evaluation) {
     test.update(results::to_json(outcome.evaluation->mean, true));
     test["drawn_by"] = outcome.evaluation->renderer;

@@ -23,7 +23,8 @@ struct TrainingOutcome {
 void evaluate(TrainingOutcome& outcome, const Scene& scene, std::span<const Photograph> views,
               const std::function<void(double)>& progress);
 
-/// The last line of `tureen train --json`; `views`: number of test views.
-Json to_json(const TrainingOutcome& outcome, std::size_t views);
+/// The last line of `tureen train --json`; `views`: number of test views; `scale`: of
+/// the photographs.
+Json to_json(const TrainingOutcome& outcome, std::size_t views, double scale);
 
 }  // namespace tureen

@@ -78,7 +78,10 @@ TrainingOutcome TrainingRun::train(Dataset& dataset, const Scene* start,
   method_->settle(&dataset);
   TrainingOutcome result;
   const auto store = [&](const Scene& scene) {
-    write_scene(scene, files_.scene);
+    if (job_.write)
+      job_.write(scene);
+    else
+      write_scene(scene, files_.scene);
     result.output.push_back(files_.scene.string());
     for (std::string& path : events.finished(scene)) result.output.push_back(std::move(path));
     std::error_code ignored;
@@ -116,6 +119,8 @@ TrainingOutcome TrainingRun::train(Dataset& dataset, const Scene* start,
     RunPlan plan = settled;
     plan.method = job_.training.method->name;
     plan.constants = method_->constants();
+    plan.input = job_.input;
+    plan.notes.insert(plan.notes.begin(), job_.notes.begin(), job_.notes.end());
     plan_json = to_json(plan).dump();
     events.begun(plan);
   });

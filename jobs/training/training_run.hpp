@@ -19,12 +19,16 @@ namespace tureen {
 
 struct TrainingJob {
   TrainingOptions training;
-  std::filesystem::path output;         // OUT.glb
+  std::filesystem::path output;  // OUT.glb, .ply or .html
+  /// Writes the finished scene to `output`; by default write_scene().
+  std::function<void(const Scene&)> write = {};
   std::filesystem::path log;            // empty: beside the output
   int threads = 0;                      // 0: one per core
   std::optional<int> checkpoint_every;  // steps; by default every two minutes
   int preview_every = 0;                // steps; 0: no previews
   bool resume = false;                  // from the checkpoint
+  std::string input = {};               // RunPlan::input
+  std::vector<OwnFact> notes = {};      // further notes for the plan
 };
 
 /// What a run reports. All functions are set. Each may throw to end the run.

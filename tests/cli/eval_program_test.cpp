@@ -36,8 +36,9 @@ TEST_F(Eval, TheScenesOwnImagesAreMetExactly) {
   const ChildResult result = eval({"-o", "views"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
-  EXPECT_THAT(keys(json), ElementsAre("views", "mean", "scene", "dataset", "split", "ssim_border",
-                                      "context", "renderer", "plan", "specialisations", "output"));
+  EXPECT_THAT(keys(json), ElementsAre("views", "mean", "scene", "dataset", "split", "scale",
+                                      "samples_per_pixel", "ssim_border", "context", "renderer",
+                                      "plan", "specialisations", "output"));
   ASSERT_EQ(json["views"].size(), 2u);
   EXPECT_THAT(keys(json["views"][0]),
               ElementsAre("name", "psnr_db", "ssim", "flip", "holes", "specks"));
@@ -207,6 +208,41 @@ TEST_F(Eval, WithoutAContextItSaysSo) {
   if (result.exit_code == 0) GTEST_SKIP() << "this EGL has no loader that could fail";
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_THAT(result.err, Names("EGL"));
+}
+
+TEST_F(Eval, TwoScenesAreComparedOnTheSamePhotographs) {
+  photograph(example);
+  const std::vector<std::string> same{"compare", example, example, "data", "--context", "osmesa"};
+  std::vector<std::string> arguments = same;
+  arguments.insert(arguments.end(), {"-o", "report", "--json", "--split", "all"});
+  const ChildResult result = run(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["a"]["views"], json["b"]["views"]);
+  EXPECT_EQ(json["a"]["mean"]["psnr_db"], 100);
+  EXPECT_EQ(json["a"]["scale"], 1);
+  EXPECT_EQ(json["a"]["samples_per_pixel"], 1);
+  ASSERT_EQ(json["a"]["pairs"].size(), json["a"]["views"].size());
+  // Photograph, A, B, and black: both are equal.
+  const Image8 pair = read_png(json["a"]["pairs"][0]);
+  ASSERT_EQ(pair.width, 4 * width);
+  for (int x = 0; x < width; ++x) {
+    EXPECT_EQ(pair.at(width + x, height / 2), pair.at(2 * width + x, height / 2));
+    EXPECT_EQ(pair.at(3 * width + x, height / 2), glm::u8vec4(0, 0, 0, 255));
+  }
+  EXPECT_EQ(run({"report", "report/compare.json", "-o", "again.html"}).exit_code, 0);
+  EXPECT_THAT(result.err, Names("--scale 1", "one sample per pixel", "+0.00"));
+  // Each kind of input has its own options.
+  const auto expect = [&](const std::vector<std::string>& words, int code, const auto&... values) {
+    const ChildResult wrong = run(words);
+    EXPECT_EQ(wrong.exit_code, code) << wrong.err;
+    EXPECT_THAT(wrong.err, Names(values...));
+  };
+  expect({"compare", example, example}, 2, "DATASET");
+  expect({"compare", example, example, "data", "--tolerance", "1"}, 2, "--tolerance");
+  expect({"compare", "data/test/r_0.png", "data/test/r_0.png", "-o", "x"}, 2, "-o", "--diff");
+  expect({"report", example}, 3, "soup.glb", "scene", ".jsonl", "tureen eval");
+  expect({"eval", example, "data/test"}, 3, "data", "did you mean");
 }
 
 }  // namespace eval_program_test

@@ -215,5 +215,41 @@ TEST_F(Outputs, AndInputsHaveNames) {
   expect({"eval", "scene.off", ""}, 2, "DATASET");
 }
 
+TEST_F(Outputs, OfRenderReplaceNothingWithoutForce) {
+  const auto render = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "scene.off", "--context", "osmesa", "--size", "16x12"});
+    return run(more);
+  };
+  const ChildResult first = render({"-o", "first.png", "--background", "#ff8000", "--up", "-y"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.err, testing::AllOf(Names("first.png", "16 x 12"),
+                                        testing::Not(testing::HasSubstr("Plan:"))));
+  EXPECT_EQ(read_png("first.png").at(0, 0), glm::u8vec4(255, 128, 0, 255));
+  const auto refused = [&](const std::vector<std::string>& more, const char* file) {
+    const ChildResult result = render(more);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, Names(file, "exists", "--force"));
+  };
+  refused({"-o", "first.png"}, "first.png");
+  EXPECT_EQ(render({"-o", "first.png", "--force", "--background", "navy"}).exit_code, 0);
+  EXPECT_EQ(read_png("first.png").at(0, 0), glm::u8vec4(0, 0, 128, 255));
+  // Images of an orbit, also later ones, and the sheet.
+  write("turn_2.png", "photograph");
+  refused({"--orbit", "3", "-o", "turn_%d.png"}, "turn_2.png");
+  EXPECT_FALSE(exists("turn_0.png"));
+  ASSERT_EQ(render({"--orbit", "3", "-o", "round_%d.png"}).exit_code, 0);
+  refused({"--orbit", "3", "-o", "circle_%d.png"}, "contact_sheet.png");
+  refused({"-o", "b.png", "--depth", "turn_2.png"}, "turn_2.png");
+  const ChildResult quiet = render({"-o", "b.png", "--quiet"});
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.err, "");
+  EXPECT_EQ(render({"-o", "b.png", "--quiet"}).exit_code, 2);
+  EXPECT_NE(render({"-o", "b.png", "--quiet"}).err, "");
+  EXPECT_THAT(render({"-o", "c.png", "--verbose"}).err, testing::HasSubstr("Plan:"));
+  EXPECT_EQ(render({"-o", "d.png", "--background", "#ff80"}).exit_code, 2);
+  EXPECT_EQ(render({"-o", "d.png", "--background", "redd"}).exit_code, 2);
+  EXPECT_EQ(render({"-o", "d.png", "--up", "w"}).exit_code, 2);
+}
+
 }  // namespace outputs_program_test
 }  // namespace tureen

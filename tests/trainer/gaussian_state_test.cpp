@@ -87,7 +87,6 @@ GaussianCheckpoint small() {
                             .seconds = 2.5,
                             .state = trainer.state()};
   result.state.non_finite = 4;
-  result.state.fits = 1;
   return result;
 }
 
@@ -97,7 +96,6 @@ TEST(GaussianCheckpoint, KeepsTheRun) {
   EXPECT_FALSE(difference(a.views, b.views));
   EXPECT_EQ(a.seconds, b.seconds);
   EXPECT_EQ(b.state.non_finite, 4u);
-  EXPECT_EQ(b.state.fits, 1);
   EXPECT_EQ(a.state.epoch, b.state.epoch);
 }
 
@@ -124,7 +122,6 @@ TEST(GaussianCheckpoint, RejectsInconsistentStates) {
   refused([](auto& c) { c.views.clear(); }, "epoch");
   refused([](auto& c) { c.views[0].width = 0; }, "0 x 33");
   refused([](auto& c) { c.seconds = std::numeric_limits<double>::quiet_NaN(); }, "time");
-  refused([](auto& c) { c.state.fits = -2; }, "fits");
   refused([](auto& c) { c.state.memory.moments.pop_back(); }, "match");
   refused([](auto& c) { c.config.degree = 1; }, "degree");
   refused([](auto& c) { c.config.steps = 0; }, "steps");

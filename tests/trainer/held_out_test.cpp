@@ -29,6 +29,7 @@ class OneColor final : public Trainable {
   explicit OneColor(float value) : value_(value) {}
   int steps() const override { return 1; }
   int steps_done() const override { return 0; }
+  void set_steps(int) override {}
   StepReport step() override { return {}; }
   PrimitiveCount primitives() const override { return {PrimitiveKind::triangles, 1}; }
   std::vector<float> render(const Camera& camera) override {

@@ -1,14 +1,19 @@
 #include "trainer/common/run_control.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "trainer/common/snapshot_timer.hpp"
+#include "trainer/common/session.hpp"
 
 namespace tureen::trainer {
 namespace run_control_test {
@@ -126,6 +131,86 @@ TEST(Snapshots, TakeFewPercentOfTheTime) {
   timer.made(10, 11);  // a slow one: the next one after 33 s
   EXPECT_FALSE(timer.due(40));
   EXPECT_TRUE(timer.due(45));
+}
+
+/// A run whose steps take as long as a test says.
+class Timed final : public Trainable {
+ public:
+  int steps() const override { return steps_; }
+  int steps_done() const override { return done_; }
+  void set_steps(int steps) override { steps_ = steps; }
+  StepReport step() override {
+    ++done_;
+    return {};
+  }
+  PrimitiveCount primitives() const override { return {PrimitiveKind::triangles, 1}; }
+  std::vector<float> render(const Camera&) override { return {}; }
+  std::span<const float, 3> background() const override { return background_; }
+  void write_checkpoint(const fs::path&, double) const override {}
+
+ private:
+  int steps_ = 5000, done_ = 0;
+  std::array<float, 3> background_{};
+};
+
+TEST(TimeFit, UsesTheTimeHoweverLongStepsTake) {
+  constexpr double time = 100;
+  // Seconds of a step, by the time so far: the first ones are slow, or they grow, or they shrink.
+  const std::pair<const char*, std::function<double(double)>> kinds[] = {
+      {"equal", [](double) { return 0.05; }},
+      {"many", [](double) { return 0.002; }},
+      {"few", [](double) { return 3.0; }},
+      {"growing", [](double now) { return 0.01 + 0.002 * now; }},
+      {"shrinking", [](double now) { return 0.2 / (1 + 0.1 * now); }},
+      {"uneven", [](double now) { return std::fmod(now, 7) < 2 ? 0.3 : 0.02; }}};
+  for (const auto& [name, cost] : kinds)
+    for (const double begin : {0.0, 20.0, 97.0}) {
+      Timed run;
+      TimeFit fit(time, begin);
+      double now = begin, schedule = 0;
+      while (run.steps_done() < run.steps()) {
+        const double seconds = cost(now);
+        run.step();
+        now += seconds;
+        fit.after_step(run, 1, now);
+        schedule = double(run.steps_done()) / run.steps();
+        if (begin > 0.95 * time && now > 2 * time) break;  // no fit is left: the steps stay
+      }
+      if (begin > 0.95 * time) {
+        EXPECT_EQ(run.steps(), 5000) << name;
+        continue;
+      }
+      EXPECT_GE(now, 0.95 * time) << name;
+      EXPECT_LE(now, 1.05 * time + cost(now)) << name;  // a step cannot be cut
+      EXPECT_EQ(schedule, 1) << name;
+      EXPECT_FALSE(fit.is_pending()) << name;
+    }
+}
+
+TEST(TimeFit, ShowsProgressByTime) {
+  const fs::path log = fs::path(testing::TempDir()) / "tureen_time_fit.jsonl";
+  Timed run;
+  double now = 1000, last = 0;
+  SessionOptions options;
+  options.log = log;
+  options.seconds = 50;
+  options.clock = [&] { return now; };
+  options.progress = [&](const SessionStatus& status) {
+    EXPECT_GE(status.fraction, last);  // it never runs backwards
+    EXPECT_NEAR(status.fraction, (now - 1000) / 50, 1e-9);
+    EXPECT_EQ(status.fits_steps, status.fraction < 0.95) << status.fraction;
+    if (status.fits_steps) {
+      EXPECT_NEAR(status.seconds_left, 50 - (now - 1000), 1e-9);
+      EXPECT_THAT(describe(status), testing::HasSubstr("of about"));
+    }
+    last = status.fraction;
+    now += 0.1 + 0.001 * status.step;
+  };
+  TrainingSession session(run, options);
+  session.run();
+  EXPECT_GE(session.seconds(), 0.95 * 50);
+  EXPECT_LE(session.seconds(), 1.05 * 50);
+  fs::remove(log);
 }
 
 }  // namespace run_control_test

@@ -149,6 +149,32 @@ TEST(Schedule, MeetsTheBudgetWhateverTheSchedule) {
     EXPECT_EQ(faces_in_the_end(run), std::size_t(run.config.triangles)) << run.name;
 }
 
+TEST(Schedule, IsMovedByFitsOfTheSteps) {
+  const std::vector<TrainingView> views(
+      3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+  Config config = preset(Preset::object);
+  config.triangles = 40;
+  config.max_level = 3;
+  config.minutes = 1;
+  // Fits that pass the lift (0.05) and the last resampling (0.95), forwards and back.
+  for (const std::vector<std::pair<int, int>>& fits :
+       {std::vector<std::pair<int, int>>{{20, 130}, {100, 104}},
+        {{3, 2000}, {50, 60}, {55, 400}},
+        {{390, 391}},
+        {{10, 12}}}) {
+    config.steps = 400;
+    Trainer trainer(config, views, std::make_unique<BlindBackend>(7), first_state(60));
+    auto fit = fits.begin();
+    while (!trainer.done()) {
+      trainer.step();
+      if (fit != fits.end() && trainer.steps_done() == fit->first)
+        trainer.set_steps((fit++)->second);
+    }
+    EXPECT_EQ(trainer.faces(), 40u) << fits.front().first;
+    EXPECT_EQ(trainer.state().model.max_level, 3) << fits.front().first;
+  }
+}
+
 TEST(Schedule, MeetsTheBudgetEvenWhereNothingIsSeen) {
   for (const std::size_t initial : {std::size_t(10), std::size_t(90)}) {
     Config config;

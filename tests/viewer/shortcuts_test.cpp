@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <string>
@@ -78,6 +80,28 @@ TEST(Shortcuts, RRestoresTheUpAxis) {
   ASSERT_NE(state.controls.up(), up);
   ASSERT_TRUE(run_shortcut(Key::r, With::nothing, state));
   EXPECT_EQ(state.controls.up(), up);
+}
+
+TEST(Shortcuts, ThatMessagesNameExist) {
+  // "press K to add ..", "reload (F5)"
+  const std::regex named("\"[^\"\\n]*(?:press |\\()(F[0-9]+|[A-Z])(?: |\\))[^\"\\n]*\"");
+  std::size_t found = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(TUREEN_SOURCE_DIR "/viewer")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    const std::string source{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator each(source.begin(), source.end(), named), end; each != end; ++each) {
+      std::string name = (*each)[1];
+      for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
+      const std::optional<Key> key = key_named(name);
+      EXPECT_TRUE(
+          key && std::ranges::any_of(shortcuts(), [&](const Shortcut& s) { return s.key == *key; }))
+          << entry.path() << ": " << each->str();
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 0u);
 }
 
 }  // namespace shortcuts_test

@@ -16,7 +16,7 @@ const soup = join(source, 'examples/soup.glb');
 /** The image of `tureen render` at the example's second camera. */
 function rendered(width, height, ...options) {
   const file = join(folder, 'rendered.png');
-  execFileSync(join(programs, 'tureen'), ['render', soup, '--camera', `${soup}:1`, '--size', `${width}x${height}`, ...options, '-o', file],
+  execFileSync(join(programs, 'tureen'), ['render', soup, '--camera', `${soup}:1`, '--size', `${width}x${height}`, ...options, '--force', '-o', file],
                { stdio: 'ignore' });
   return readPng(readFileSync(file));
 }

@@ -26,6 +26,11 @@ namespace ranges {
 // Larger whole numbers are probably typing errors.
 inline constexpr Range whole{
     1, 1e7, {}, "a run needs at least one step", "the run would take weeks"};
+inline constexpr Range minutes{0,
+                               1e5,
+                               {},
+                               "the value is a time, or 0 for a fixed number of steps",
+                               "the run would take months"};
 inline constexpr Range fraction{0, 1, {}, "the value is a fraction"};
 inline constexpr Range weight{0, 1000, {}, "a negative weight would increase the error"};
 inline constexpr Range color{0, 1, {}, "the value is a display-referred colour"};

@@ -46,9 +46,12 @@ TrainingLog open_log(const SessionOptions& options, int step) {
 }  // namespace
 
 std::string describe(const SessionStatus& now) {
-  std::string text = fmt::format("{}{}/{}", now.paused ? "paused, " : "", now.step, now.steps);
+  std::string text = fmt::format("{}{}{}{}", now.paused ? "paused, " : "", now.step,
+                                 now.fits_steps ? " of about " : "/", now.steps);
   if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
-  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
+  if (now.test_psnr_db)
+    text +=
+        fmt::format(", {:.2f} dB of {}", *now.test_psnr_db, counted(now.measured_views, "view"));
   if (now.seconds_per_step > 0)
     text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
                         duration_text(now.seconds_left));
@@ -60,15 +63,15 @@ TrainingSession::TrainingSession(Trainable& run, SessionOptions options)
       options_(std::move(options)),
       measured_views_(some_of(options_.test_views, measured_views)),
       log_(open_log(options_, run.steps_done())),
-      start_(clock_seconds()),
+      clock_(options_.clock ? options_.clock : clock_seconds),
+      start_(clock_()),
       last_checkpoint_(options_.seconds_before),
-      non_finite_(options_.non_finite_before) {
+      non_finite_(options_.non_finite_before),
+      fit_(options_.seconds, options_.seconds_before) {
   recent_.begin = options_.seconds_before;
 }
 
-double TrainingSession::seconds() const {
-  return options_.seconds_before + clock_seconds() - start_;
-}
+double TrainingSession::seconds() const { return options_.seconds_before + clock_() - start_; }
 
 void TrainingSession::run() {
   keep_if_it_fails([this] { train_to_the_end(); });
@@ -108,6 +111,7 @@ void TrainingSession::train_to_the_end() {
     const double kept = ++steps_here_ > 2 ? 0.98 : 0;
     pace_ = {1 + kept * pace_.steps, work + kept * pace_.work,
              seconds() - before + kept * pace_.seconds};
+    fit_.after_step(run_, work, seconds());
     finishes_ = options_.control && options_.control->command() == RunCommand::finish;
     after_step(report);
   }
@@ -189,8 +193,8 @@ void TrainingSession::save_checkpoint() {
 }
 
 double TrainingSession::seconds_left() const {
-  if (pace_.work <= 0) return 0;
-  return run_.seconds_left().value_or(pace_.seconds / pace_.work * run_.work_left());
+  if (fit_.is_pending()) return fit_.left(seconds());
+  return pace_.work > 0 ? pace_.seconds / pace_.work * run_.work_left() : 0;
 }
 
 SessionStatus TrainingSession::status(bool paused) const {
@@ -198,8 +202,12 @@ SessionStatus TrainingSession::status(bool paused) const {
           .steps = run_.steps(),
           .loss = loss_,
           .test_psnr_db = shown_test_psnr_,
+          .measured_views = measured_views_.size(),
           .seconds_per_step = pace_.steps > 0 ? pace_.seconds / pace_.steps : 0,
           .seconds_left = seconds_left(),
+          .fraction = fit_.seconds() > 0 ? std::min(seconds() / fit_.seconds(), 1.0)
+                                         : double(run_.steps_done()) / run_.steps(),
+          .fits_steps = fit_.is_pending(),
           .paused = paused};
 }
 

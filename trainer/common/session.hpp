@@ -11,7 +11,7 @@
 
 #include "scene/photographs.hpp"
 #include "trainer/common/run_control.hpp"
-#include "trainer/common/snapshot_timer.hpp"
+#include "trainer/common/session_timers.hpp"
 #include "trainer/common/trainable.hpp"
 #include "trainer/common/training_log.hpp"
 
@@ -22,12 +22,15 @@ struct SessionStatus {
   int step = 0, steps = 0;             // completed steps, total steps
   double loss = 0;                     // smoothed; 0 before the first step
   std::optional<double> test_psnr_db;  // last measurement on held-out views
+  std::size_t measured_views = 0;      // their number
   double seconds_per_step = 0;         // smoothed; 0 before the first step
   double seconds_left = 0;             // a forecast; 0 before the first step
+  double fraction = 0;                 // of the time, if the run has one, otherwise of the steps
+  bool fits_steps = false;             // `steps` may change
   bool paused = false;                 // by SessionOptions::control
 };
 
-/// "paused, 120/500, loss 0.0812, 23.41 dB, 14.2 it/s, 27 s left".
+/// "paused, 120/500, loss 0.0812, 23.41 dB of 5 views, 14.2 it/s, 27 s left".
 std::string describe(const SessionStatus& now);
 
 struct SessionOptions {
@@ -39,8 +42,10 @@ struct SessionOptions {
   std::span<const Photograph> test_views = {};  // if none, no error is measured
   Camera preview_camera = {};                   // of the previews without test views
   double seconds_before = 0;                    // training time of earlier sessions of this run
-  std::uint64_t non_finite_before = 0;          // numbers quarantined in earlier sessions
-  RunControl* control = nullptr;                // pauses the run, and finishes it early
+  double seconds = 0;  // more than 0: the steps are fitted to this training time (TimeFit)
+  std::function<double()> clock = {};   // seconds; by default a steady clock
+  std::uint64_t non_finite_before = 0;  // numbers quarantined in earlier sessions
+  RunControl* control = nullptr;        // pauses the run, and finishes it early
   /// Returns a JSON object about the run, for the first line of a new log; may be empty.
   std::function<std::string()> plan = {};
   /// Called before the first step, and then by SnapshotTimer.
@@ -98,6 +103,7 @@ class TrainingSession {
   SessionOptions options_;
   std::vector<Photograph> measured_views_;
   TrainingLog log_;
+  std::function<double()> clock_;
   double start_ = 0;            // of the clock
   double last_checkpoint_ = 0;  // seconds()
   Recent recent_;
@@ -108,6 +114,7 @@ class TrainingSession {
   double loss_ = 0;     // smoothed, as shown
   int steps_here_ = 0;  // in this session
   Pace pace_;
+  TimeFit fit_;
   std::optional<double> fresh_test_psnr_, shown_test_psnr_;
 };
 

@@ -30,8 +30,11 @@ class Trainable : public ImageSource {
   /// that is left is the time per work so far, times work_left().
   virtual double work_of_step() const { return 1; }
   virtual double work_left() const { return steps() - steps_done(); }
-  /// Where the run itself knows the time that is left.
-  virtual std::optional<double> seconds_left() const { return std::nullopt; }
+  /// The number of steps with which work_left() takes `seconds`, if one unit of work takes
+  /// `seconds_per_work`.
+  virtual int steps_in(double seconds, double seconds_per_work) const;
+  /// Sets steps(), at least steps_done(), for the schedule from the next step on.
+  virtual void set_steps(int steps) = 0;
   virtual StepReport step() = 0;
   virtual PrimitiveCount primitives() const = 0;
 

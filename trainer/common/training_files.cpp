@@ -6,8 +6,10 @@
 namespace tureen::trainer {
 
 TrainingFiles training_files(const std::filesystem::path& scene) {
-  if (extension_of(scene) != ".glb")
-    throw UsageError("'" + scene.string() + "' does not end in .glb");
+  const std::string format = extension_of(scene);
+  if (format != ".glb" && format != ".ply" && format != ".html")
+    throw UsageError("'" + scene.string() + "' does not end in .glb, .ply or .html",
+                     "tureen convert writes the other formats from a .glb");
   const auto beside = [&](const char* extension) {
     return std::filesystem::path(scene).replace_extension(extension);
   };

@@ -6,7 +6,7 @@
 namespace tureen::trainer {
 
 struct TrainingFiles {
-  std::filesystem::path scene;       // OUT.glb
+  std::filesystem::path scene;       // OUT.glb, OUT.ply or OUT.html
   std::filesystem::path checkpoint;  // OUT.checkpoint, until the run is complete
   std::filesystem::path log;         // OUT.jsonl
   std::filesystem::path previews;    // OUT.previews
@@ -14,7 +14,8 @@ struct TrainingFiles {
   std::filesystem::path watched;     // OUT.watch.glb, the scene for a window that follows the run
 };
 
-/// The files beside `scene`. Throws UsageError if it does not end in .glb.
+/// The files beside `scene`. Throws UsageError if it does not end in .glb, .ply
+/// or .html.
 TrainingFiles training_files(const std::filesystem::path& scene);
 
 }  // namespace tureen::trainer

@@ -124,7 +124,9 @@ Checkpoint read_checkpoint(Input input) {
 }
 
 std::optional<std::string> difference(const Config& now, const Config& checkpoint) {
-  return first_difference(now, checkpoint, config_fields());
+  Config fitted = now;
+  if (checkpoint.minutes > 0) fitted.steps = checkpoint.steps;
+  return first_difference(fitted, checkpoint, config_fields());
 }
 
 }  // namespace tureen::trainer

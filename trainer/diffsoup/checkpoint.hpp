@@ -36,7 +36,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 Checkpoint read_checkpoint(Input input);
 
 /// The first field that differs between a resumed run and its checkpoint, for example "steps is
-/// 300, but the checkpoint has 40"; nothing if all are equal.
+/// 300, but the checkpoint has 40"; nothing if all are equal. With minutes, the steps may differ.
 std::optional<std::string> difference(const Config& now, const Config& checkpoint);
 
 }  // namespace tureen::trainer

@@ -39,6 +39,8 @@ struct Config {
 
   // --- The run
   int steps = 10'000;
+  /// Training time to which the run fits `steps`, in minutes; 0: `steps` as given.
+  double minutes = 0;
   int batch = 4;  // views a step
   std::uint64_t seed = 0;
   int triangles = 15'000;  // the budget; the final number is exactly this

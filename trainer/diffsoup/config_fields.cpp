@@ -34,6 +34,9 @@ const ConfigField fields[] = {
     {"preset", &Config::preset, none, "Kind of dataset; sets the defaults of all other fields",
      presets},
     {"steps", &Config::steps, whole, "Optimiser steps"},
+    {"minutes", &Config::minutes, minutes,
+     "Training time to which the run fits its steps, whatever steps says; 0 for a fixed number of "
+     "steps"},
     {"batch", &Config::batch, views, "Views per step"},
     {"seed", &Config::seed, any_seed, "Random seed; equal seeds give equal soups"},
     {"triangles", &Config::triangles, faces, "Exact number of triangles at the end"},

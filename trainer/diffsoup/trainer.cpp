@@ -123,6 +123,9 @@ Trainer::Trainer(const Config& config, std::span<const TrainingView> views,
   quarantine(state);
   step_ = state.step;
   faces_ = state.model.faces();
+  // A fit of the steps may have moved the lift; the levels tell whether it has been.
+  is_lifted_ =
+      step_ >= lift_step() || (config.minutes > 0 && state.model.max_level != config.coarse_level);
   backend_->upload(state);
 }
 
@@ -135,11 +138,20 @@ StepReport Trainer::step() {
                      {.texture = float(config_.texture_rate * decay),
                       .mlp = float(config_.mlp_rate * decay),
                       .vertex = float(config_.vertex_rate * decay)});
-  const int lift_step = std::max(1, int(std::lround(double(config_.lift_at) * config_.steps)));
-  if (step_ == lift_step) lift();
-  const int last = last_resample_step();
-  if (step_ == last || (step_ < last && step_ % config_.resample_every == 0)) resample();
+  if (!is_lifted_ && step_ >= lift_step()) lift();
+  if (resamples_now()) resample();
   return report;
+}
+
+int Trainer::lift_step() const {
+  return std::max(1, int(std::lround(double(config_.lift_at) * config_.steps)));
+}
+
+bool Trainer::resamples_now() const {
+  const int last = last_resample_step();
+  // A fit of the steps may have moved the last resampling, which meets the budget, to before now.
+  if (step_ > last) return config_.minutes > 0 && faces_ != std::size_t(config_.triangles);
+  return step_ == last || step_ % config_.resample_every == 0;
 }
 
 int Trainer::last_resample_step() const {
@@ -161,13 +173,14 @@ void Trainer::lift() {
                        config_.lift_keeps_opacity ? LiftedOpacity::kept : LiftedOpacity::reset);
   state.moments.reset_faces(state.model);
   backend_->upload(state);
+  is_lifted_ = true;
 }
 
 void Trainer::resample() {
   TrainingState state = this->state();
   Renewal renewal(state, std::exchange(state.errors, {}));
   const std::size_t before = state.model.faces(), budget = std::size_t(config_.triangles);
-  const bool last = step_ == last_resample_step();
+  const bool last = step_ >= last_resample_step();
   const std::size_t backing = backing_faces(config_);
   const bool beyond = config_.split_beyond_budget && !config_.split_by_error;
   std::vector<Camera> cameras;

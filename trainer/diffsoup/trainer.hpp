@@ -36,6 +36,9 @@ class Trainer {
   bool done() const { return step_ >= config_.steps; }
   std::size_t faces() const { return faces_; }
 
+  /// Sets the number of steps, at least steps_done(), for the schedule from the next step on.
+  void set_steps(int steps) { config_.steps = steps; }
+
   /// One step, and the schedule's changes after it.
   StepReport step();
 
@@ -47,7 +50,9 @@ class Trainer {
   const Config& config() const { return config_; }
 
  private:
+  int lift_step() const;
   int last_resample_step() const;
+  bool resamples_now() const;
   void lift();
   void resample();
   std::vector<std::uint64_t> evident_pixels(const Model& model, std::span<const Camera> cameras);
@@ -58,6 +63,7 @@ class Trainer {
   std::unique_ptr<Backend> backend_;
   int step_ = 0;
   std::size_t faces_ = 0;
+  bool is_lifted_ = false;
   ResampleReport last_resample_;
 };
 

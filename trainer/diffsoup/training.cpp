@@ -54,6 +54,7 @@ class SoupRun final : public Trainable {
 
   int steps() const override { return trainer_.config().steps; }
   int steps_done() const override { return trainer_.steps_done(); }
+  void set_steps(int steps) override { trainer_.set_steps(steps); }
   StepReport step() override { return trainer_.step(); }
   PrimitiveCount primitives() const override {
     return {PrimitiveKind::triangles, trainer_.faces()};
@@ -66,6 +67,7 @@ class SoupRun final : public Trainable {
   }
   void write_checkpoint(const std::filesystem::path& path, double seconds) const override {
     Checkpoint run = run_;
+    run.config.steps = steps();
     run.seconds = seconds;
     run.state = trainer_.state();
     trainer::write_checkpoint(path, run);
@@ -94,7 +96,8 @@ Config settled(const Config& config, const Dataset& dataset, const Region& regio
 }
 
 TrainingResult train(Dataset& dataset, TrainingRequest request) {
-  const Config& config = request.config;
+  Config config = request.config;
+  if (config.minutes > 0 && request.checkpoint) config.steps = request.checkpoint->config.steps;
   assert(request.checkpoint ||
          (request.start != nullptr) == (config.initialisation == Initialisation::mesh));
   Checkpoint run{.config = config,
@@ -124,6 +127,7 @@ TrainingResult train(Dataset& dataset, TrainingRequest request) {
                    .is_visible = result.visible_at_start});
 
   request.run.session.seconds_before = run.seconds;
+  request.run.session.seconds = 60 * config.minutes;
   request.run.session.non_finite_before = run.state.non_finite;
   SoupRun soup_run(trainer, std::move(run));
   result.run = run_to_the_end(soup_run, std::move(request.run), dataset,

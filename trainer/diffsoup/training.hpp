@@ -49,7 +49,8 @@ struct TrainingResult {
 /// Trains on dataset.train and tests on dataset.test. train() frees the images of dataset.train.
 /// Throws OutputError if a file of the session cannot be written, DeviceLimitError if the device
 /// lacks memory, and any error from a callback. Asserts that a checkpoint has the views of the
-/// dataset (difference() in checkpoint.hpp); its configuration must be request.config.
+/// dataset (difference() in checkpoint.hpp); its configuration must be request.config, except
+/// `steps` with minutes.
 TrainingResult train(Dataset& dataset, TrainingRequest request);
 
 }  // namespace tureen::trainer

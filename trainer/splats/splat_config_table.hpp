@@ -18,11 +18,6 @@ inline constexpr Range opacity{0.005, 0.99, {}, "other opacities are not blended
 inline constexpr Range degrees{0, max_trained_degree, {}, "only these degrees are trained"};
 inline constexpr Range length{0, 1e3, Range::Ends::low_open, "the value is a length"};
 inline constexpr Range extent{1, 1e6, {}, "the splats lie outside of the region"};
-inline constexpr Range minutes{0,
-                               1e5,
-                               {},
-                               "the value is a time, or 0 for a fixed number of steps",
-                               "the run would take months"};
 }  // namespace splat_range
 
 /// The rows of SplatConfig, then `own`.

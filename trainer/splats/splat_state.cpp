@@ -12,11 +12,11 @@
 namespace tureen::trainer {
 
 template <>
-const CheckpointKind checkpoint_kind<GaussianCheckpoint>{gaussians_magic, 1};
+const CheckpointKind checkpoint_kind<GaussianCheckpoint>{gaussians_magic, 2};
 template <>
-const CheckpointKind checkpoint_kind<NeuralCheckpoint>{neural_magic, 1};
+const CheckpointKind checkpoint_kind<NeuralCheckpoint>{neural_magic, 2};
 template <>
-const CheckpointKind checkpoint_kind<WindowCheckpoint>{triangles_magic, 1};
+const CheckpointKind checkpoint_kind<WindowCheckpoint>{triangles_magic, 2};
 
 namespace {
 
@@ -30,13 +30,12 @@ struct StoredState {
   std::int32_t step = 0;
   std::vector<std::uint32_t> epoch;
   std::uint64_t non_finite = 0;
-  std::int32_t fits = 0;
   float solidity = 0;  // WindowParameters::solidity; other kernels have 0
 };
 
 template <class Archive, class State>
 void visit_splat_state(Archive& archive, State& state) {
-  auto& [degree, count, drawn, raw, statistics, moments, random, step, epoch, non_finite, fits,
+  auto& [degree, count, drawn, raw, statistics, moments, random, step, epoch, non_finite,
          solidity] = state;
   archive(degree, "the degree");
   archive(count, "the number of splats");
@@ -48,7 +47,6 @@ void visit_splat_state(Archive& archive, State& state) {
   archive(step, "the step");
   archive(epoch, "the views of the epoch");
   archive(non_finite, "the count of quarantined numbers");
-  archive(fits, "the number of fits");
   archive(solidity, "the solidity");
 }
 
@@ -67,8 +65,7 @@ StoredState stored(const SplatState<Parameters>& state) {
                      .random = std::bit_cast<std::uint64_t>(state.random),
                      .step = state.step,
                      .epoch = state.epoch,
-                     .non_finite = state.non_finite,
-                     .fits = state.fits};
+                     .non_finite = state.non_finite};
   if constexpr (requires { state.parameters.solidity; })
     result.solidity = state.parameters.solidity;
   return result;
@@ -101,7 +98,6 @@ std::optional<std::string> defect(const StoredState& state, const SplatConfig& c
   if (state.epoch.size() > views ||
       std::any_of(state.epoch.begin(), state.epoch.end(), [&](auto i) { return i >= views; }))
     return fmt::format("the epoch does not match {} views", views);
-  if (state.fits < -1) return "the number of fits is negative";
   if (!(state.solidity >= 0 && state.solidity < 1)) return "the solidity is not from 0 to 1";
   return std::nullopt;
 }
@@ -115,8 +111,7 @@ SplatState<Parameters> restored(StoredState&& stored) {
   SplatState<Parameters> state{.random = std::bit_cast<Random>(stored.random),
                                .step = stored.step,
                                .epoch = std::move(stored.epoch),
-                               .non_finite = stored.non_finite,
-                               .fits = stored.fits};
+                               .non_finite = stored.non_finite};
   state.parameters = Parameters(stored.count, stored.degree);
   copy_to(state.parameters.drawn, stored.drawn);
   copy_to(state.parameters.raw, stored.raw);

@@ -28,8 +28,6 @@ struct SplatState {
   int step = 0;                           // steps done
   std::vector<std::uint32_t> epoch = {};  // views that this epoch has yet to use, from the back
   std::uint64_t non_finite = 0;           // pixels and splats quarantined so far
-  /// How often the steps were fitted to the minutes, after the first time; -1 before that.
-  int fits = 0;
 };
 
 template <class Config, class Parameters>

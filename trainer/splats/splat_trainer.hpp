@@ -61,7 +61,6 @@ class SplatTrainer {
         state_(std::move(state)) {
     assert(!views.empty() && config.degree <= max_trained_degree);
     state_.non_finite = 0;
-    state_.fits = 0;
   }
 
   bool done() const { return state_.step >= config_.steps; }
@@ -71,7 +70,7 @@ class SplatTrainer {
   void set_steps(int steps) { config_.steps = steps; }
   const Config& config() const { return config_; }
   const Parameters& parameters() const { return state_.parameters; }
-  /// For a checkpoint, which has its own SplatState::non_finite and fits.
+  /// For a checkpoint, which has its own SplatState::non_finite.
   const State& state() const { return state_; }
   int threads() const { return pool_.threads(); }
   SplatTimes& times() { return raster_.times(); }

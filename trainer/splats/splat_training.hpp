@@ -45,10 +45,9 @@ struct SplatResult {
 /// Trains on dataset.train and tests on dataset.test; frees the images of dataset.train. The scene
 /// has one layer, at the centre of the region of interest, with the primitives of the method
 /// (primitives() of GaussianTraining and others). With config.minutes, the number of
-/// steps is fitted to the time after the first steps and three times later, last at half the run;
-/// after that, a run that resumes has the same bits. Throws the errors of region_of_interest,
-/// initial_splats and run_to_the_end. Asserts that a checkpoint has the views of the dataset; its
-/// configuration must be request.config, except `steps` with minutes.
+/// steps is fitted to the time (trainer/common/session_timers.hpp). Throws the errors of
+/// region_of_interest, initial_splats and run_to_the_end. Asserts that a checkpoint has the views
+/// of the dataset; its configuration must be request.config, except `steps` with minutes.
 template <class Config, class Parameters>
 SplatResult train_splats(Dataset& dataset, SplatRequest<Config, Parameters> request);
 

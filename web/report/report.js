@@ -12,6 +12,7 @@ const percent = number((value) => (100 * value).toFixed(1));
 const times = number((value) => `${value.toFixed(value < 10 ? 2 : 1)}×`);
 const small = number((value) => value === 0 ? '0' : value.toExponential(1));
 const db = fixed(2);
+const signed = (write) => (value) => known(value) && value >= 0 ? `+${write(value)}` : write(value);
 /** Three significant digits down to a microsecond, as in the terminal (ms_text in cli/table.cpp). */
 const ms = number((value) => value.toFixed(value < 1 ? 3 : value < 10 ? 2 : 1));
 const any = number((value) => Number.isInteger(value) ? count(value)
@@ -326,15 +327,18 @@ function showTradeoffs(entries) {
 function showTrainings(entries) {
   const names = labels(entries, stem, folderName);
   const runs = entries.map(({ data }, i) => ({ name: names[i], data, last: data.at(-1), test: data.findLast((r) => known(r.test_psnr_db))?.test_psnr_db }));
+  // The trainer measures at most five views while it trains (trainer/common/session.cpp).
+  const heldOut = ([{ plan }]) => [`${plan ? Math.min(plan.test_views, 5) : 'some'} held-out views`, plan && `${plan.width} × ${plan.height}`,
+    plan?.input && `--scale ${plan.input.scale}`].filter(Boolean).join(', ');
   const best = runs.reduce((a, b) => (b.test ?? -1) > (a.test ?? -1) ? b : a);
   const curve = (title, x, y, get, at) => plot(title, { x, y, linear: true, series: runs.map(({ name, data }) => ({ name, line: true, points: data.filter((r) => known(get(r))).map((r) => ({ x: at(r), y: get(r), name })) })) });
   const seconds = (r) => r.seconds, steps = (r) => r.step, primitives = (r) => r.triangles ?? r.splats;
   return [
-    cards([`${db(best.test)} dB`, `on held-out views${runs.length > 1 ? `: ${best.name}` : ''}`], [count(best.last.step), `steps in ${any(best.last.seconds)} s`],
+    cards([`${db(best.test)} dB`, `on ${heldOut(best.data)}${runs.length > 1 ? `: ${best.name}` : ''}`], [count(best.last.step), `steps in ${any(best.last.seconds)} s`],
       [count(primitives(best.last)), best.last.splats === undefined ? 'triangles' : 'splats'], [`${any(best.last.step / best.last.seconds)}`, 'steps per second']),
     plots(curve('Held-out views', 'training time (s)', 'PSNR (dB)', (r) => r.test_psnr_db, seconds), curve('Loss', 'step', 'loss', (r) => r.loss, steps),
       curve('Training views', 'step', 'PSNR (dB)', (r) => r.train_psnr_db, steps), curve('Primitives', 'step', 'triangles or splats', primitives, steps)),
-    table('Trainings', [['run', (r) => r.name], ['steps', (r) => r.last.step, count], ['time (s)', (r) => r.last.seconds, any], ['held-out (dB)', (r) => r.test, db], ['training views (dB)', (r) => r.last.train_psnr_db, db],
+    table('Trainings', [['run', (r) => r.name], ['steps', (r) => r.last.step, count], ['time (s)', (r) => r.last.seconds, any], ['held-out (dB)', (r) => r.test, db], ['measured on', (r) => heldOut(r.data)], ['training views (dB)', (r) => r.last.train_psnr_db, db],
       ['loss', (r) => r.last.loss, fixed(4)], ['SSIM', (r) => r.last.ssim, fixed(4)], ['triangles or splats', (r) => primitives(r.last), count], ['steps per second', (r) => r.last.step / r.last.seconds, any], ['not finite', (r) => r.last.non_finite, count]], runs),
   ];
 }
@@ -344,13 +348,21 @@ function showEvals(entries) {
   const one = entries.length === 1, figures = [['PSNR (dB)', 'psnr_db', db], ['SSIM', 'ssim', fixed(4)], ['FLIP', 'flip', fixed(4)]];
   const views = unique(entries.flatMap(({ data }) => data.views.map((v) => v.name)));
   const of = (i, name) => entries[i].data.views.find((v) => v.name === name);
-  const winner = entries.reduce((a, b) => b.data.mean.psnr_db > a.data.mean.psnr_db ? b : a), { mean, renderer, split } = winner.data;
+  const words = (each) => [`mean of ${each.views.length} views (${each.split})`, known(each.scale) && `--scale ${each.scale}`,
+    known(each.samples_per_pixel) && `${each.samples_per_pixel} sample${each.samples_per_pixel === 1 ? '' : 's'} per pixel`].filter(Boolean).join(', ');
+  // Of two scenes, the difference of each figure: the second minus the first.
+  const columns = (get) => [...entries.flatMap((_, i) => figures.map(([head, key, write]) => [one ? head : `${names[i]}: ${head}`, (row) => get(row, i)?.[key], write])),
+    ...(entries.length === 2 ? figures.map(([head, key, write]) => [`difference: ${head}`, (row) => get(row, 1)?.[key] - get(row, 0)?.[key], signed(write)]) : [])];
+  const winner = entries.reduce((a, b) => b.data.mean.psnr_db > a.data.mean.psnr_db ? b : a), { mean, renderer } = winner.data;
   return [
-    cards([`${db(mean.psnr_db)} dB`, `PSNR, mean of ${winner.data.views.length} views (${split})${one ? '' : `: ${names[entries.indexOf(winner)]}`}`], [fixed(4)(mean.ssim), `SSIM (${winner.data.ssim_border})`],
+    cards([`${db(mean.psnr_db)} dB`, `PSNR, ${words(winner.data)}${one ? '' : `: ${names[entries.indexOf(winner)]}`}`], [fixed(4)(mean.ssim), `SSIM (${winner.data.ssim_border})`],
       known(mean.flip) && [fixed(4)(mean.flip), 'FLIP']),
-    one ? null : table('Means', [['result', (i) => names[i]], ...figures.map(([head, key, write]) => [head, (i) => entries[i].data.mean[key], write])], entries.map((_, i) => i)),
+    one ? null : table('Means', [['result', (i) => names[i]], ['measured on', (i) => words(entries[i].data)], ...figures.map(([head, key, write]) => [head, (i) => entries[i].data.mean[key], write])], entries.map((_, i) => i)),
+    !one && unique(entries.map(({ data }) => words(data))).length > 1 ? paragraph('These results have different views, scales or samples: their figures cannot be compared.', 'error') : null,
     plots(views.length > 1 ? plot('PSNR by view', { names: views, y: 'PSNR (dB)', series: entries.map((_, i) => ({ name: names[i], points: views.map((name) => of(i, name)?.psnr_db ?? null) })) }) : null),
-    table('Views', [['view', (name) => name], ...entries.flatMap((_, i) => figures.map(([head, key, write]) => [one ? head : `${names[i]}: ${head}`, (name) => of(i, name)?.[key], write]))], views),
+    table('Views', [['view', (name) => name], ...columns((name, i) => of(i, name))], views),
+    ...entries.map((entry) => images((entry.data.pairs ?? []).map((path, k) => [imageAddress(entry, path),
+      `${entry.data.views[k].name}: photograph, ${names.join(', ')}, difference of these two`]), 'wide')),
     ...entries.flatMap((entry, i) => [images(entry.data.views.map((v, k) => [v, entry.data.output?.[k]]).filter(([, path]) => path)
       .map(([v, path]) => [imageAddress(entry, path), `${one ? '' : `${names[i]}: `}${v.name}, ${db(v.psnr_db)} dB: photograph, rendering, difference`]))]),
     fold('Drawing conditions', facts([['scene', winner.data.scene], ['photographs', winner.data.dataset], ['renderer', renderer], ['context', winner.data.context]]), list(winner.data.plan)),

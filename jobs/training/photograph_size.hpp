@@ -1,0 +1,47 @@
+// The size of the photographs for a training of given time. Larger photographs have more detail,
+// but a step takes longer: with too few steps, the scene stays blurred, whatever their size.
+#pragma once
+
+#include "formats/dataset/dataset.hpp"
+#include "jobs/training/training_method.hpp"
+
+namespace tureen {
+
+struct TimeForSteps {
+  double seconds = 0;            // of the training
+  double pixels = 0;             // of a photograph at full size
+  double seconds_per_pixel = 0;  // of a step
+  int steps = 0;                 // wanted, at least
+
+  /// The time of a step on photographs of this scale.
+  double of_step(double scale) const;
+};
+
+/// The largest of 1, 1/2, 1/4 and 1/8 at which the time allows the steps; if none does, the
+/// smallest at which a photograph has at least 30,000 pixels (and 1, if it has less at full size).
+double scale_for(const TimeForSteps& time);
+
+/// The time that this machine needs for a step of Gaussians, for each pixel: the median of some
+/// steps on small images of noise. Takes less than a second.
+double measured_seconds_per_pixel(int threads);
+
+struct PhotographSize {
+  double scale = 1;
+  OwnFact note;  // for RunPlan::notes
+};
+
+/// Photographs at full size.
+struct FullPhotographs {
+  std::vector<Camera> cameras;  // at least one
+  bool of_an_object = false;    // before nothing: a quarter of the steps show as much
+};
+
+/// The training photographs of a dataset. Throws the errors of read_dataset_summary(). They are
+/// taken for those of an object if the file of the first has transparent pixels.
+FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOptions options);
+
+/// The size for a training by this method.
+PhotographSize photographs_for(double minutes, const FullPhotographs& full,
+                               const TrainingMethodInfo& method, double seconds_per_pixel);
+
+}  // namespace tureen
