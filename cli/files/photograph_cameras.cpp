@@ -49,9 +49,10 @@ void refuse(const CameraOptions& options, const CameraQuality& quality) {
     reasons += (reasons.empty() ? "" : " ") + describe(remark);
   if (reasons.empty()) reasons = "COLMAP placed no camera.";
   reasons.pop_back();
-  const std::string again = "the same command with --accept goes on with what was found";
+  const bool is_untried = quality.models.empty() && quality.photographs < least_photographs;
+  const bool may_go_on = quality.registered > 0 || (is_untried && quality.photographs >= 3);
   throw InputError({options.photographs.string()}, "no cameras that can be trusted: " + reasons,
-                   quality.registered > 0 || quality.models.empty() ? again : "");
+                   may_go_on ? "the same command with --accept goes on all the same" : "");
 }
 
 }  // namespace

@@ -90,20 +90,24 @@ std::vector<std::string> ranges(const std::vector<std::string>& names,
   return parts;
 }
 
-void refuse_without_model(const MatchFacts& matches, CameraQuality& quality) {
+/// `is_placed`: whether COLMAP has placed half of the photographs, which it also does, with a wrong
+/// lens and a wrong depth, with those of a turning camera.
+void judge_matches(const MatchFacts& matches, bool is_placed, CameraQuality& quality) {
   // Below these, hardly any pair of photographs has the 15 matches that COLMAP needs.
   constexpr std::size_t few_features = 100;
-  // A pair that one homography explains is common; nearly all pairs of a set are not.
+  // A pair that one homography explains is common, 41 % of the fox's; nearly all pairs of a set are
+  // not.
   constexpr double most = 0.8;
-  if (matches.features < few_features)
+  const bool is_flat = matches.flat_pairs > most;
+  if (!is_placed && matches.features < few_features)
     quality.refusals.push_back({&remarks::few_features, {{"features", matches.features}}});
-  else if (matches.pairs == 0)
+  else if (!is_placed && matches.pairs == 0)
     quality.refusals.push_back({&remarks::no_overlap});
   else if (matches.unmoved_pairs > most)
     quality.refusals.push_back({&remarks::no_motion});
-  else if (matches.flat_pairs > most && matches.is_turning)
+  else if (is_flat && matches.is_turning)
     quality.refusals.push_back({&remarks::only_turning});
-  else if (matches.flat_pairs > most)
+  else if (quality.is_flat || (is_flat && !is_placed))
     quality.refusals.push_back({&remarks::flat_pictures});
 }
 
@@ -121,6 +125,16 @@ double widest_angle(const ColmapTrack& track, const std::map<std::uint32_t, glm:
   return std::acos(std::clamp(least, -1.0, 1.0)) * 180 / glm::pi<double>();
 }
 
+/// Whether points with this covariance, times any factor, lie in a plane: to 1 % of their second
+/// largest extent; walls with windows and doors have more. With eigenvalues a >= b >> c, c / b is
+/// about det tr / (sum of the principal minors)^2.
+bool is_flat(const glm::dmat3& m) {
+  const double minors = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] -
+                        m[0][2] * m[2][0] + m[1][1] * m[2][2] - m[1][2] * m[2][1];
+  const double trace = m[0][0] + m[1][1] + m[2][2];
+  return glm::determinant(m) * trace < 1e-4 * minors * minors;
+}
+
 void measure(const fs::path& model, CameraQuality& quality) {
   std::map<std::uint32_t, glm::dvec3> eyes;
   for (const ColmapImage& image : read_colmap_poses(model).images)
@@ -130,7 +144,12 @@ void measure(const fs::path& model, CameraQuality& quality) {
   if (tracks.empty()) return;
   std::vector<double> angles;
   double sightings = 0;
+  glm::dvec3 mean(0);
+  glm::dmat3 spread(0);
+  for (const ColmapTrack& track : tracks) mean += track.position / double(tracks.size());
   for (const ColmapTrack& track : tracks) {
+    const glm::dvec3 offset = track.position - mean;
+    spread += glm::outerProduct(offset, offset);
     quality.error_px += track.error / double(tracks.size());
     sightings += double(track.images.size());
     angles.push_back(widest_angle(track, eyes));
@@ -139,6 +158,7 @@ void measure(const fs::path& model, CameraQuality& quality) {
   quality.points_per_photograph =
       double(tracks.size()) / double(std::max<std::size_t>(1, quality.registered));
   quality.parallax_degrees = median(std::move(angles));
+  quality.is_flat = is_flat(spread);
 }
 
 }  // namespace
@@ -199,8 +219,8 @@ CameraQuality judge(const std::vector<fs::path>& models, const std::vector<std::
   }
   quality.unregistered.assign(missing.begin(), missing.end());
 
-  refuse_without_model(matches, quality);
   const std::size_t all = quality.photographs, registered = quality.registered;
+  judge_matches(matches, 2 * registered >= all, quality);
   const std::vector<std::string> without = ranges(names, missing);
   // Photographs that only some model has. COLMAP repeats a few of another model.
   std::size_t others = 0;

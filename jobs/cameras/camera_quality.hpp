@@ -36,6 +36,7 @@ struct CameraQuality {
   double points_per_photograph = 0;  // points / registered
   /// The largest angle between the rays of two cameras to a point, the median of the points.
   double parallax_degrees = 0;
+  bool is_flat = false;  // whether the points lie in a plane
   std::vector<std::string> unregistered = {};  // names
   std::vector<Remark> refusals = {};           // why the cameras should not be used
   std::vector<Remark> notes = {};

@@ -164,9 +164,9 @@ class CameraRun {
          {&remarks::only_turning, &remarks::flat_pictures, &remarks::no_motion})
       if (refused(*hopeless)) return false;
     const bool is_blank = refused(remarks::few_features);
-    if (attempts[index].is_dense) return !begins_dense();
+    if (attempts[index].is_dense) return !begins_dense() && !refused(remarks::several_models);
     if (attempts[index].nearest > 5) return !is_blank && !matches_all();
-    return !is_blank;
+    return !is_blank && !refused(remarks::several_models);
   }
 
   ColmapSetup setup(bool is_dense) const {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -13,6 +13,7 @@
 #include "formats/dataset/dataset.hpp"
 #include "image/png.hpp"
 #include "jobs/cameras/camera_remarks.hpp"
+#include "jobs/cameras/known_cameras.hpp"
 
 namespace tureen {
 namespace camera_run_test {
@@ -233,6 +234,47 @@ TEST_F(CameraSearch, EachSizeHasACamera) {
   EXPECT_TRUE(find().is_written);
   for (const auto& photo : FeatureDatabase(folder / "dataset.work/dense.db").photos())
     EXPECT_EQ(photo.camera, photo.name.starts_with("tall") ? 1u : 2u) << photo.name;
+}
+
+TEST_F(CameraSearch, KnownCamerasGetPoints) {
+  take(1, 12);
+  EXPECT_TRUE(find().is_written);
+  fs::remove(options.dataset / "sparse/0/points3D.bin");
+  ASSERT_TRUE(read_dataset_summary(options.dataset).points.empty());
+  const PointOptions known{.dataset = options.dataset, .colmap = options.colmap, .threads = 2};
+  behave("kill=matches_importer");
+  EXPECT_THROW(add_points(known, events), Error);
+  EXPECT_FALSE(fs::exists(options.dataset / "sparse/0/points3D.ply"));
+  behave("");
+  forget_calls();
+  const PointOutcome outcome = add_points(known, events);
+  EXPECT_EQ(calls().front(), "matches_importer");
+  EXPECT_EQ(calls().back(), "point_triangulator");
+  EXPECT_EQ(outcome.photographs, 10u);  // two of the twelve are test views
+  EXPECT_EQ(outcome.points, 300u);
+  EXPECT_FALSE(fs::exists(camera_work_folder(options.dataset)));
+  const DatasetSummary summary = read_dataset_summary(options.dataset);
+  ASSERT_EQ(summary.points.size(), 300u);
+  EXPECT_NEAR(summary.points[1].position.x, std::sin(12.9), 1e-15);  // stored as a double
+  EXPECT_EQ(summary.points[1].color, glm::u8vec3(200, 100, 50));
+  EXPECT_THROW(add_points(known, events), UsageError);  // it has points now
+}
+
+TEST(OverlappingPairs, AreNeighborsThatLookTheSameWay) {
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 36; ++i) {
+    const double angle = i * std::acos(-1.0) / 18;
+    cameras.push_back(
+        look_at({4 * std::cos(angle), 4 * std::sin(angle), 1}, {0, 0, 0}, {0, 0, 1}, 0.8, 64, 48));
+  }
+  const PhotoPairs pairs = overlapping_pairs(cameras, 8);
+  EXPECT_GE(pairs.size(), 36u * 4);
+  EXPECT_LE(pairs.size(), 36u * 8);
+  for (const auto& [first, second] : pairs) {
+    const std::size_t apart = second - first;
+    EXPECT_LE(std::min(apart, 36 - apart), 6u);  // 60 degrees
+  }
+  EXPECT_THAT(pairs, testing::Contains(std::pair(std::size_t(0), std::size_t(35))));
 }
 
 }  // namespace camera_run_test

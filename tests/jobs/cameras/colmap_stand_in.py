@@ -127,7 +127,7 @@ def write_model(folder, members):
     with open(folder + "/points3D.bin", "wb") as file:
         file.write(struct.pack("<Q", count))
         for i in range(count):
-            position = [math.sin(12.9 * i + 7 * k) for k in range(3)]
+            position = [math.sin(12.9 * i * (k + 1)) for k in range(3)]
             file.write(struct.pack("<Q3d3BdQ", i + 1, *position, 200, 100, 50, 0.5, 3))
             for k in range(3):
                 file.write(struct.pack("<II", members[(i + k) % len(members)][1], i))
