@@ -11,6 +11,7 @@ namespace tureen::cli {
 
 /// `arguments`: arguments of the program, which the result stores.
 void add_bench(Command& program, std::vector<std::string> arguments);
+void add_cameras(Command& program);
 void add_compare(Command& program);
 void add_convert(Command& program);
 void add_eval(Command& program);
@@ -18,7 +19,7 @@ void add_info(Command& program);
 void add_render(Command& program);
 void add_report(Command& program);
 void add_tradeoff(Command& program, std::vector<std::string> arguments);
-void add_train(Command& program);
+void add_train(Command& program, std::vector<std::string> arguments);
 void add_view(Command& program);
 
 /// Adds all commands.

@@ -27,7 +27,8 @@ ExitCode exit_code_of(const std::exception& error) {
 void add_commands(Command& program, const std::vector<std::string>& arguments) {
   add_render(program);
   add_view(program);
-  add_train(program);
+  add_cameras(program);
+  add_train(program, arguments);
   add_info(program);
   add_convert(program);
   add_compare(program);

@@ -1,6 +1,7 @@
 // `tureen train`: trains a scene from photographs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
 #include "cli/commands.hpp"
+#include "cli/files/photograph_cameras.hpp"
 #include "cli/files/scene_page.hpp"
 #include "cli/files/window_program.hpp"
 #include "cli/interrupt.hpp"
@@ -44,6 +46,8 @@ struct TrainOptions {
   bool print_config = false;
   bool watch = false;
   bool json = false;
+  CameraOptions cameras;               // for photographs without cameras
+  std::vector<std::string> arguments;  // of the program
 };
 
 /// The folder of --export-diffsoup; empty: none. Throws UsageError if it is another output, or
@@ -213,9 +217,69 @@ ExitCode print_config(const TrainOptions& options) {
   return ExitCode::done;
 }
 
+/// Photographs without cameras are trained as Gaussians, for 15 minutes, unless options choose
+/// otherwise. Training begins again if Ctrl-C ended the search for their cameras.
+void set_presets(TrainOptions& options) {
+  TrainingJob& job = options.job;
+  TrainingOptions& training = job.training;
+  if (!options.is_given("--method") && training.file.empty())
+    for (const TrainingMethodInfo* method : training_methods())
+      if (method->name == std::string_view("gaussians")) training.method = method;
+  OptionValue& minutes = training.own["minutes"];
+  const auto& own = training.method->options;
+  const bool has_minutes = std::any_of(own.begin(), own.end(), [](const MethodOption* option) {
+    return option->name == std::string_view("minutes");
+  });
+  if (has_minutes && !minutes.is_given() && !training.steps && training.file.empty())
+    minutes.number = 15;
+  std::error_code ignored;
+  if (!fs::exists(files_of(job).checkpoint, ignored)) job.resume = false;
+}
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_of(" \t\n'\"$&|;<>()*?[]#~`\\!") == std::string::npos)
+    return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// Finds the cameras, unless an earlier run has, and makes the dataset that of the run. Prints the
+/// commands for which this one stands.
+void use_photographs(TrainOptions& options) {
+  CameraOptions& cameras = options.cameras;
+  cameras.photographs = options.dataset.path;
+  cameras.dataset = fs::path(options.job.output).replace_extension(".dataset");
+  cameras.threads = options.job.threads;
+  if (has_cameras(cameras))
+    say(cameras.dataset.string() + " has the cameras of these photographs");
+  else
+    search_cameras(cameras);
+  options.dataset.path = cameras.dataset.string();
+  std::string command = "tureen";
+  for (const std::string& word : options.arguments)
+    command += " " + shell_word(word == cameras.photographs ? options.dataset.path : word);
+  if (!options.is_given("--method") && options.job.training.file.empty())
+    command += " --method gaussians";
+  if (!options.is_given("--scale")) {
+    options.dataset.options.scale = scale_for_training(cameras.dataset);
+    if (options.dataset.options.scale < 1)
+      command += fmt::format(" --scale {:g}", options.dataset.options.scale);
+  }
+  if (const auto& minutes = options.job.training.own["minutes"].number;
+      minutes && command.find("--minutes") == std::string::npos)
+    command += fmt::format(" --minutes {:g}", *minutes);
+  say("These commands do the same:");
+  say("  tureen cameras " + shell_word(cameras.photographs.string()) + " -o " +
+      shell_word(options.dataset.path));
+  say("  " + command);
+}
+
 ExitCode train(TrainOptions options) {
   take_from_the_run(options);
   if (options.print_config) return print_config(options);
+  const bool finds_cameras = is_photographs(options.dataset.path);
+  if (finds_cameras && !options.job.output.empty()) set_presets(options);
   outlive_readers();  // a closed pipe must not end hours of training
   const TrainingJob& job = options.job;
   if (job.output.empty()) throw UsageError("-o OUT.glb is required");
@@ -229,9 +293,10 @@ ExitCode train(TrainOptions options) {
   const fs::path diffsoup_export = checked_export(options, files_of(job));
   TrainingRun run(job);
   const trainer::TrainingFiles& files = run.files();
+  if (finds_cameras) use_photographs(options);
   const std::optional<Scene> start = before_the_first_step(
       options, [&] { return job.resume ? std::nullopt : read_start(job.training, run.method()); });
-  choose_size(options, run.method());
+  if (!finds_cameras) choose_size(options, run.method());
   Dataset dataset = read_dataset(options);
   options.job.input = to_json(RunInput{options.dataset.path, options.dataset.options}, files.log);
 
@@ -288,6 +353,10 @@ ExitCode train(TrainOptions options) {
   events.failed_aid = [](const std::string& sentence) { say(sentence); };
 
   say_list("Reading " + options.dataset.path + ":", notes_of(dataset.remarks));
+  // 67 photographs at a quarter of their size, Gaussians, equal steps.
+  if (dataset.points.empty() && !start && !job.resume)
+    say("tureen cameras " + shell_word(options.dataset.path) +
+        " adds points, by COLMAP, to begin from: 2.3 dB better on a measured set");
   const TrainingOutcome result = run.train(dataset, start ? &*start : nullptr, events);
   progress.reset();
   evaluating.reset();
@@ -337,8 +406,9 @@ void add_file_options(Command& command, TrainOptions& options) {
 
 }  // namespace
 
-void add_train(Command& program) {
+void add_train(Command& program, std::vector<std::string> arguments) {
   auto options = std::make_shared<TrainOptions>();
+  options->arguments = std::move(arguments);
   Command command = program.add_command("train", "Train a scene from photographs");
   command.footer(
       R"(Trains a scene to match the photographs: triangles with lattice textures and a color MLP
@@ -349,7 +419,12 @@ scene on the test views. Ctrl-C writes a checkpoint; --resume continues from it.
 equal scenes on a CPU, with any number of threads. For all methods but diffsoup, --max-memory also
 limits the number of splats.
 
+DATASET may also be a folder of photographs without cameras, or a video: COLMAP then finds the
+cameras first, as tureen cameras does, and Gaussians are trained for 15 minutes, from photographs
+with at most 1,000 pixels per side, unless options choose otherwise.
+
 Examples:
+  tureen train photos -o scene.glb                           photographs, or a video: walk.mp4
   tureen train lego -o lego.glb
   tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
   tureen train -o fox.glb --resume                           after Ctrl-C
@@ -363,7 +438,7 @@ Examples:
   tureen train lego --print-config > lego.json               all constants, for --config
 
 Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other constants,
-3 the photographs, the checkpoint or the configuration cannot be read,
+3 the photographs, the checkpoint or the configuration cannot be read, or there are no cameras,
 4 no GPU for --device cuda, 5 interrupted, or the scene cannot be written.)");
   add_dataset_argument(command, options->dataset).required(false);
   options->is_given = [command](const char* option) { return command.option(option).is_given(); };
@@ -371,6 +446,7 @@ Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other con
                     [options](std::uint64_t bytes) { options->job.training.max_memory = bytes; });
   add_file_options(command, *options);
   add_config_options(command, options->job.training);
+  add_camera_options(command, options->cameras);
   command
       .add_option("--threads", options->job.threads,
                   "number of processor threads; one per core by default")

@@ -68,6 +68,7 @@ set(arrows
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
   "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
+  "jobs/cameras: base image scene formats/*"
   "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
   "jobs/report: base"
   "jobs/training: base image scene formats formats/dataset runtime/gl jobs/eval trainer/*"

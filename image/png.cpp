@@ -105,7 +105,47 @@ const char* other_kind(std::span<const std::byte> bytes) {
   return nullptr;
 }
 
+void refuse_other_kind(std::span<const std::byte> bytes, const std::string& name) {
+  if (const char* kind = other_kind(bytes))
+    throw InputError({name}, "a " + std::string(kind) + " image is not supported",
+                     "convert it, for example with: magick " + name + " " +
+                         std::filesystem::path(name).replace_extension(".png").string());
+}
+
+/// The size of a PNG or JPEG by its header. Throws InputError if there is none, or beyond the
+/// limits.
+std::pair<int, int> stored_size(std::span<const std::byte> bytes, const std::string& name) {
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
+  if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
+    // stb does not return the size of a PNG beyond its limits, so it is read from the header.
+    const auto side = [&](std::size_t at) { return png_number(bytes.subspan(at)); };
+    if (size >= 24 && is_png(bytes) &&
+        (std::uint64_t(side(16)) * side(20) > max_image_pixels ||
+         std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
+      throw InputError({name}, beyond(side(16), side(20)));
+    refuse_damaged(bytes, name);
+    if (const auto stray = stray_text(bytes.first(std::min<std::size_t>(bytes.size(), 512))))
+      throw InputError({name}, stray->reason, stray->hint);
+    throw InputError({name}, "not a PNG, JPEG or WebP image: " + reason_of_stb());
+  }
+  if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
+      std::size_t(width) * height > max_image_pixels)
+    throw InputError({name}, beyond(width, height));
+  return {width, height};
+}
+
 }  // namespace
+
+glm::ivec2 image_size(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.size() > std::size_t(INT_MAX)) throw InputError({name}, "the image file exceeds 2 GiB");
+  if (is_webp(bytes)) return webp_size(bytes, name);
+  refuse_other_kind(bytes, name);
+  const auto [width, height] = stored_size(bytes, name);
+  return {width, height};
+}
 
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                     MemoryBudget budget) {
@@ -114,10 +154,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   };
   if (bytes.size() > std::size_t(INT_MAX)) fail("the image file exceeds 2 GiB");
   if (is_webp(bytes)) return decode_webp(bytes, name, std::move(budget));
-  if (const char* kind = other_kind(bytes))
-    fail("a " + std::string(kind) + " image is not supported",
-         "convert it, for example with: magick " + name + " " +
-             std::filesystem::path(name).replace_extension(".png").string());
+  refuse_other_kind(bytes, name);
   if (const auto table = oversized_huffman_table(bytes)) {
     if (table->in_header)
       throw InputError({name, table->byte, {}},
@@ -125,27 +162,10 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     // The table is damage, or data after the image. The decoder gets only the bytes before it.
     bytes = bytes.first(static_cast<std::size_t>(table->byte));
   }
+  auto [width, height] = stored_size(bytes, name);
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  {
-    const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
-      // stb does not return the size of a PNG beyond its limits, so it is read from the header.
-      const auto side = [&](std::size_t at) { return png_number(bytes.subspan(at)); };
-      if (size >= 24 && is_png(bytes) &&
-          (std::uint64_t(side(16)) * side(20) > max_image_pixels ||
-           std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
-        fail(beyond(side(16), side(20)));
-      refuse_damaged(bytes, name);
-      if (const auto stray = stray_text(bytes.first(std::min<std::size_t>(bytes.size(), 512))))
-        fail(stray->reason, stray->hint);
-      fail("not a PNG, JPEG or WebP image: " + reason_of_stb());
-    }
-  }
-  if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
-      std::size_t(width) * height > max_image_pixels)
-    fail(beyond(width, height));
+  int channels = 0;
   refuse_damaged(bytes, name);
   PassingMemory passing(budget);
   const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);

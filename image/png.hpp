@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ inline constexpr std::size_t max_image_pixels = std::size_t(1) << 28;
 /// budget.
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                     MemoryBudget budget = MemoryBudget());
+
+/// Width and height in pixels. `bytes` may be only the beginning of the file, with its header.
+/// Throws as decode_image().
+glm::ivec2 image_size(std::span<const std::byte> bytes, const std::string& name);
 
 /// decode_image of all bytes of `input` from its position on.
 Image8 read_image(Input& input);

@@ -117,15 +117,30 @@ Process::Process(const std::string& program, const std::vector<std::string>& arg
   } else if (options.input == Input::none) {
     spawn.discard(STDIN_FILENO, O_RDONLY);
   }
-  spawn.write_to(options.output, STDOUT_FILENO);
+  std::array<int, 2> outputs{-1, -1};
+  if (options.received) {
+    outputs = connection();
+    if (outputs[0] < 0) {
+      const int reason = errno;
+      for (const int end : ends)
+        if (end >= 0) close(end);
+      fail(reason, program);
+    }
+    spawn.connect(outputs[1], STDOUT_FILENO);
+  } else {
+    spawn.write_to(options.output, STDOUT_FILENO);
+  }
   spawn.write_to(options.errors, STDERR_FILENO);
   if (own_group_) spawn.make_group();
   pid_t process = -1;
   const int reason = spawn.start(process, program, arguments);
-  if (ends[1] >= 0) close(ends[1]);
+  for (const int theirs : {ends[1], outputs[1]})
+    if (theirs >= 0) close(theirs);
   input_ = ends[0];
+  output_ = outputs[0];
   if (reason != 0) {
     close_input();
+    if (output_ >= 0) close(output_);
     fail(reason, program);
   }
   process_ = process;
@@ -145,6 +160,17 @@ bool Process::send(std::span<const std::byte> bytes) {
       return false;
   }
   return true;
+}
+
+std::size_t Process::receive(std::span<std::byte> bytes) {
+  assert(output_ >= 0);
+  std::size_t filled = 0;
+  while (filled < bytes.size()) {
+    const ssize_t count = read(output_, bytes.data() + filled, bytes.size() - filled);
+    if (count == 0 || (count < 0 && errno != EINTR)) break;
+    if (count > 0) filled += std::size_t(count);
+  }
+  return filled;
 }
 
 bool Process::notice_end(bool waits) {
@@ -180,7 +206,10 @@ void Process::kill() {
   wait();
 }
 
-Process::~Process() { close_input(); }
+Process::~Process() {
+  close_input();
+  if (output_ >= 0) close(output_);
+}
 
 bool Process::ended() { return notice_end(false); }
 

@@ -22,6 +22,8 @@ class Process {
     /// The streams that it writes to. nullptr: the text is discarded.
     std::FILE* output = stdout;
     std::FILE* errors = stderr;
+    /// Its output goes to receive() instead of `output`.
+    bool received = false;
     /// In a group of its own, Ctrl-C in the terminal does not reach it, and the signals below also
     /// reach the programs that it has started.
     bool own_group = false;
@@ -33,12 +35,16 @@ class Process {
           const Options& options);
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  /// Closes its input.
+  /// Closes its input, and our end of its output.
   ~Process();
 
   /// Blocks while the program reads nothing. Returns false if it has closed its input. Asserts
   /// Input::sent.
   bool send(std::span<const std::byte> bytes);
+
+  /// Fills `bytes` with its output; blocks meanwhile. Returns the number of bytes, which is smaller
+  /// only at the end of the output. Asserts Options::received.
+  std::size_t receive(std::span<std::byte> bytes);
 
   bool ended();
   /// Closes its input and waits for its end. Returns the exit code, 128 + N if signal N ended it.
@@ -59,7 +65,7 @@ class Process {
 
   int process_ = -1;
   bool own_group_ = false;
-  int input_ = -1;  // our end of a connection
+  int input_ = -1, output_ = -1;  // our ends of connections
   std::optional<int> exit_code_;
 };
 

@@ -198,6 +198,12 @@ ColmapPoints read_colmap_points(const std::filesystem::path& folder, const Memor
   return points.binary ? read_colmap_points_binary(input) : read_colmap_points_text(input);
 }
 
+std::vector<ColmapTrack> read_colmap_tracks(const std::filesystem::path& folder,
+                                            const MemoryBudget& budget) {
+  Input input = Input::open(folder / "points3D.bin", budget);
+  return read_colmap_tracks_binary(input);
+}
+
 ColmapModel read_colmap(const std::filesystem::path& folder, const MemoryBudget& budget) {
   ColmapModel model = read_colmap_poses(folder, budget);
   model.points = read_colmap_points(folder, budget);

@@ -26,7 +26,8 @@ struct ColmapCamera {
 };
 
 struct ColmapImage {
-  std::string name;  // relative to the folder of images, as spelled in the file
+  std::uint32_t number = 0;  // COLMAP's
+  std::string name;          // relative to the folder of images, as spelled in the file
   std::uint32_t camera = 0;
   glm::dmat4 view_from_world{1.0};
   std::string defect = {};  // of its pose; empty: none
@@ -37,6 +38,13 @@ using ColmapCameras = std::map<std::uint32_t, ColmapCamera>;  // by COLMAP's id
 struct ColmapPoints {
   std::vector<DatasetPoint> points;  // in file order
   std::size_t skipped = 0;           // points with a position that is not finite
+};
+
+/// A point with the images that show it.
+struct ColmapTrack {
+  glm::dvec3 position{0.0};
+  double error = 0;                   // mean distance of its projections from their features, px
+  std::vector<std::uint32_t> images;  // ColmapImage::number, one for each feature
 };
 
 struct ColmapModel {
@@ -77,6 +85,10 @@ ColmapModel read_colmap_poses(const std::filesystem::path& folder,
 ColmapPoints read_colmap_points(const std::filesystem::path& folder,
                                 const MemoryBudget& budget = MemoryBudget());
 
+/// The points of a binary model with the images that show them.
+std::vector<ColmapTrack> read_colmap_tracks(const std::filesystem::path& folder,
+                                            const MemoryBudget& budget = MemoryBudget());
+
 // The individual files, from untrusted bytes.
 
 ColmapCameras read_colmap_cameras_binary(Input& input);
@@ -85,5 +97,6 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input);
 std::vector<ColmapImage> read_colmap_images_text(Input& input);
 ColmapPoints read_colmap_points_binary(Input& input);
 ColmapPoints read_colmap_points_text(Input& input);
+std::vector<ColmapTrack> read_colmap_tracks_binary(Input& input);
 
 }  // namespace tureen

@@ -48,6 +48,28 @@ std::string read_name(Input& input) {
   return name;
 }
 
+/// Its number, position, color, error and count of sightings.
+constexpr std::uint64_t point_bytes = 8 + 3 * 8 + 3 + 8 + 8;
+
+struct PointRecord {
+  glm::dvec3 position;
+  glm::u8vec3 color;
+  double error;             // the mean of its projections
+  std::uint64_t sightings;  // the images that show it, which follow: 8 bytes each
+};
+
+PointRecord read_point(Input& input) {
+  PointRecord point;
+  input.read_value<std::uint64_t>("a point");  // its number
+  const auto position = input.read_value<std::array<double, 3>>("a point");
+  point.position = {position[0], position[1], position[2]};
+  const auto color = input.read_value<std::array<std::uint8_t, 3>>("a point");
+  point.color = {color[0], color[1], color[2]};
+  point.error = input.read_value<double>("a point");
+  point.sightings = read_count(input, 8, "sightings");
+  return point;
+}
+
 }  // namespace
 
 ColmapCameras read_colmap_cameras_binary(Input& input) {
@@ -74,7 +96,7 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
   const std::uint64_t count = read_count(input, 4 + 7 * 8 + 4 + 1 + 8, "images");
   for (std::uint64_t i = 0; i < count; ++i) {
     ColmapImage image;
-    skip(input, std::min<std::uint64_t>(4, input.remaining()));  // the image's number
+    image.number = input.read_value<std::uint32_t>("an image");
     ColmapPoseRecord pose;
     pose.rotation = input.read_value<std::array<double, 4>>("an image");
     pose.translation = input.read_value<std::array<double, 3>>("an image");
@@ -93,19 +115,34 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
 
 ColmapPoints read_colmap_points_binary(Input& input) {
   ColmapPoints read;
-  const std::uint64_t count = read_count(input, 8 + 3 * 8 + 3 + 8 + 8, "points");
+  const std::uint64_t count = read_count(input, point_bytes, "points");
   input.make_room_in(read.points, count, "the points");
   for (std::uint64_t i = 0; i < count; ++i) {
-    input.read_value<std::uint64_t>("a point");  // its number
-    const auto position = input.read_value<std::array<double, 3>>("a point");
-    const auto color = input.read_value<std::array<std::uint8_t, 3>>("a point");
-    input.read_value<double>("a point");  // the mean error of its projections
-    add_point(read, {position[0], position[1], position[2]}, {color[0], color[1], color[2]});
-    // The images that show it: an image number and a feature number each.
-    skip(input, 8 * read_count(input, 8, "sightings"));
+    const PointRecord point = read_point(input);
+    add_point(read, point.position, point.color);
+    skip(input, 8 * point.sightings);
   }
   expect_end(input, "points");
   return read;
+}
+
+std::vector<ColmapTrack> read_colmap_tracks_binary(Input& input) {
+  std::vector<ColmapTrack> tracks;
+  const std::uint64_t count = read_count(input, point_bytes, "points");
+  input.make_room_in(tracks, count, "the points");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const PointRecord point = read_point(input);
+    ColmapTrack& track = tracks.emplace_back();
+    track.position = point.position;
+    track.error = point.error;
+    input.make_room_in(track.images, point.sightings, "the points");
+    for (std::uint64_t k = 0; k < point.sightings; ++k) {
+      track.images.push_back(input.read_value<std::uint32_t>("a sighting"));
+      input.read_value<std::uint32_t>("a sighting");  // the feature's number in the image
+    }
+  }
+  expect_end(input, "points");
+  return tracks;
 }
 
 }  // namespace tureen

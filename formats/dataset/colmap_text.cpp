@@ -130,7 +130,7 @@ std::vector<ColmapImage> read_colmap_images_text(Input& input) {
   std::vector<ColmapImage> images;
   while (next_record(text)) {
     ColmapImage image;
-    read_number(text, "an image's number");
+    image.number = read_number(text, "an image's number");
     ColmapPoseRecord pose;
     for (double& number : pose.rotation) number = read_double(text, "a rotation");
     for (double& number : pose.translation) number = read_double(text, "a translation");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -26,37 +27,55 @@ bool begins_with(FileBytes bytes, std::string_view text) {
                     [](char c, std::byte b) { return std::byte(c) == b; });
 }
 
-/// The orientation in a TIFF structure: a list of entries of 12 bytes.
-int orientation_of(FileBytes tiff) {
-  const bool big_endian = begins_with(tiff, "MM");
-  if (!big_endian && !begins_with(tiff, "II")) return 1;
-  const std::size_t list = number(tiff, 4, 4, big_endian);
-  const std::size_t entries = number(tiff, list, 2, big_endian);
-  for (std::size_t i = 0; i < entries; ++i) {
-    const std::size_t entry = list + 2 + 12 * i;
-    if (number(tiff, entry, 2, big_endian) != 274) continue;
-    const std::uint32_t value = number(tiff, entry + 8, 2, big_endian);
-    return value >= 1 && value <= 8 ? int(value) : 1;
+/// The TIFF structure of the EXIF data; empty if there is none.
+FileBytes tiff_of(FileBytes file) {
+  using namespace std::string_view_literals;
+  if (number(file, 0, 2, true) != 0xffd8) return {};
+  // Segments: a marker, and a length that includes itself. EXIF precedes the image (marker 0xffda).
+  for (std::size_t at = 2; at + 4 <= file.size();) {
+    const std::uint32_t marker = number(file, at, 2, true), length = number(file, at + 2, 2, true);
+    if (marker < 0xff00 || marker == 0xffda || length < 2) return {};
+    const FileBytes segment =
+        file.subspan(at + 4, std::min<std::size_t>(length - 2, file.size() - at - 4));
+    if (marker == 0xffe1 && begins_with(segment, "Exif\0\0"sv)) return segment.subspan(6);
+    at += 2 + length;
   }
-  return 1;
+  return {};
+}
+
+/// Where the value of a tag stands in a list of entries of 12 bytes; 0: nowhere.
+std::size_t value_of(FileBytes tiff, std::size_t list, std::uint32_t tag, bool big_endian) {
+  const std::size_t entries = number(tiff, list, 2, big_endian);
+  for (std::size_t i = 0; i < entries; ++i)
+    if (number(tiff, list + 2 + 12 * i, 2, big_endian) == tag) return list + 2 + 12 * i + 8;
+  return 0;
 }
 
 }  // namespace
 
 int exif_orientation(FileBytes file) {
-  using namespace std::string_view_literals;
-  if (number(file, 0, 2, true) != 0xffd8) return 1;
-  // Segments: a marker, and a length that includes itself. EXIF precedes the image (marker 0xffda).
-  for (std::size_t at = 2; at + 4 <= file.size();) {
-    const std::uint32_t marker = number(file, at, 2, true), length = number(file, at + 2, 2, true);
-    if (marker < 0xff00 || marker == 0xffda || length < 2) return 1;
-    const FileBytes segment =
-        file.subspan(at + 4, std::min<std::size_t>(length - 2, file.size() - at - 4));
-    if (marker == 0xffe1 && begins_with(segment, "Exif\0\0"sv))
-      return orientation_of(segment.subspan(6));
-    at += 2 + length;
+  const FileBytes tiff = tiff_of(file);
+  const bool big_endian = begins_with(tiff, "MM");
+  if (!big_endian && !begins_with(tiff, "II")) return 1;
+  const std::size_t at = value_of(tiff, number(tiff, 4, 4, big_endian), 274, big_endian);
+  const std::uint32_t value = at ? number(tiff, at, 2, big_endian) : 1;
+  return value >= 1 && value <= 8 ? int(value) : 1;
+}
+
+std::optional<double> exif_focal_length(FileBytes file) {
+  const FileBytes tiff = tiff_of(file);
+  const bool big_endian = begins_with(tiff, "MM");
+  if (!big_endian && !begins_with(tiff, "II")) return std::nullopt;
+  // The first list points to that of the photograph's settings, and its entry to a quotient.
+  std::size_t at = number(tiff, 4, 4, big_endian);
+  for (const std::uint32_t tag : {0x8769u, 0x920au}) {
+    const std::size_t value = value_of(tiff, at, tag, big_endian);
+    if (value == 0) return std::nullopt;
+    at = number(tiff, value, 4, big_endian);
   }
-  return 1;
+  const double above = number(tiff, at, 4, big_endian), below = number(tiff, at + 4, 4, big_endian);
+  if (!(above > 0 && below > 0)) return std::nullopt;
+  return above / below;
 }
 
 Image8 turned(const Image8& image, int orientation) {

@@ -1,7 +1,8 @@
-// The orientation that a JPEG's EXIF data give (CIPA DC-008, tag 274).
+// Orientation and focal length that a JPEG's EXIF data give (CIPA DC-008, tags 274 and 37386).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "image/image.hpp"
@@ -10,6 +11,10 @@ namespace tureen {
 
 /// 1 to 8; 1, as the pixels are stored, if the file has none or is no JPEG. Any bytes are safe.
 int exif_orientation(std::span<const std::byte> file);
+
+/// The focal length in millimetres, more than 0. `file` may be only the beginning. Any bytes are
+/// safe.
+std::optional<double> exif_focal_length(std::span<const std::byte> file);
 
 /// The image as a viewer shows it with this orientation, 1 to 8.
 Image8 turned(const Image8& image, int orientation);

@@ -31,25 +31,35 @@ bool is_webp(std::span<const std::byte> bytes) {
 Image8 decode_webp(std::span<const std::byte>, const std::string& name, MemoryBudget) {
   throw InputError({name}, "WebP images are not supported here");
 }
+glm::ivec2 webp_size(std::span<const std::byte>, const std::string& name) {
+  throw InputError({name}, "WebP images are not supported here");
+}
 #else
+glm::ivec2 webp_size(std::span<const std::byte> bytes, const std::string& name) {
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                      &features) != VP8_STATUS_OK)
+    throw InputError({name}, "the WebP image is damaged");
+  if (features.has_animation)
+    throw InputError({name}, "the WebP file is an animation, not an image");
+  return {features.width, features.height};
+}
+
 Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget budget) {
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
     throw InputError({name}, reason, hint);
   };
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  WebPBitstreamFeatures features;
-  if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
-    fail("the WebP image is damaged");
-  if (features.has_animation) fail("the WebP file is an animation, not an image");
+  const glm::ivec2 sides = webp_size(bytes, name);
   const std::string what =
-      "an image of " + std::to_string(features.width) + " x " + std::to_string(features.height);
+      "an image of " + std::to_string(sides.x) + " x " + std::to_string(sides.y);
   // The result, and as much for the decoder, which holds the whole image of lossless files.
-  const std::uint64_t size = std::uint64_t(features.width) * std::uint64_t(features.height) * 4;
+  const std::uint64_t size = std::uint64_t(sides.x) * std::uint64_t(sides.y) * 4;
   PassingMemory passing(budget);
   if (!budget.take(size, 2)) fail(budget.refusal(what), max_memory_hint);
-  Image8 image(features.width, features.height);
+  Image8 image(sides.x, sides.y);
   if (!WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(image.pixels.data()),
-                          size, features.width * 4))
+                          size, sides.x * 4))
     fail("the WebP image is damaged");
   passing.keep(size);
   return image;

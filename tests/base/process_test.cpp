@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/platform/program_folder.hpp"
 
@@ -62,6 +63,21 @@ TEST(Processes, ReadWhatIsSent) {
   EXPECT_FALSE(copy.ended());
   EXPECT_EQ(copy.wait(), 0);
   EXPECT_EQ(text_in(output), "first second");
+}
+
+TEST(Processes, OutputIsReceivedToItsEnd) {
+  Process long_one("sh", {"-c", "head -c 300000 /dev/zero; printf end"},
+                   {.input = Process::Input::none, .received = true});
+  std::vector<std::byte> bytes(200'000);
+  EXPECT_EQ(long_one.receive(bytes), 200'000u);
+  EXPECT_EQ(long_one.receive(bytes), 100'003u);
+  EXPECT_EQ(bytes[100'002], std::byte('d'));
+  EXPECT_EQ(long_one.receive(bytes), 0u);
+  EXPECT_EQ(long_one.wait(), 0);
+  // One that is killed while nobody reads its output.
+  Process endless("cat", {"/dev/zero"}, {.input = Process::Input::none, .received = true});
+  EXPECT_EQ(endless.receive(bytes), bytes.size());
+  endless.kill();
 }
 
 TEST(Processes, SendingToOneThatHasEndedFailsWithoutASignal) {

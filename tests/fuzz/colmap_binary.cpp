@@ -1,4 +1,4 @@
-// COLMAP's binary files. The first byte selects one of the three.
+// COLMAP's binary files. The first byte selects one of the four readers.
 #include "formats/dataset/colmap.hpp"
 #include "tests/fuzz/targets.hpp"
 
@@ -7,7 +7,7 @@ namespace tureen::fuzz {
 void colmap_binary(Bytes bytes) {
   if (bytes.empty()) return;
   Input input = Input::memory("fuzz.bin", bytes.subspan(1));
-  switch (std::to_integer<int>(bytes[0]) % 3) {
+  switch (std::to_integer<int>(bytes[0]) % 4) {
     case 0:
       // Readers of datasets skip the photographs of a camera with a defect.
       for (const auto& [number, camera] : read_colmap_cameras_binary(input))
@@ -16,8 +16,11 @@ void colmap_binary(Bytes bytes) {
     case 1:
       read_colmap_images_binary(input);
       return;
-    default:
+    case 2:
       read_colmap_points_binary(input);
+      return;
+    default:
+      read_colmap_tracks_binary(input);
   }
 }
 

@@ -351,6 +351,7 @@ void add_cameras(Collection& all) {
   all.add("colmap_binary", "cameras", with_first_byte(0, test::binary_cameras(model)));
   all.add("colmap_binary", "images", with_first_byte(1, test::binary_images(model)));
   all.add("colmap_binary", "points", with_first_byte(2, test::binary_points(model)));
+  all.add("colmap_binary", "tracks", with_first_byte(3, test::binary_points(model)));
   all.add("colmap_text", "cameras", with_first_byte(0, content(test::text_cameras(model))));
   all.add("colmap_text", "images", with_first_byte(1, content(test::text_images(model))));
   all.add("colmap_text", "points", with_first_byte(2, content(test::text_points(model))));

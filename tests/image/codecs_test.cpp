@@ -109,6 +109,28 @@ TEST(Exif, OrientationIsFoundInBothByteOrders) {
   EXPECT_EQ(exif_orientation({}), 1);
 }
 
+/// A JPEG whose EXIF data have the focal length 5.25 mm, as 21 / 4.
+std::vector<std::byte> jpeg_with_focal_length() {
+  std::vector<std::byte> bytes;
+  for (const int
+           value : {0xff, 0xd8, 0xff, 0xe1, 0, 60, 'E', 'x',  'i',  'f',  0, 0,  //
+                    'M',  'M',  0,    42,   0, 0,  0,   8,  // the first list is at 8
+                    0,    1,    0x87, 0x69, 0, 4,  0,   0,    0,    1,    0, 0, 0,
+                    26,   0,    0,    0,    0, 0,  1,   0x92, 0x0a, 0,    5, 0, 0,
+                    0,    1,    0,    0,    0, 44, 0,   0,    0,    0,  // the second one at 26
+                    0,    0,    0,    21,   0, 0,  0,   4,    0xff, 0xda, 0, 2})
+    bytes.push_back(std::byte(value));
+  return bytes;
+}
+
+TEST(Exif, FocalLengthIsFound) {
+  const std::vector<std::byte> whole = jpeg_with_focal_length();
+  EXPECT_EQ(exif_focal_length(whole), 5.25);
+  for (std::size_t size = 0; size + 4 < whole.size(); ++size)
+    EXPECT_FALSE(exif_focal_length(std::span(whole).first(size))) << size;
+  EXPECT_FALSE(exif_focal_length(jpeg_with(6, true)));
+}
+
 TEST(Exif, TurnsAsTheStandardSays) {
   // 1 2 3
   // 4 5 6

@@ -319,7 +319,8 @@ TEST(Colmap, ChecksCountsAgainstTheBytes) {
   const std::function<void(Input&)> readers[] = {
       [](Input& input) { read_colmap_cameras_binary(input); },
       [](Input& input) { read_colmap_images_binary(input); },
-      [](Input& input) { read_colmap_points_binary(input); }};
+      [](Input& input) { read_colmap_points_binary(input); },
+      [](Input& input) { read_colmap_tracks_binary(input); }};
   for (const auto& read : readers) {
     Input input = input_of_bytes(bytes, "x.bin");
     EXPECT_THAT(error_of([&] { read(input); }), ErrorAt("x.bin@0", "1152921504606846976"));
@@ -356,7 +357,8 @@ TEST(Colmap, SurvivesTruncationAndDamage) {
   const std::pair<std::vector<std::byte>, Read> files[] = {
       {binary_cameras(varied()), reading(read_colmap_cameras_binary)},
       {binary_images(varied()), reading(read_colmap_images_binary)},
-      {binary_points(varied()), reading(read_colmap_points_binary)}};
+      {binary_points(varied()), reading(read_colmap_points_binary)},
+      {binary_points(varied()), reading(read_colmap_tracks_binary)}};
   for (const auto& [bytes, read] : files) {
     EXPECT_NO_THROW(read(bytes));
     EXPECT_EQ(survive_truncation(bytes, read).read, 0u);
@@ -383,7 +385,8 @@ TEST(Colmap, SurvivesRandomDamage) {
   const std::pair<std::vector<std::byte>, Read> files[] = {
       {binary_cameras(varied()), reading(read_colmap_cameras_binary)},
       {binary_images(varied()), reading(read_colmap_images_binary)},
-      {binary_points(varied()), reading(read_colmap_points_binary)}};
+      {binary_points(varied()), reading(read_colmap_points_binary)},
+      {binary_points(varied()), reading(read_colmap_tracks_binary)}};
   const unsigned seed = 11;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
