@@ -11,6 +11,7 @@
 #include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/mesh/mesh_remarks.hpp"
+#include "formats/sog/sog_remarks.hpp"
 #include "formats/splat/splat_remarks.hpp"
 #include "formats/torch/checkpoint_remarks.hpp"
 #include "formats/tureen_glb/tureen_glb_remarks.hpp"
@@ -74,6 +75,7 @@ const std::vector<Remark> every_kind{
     {&remarks::octagon_q_assumed, {{"q", 4.0}}},
     {&remarks::near_limit_lowered, {{"radius", 0.1}, {"published", 0.2}, {"limit", 0.01}}},
     {&remarks::filter_applied},
+    {&remarks::level_chosen, {{"levels", 7}, {"level", 1}, {"splats", 250000}, {"finest", 500000}}},
     {&remarks::splat_extensions_ignored, {{"extensions", Counts{3, 258}}}},
     {&remarks::preset_applied, {{"edits", Names{"seal", "sort"}}}},
     {&remarks::preset_keys_ignored, {{"keys", Names{"a"}}}},
