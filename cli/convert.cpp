@@ -16,8 +16,10 @@
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/options/scene_argument.hpp"
+#include "cli/options/values.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "jobs/conversion/conversion_loss.hpp"
 
 namespace tureen::cli {
 
@@ -35,6 +37,8 @@ struct ConvertOptions {
   std::string layer;                // the only layer to write; empty: all
   bool force = false;
   bool json = false;
+  bool no_measure = false;
+  WriteOptions writing;
   Edits edits;
   QualityOptions quality;
   CompressArguments compressed;
@@ -136,13 +140,33 @@ Json figures_of(const Scene& scene, const std::vector<std::string>& lost) {
           {"lost", lost}};
 }
 
+/// Draws the scene and what was written of it. Prints the loss and adds it to the JSON.
+void measure(const Scene& scene, const ConvertOptions& options, const fs::path& file, Json& json) {
+  ReadOptions reading;
+  reading.octagon_q = options.scene.choice.octagon_q;
+  Scene stored = read_scene(file, reading);
+  ConversionLoss loss;
+  {
+    Progress progress("comparing images");
+    loss = conversion_loss(scene, stored, [&](double done) { progress.update(done); });
+  }
+  say(fmt::format(
+      "images of {}: PSNR {:.2f} dB against the source over {} views, at least {:.2f} dB",
+      options.output, loss.psnr_db, loss.views, loss.worst_psnr_db));
+  json["loss"] = {
+      {"views", loss.views}, {"psnr_db", loss.psnr_db}, {"worst_psnr_db", loss.worst_psnr_db}};
+}
+
 /// Writes `file` in the format of its extension. Prints the losses and returns them as JSON.
 Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   if (options.compressed.compressed)
     return convert_compressed(std::move(scene), options.compressed, file);
-  const std::vector<std::string> lost = write_scene(scene, file);
+  const std::vector<std::string> lost = write_scene(scene, file, options.writing);
   say_list("Lost in " + options.output + ":", lost);
-  return figures_of(scene, lost);
+  Json figures = figures_of(scene, lost);
+  if (!options.no_measure && is_quantised(file) && is_measurable(scene))
+    measure(scene, options, file, figures);
+  return figures;
 }
 
 /// Whether the page can contain the scene's file unchanged.
@@ -214,8 +238,10 @@ std::string written_formats() {
 void add_convert(Command& program) {
   auto options = std::make_shared<ConvertOptions>();
   Command command = program.add_command("convert", "Write a scene in another format");
-  command.footer("The extension of OUT determines the format:\n" + written_formats() +
-                 R"(The command omits data that the format cannot store, and prints these losses.
+  command.footer(
+      "The extension of OUT determines the format:\n" + written_formats() +
+      R"(The command omits data that the format cannot store, and prints these losses. If the format rounds
+splats, it draws 16 views of the source and of OUT, and prints their PSNR.
 
 With -o OUT, all other arguments are scenes, and each becomes a layer of one scene. Only .glb and
 .html store several layers.
@@ -245,6 +271,12 @@ Examples:
   command.add_option("--layer NAME", options->layer, "write only this layer, with its transform");
   add_reading_options(command, options->scene.choice);
   add_memory_option(command);
+  command.add_flag(
+      "--no-measure", options->no_measure,
+      "do not compare images of the source and of OUT, where its format rounds splats");
+  command.add_option("--spz-version N", options->writing.spz_version,
+                     "version of .spz: 4 (default), or 3 for programs that do not know 4",
+                     between(3.0, 4.0));
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json,
                    "print the output and the losses as JSON to standard output");

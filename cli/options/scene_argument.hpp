@@ -20,13 +20,14 @@ struct ReadingChoice {
   std::string_view profile;  // of named_profiles, for all splats; empty: the scene's own
   std::optional<double> octagon_q = {};          // ReadOptions::octagon_q
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
+  std::optional<std::size_t> lod = {};           // ReadOptions::lod
   bool keep_rows = false;                        // ReadOptions::keep_rows; not an option
 
   bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds --vertex-colors, --up, --octagon-q, --profile and --max-splats. `choice` must live until
-/// the arguments are parsed.
+/// Adds --vertex-colors, --up, --octagon-q, --profile, --lod and --max-splats. `choice` must live
+/// until the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
 
 struct SceneArgument {
