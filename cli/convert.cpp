@@ -22,6 +22,7 @@
 #include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "jobs/conversion/conversion_loss.hpp"
 #include "scene/edit/moved_scene.hpp"
 #include "scene/similarity.hpp"
 
@@ -44,6 +45,8 @@ struct ConvertOptions {
   std::string view;  // the first view to store: an index or "FILE:3"; empty: the scene's own
   bool force = false;
   bool json = false;
+  bool no_measure = false;
+  WriteOptions writing;
   Edits edits;
   QualityOptions quality;
   MaterialChoices materials;
@@ -175,13 +178,33 @@ Json figures_of(const Scene& scene, const std::vector<std::string>& lost) {
           {"lost", lost}};
 }
 
+/// Draws the scene and what was written of it. Prints the loss and adds it to the JSON.
+void measure(const Scene& scene, const ConvertOptions& options, const fs::path& file, Json& json) {
+  ReadOptions reading;
+  reading.octagon_q = options.scene.choice.octagon_q;
+  Scene stored = read_scene(file, reading);
+  ConversionLoss loss;
+  {
+    Progress progress("comparing images");
+    loss = conversion_loss(scene, stored, [&](double done) { progress.update(done); });
+  }
+  say(fmt::format(
+      "images of {}: PSNR {:.2f} dB against the source over {} views, at least {:.2f} dB",
+      options.output, loss.psnr_db, loss.views, loss.worst_psnr_db));
+  json["loss"] = {
+      {"views", loss.views}, {"psnr_db", loss.psnr_db}, {"worst_psnr_db", loss.worst_psnr_db}};
+}
+
 /// Writes `file` in the format of its extension. Prints the losses and returns them as JSON.
 Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   if (options.compressed.compressed)
     return convert_compressed(std::move(scene), options.compressed, file);
-  const std::vector<std::string> lost = write_scene(scene, file);
+  const std::vector<std::string> lost = write_scene(scene, file, options.writing);
   say_list("Lost in " + options.output + ":", lost);
-  return figures_of(scene, lost);
+  Json figures = figures_of(scene, lost);
+  if (!options.no_measure && is_quantised(file) && is_measurable(scene))
+    measure(scene, options, file, figures);
+  return figures;
 }
 
 /// Whether the page can contain the scene's file unchanged.
@@ -286,8 +309,10 @@ void add_moving_options(Command& command, ConvertOptions& options) {
 void add_convert(Command& program) {
   auto options = std::make_shared<ConvertOptions>();
   Command command = program.add_command("convert", "Write a scene in another format");
-  command.footer("The extension of OUT determines the format:\n" + written_formats() +
-                 R"(The command omits data that the format cannot store, and prints these losses.
+  command.footer(
+      "The extension of OUT determines the format:\n" + written_formats() +
+      R"(The command omits data that the format cannot store, and prints these losses. If the format rounds
+splats, it draws 16 views of the source and of OUT, and prints their PSNR.
 
 With -o OUT, all other arguments are scenes, and each becomes a layer of one scene. Only .glb and
 .html store several layers.
@@ -331,6 +356,12 @@ Examples:
                      "store the view that programs show first: the index of a recorded camera, or "
                      "FILE[:N] as for render --camera");
   add_memory_option(command);
+  command.add_flag(
+      "--no-measure", options->no_measure,
+      "do not compare images of the source and of OUT, where its format rounds splats");
+  command.add_option("--spz-version N", options->writing.spz_version,
+                     "version of .spz: 4 (default), or 3 for programs that do not know 4",
+                     between(3.0, 4.0));
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json,
                    "print the output and the losses as JSON to standard output");

@@ -22,9 +22,13 @@ set(arrows
   "formats/diffsoup: base image scene formats/read_options.hpp formats/common formats/ply"
   "formats/gltf: base image scene formats/read_options.hpp formats/common formats/glb"
   "formats/mesh: base image scene formats/read_options.hpp formats/common formats/ply"
-  "formats/splat: base image scene formats/read_options.hpp formats/common formats/archive formats/ply"
+  # Every reader of splats builds them by it, every writer begins with it.
+  "formats/splat/splat_builder.* formats/splat/splat_writing.* formats/splat/splat_remarks.hpp: base scene formats/read_options.hpp formats/common"
+  "formats/sog: base image scene formats/read_options.hpp formats/common formats/archive formats/splat/splat_builder.*"
+  "formats/splat: base image scene formats/read_options.hpp formats/common formats/archive formats/ply formats/splat/splat_builder.*"
   "formats/torch: base image scene formats/read_options.hpp formats/common formats/archive"
   "formats/tureen_glb: base image scene formats/read_options.hpp formats/common formats/glb"
+  "formats/usd: base scene formats/read_options.hpp formats/common formats/archive formats/splat/splat_builder.*"
   "formats: base image scene formats/*"
 
   "oracle: base image scene"
@@ -70,6 +74,7 @@ set(arrows
   "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
   "jobs/cameras: base image scene formats/*"
   "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
+  "jobs/conversion: image scene camera runtime/splats"
   "jobs/report: base"
   "jobs/training: base image scene formats formats/dataset runtime/gl jobs/eval trainer/*"
 

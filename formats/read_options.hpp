@@ -1,6 +1,7 @@
 // Options of all readers. A reader applies those that concern its format.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -18,6 +19,9 @@ struct ReadOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
   /// Q > 0 of octagon meshes (formats/splat/octagon_npz.hpp). nullopt: 4, with a remark.
   std::optional<double> octagon_q = {};
+  /// Level of detail of a streamed SOG, 0 is the finest (formats/sog/sog.hpp). nullopt: the finest
+  /// that fits, with a remark.
+  std::optional<std::size_t> lod = {};
   /// Maximum number of splats, at least 1. The reader keeps those that contribute the most
   /// (scene/edit/splat_limit.hpp), with a remark. Readers of splat files hold an eighth more while
   /// they read, that of our GLB all shapes, but only the kept colours, others everything.

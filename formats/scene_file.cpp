@@ -11,16 +11,21 @@
 #include "formats/gltf/gltf.hpp"
 #include "formats/gltf_file.hpp"
 #include "formats/mesh/mobilenerf.hpp"
+#include "formats/mesh/obj.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/plain_mesh.hpp"
 #include "formats/mesh/stray_content.hpp"
 #include "formats/ply/ply_header.hpp"
 #include "formats/ply_file.hpp"
+#include "formats/sog/sog.hpp"
+#include "formats/splat/compressed_ply.hpp"
+#include "formats/splat/ksplat.hpp"
 #include "formats/splat/octagon_npz.hpp"
 #include "formats/splat/splat_records.hpp"
 #include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/usd/usd.hpp"
 #include "scene/edit/splat_limit.hpp"
 #include "scene/near_limit.hpp"
 
@@ -43,27 +48,42 @@ constexpr bool in_browser = true;
 #else
 constexpr bool in_browser = false;
 #endif
-/// A page writes no files. Without the writers, its program is 4 % smaller.
-constexpr bool writes_files = !in_browser;
 
 struct Format {
   const char* name = "";
   const char* description = "";
   std::vector<const char*> read_extensions{}, written_extensions{};  // lower case
-  bool is_folder = false;
+  bool is_folder = false;  // as it is read; written if there are no written extensions
   bool (*recognises)(const Candidate&) = nullptr;
   Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: write only
   std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&,
-                                    const std::function<void(double)>& progress) = nullptr;
+                                    const WriteOptions&) = nullptr;
   glm::vec3 (*assumed_up)(const Scene&) = nullptr;  // null: files store the up axis
+  bool is_quantised = false;  // rounds splats so that images show it
 };
 
-/// A writer that does not report its progress.
-template <auto write>
-std::vector<std::string> silent(const Scene& scene, const std::filesystem::path& path,
-                                const std::function<void(double)>&) {
-  return write(scene, path);
+/// A writer without options. A page writes no files: without the writers, its program is 4 %
+/// smaller.
+#ifdef __EMSCRIPTEN__
+template <auto Write>
+constexpr decltype(Format::write) plainly = nullptr;
+#else
+template <auto Write>
+constexpr decltype(Format::write) plainly = [](const Scene& scene,
+                                               const std::filesystem::path& path,
+                                               const WriteOptions&) { return Write(scene, path); };
+#endif
+
+#ifdef __EMSCRIPTEN__
+constexpr decltype(Format::write) write_glb = nullptr;
+#else
+std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
+                                   const WriteOptions& options) {
+  return write_tureen_glb(scene, path, options.progress);
 }
+#endif
+
+glm::vec3 up_of_splats(const Scene&) { return splat_up; }
 
 /// In the order of recognition: the first format that recognises a file reads it.
 const std::vector<Format>& formats() {
@@ -75,36 +95,67 @@ const std::vector<Format>& formats() {
        .written_extensions = {".glb"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
        .read = read_gltf_or_glb,
-       .write = writes_files ? write_tureen_glb : nullptr},
+       .write = write_glb},
       {.name = "OFF",
        .description = "triangles with one colour per face or vertex, as text",
        .read_extensions = {".off", ".coff"},
        .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        .read = read_off,
-       .write = writes_files ? silent<write_off> : nullptr,
+       .write = plainly<write_off>,
        .assumed_up = [](const Scene&) { return assumed_up; }},
+#ifndef __EMSCRIPTEN__
+      // Before PLY, which reads it: it is chosen by its longer extension.
+      {.name = "compressed PLY",
+       .description = "Gaussians and discs in 16 bytes, and harmonics in bytes (PlayCanvas)",
+       .written_extensions = {".compressed.ply"},
+       .recognises = [](const Candidate&) { return false; },
+       .write = plainly<write_compressed_ply>,
+       .assumed_up = up_of_splats,
+       .is_quantised = true},
+#endif
       {.name = "PLY",
        .description = "triangles with one colour per face or vertex, or splats (3DGS, 2DGS, GaMeS, "
-                      "SplatNet; compressed PLY is only read)",
+                      "SplatNet)",
        .read_extensions = {".ply"},
        .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
        .read = read_ply,
-       .write = writes_files ? silent<write_ply> : nullptr,
+       .write = plainly<write_ply>,
        .assumed_up = assumed_up_of_ply},
       {.name = "DiffSoup export",
        .description = "lattice textures and a color MLP, for the web",
        .is_folder = true,
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
-       .write = writes_files ? silent<write_diffsoup_export> : nullptr},
+       .write = plainly<write_diffsoup_export>},
 #ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
       {.name = "octagon mesh",
        .description = "REdiSplats: octagons as flat Gaussians",
        .read_extensions = {".npz"},
+       .written_extensions = {".npz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_octagon_npz(c.head); },
-       .read = read_octagon_npz},
+       .read = read_octagon_npz,
+       .write = plainly<write_octagon_npz>,
+       .assumed_up = up_of_splats},
+      {.name = "USD",
+       .description = "Gaussians and discs as fields of particles (UsdVol), as text; experimental",
+       .read_extensions = {".usda", ".usdz", ".usd", ".usdc"},
+       .written_extensions = {".usda", ".usdz"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_usd(c.head); },
+       .read = read_usd,
+       .write = plainly<write_usd>},
+      {.name = "SOG",
+       .description = "Gaussians as lossless WebP images, also streamed with levels of detail; a "
+                      "folder, its meta.json or lod-meta.json, or an archive",
+       .read_extensions = {".sog", ".ssog"},
+       .written_extensions = {".sog"},
+       .is_folder = true,
+       .recognises = [](const Candidate& c) { return is_sog(c.path, c.head); },
+       .read = read_sog,
+       .write = plainly<write_sog>,
+       .assumed_up = up_of_splats,
+       .is_quantised = true},
       {.name = "checkpoint",
        .description = "Torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .read_extensions = {".pt"},
@@ -113,15 +164,37 @@ const std::vector<Format>& formats() {
       {.name = "SPZ",
        .description = "Gaussians, quantised and compressed",
        .read_extensions = {".spz"},
+       .written_extensions = {".spz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_spz(c.head); },
-       .read = read_spz},
+       .read = read_spz,
+       .write =
+           [](const Scene& scene, const std::filesystem::path& path, const WriteOptions& options) {
+             return write_spz(scene, path, options.spz_version);
+           },
+       .assumed_up = up_of_splats,
+       .is_quantised = true},
+      {.name = ".ksplat",
+       .description = "Gaussians in buckets (GaussianSplats3D)",
+       .read_extensions = {".ksplat"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_ksplat(c.path); },
+       .read = read_ksplat},
+      {.name = "OBJ",
+       .description = "triangles with one colour per vertex, as text",
+       .written_extensions = {".obj"},
+       .recognises = [](const Candidate&) { return false; },
+       .write = plainly<write_obj>,
+       .assumed_up = [](const Scene&) { return assumed_up; }},
 #endif
       {.name = ".splat",
        .description = "Gaussians of one colour in records of 32 bytes, without a header",
        .read_extensions = {".splat"},
+       .written_extensions = {".splat"},
        .recognises =
            [](const Candidate& c) { return !c.is_folder && is_splat_records(c.path, c.head); },
-       .read = read_splat_records},
+       .read = read_splat_records,
+       .write = plainly<write_splat_records>,
+       .assumed_up = up_of_splats,
+       .is_quantised = true},
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file in it",
        .read_extensions = {".obj"},
@@ -149,7 +222,8 @@ std::string listed(Direction direction) {
   for (const Format& format : formats()) {
     const bool is_read = direction == Direction::read;
     if (is_read ? !format.read : !format.write) continue;
-    std::string kinds = format.is_folder ? "folder" : "";
+    const bool is_folder = is_read ? format.is_folder : format.written_extensions.empty();
+    std::string kinds = is_folder ? "folder" : "";
     for (const char* extension : is_read ? format.read_extensions : format.written_extensions)
       kinds += (kinds.empty() ? "" : ", ") + std::string(extension);
     names.push_back(std::string(format.name) + " (" + kinds + ")");
@@ -202,14 +276,26 @@ std::string nothing_in(const Scene& scene) {
   return "the file holds no triangles";
 }
 
+/// The longest extension of a format with which the name ends, such as .compressed.ply; otherwise
+/// the last one.
+std::string written_extension(const std::filesystem::path& path) {
+  std::string name = path.filename().string(), found = extension_of(path);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  for (const Format& format : formats())
+    for (const std::string extension : format.written_extensions)
+      if (extension.size() > found.size() && name.ends_with(extension)) found = extension;
+  return found;
+}
+
 /// The format by extension.
 const Format& format_to_write(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = written_extension(path);
   // A .gltf would store its bytes in a second file.
   if (extension == ".gltf") throw UsageError("glTF is written as .glb only");
   for (const Format& format : formats())
-    if (format.write &&
-        (extension.empty() ? format.is_folder : contains(format.written_extensions, extension)))
+    if (format.write && (extension.empty() ? format.written_extensions.empty()
+                                           : contains(format.written_extensions, extension)))
       return format;
   throw UsageError((extension.empty() ? "the output name has no extension, so its format is unknown"
                                       : "no output format has the extension " + extension),
@@ -257,8 +343,8 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
 void require_written_format(const std::filesystem::path& path) { format_to_write(path); }
 
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
-                                     const std::function<void(double)>& progress) {
-  return format_to_write(path).write(scene, path, progress);
+                                     const WriteOptions& options) {
+  return format_to_write(path).write(scene, path, options);
 }
 
 std::optional<glm::vec3> assumed_up_of(const Scene& scene, const std::filesystem::path& path) {
@@ -266,6 +352,8 @@ std::optional<glm::vec3> assumed_up_of(const Scene& scene, const std::filesystem
   if (!format.assumed_up) return std::nullopt;
   return format.assumed_up(scene);
 }
+
+bool is_quantised(const std::filesystem::path& path) { return format_to_write(path).is_quantised; }
 
 std::vector<FormatInfo> known_formats() {
   std::vector<FormatInfo> infos;

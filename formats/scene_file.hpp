@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/read_options.hpp"
+#include "formats/write_options.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -15,21 +16,22 @@ namespace tureen {
 /// Whether a reader recognises the content. Throws InputError if the path cannot be opened.
 bool is_scene(const std::filesystem::path& path);
 
-/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .coff, .ply, .splat, .spz, .npz,
-/// a DiffSoup export folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has
-/// triangles or splats, and no defect(). Throws InputError.
+/// Reads any scene of known_formats(). The scene has triangles or splats, and no defect(). Throws
+/// InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Throws UsageError if write_scene would reject the name.
 void require_written_format(const std::filesystem::path& path);
 
-/// Writes by the extension of `path`: .glb, .off, .coff, .ply, or a DiffSoup export folder if there
-/// is none. The output is complete or absent. Returns one sentence for each loss of the format.
-/// Throws UsageError if the format cannot store this scene or the extension is unknown. Throws
-/// OutputError if the output cannot be written. `progress`: as that of write_tureen_glb(); other
-/// formats do not call it.
+/// Writes by the extension of `path`, the longest that a format has; a DiffSoup export folder if
+/// there is none. The output is complete or absent. Returns one sentence for each loss of the
+/// format. Throws UsageError if the format cannot store this scene or the extension is unknown.
+/// Throws OutputError if the output cannot be written.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
-                                     const std::function<void(double)>& progress = {});
+                                     const WriteOptions& options = {});
+
+/// Whether the format of this extension stores splats with a loss that images show.
+bool is_quantised(const std::filesystem::path& path);
 
 /// The up axis that readers assume of this scene in the format of `path`, which stores none;
 /// nullopt if it stores the axis. Throws UsageError like require_written_format().

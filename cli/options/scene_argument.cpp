@@ -40,6 +40,7 @@ Scene read_file(const std::string& name, const ReadingChoice& choice) {
   options.vertex_colors = choice.vertex_colors;
   options.octagon_q = choice.octagon_q;
   options.max_splats = choice.max_splats;
+  options.lod = choice.lod;
   options.keep_rows = choice.keep_rows;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
@@ -77,6 +78,10 @@ void add_reading_options(Command& command, ReadingChoice& choice) {
       "--max-splats N", choice.max_splats,
       "read at most N splats of each scene, those with the largest opacity times area",
       between(1.0, 4294967295.0));
+  command.add_option("--lod N", choice.lod,
+                     "level of detail of a streamed SOG, 0 is the finest; by default the finest "
+                     "that fits --max-splats and --max-memory",
+                     between(0.0, 63.0));
   std::vector<std::string> names;
   for (const NamedProfile& each : named_profiles) names.emplace_back(each.name);
   add_word_option(

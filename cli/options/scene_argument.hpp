@@ -21,6 +21,7 @@ struct ReadingChoice {
   std::optional<double> near_limit = {};         // of all splats, in world units
   std::optional<double> octagon_q = {};          // ReadOptions::octagon_q
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats
+  std::optional<std::size_t> lod = {};           // ReadOptions::lod
   bool keep_rows = false;                        // ReadOptions::keep_rows; not an option
   std::vector<std::string> places = {};          // of layers (scene/document/place_text.hpp)
   UpAxes up_axes = UpAxes::turn;                 // of several scenes
@@ -28,8 +29,8 @@ struct ReadingChoice {
   bool operator==(const ReadingChoice&) const = default;
 };
 
-/// Adds --vertex-colors, --up, --octagon-q, --profile, --near-limit and --max-splats. `choice` must
-/// live until the arguments are parsed.
+/// Adds --vertex-colors, --up, --octagon-q, --profile, --near-limit, --lod and --max-splats.
+/// `choice` must live until the arguments are parsed.
 void add_reading_options(Command& command, ReadingChoice& choice);
 
 /// Adds --place and --keep-axes, for commands that read SceneArguments.

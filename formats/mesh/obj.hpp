@@ -1,12 +1,15 @@
-// Wavefront OBJ, limited to the needs of MobileNeRF: v, vt and f. Other lines (normals, groups,
-// materials, smoothing) are skipped, as are values after x y z and u v.
+// Wavefront OBJ. Reading is limited to the needs of MobileNeRF: v, vt and f. Other lines (normals,
+// groups, materials, smoothing) are skipped, as are values after x y z and u v.
 #pragma once
 
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "base/input.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 
@@ -22,5 +25,10 @@ struct ObjMesh {
 /// InputError with the line for an invalid number, an index out of range, a corner without vt and a
 /// face with fewer than three corners.
 ObjMesh read_obj(Input& input);
+
+/// Triangles with a colour for each vertex, after its coordinates (as MeshLab, Blender and others
+/// read them); faces with a colour of their own get their own vertices. Positions and colours read
+/// back bit for bit. Returns the losses. Throws UsageError for splats, OutputError.
+std::vector<std::string> write_obj(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

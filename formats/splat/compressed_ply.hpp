@@ -1,4 +1,5 @@
-// Compressed PLY of PlayCanvas (splat-transform, SuperSplat; usually named .compressed.ply), read.
+// Compressed PLY of PlayCanvas (splat-transform, SuperSplat; usually named .compressed.ply), read
+// and written.
 //
 // element chunk: the ranges of 256 consecutive splats:
 //   min_x .. max_z               centres
@@ -13,6 +14,10 @@
 // element sh, optional: f_rest_0.. as uchar, in the order of 3DGS, -4..4
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "base/input.hpp"
 #include "formats/ply/ply_header.hpp"
 #include "formats/read_options.hpp"
@@ -26,5 +31,10 @@ bool is_compressed_ply(const PlyHeader& header);
 /// Comments select the profile as in splat_ply.hpp. Throws InputError with the line (header and
 /// ascii) or the byte.
 Scene read_compressed_ply(Input& input, const PlyHeader& header, const ReadOptions& options);
+
+/// Gaussians and discs, in Morton order. Returns one sentence for each loss. Throws UsageError for
+/// other scenes, OutputError.
+std::vector<std::string> write_compressed_ply(const Scene& scene,
+                                              const std::filesystem::path& path);
 
 }  // namespace tureen

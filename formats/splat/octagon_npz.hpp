@@ -1,5 +1,5 @@
-// Octagon meshes of REdiSplats (arXiv 2503.12284), read: the .npz archives of generate_mesh.py,
-// also after an edit of their vertices.
+// Octagon meshes of REdiSplats (arXiv 2503.12284), read and written: the .npz archives of
+// generate_mesh.py, also after an edit of their vertices.
 //   vertices       [8 n, 3]  corner k of disc i in row 8 i + k
 //   faces          [6 n, 3]  the fans (8 i, 8 i + k, 8 i + k + 1), k = 1..6
 //   vertex_colors  [8 n, 4]  1/2 + Y_00 f_dc in 0..1, and opacity; constant on each octagon
@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "base/input.hpp"
 #include "formats/read_options.hpp"
@@ -28,5 +30,9 @@ bool is_octagon_npz(std::span<const std::byte> head);
 /// changes within an octagon.
 Scene read_octagon_npz(Input input, const ReadOptions& options = {});
 Scene read_octagon_npz(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Writes discs with Q = 4 and their colours of degree 0. Returns one sentence for each loss.
+/// Throws UsageError for other scenes, OutputError.
+std::vector<std::string> write_octagon_npz(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

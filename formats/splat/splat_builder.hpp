@@ -10,6 +10,7 @@
 #include "base/input.hpp"
 #include "formats/common/splat_values.hpp"
 #include "formats/read_options.hpp"
+#include "formats/splat/splat_writing.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen {
@@ -53,8 +54,5 @@ class SplatBuilder {
   Splats splats_;
   glm::dvec3 origin_{0.0};
 };
-
-/// The up axis of splat files: y points down in COLMAP.
-inline constexpr glm::vec3 splat_up{0.0f, -1.0f, 0.0f};
 
 }  // namespace tureen

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <glm/geometric.hpp>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -10,8 +9,7 @@
 #include "formats/ply/ply_bytes.hpp"
 #include "formats/splat/splat_ply.hpp"
 #include "formats/splat/splat_ply_layout.hpp"
-#include "scene/edit/baked_transform.hpp"
-#include "scene/edit/moved_splats.hpp"
+#include "formats/splat/splat_writing.hpp"
 
 namespace tureen {
 
@@ -40,33 +38,12 @@ SplatPlyMarks marks_of(const Splats& splats) {
   return {"comment SplatRenderMode: default\n", gaussians->flat, "3dgs"};
 }
 
-/// Moves the splats into world coordinates; relative to the layer's origin if that is so far away
-/// that positions would lose more than 7 of their 24 bits.
-void place_in_world(Layer& layer) {
-  constexpr double farthest = 128;  // in radii of the layer
-  bake_transform(layer);
-  const Bounds box = bounds(layer);
-  if (glm::length(origin_of(layer)) > farthest * box.radius()) return;
-  move_splats(std::get<Splats>(layer.primitives), layer.world_from_layer);
-  layer.world_from_layer = glm::dmat4(1.0);
-}
-
 std::vector<std::string> splat_ply_losses(const Scene& scene, const Layer& layer,
                                           const Splats& splats) {
-  std::vector<std::string> lost;
-  const SplatProfile stored = *profile_named(marks_of(splats).profile);
-  if (splats.profile != stored)
-    lost.push_back("PLY cannot hold this profile; readers use " + std::string(name_of(stored)) +
-                   ".");
+  std::vector<std::string> lost = splat_losses(scene, layer, "PLY", marks_of(splats).profile);
   const auto* densities = std::get_if<NeuralDensities>(&splats.kernel);
   if (densities && densities->omega != NeuralDensities{}.omega)
     lost.push_back("PLY holds no omega; readers use 30.");
-  if (layer.world_from_layer != glm::dmat4(1.0))
-    lost.push_back("PLY holds no origin: the splats are written relative to it.");
-  if (scene.info.up != splat_up)
-    lost.push_back("PLY stores no up axis; readers assume (0, -1, 0).");
-  if (scene.info.background != glm::vec3(0.0f)) lost.push_back("PLY holds no background colour.");
-  if (!scene.cameras.empty()) lost.push_back("PLY holds no cameras.");
   return lost;
 }
 

@@ -1,13 +1,19 @@
 #include "formats/splat/splat_records.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <system_error>
 
 #include "base/extension.hpp"
 #include "base/little_endian.hpp"
+#include "base/output.hpp"
 #include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
+#include "formats/splat/splat_writing.hpp"
+#include "image/quantise.hpp"
+#include "scene/edit/splat_limit.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -83,6 +89,41 @@ Scene read_splat_records(Input& input, const ReadOptions& options) {
 Scene read_splat_records(const std::filesystem::path& path, const ReadOptions& options) {
   Input input = Input::open(path);
   return read_splat_records(input, options);
+}
+
+std::vector<std::string> write_splat_records(const Scene& scene,
+                                             const std::filesystem::path& path) {
+  StoredGaussians stored =
+      gaussians_for(scene, {.name = ".splat", .max_degree = 0, .has_mip = false});
+  const Gaussians& gaussians = stored.gaussians();
+  const std::vector<double> contributions = splat_contributions(stored.splats.kernel);
+  std::vector<std::uint32_t> order(contributions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return contributions[a] > contributions[b];
+  });
+  std::uint64_t clipped = 0;
+  Output output(path);
+  for (const std::uint32_t i : order) {
+    output.write_value(gaussians.centers[i]);
+    output.write_value(gaussians.scales[i]);
+    const glm::vec3 color = 0.5f + float(harmonics::y00) * stored.splats.color.coefficients[i];
+    const glm::quat& q = gaussians.rotations[i];
+    std::array<std::uint8_t, 8> bytes;
+    for (std::size_t c = 0; c < 3; ++c) {
+      bytes[c] = quantised_unit(color[int(c)]);
+      if (color[int(c)] < 0 || color[int(c)] > 1) ++clipped;
+    }
+    bytes[3] = quantised_unit(gaussians.opacity[i]);
+    std::size_t at = 4;
+    for (const float part : {q.w, q.x, q.y, q.z})
+      bytes[at++] = std::uint8_t(std::clamp(std::lround((double(part) + 1) * 127.5), 0l, 255l));
+    output.write_value(bytes);
+  }
+  output.commit();
+  if (clipped > 0)
+    stored.lost.push_back(std::to_string(clipped) + " colours are outside 0 to 1: clipped.");
+  return stored.lost;
 }
 
 }  // namespace tureen

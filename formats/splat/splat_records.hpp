@@ -1,4 +1,5 @@
-// .splat files (antimatter15/splat), read: records of 32 bytes, little endian, without a header.
+// .splat files (antimatter15/splat), read and written: records of 32 bytes, little endian, without
+// a header.
 //   bytes 0..11   centre: three floats
 //   12..23        standard deviations: three floats
 //   24..27        red, green, blue (1/2 + Y_00 f_dc) and opacity; a byte is a 255th
@@ -8,6 +9,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "base/input.hpp"
 #include "formats/read_options.hpp"
@@ -26,5 +29,10 @@ bool is_splat_records(const std::filesystem::path& path, std::span<const std::by
 /// 32.
 Scene read_splat_records(Input& input, const ReadOptions& options = {});
 Scene read_splat_records(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The colours of degree 0; the splats that contribute the most come first, since viewers draw what
+/// has arrived. Returns one sentence for each loss. Throws UsageError for other scenes than
+/// Gaussians, OutputError.
+std::vector<std::string> write_splat_records(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -18,15 +18,12 @@
 #include "formats/common/progress_meter.hpp"
 #include "formats/splat/splat_builder.hpp"
 #include "formats/splat/splat_remarks.hpp"
+#include "formats/splat/spz_layout.hpp"
 #include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
 namespace {
-
-constexpr std::uint32_t spz_magic = 0x5053474e;  // "NGSP"
-constexpr std::size_t gzip_header_size = 16, plain_header_size = 32, spz_table_row = 16;
-constexpr unsigned flag_antialiased = 1, flag_extensions = 2;
 
 /// Quantisation of harmonics in a way that readers must know, and axes other than those of SPZ.
 constexpr std::uint32_t adobe_quantisation = 0xADBE0001, adobe_axes = 0xADBE0003;
@@ -38,12 +35,6 @@ constexpr std::uint32_t axes_unspecified = 0, axes_of_spz = 4;
 constexpr std::size_t max_spz_tail = 65536;
 /// A hostile file could have millions of types.
 constexpr std::size_t max_named_extensions = 8;
-
-/// The arrays, in the order of the file. rest: harmonics from degree 1 on.
-namespace spz_array {
-constexpr std::size_t positions = 0, alphas = 1, colors = 2, scales = 3, rotations = 4, rest = 5,
-                      count = 6;
-}
 
 struct SpzHeader {
   std::uint64_t version = 0, splats = 0;
@@ -113,18 +104,6 @@ glm::dvec4 unpacked_quaternion(std::span<const std::byte> bytes) {
   }
   q[largest] = std::sqrt(std::max(0.0, 1 - glm::dot(q, q)));
   return q;
-}
-
-/// The sign of each harmonic after half a turn about x. Entry l * l + l + m is that of Y_lm, which
-/// is odd in y for m < 0, and odd in z for odd l - |m|.
-std::array<float, harmonics::count(harmonics::max_degree)> signs_after_turn() {
-  std::array<float, harmonics::count(harmonics::max_degree)> signs;
-  for (int l = 0; l <= harmonics::max_degree; ++l)
-    for (int m = -l; m <= l; ++m)
-      signs[std::size_t(l * l + l + m)] = (m < 0) != ((l - std::abs(m)) % 2 == 1) ? -1.0f : 1.0f;
-  // Niantic's program, which writes these files, also changes the sign of Y_44.
-  signs.back() = -1.0f;
-  return signs;
 }
 
 /// The bytes of one splat in each array.

@@ -1,4 +1,4 @@
-// SPZ files (nianticlabs/spz), versions 1 to 4, read.
+// SPZ files (nianticlabs/spz): versions 1 to 4 read, 3 and 4 written.
 //
 // Versions 1 to 3 are one gzip file: a header of 16 bytes, the arrays, extensions. Version 4 is not
 // compressed as a whole: a header of 32 bytes, extensions, a table, and one ZSTD stream for each
@@ -23,6 +23,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "base/input.hpp"
 #include "formats/read_options.hpp"
@@ -38,5 +40,12 @@ bool is_spz(std::span<const std::byte> head);
 /// file of this size cannot hold, and extensions that change axes or values.
 Scene read_spz(Input& input, const ReadOptions& options = {});
 Scene read_spz(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Writes Gaussians as `version` 3 or 4, quantised as Niantic's program does: harmonics have 5 bits
+/// for degree 1 and 4 bits for higher ones. Centres have the 12 fractional bits of that program,
+/// more where the scene would have less than 16 bits across, fewer where it would not fit. Returns
+/// one sentence for each loss. Throws UsageError for other scenes, OutputError.
+std::vector<std::string> write_spz(const Scene& scene, const std::filesystem::path& path,
+                                   int version = 4);
 
 }  // namespace tureen

@@ -2,13 +2,17 @@
 
 #ifndef __EMSCRIPTEN__
 #include <webp/decode.h>
+#include <webp/encode.h>
 #endif
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
+#include <new>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "image/codecs/vp8l.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -28,9 +32,6 @@ bool is_webp(std::span<const std::byte> bytes) {
 }
 
 #ifdef __EMSCRIPTEN__
-Image8 decode_webp(std::span<const std::byte>, const std::string& name, MemoryBudget) {
-  throw InputError({name}, "WebP images are not supported here");
-}
 glm::ivec2 webp_size(std::span<const std::byte>, const std::string& name) {
   throw InputError({name}, "WebP images are not supported here");
 }
@@ -44,8 +45,13 @@ glm::ivec2 webp_size(std::span<const std::byte> bytes, const std::string& name) 
     throw InputError({name}, "the WebP file is an animation, not an image");
   return {features.width, features.height};
 }
+#endif
 
 Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget budget) {
+  if (const auto lossless = vp8l_stream(bytes, name)) return decode_vp8l(*lossless, name, budget);
+#ifdef __EMSCRIPTEN__
+  throw InputError({name}, "lossy WebP images are not supported here");
+#else
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
     throw InputError({name}, reason, hint);
   };
@@ -53,7 +59,7 @@ Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, Me
   const glm::ivec2 sides = webp_size(bytes, name);
   const std::string what =
       "an image of " + std::to_string(sides.x) + " x " + std::to_string(sides.y);
-  // The result, and as much for the decoder, which holds the whole image of lossless files.
+  // The result, and as much for the decoder.
   const std::uint64_t size = std::uint64_t(sides.x) * std::uint64_t(sides.y) * 4;
   PassingMemory passing(budget);
   if (!budget.take(size, 2)) fail(budget.refusal(what), max_memory_hint);
@@ -63,6 +69,34 @@ Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, Me
     fail("the WebP image is damaged");
   passing.keep(size);
   return image;
+#endif
+}
+
+#ifndef __EMSCRIPTEN__
+std::vector<std::byte> encode_webp(const Image8& image, int effort) {
+  WebPConfig config;
+  WebPPicture picture;
+  std::vector<std::byte> bytes;
+  bool done = WebPConfigInit(&config) && WebPConfigLosslessPreset(&config, effort) &&
+              WebPPictureInit(&picture);
+  assert(done);  // the effort, and the version of the library
+  config.exact = 1;
+  picture.use_argb = 1;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.custom_ptr = &bytes;
+  picture.writer = [](const std::uint8_t* data, std::size_t size, const WebPPicture* target) {
+    auto& out = *static_cast<std::vector<std::byte>*>(target->custom_ptr);
+    const auto* begin = reinterpret_cast<const std::byte*>(data);
+    out.insert(out.end(), begin, begin + size);
+    return 1;
+  };
+  done = WebPPictureImportRGBA(&picture, reinterpret_cast<const std::uint8_t*>(image.pixels.data()),
+                               4 * image.width) &&
+         WebPEncode(&config, &picture);
+  WebPPictureFree(&picture);
+  if (!done) throw std::bad_alloc();  // the only other fault
+  return bytes;
 }
 #endif
 

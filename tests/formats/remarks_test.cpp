@@ -11,6 +11,7 @@
 #include "formats/diffsoup/diffsoup_remarks.hpp"
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/mesh/mesh_remarks.hpp"
+#include "formats/sog/sog_remarks.hpp"
 #include "formats/splat/splat_remarks.hpp"
 #include "formats/torch/checkpoint_remarks.hpp"
 #include "formats/tureen_glb/tureen_glb_remarks.hpp"
@@ -78,6 +79,7 @@ const std::vector<Remark> every_kind{
     {&remarks::near_limit_hides, {{"limit", 0.2}, {"hidden", 0.5}}},
     {&remarks::near_limit_large, {{"limit", 0.2}, {"radius", 0.1}}},
     {&remarks::filter_applied},
+    {&remarks::level_chosen, {{"levels", 7}, {"level", 1}, {"splats", 250000}, {"finest", 500000}}},
     {&remarks::splat_extensions_ignored, {{"extensions", Counts{3, 258}}}},
     {&remarks::preset_applied, {{"edits", Names{"seal", "sort"}}}},
     {&remarks::preset_keys_ignored, {{"keys", Names{"a"}}}},

@@ -14,9 +14,12 @@
 #include "jobs/bench/bench_json.hpp"
 #include "jobs/bench/web_bench.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
+#include "tests/formats/splat/ksplat_fixture.hpp"
 #include "tests/formats/splat/octagon_fixture.hpp"
+#include "tests/formats/splat/sog_fixture.hpp"
 #include "tests/formats/splat/splat_fixture.hpp"
 #include "tests/formats/splat/spz_fixture.hpp"
+#include "tests/formats/splat/usd_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/fuzz/folder_files.hpp"
@@ -226,6 +229,15 @@ void add_splats(Collection& all) {
   std::string records;
   for (int i = 0; i < 64; ++i) records += static_cast<char>(i % 32 < 24 ? 0x3e : 0x90 + i);
   all.add("splat_records", "two.splat", records);
+  for (const int level : {0, 1, 2})
+    all.add("ksplat", "level_" + std::to_string(level), test::two_ksplats(level));
+  all.add("usd", "two_fields.usda", test::two_fields);
+  test::ZipFixture usdz;
+  usdz.entries = {{"scene.usda", test::two_fields}};
+  all.add("usd", "two_fields.usdz", usdz.bytes());
+  for (const int version : {1, 2})
+    all.add("sog", "version_" + std::to_string(version) + ".sog",
+            test::zipped(test::two_splats(version)));
   test::ZipFixture octagons = test::two_octagons().zip();
   all.add("octagon_npz", "stored.npz", octagons.bytes());
   for (auto& entry : octagons.entries) entry.deflate = true;
@@ -408,6 +420,10 @@ void add_images(Collection& all) {
                      .interlace = 1,
                      .rows = std::string("\0\x10\0\x20\0\x30\x40", 7)}
               .bytes());
+  Image8 small(5, 3);
+  for (std::size_t i = 0; i < small.pixels.size(); ++i)
+    small.pixels[i] = glm::u8vec4(i * 17, i * i, 255 - i, 200 + i);
+  all.add("image", "lossless.webp", encode_webp(small, 6));
   all.add("image", "baseline.jpg", baseline_jpeg());
   all.add("image", "progressive.jpg", progressive_jpeg());
 }
@@ -491,6 +507,9 @@ std::vector<Fixture> made_fixtures() {
   add_images(all);
   add_benchmarks(all);
   const FolderFiles diffsoup = diffsoup_files(), mobilenerf = mobilenerf_files();
+  const FolderFiles sog = sog_files();
+  for (std::size_t i = 0; i < sog.size(); ++i)
+    all.add("sog_folder", sog[i].first, with_first_byte(i, sog[i].second));
   for (std::size_t i = 0; i < diffsoup.size(); ++i)
     all.add("diffsoup", diffsoup[i].first, with_first_byte(i, diffsoup[i].second));
   for (std::size_t i = 0; i < mobilenerf.size(); ++i)

@@ -7,6 +7,7 @@
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "image/png.hpp"
 #include "tests/formats/random_scene.hpp"
+#include "tests/formats/splat/sog_fixture.hpp"
 
 namespace tureen::fuzz {
 
@@ -63,6 +64,13 @@ FolderFiles mobilenerf_files() {
                                   "vt 1 0\nvt 0.25 0\nf 1/1 2/2 3/3 4/4\n")},
           {"shape0.pngfeat0.png", features},
           {"shape0.pngfeat1.png", features}};
+}
+
+FolderFiles sog_files() {
+  FolderFiles files;
+  for (const auto& [name, content] : test::streamed_splats())
+    files.emplace_back(name, bytes_of(content));
+  return files;
 }
 
 ScratchFiles::ScratchFiles(const std::string& name, FolderFiles valid)

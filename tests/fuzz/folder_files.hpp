@@ -15,6 +15,8 @@ using FolderFiles = std::vector<std::pair<std::string, std::vector<std::byte>>>;
 
 FolderFiles diffsoup_files();
 FolderFiles mobilenerf_files();
+/// A streamed SOG.
+FolderFiles sog_files();
 
 /// A folder with all these files, except one with other content.
 class ScratchFiles {

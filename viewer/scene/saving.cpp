@@ -103,7 +103,7 @@ Saved save_scene(const SceneSource& source, const fs::path& file, bool accepts_l
   const Scene scene = scene_of(source);
   Saved saved;
   if (is_glb_name(file)) {
-    saved.lost = write_scene(scene, target, progress);
+    saved.lost = write_scene(scene, target, {.progress = progress});
     saved.is_written = true;
   } else {  // writing finds the losses
     fs::path name = temporary_beside(target);
