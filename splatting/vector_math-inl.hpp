@@ -12,13 +12,20 @@
 
 #include "splatting/image_view.hpp"
 
+/// The largest number of lanes: the pixels of a block, unless a source defines another before it
+/// includes this file.
+#ifndef TUREEN_LANES
+#define TUREEN_LANES 16
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace tureen::splatting::HWY_NAMESPACE {
+// Functions for another number of lanes have other names for the linker.
+inline namespace HWY_CONCAT(lanes_, TUREEN_LANES) {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// At most the pixels of a block.
-using FloatTag = hn::CappedTag<float, 16>;
+using FloatTag = hn::CappedTag<float, TUREEN_LANES>;
 using Floats = hn::Vec<FloatTag>;
 using Mask = hn::Mask<FloatTag>;
 inline constexpr FloatTag d;
@@ -187,6 +194,7 @@ HWY_INLINE Vector3 transposed_product(const float* matrix, const Vector3& v) {
   return {column(matrix), column(matrix + 1), column(matrix + 2)};
 }
 
+}  // namespace HWY_CONCAT(lanes_,TUREEN_LANES)
 }  // namespace tureen::splatting::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif
