@@ -16,7 +16,7 @@ set(arrows
   "formats/read_options.hpp: scene"
   "formats/common: base scene formats/read_options.hpp"
   "formats/archive: base formats/common"
-  "formats/glb: base formats/common"
+  "formats/glb: base image scene formats/common"
   "formats/ply: base formats/read_options.hpp formats/common"
   "formats/dataset: base image scene formats/read_options.hpp formats/common formats/ply"
   "formats/diffsoup: base image scene formats/read_options.hpp formats/common formats/ply"

@@ -26,9 +26,9 @@ inline PlacedLayer placed_layer(const TriangleSoup& soup, const glm::dvec3& orig
 inline std::vector<PlacedLayer> placed_layers(const Scene& scene) {
   std::vector<PlacedLayer> layers;
   for (const Layer& layer : scene.layers)
-    layers.push_back(
-        placed_layer(layer.primitives,
-                     {{}, layer.world_from_layer, layer.visible, label(layer, layers.size())}));
+    layers.push_back(placed_layer(
+        layer.primitives,
+        {{}, layer.world_from_layer, layer.visible, label(layer, layers.size()), layer.material}));
   return layers;
 }
 

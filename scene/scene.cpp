@@ -111,7 +111,7 @@ std::optional<std::string> defect(const Layer& layer) {
         return "world_from_layer stretches or shears; only a rotation, a translation, one scale "
                "and a mirror are supported";
     }
-  return std::nullopt;
+  return layer.material ? defect(*layer.material) : std::nullopt;
 }
 
 Scene scene_of(Primitives primitives, const glm::dvec3& origin) {
@@ -143,7 +143,7 @@ TriangleSoup& only_soup(Scene& scene) {
   return std::get<TriangleSoup>(only_layer(scene).primitives);
 }
 
-void keep_layer(Scene& scene, const std::string& name) {
+Layer& layer_named(Scene& scene, const std::string& name) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     if (label(scene.layers[i], i) == name) found.push_back(i);
@@ -151,7 +151,11 @@ void keep_layer(Scene& scene, const std::string& name) {
     throw UsageError(
         (found.empty() ? "no layer has the name '" : "several layers have the name '") + name +
         "'; the layers are: " + layer_names(scene));
-  Layer kept = std::move(scene.layers[found.front()]);
+  return scene.layers[found.front()];
+}
+
+void keep_layer(Scene& scene, const std::string& name) {
+  Layer kept = std::move(layer_named(scene, name));
   kept.visible = true;
   scene.layers.clear();
   scene.layers.push_back(std::move(kept));

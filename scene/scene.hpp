@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/material.hpp"
 #include "scene/quality.hpp"
 #include "scene/remark.hpp"
 #include "scene/splats.hpp"
@@ -45,6 +46,8 @@ struct Layer {
   glm::dmat4 world_from_layer{1.0};
   bool visible = true;
   Primitives primitives = {};
+  /// Only of soups: a mirror or glass for rays. Default: drawn by its appearance.
+  std::optional<Material> material = {};
 };
 
 /// The translation by `origin`, in world coordinates: the world_from_layer of a layer whose
@@ -59,8 +62,8 @@ glm::dvec3 origin_of(const Layer& layer);
 Bounds bounds(const Layer& layer);
 
 /// The reason why world_from_layer is not a similarity (a number that is not finite, a perspective
-/// row, a scale of zero, a stretch or shear beyond rounding), or nullopt. A mirror is no defect.
-/// The primitives are not checked.
+/// row, a scale of zero, a stretch or shear beyond rounding), or why the material has a defect(),
+/// or nullopt. A mirrored layer is no defect. The primitives are not checked.
 std::optional<std::string> defect(const Layer& layer);
 
 /// The layer's name. If it is empty: "layer 2" for the second layer, `index` 1.
@@ -90,8 +93,11 @@ const Layer& only_layer(const Scene& scene);
 TriangleSoup& only_soup(Scene& scene);
 const TriangleSoup& only_soup(const Scene& scene);
 
-/// Removes all other layers; the named one keeps its transform and becomes visible. `name` is the
-/// layer's label(). Throws UsageError, which lists the labels, unless exactly one layer has it.
+/// The layer with this label(). Throws UsageError, which lists the labels, unless exactly one layer
+/// has it.
+Layer& layer_named(Scene& scene, const std::string& name);
+
+/// Removes all layers but layer_named(), which keeps its transform and becomes visible.
 void keep_layer(Scene& scene, const std::string& name);
 
 /// Gives all splats of the scene this profile (named_profiles), by the user's choice, and removes

@@ -5,8 +5,9 @@
 #include <limits>
 #include <string>
 
+#include "scene/edit/moved_normals.hpp"
 #include "scene/lattice.hpp"
-#include "scene/spherical_harmonics.hpp"
+#include "scene/soup_arrays.hpp"
 
 namespace tureen {
 
@@ -17,41 +18,15 @@ std::size_t bytes_of(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-std::string count_mismatch(const char* what, std::size_t have, std::size_t want) {
-  return std::to_string(have) + " " + what + ", expected " + std::to_string(want);
-}
-
 using Defect = std::optional<std::string>;
 
 struct FindDefect {
-  std::size_t vertices;
-  std::size_t faces;
-
-  Defect operator()(const FaceColors& colors) const {
-    if (colors.rgba.size() != faces)
-      return count_mismatch("face colours", colors.rgba.size(), faces);
-    return {};
-  }
-
-  Defect operator()(const VertexColors& colors) const {
-    if (colors.rgba.size() != vertices)
-      return count_mismatch("vertex colours", colors.rgba.size(), vertices);
-    return {};
-  }
-
-  Defect operator()(const Harmonics& sh) const {
-    if (sh.degree < 0 || sh.degree > harmonics::max_degree)
-      return "harmonics of degree " + std::to_string(sh.degree) + " are outside 0..4";
-    const std::size_t elements = sh.domain == Harmonics::Domain::face ? faces : vertices;
-    const std::size_t want = elements * harmonics::count(sh.degree);
-    if (sh.coefficients.size() != want)
-      return count_mismatch("harmonics coefficients", sh.coefficients.size(), want);
+  template <class Other>
+  Defect operator()(const Other&) const {
     return {};
   }
 
   Defect operator()(const LatticeTexture& texture) const {
-    if (texture.patches.size() != faces)
-      return count_mismatch("lattice patches", texture.patches.size(), faces);
     const std::size_t texels = texture.texel_count();
     for (const LatticePatch& patch : texture.patches) {
       if (patch.level > std::uint32_t(lattice::max_level))
@@ -64,12 +39,6 @@ struct FindDefect {
   }
 
   Defect operator()(const UvTextures& textures) const {
-    if (textures.uv.size() != vertices)
-      return count_mismatch("texture coordinates", textures.uv.size(), vertices);
-    if (textures.material_of_face.size() != faces)
-      return count_mismatch("face materials", textures.material_of_face.size(), faces);
-    if (!textures.vertex_rgba.empty() && textures.vertex_rgba.size() != vertices)
-      return count_mismatch("vertex colours", textures.vertex_rgba.size(), vertices);
     for (const std::uint32_t material : textures.material_of_face)
       if (material >= textures.materials.size())
         return "material " + std::to_string(material) + " does not exist";
@@ -103,20 +72,20 @@ struct FindDefect {
   }
 };
 
-struct ByteSize {
-  std::size_t operator()(const FaceColors& a) const { return bytes_of(a.rgba); }
-  std::size_t operator()(const VertexColors& a) const { return bytes_of(a.rgba); }
-  std::size_t operator()(const Harmonics& a) const { return bytes_of(a.coefficients); }
-  std::size_t operator()(const LatticeTexture& a) const {
-    const auto size = [](const auto& values) { return bytes_of(values); };
-    return bytes_of(a.patches) + std::visit(size, a.texels);
-  }
-  std::size_t operator()(const UvTextures& a) const {
-    std::size_t total = bytes_of(a.uv) + bytes_of(a.material_of_face) + bytes_of(a.vertex_rgba);
-    for (const Image8& image : a.images) total += bytes_of(image.pixels);
-    return total;
-  }
-};
+/// The first array with a size that does not match.
+Defect size_defect(const TriangleSoup& soup) {
+  Defect result;
+  const auto check_for = [&](std::size_t elements) {
+    return [&result, elements](const auto& values, std::size_t each, const char* name) {
+      if (!result && values.size() != elements * each)
+        result = std::to_string(values.size()) + " " + name + ", expected " +
+                 std::to_string(elements * each);
+    };
+  };
+  for_each_face_array(soup, check_for(soup.triangles.size()));
+  for_each_vertex_array(soup, check_for(soup.positions.size()));
+  return result;
+}
 
 }  // namespace
 
@@ -153,8 +122,15 @@ Bounds bounds(const TriangleSoup& soup) {
 }
 
 std::size_t byte_size(const TriangleSoup& soup) {
-  return bytes_of(soup.positions) + bytes_of(soup.triangles) +
-         std::visit(ByteSize{}, soup.appearance);
+  std::size_t total = 0;
+  const auto add = [&](const auto& values, std::size_t, const char*) { total += bytes_of(values); };
+  for_each_vertex_array(soup, add);
+  for_each_face_array(soup, add);
+  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance))
+    total += std::visit([](const auto& values) { return bytes_of(values); }, texture->texels);
+  if (const auto* textures = std::get_if<UvTextures>(&soup.appearance))
+    for (const Image8& image : textures->images) total += bytes_of(image.pixels);
+  return total;
 }
 
 const char* appearance_name(const Appearance& appearance) {
@@ -181,7 +157,14 @@ std::optional<std::string> defect(const TriangleSoup& soup) {
         return "face " + std::to_string(t) + " names vertex " +
                std::to_string(soup.triangles[t][k]) + " of " +
                std::to_string(soup.positions.size());
-  return std::visit(FindDefect{soup.positions.size(), soup.triangles.size()}, soup.appearance);
+  if (const auto* sh = std::get_if<Harmonics>(&soup.appearance);
+      sh && (sh->degree < 0 || sh->degree > harmonics::max_degree))
+    return "harmonics of degree " + std::to_string(sh->degree) + " are outside 0..4";
+  if (Defect found = size_defect(soup)) return found;
+  for (std::size_t v = 0; v < soup.normals.size(); ++v)
+    if (!is_unit_or_zero(soup.normals[v]))
+      return "the normal of vertex " + std::to_string(v) + " has a length other than 0 and 1";
+  return std::visit(FindDefect{}, soup.appearance);
 }
 
 }  // namespace tureen

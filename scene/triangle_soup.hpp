@@ -107,6 +107,9 @@ struct TriangleSoup {
   std::vector<glm::vec3> positions;   // in layer coordinates (Layer::world_from_layer)
   std::vector<glm::uvec3> triangles;  // indices into positions
   Appearance appearance;
+  /// Empty, or one a vertex: the normal that rays interpolate over a face, of unit length. A face
+  /// with a corner of normal zero is flat: its own normal applies.
+  std::vector<glm::vec3> normals = {};
 };
 
 /// Triangles that share no corners: t has the corners 3t, 3t + 1 and 3t + 2.

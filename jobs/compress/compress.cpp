@@ -174,6 +174,7 @@ class Search {
         bytes, used_vertices(soup_.triangles), soup_.triangles.size(), "compressed geometry");
     moved.positions = std::move(geometry.positions);
     moved.triangles = std::move(geometry.triangles);
+    moved.normals.clear();  // compressed files have none
     return judge_.loss(moved);
   }
 

@@ -57,6 +57,10 @@ struct Apply {
   Edit operator()(const ShowLayer& edit) const {
     return ShowLayer{edit.id, set_member(document, edit.id, &LayerPlace::visible, edit.visible)};
   }
+  Edit operator()(const SetMaterial& edit) const {
+    return SetMaterial{edit.id,
+                       set_member(document, edit.id, &LayerPlace::material, edit.material)};
+  }
   Edit operator()(const ReorderLayer& edit) const {
     auto& layers = document.layers;
     const std::ptrdiff_t from = index_of(document, edit.id);
@@ -99,6 +103,9 @@ struct Describe {
   std::string operator()(const ShowLayer& edit) const {
     return (edit.visible ? "Show " : "Hide ") + name_of(edit.id);
   }
+  std::string operator()(const SetMaterial& edit) const {
+    return "Change the surface of " + name_of(edit.id);
+  }
   std::string operator()(const ReorderLayer& edit) const { return "Reorder " + name_of(edit.id); }
   std::string operator()(const ChangeUp&) const { return "Change the up axis"; }
   std::string operator()(const ChangeQuality&) const { return "Change the quality"; }
@@ -119,6 +126,8 @@ bool sets_the_same(const Edit& first, const Edit& second) {
     return place->id == std::get<PlaceLayer>(second).id;
   if (const auto* name = std::get_if<RenameLayer>(&first))
     return name->id == std::get<RenameLayer>(second).id;
+  if (const auto* surface = std::get_if<SetMaterial>(&first))
+    return surface->id == std::get<SetMaterial>(second).id;
   return std::holds_alternative<ChangeUp>(first) || std::holds_alternative<ChangeQuality>(first);
 }
 

@@ -31,6 +31,10 @@ struct ShowLayer {
   LayerId id = 0;
   bool visible = true;
 };
+struct SetMaterial {
+  LayerId id = 0;  // of a soup
+  std::optional<Material> material;
+};
 struct ReorderLayer {
   LayerId id = 0;
   std::size_t to = 0;  // its index afterwards; beyond the end: last
@@ -45,8 +49,8 @@ struct ChangeProfile {
   std::optional<SplatProfile> profile;
 };
 
-using Edit = std::variant<AddLayers, RemoveLayers, PlaceLayer, RenameLayer, ShowLayer, ReorderLayer,
-                          ChangeUp, ChangeQuality, ChangeProfile>;
+using Edit = std::variant<AddLayers, RemoveLayers, PlaceLayer, RenameLayer, ShowLayer, SetMaterial,
+                          ReorderLayer, ChangeUp, ChangeQuality, ChangeProfile>;
 
 /// Changes the document. Returns the edit that undoes the change: applied to the result, it gives
 /// the document before, except next_id. Ids that the document lacks are ignored, because a file

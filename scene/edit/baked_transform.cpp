@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "base/error.hpp"
+#include "scene/edit/moved_normals.hpp"
 #include "scene/edit/moved_splats.hpp"
 
 namespace tureen {
@@ -50,8 +51,9 @@ void bake_transform(Layer& layer) {
       throw UsageError(
           "the layer is rotated, scaled or mirrored, and its colours depend on the view: they "
           "cannot be moved into world coordinates");
-    auto& positions = std::get<TriangleSoup>(layer.primitives).positions;
-    positions = baked_positions(positions, layer);
+    auto& soup = std::get<TriangleSoup>(layer.primitives);
+    soup.positions = baked_positions(soup.positions, layer);
+    move_normals(soup.normals, glm::dmat3(layer.world_from_layer));
   }
   layer.world_from_layer = at_origin(origin_of(layer));
 }

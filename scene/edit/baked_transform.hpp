@@ -16,10 +16,10 @@ bool depends_on_view(const Layer& layer);
 /// rounded to float. The layer's translation is not included.
 std::vector<glm::vec3> baked_positions(const std::vector<glm::vec3>& positions, const Layer& layer);
 
-/// Replaces the positions of a soup by baked_positions(), and moves splats (moved_splats.hpp).
-/// Afterwards world_from_layer is a translation. The colours of soups are data in layer coordinates
-/// and stay as they are. Therefore throws UsageError if they depend on the view, unless the
-/// transform is a translation.
+/// Replaces the positions of a soup by baked_positions(), moves its normals, and moves splats
+/// (moved_splats.hpp). Afterwards world_from_layer is a translation. The colours of soups are data
+/// in layer coordinates and stay as they are. Therefore throws UsageError if they depend on the
+/// view, unless the transform is a translation.
 void bake_transform(Layer& layer);
 
 }  // namespace tureen

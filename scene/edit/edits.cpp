@@ -65,7 +65,7 @@ Edits effective(const Edits& edits, const TriangleSoup& soup) {
 TriangleSoup edited(TriangleSoup soup, const Edits& edits,
                     const std::function<void(double)>& progress) {
   assert(!defect(edits, soup));
-  if (!edits.keeps_face.empty()) soup = keep_faces(soup, edits.keeps_face);
+  if (!edits.keeps_face.empty()) soup = keep_faces(std::move(soup), edits.keeps_face);
   auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
   if (!texture) return soup;
   if (highest_level(*texture) > edits.lattice_level)

@@ -101,7 +101,7 @@ void archive_soup(Archive& archive, Value& value) {
 template <class Archive, class Value>
 void archive_layer(Archive& archive, Value& value) {
   auto& [place, framed, soup, splats, tiled_splats] = value;
-  auto& [bounds, world_from_layer, visible, name] = place;
+  auto& [bounds, world_from_layer, visible, name, material] = place;  // the page traces no rays
   archive(name, bounds, framed, world_from_layer, visible);
   bool of_splats = splats.has_value(), of_tiles = tiled_splats.has_value();
   archive(of_splats, of_tiles);
