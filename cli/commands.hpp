@@ -17,6 +17,7 @@ void add_eval(Command& program);
 void add_info(Command& program);
 void add_render(Command& program);
 void add_report(Command& program);
+void add_trace(Command& program);
 void add_tradeoff(Command& program, std::vector<std::string> arguments);
 void add_train(Command& program);
 void add_view(Command& program);

@@ -33,7 +33,7 @@ namespace {
 
 struct RenderOptions {
   SceneArguments scene;
-  const ProcessorRenderer* renderer = nullptr;  // null: OpenGL
+  RendererChoice renderer;
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
@@ -102,10 +102,11 @@ WrittenImages draw_without_gl(const Scene& scene, const RenderOptions& options,
                               const glm::vec4& background, const Views& views) {
   const bool opaque = background.a >= 1;
   std::function<void(double)> progress;
-  const std::unique_ptr<ImageSource> images = options.renderer->make(
+  const std::unique_ptr<ImageSource> images = options.renderer.renderer->make(
       scene, {.quality = preferences_for(scene, options.drawing).quality,
               .background = opaque ? std::optional(glm::vec3(background)) : std::nullopt,
-              .progress = [&](double done) { progress(done); }});
+              .progress = [&](double done) { progress(done); },
+              .samples = options.renderer.samples});
   return draw_views(drawer_of(*images, progress, opaque), views, options.output);
 }
 
@@ -202,19 +203,19 @@ ExitCode render(RenderOptions options) {
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
   const Camera& first = views.cameras.front();
-  if (options.renderer) {
+  if (const ProcessorRenderer* renderer = options.renderer.renderer) {
     const WrittenImages images = draw_without_gl(scene, options, background, views);
     say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
     say_what_is_hidden(scene);
     say_list("Cameras:", views.notes);
     say(fmt::format("{}; {} x {} by {}; {:.2f} s per image",
                     primitives_text(triangle_count(scene), splat_count(scene)), first.width,
-                    first.height, options.renderer->name, median(images.ms) / 1000));
+                    first.height, renderer->name, median(images.ms) / 1000));
     say_written(images, views);
     if (options.json)
       print_json({{"width", first.width},
                   {"height", first.height},
-                  {"renderer", options.renderer->name},
+                  {"renderer", renderer->name},
                   {"triangles", triangle_count(scene)},
                   {"splats", splat_count(scene)},
                   {"frame_ms", frame_ms_json(images.ms)},
@@ -267,33 +268,9 @@ ExitCode render(RenderOptions options) {
 
 }  // namespace
 
-void add_render(Command& program) {
-  auto options = std::make_shared<RenderOptions>();
-  Command command = program.add_command("render", "Draw images of a scene");
-  command.footer(
-      R"(The default view is the scene's first camera. Without cameras, it is a view of the whole
-scene from the front, slightly from the right and from above.
+namespace {
 
-Examples:
-  tureen render soup.glb -o image.png
-  tureen render house.glb fox.glb -o both.png             several scenes in one image
-  tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
-  tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
-  tureen render soup.glb --camera transforms.json:12 --size 540x960
-  tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
-  tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
-                                                          the frames along a camera path
-  tureen render soup.glb --supersample 4 -o smooth.png    16 samples per pixel
-  tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
-  tureen render soup.glb --renderer oracle -o exact.png   in double precision, without OpenGL
-  tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
-  tureen render soup.glb --depth depth.exr --alpha a.png  also values: 32-bit floats or 16 bits
-  tureen render soup.glb --frames 100 --json              milliseconds per frame
-  tureen render soup.glb --pipeline baseline --frames 100 --json
-                                                          the same for the baseline
-
-Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
-5 the scene does not fit on the device, or an image cannot be written.)");
+void add_options(Command& command, const std::shared_ptr<RenderOptions>& options) {
   add_scene_arguments(command, options->scene);
   add_memory_option(command);
   command.add_option(
@@ -325,6 +302,58 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
     check_renderer();
     return render(*options);
   });
+}
+
+}  // namespace
+
+void add_render(Command& program) {
+  Command command = program.add_command("render", "Draw images of a scene");
+  command.footer(
+      R"(The default view is the scene's first camera. Without cameras, it is a view of the whole
+scene from the front, slightly from the right and from above.
+
+Examples:
+  tureen render soup.glb -o image.png
+  tureen render house.glb fox.glb -o both.png             several scenes in one image
+  tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
+  tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
+  tureen render soup.glb --camera transforms.json:12 --size 540x960
+  tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
+  tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
+                                                          the frames along a camera path
+  tureen render soup.glb --supersample 4 -o smooth.png    16 samples per pixel
+  tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
+  tureen render soup.glb --renderer oracle -o exact.png   in double precision, without OpenGL
+  tureen render soup.glb --renderer trace -o rays.png     mirrors and glass; also: tureen trace
+  tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
+  tureen render soup.glb --depth depth.exr --alpha a.png  also values: 32-bit floats or 16 bits
+  tureen render soup.glb --frames 100 --json              milliseconds per frame
+  tureen render soup.glb --pipeline baseline --frames 100 --json
+                                                          the same for the baseline
+
+Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
+5 the scene does not fit on the device, or an image cannot be written.)");
+  add_options(command, std::make_shared<RenderOptions>());
+}
+
+void add_trace(Command& program) {
+  Command command = program.add_command("trace", "Draw images by rays, with mirrors and glass");
+  command.footer(
+      R"(The short form of `tureen render --renderer trace`: its options are the same, except those
+that need --renderer gl. Splats are blended in their exact order on each ray. Materials of meshes
+are those that the file stores, or those of --material.
+
+Examples:
+  tureen trace scene.glb -o image.png
+  tureen trace splats.ply ball.glb --samples 16 -o smooth.png   16 rays per pixel
+  tureen trace scene.glb --turntable 4 -o turn.mp4              a video; needs ffmpeg
+
+Ctrl-C keeps the images that are complete, and the samples of the current one.
+
+Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 5 an image cannot be written.)");
+  auto options = std::make_shared<RenderOptions>();
+  options->renderer = ray_renderer();
+  add_options(command, options);
 }
 
 }  // namespace tureen::cli

@@ -81,8 +81,8 @@ glm::dvec4 texture_at(const Image8& image, const UvMaterial& material, const glm
 glm::dvec4 texture_of(const TriangleSoup& soup, const UvTextures& textures, std::size_t image,
                       const FacePoint& point) {
   const UvMaterial& material = textures.materials[textures.material_of_face[point.face]];
-  const glm::dvec2 uv = mean_of_vertices(
-      soup, point, [&](std::uint32_t v) { return glm::dvec2(textures.uv[v]); });
+  const glm::dvec2 uv =
+      mean_of_vertices(soup, point, [&](std::uint32_t v) { return glm::dvec2(textures.uv[v]); });
   return texture_at(textures.images[material.images[image]], material, uv);
 }
 

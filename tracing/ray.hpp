@@ -37,7 +37,8 @@ struct RayInLayer {
   /// Boxes grow by grow + grow_by_distance * (distance to their farthest point): by the footprint
   /// of the pixel there, and by the rounding of their distances.
   float grow, grow_by_distance;
-  float end;  // length of the ray up to an opaque surface; infinity without one
+  float end;     // length of the ray up to an opaque surface; infinity without one
+  double least;  // below this distance, a face is where the ray starts, up to rounding
 };
 
 /// A splat on a ray.
@@ -45,9 +46,9 @@ struct SplatOnRay {
   /// The order along the ray: the bits of the distance from the origin, in world units, as a float
   /// >= 0, above the place of the splat in the order of layers and indices.
   std::uint64_t key;
-  float alpha;           // limited by the profile
-  std::uint32_t layer;   // index in Scene::layers
-  std::uint32_t lane;    // its place in the layer's blocks
+  float alpha;          // limited by the profile
+  std::uint32_t layer;  // index in Scene::layers
+  std::uint32_t lane;   // its place in the layer's blocks
 };
 
 /// The point at which a ray meets a soup.

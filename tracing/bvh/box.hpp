@@ -22,7 +22,9 @@ struct Box {
   }
   /// Whether rays can meet it: not empty, and small enough that no distance to it overflows.
   bool is_usable() const {
-    const auto usable = [](float from, float to) { return from <= to && from > -1e18f && to < 1e18f; };
+    const auto usable = [](float from, float to) {
+      return from <= to && from > -1e18f && to < 1e18f;
+    };
     return usable(low.x, high.x) && usable(low.y, high.y) && usable(low.z, high.z);
   }
   /// Half the surface area: proportional to the number of random rays that meet it.

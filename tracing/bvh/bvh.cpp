@@ -63,8 +63,7 @@ std::size_t cut_sorted(Range range) {
     for (std::size_t i = 0; i < range.size(); ++i) {
       if (i > 0 && i % width == 0) {
         const auto leaves = [](std::size_t count) { return float((count + width - 1) / width); };
-        const float cost =
-            box.half_area() * leaves(i) + behind[i] * leaves(range.size() - i);
+        const float cost = box.half_area() * leaves(i) + behind[i] * leaves(range.size() - i);
         if (cost < best) best = cost, best_axis = axis, best_size = i;
       }
       box.add(range[i].box);

@@ -83,7 +83,8 @@ struct Children {
 template <class Act>
 HWY_INLINE void for_each_leaf(const Bvh& bvh, const RayInLayer& ray, float from, float to,
                               const Act& act) {
-  // Below Builder's depth of 24, and the halvings of at most 2^32 items by 3 levels a node after it.
+  // Below Builder's depth of 24, and the halvings of at most 2^32 items by 3 levels a node after
+  // it.
   std::uint32_t stack[(24 + 16) * width];
   std::size_t size = 0;
   stack[size++] = 0;
@@ -187,8 +188,8 @@ void collect_on(const TracedLayer& layer, const RayInLayer& ray, float from, flo
         const auto i = std::size_t(std::countr_zero(bits));
         const auto lane = std::uint32_t(leaf * width + part * lanes + i);
         const std::uint64_t order = std::bit_cast<std::uint32_t>(distances[i]);
-        hits.push_back({order << 32 | (first + layer.primitive(lane)), alphas[i], layer.index(),
-                        lane});
+        hits.push_back(
+            {order << 32 | (first + layer.primitive(lane)), alphas[i], layer.index(), lane});
       }
     }
   });

@@ -25,19 +25,21 @@ namespace tureen::tracing {
 HWY_EXPORT(collect_discs);
 
 constexpr RayKernel disc_rays{
-    .draws = [](const Primitives& primitives) {
-      return are_gaussians(primitives, SplatProfile::Projection::plane);
-    },
+    .draws =
+        [](const Primitives& primitives) {
+          return are_gaussians(primitives, SplatProfile::Projection::plane);
+        },
     .count = ellipsoid_count,
     .rows = ellipsoid_row::count,
     .pack = pack_ellipsoid,
     .unused = -std::numeric_limits<float>::infinity(),
     .box = ellipsoid_box,
     .footprint = ellipsoid_footprint,
-    .collect = [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                  std::vector<SplatOnRay>& hits) {
-      HWY_DYNAMIC_DISPATCH(collect_discs)(layer, ray, from, to, hits);
-    },
+    .collect =
+        [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
+           std::vector<SplatOnRay>& hits) {
+          HWY_DYNAMIC_DISPATCH(collect_discs)(layer, ray, from, to, hits);
+        },
     .color = splat_color};
 
 }  // namespace tureen::tracing

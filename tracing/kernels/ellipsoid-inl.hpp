@@ -71,8 +71,7 @@ class EllipsoidOnRay {
     if (dilation_ > 0) {
       if (keeps_integral_) before = section(products);
       const Floats more = hn::Mul(footprint, constant(dilation_));
-      variance = {hn::Add(variance.x, more), hn::Add(variance.y, more),
-                  hn::Add(variance.z, more)};
+      variance = {hn::Add(variance.x, more), hn::Add(variance.y, more), hn::Add(variance.z, more)};
       products = pairs(variance);
     }
     const Floats across = section(products), by_across = hn::Div(constant(1.0f), across);
@@ -85,11 +84,11 @@ class EllipsoidOnRay {
         dot({squared_moment[0], squared_moment[1], squared_moment[2]}, variance), by_across);
     // False for NaN: seen edge-on and without a dilation.
     Mask met = hn::Lt(squared, constant(1e30f));
-    distance = hn::Mul(dot({hn::Mul(axis_along[0], axis_center[0]),
-                            hn::Mul(axis_along[1], axis_center[1]),
-                            hn::Mul(axis_along[2], axis_center[2])},
-                           products),
-                       by_across);
+    distance =
+        hn::Mul(dot({hn::Mul(axis_along[0], axis_center[0]), hn::Mul(axis_along[1], axis_center[1]),
+                     hn::Mul(axis_along[2], axis_center[2])},
+                    products),
+                by_across);
     met = hn::And(met, hn::Gt(distance, zero));
     if (flat && screen_ > 0) {
       // Where the plane is not met, in front of the eye, only this filter remains.

@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tureen::tracing::HWY_NAMESPACE {
 
 void collect_gaussians(const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                   std::vector<SplatOnRay>& hits) {
+                       std::vector<SplatOnRay>& hits) {
   collect_on<EllipsoidOnRay<false>>(layer, ray, from, to, hits);
 }
 
@@ -25,19 +25,21 @@ namespace tureen::tracing {
 HWY_EXPORT(collect_gaussians);
 
 constexpr RayKernel gaussian_rays{
-    .draws = [](const Primitives& primitives) {
-      return are_gaussians(primitives, SplatProfile::Projection::ewa);
-    },
+    .draws =
+        [](const Primitives& primitives) {
+          return are_gaussians(primitives, SplatProfile::Projection::ewa);
+        },
     .count = ellipsoid_count,
     .rows = ellipsoid_row::count,
     .pack = pack_ellipsoid,
     .unused = -std::numeric_limits<float>::infinity(),
     .box = ellipsoid_box,
     .footprint = ellipsoid_footprint,
-    .collect = [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                  std::vector<SplatOnRay>& hits) {
-      HWY_DYNAMIC_DISPATCH(collect_gaussians)(layer, ray, from, to, hits);
-    },
+    .collect =
+        [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
+           std::vector<SplatOnRay>& hits) {
+          HWY_DYNAMIC_DISPATCH(collect_gaussians)(layer, ray, from, to, hits);
+        },
     .color = splat_color};
 
 }  // namespace tureen::tracing

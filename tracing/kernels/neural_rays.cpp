@@ -87,11 +87,11 @@ class DensityOnRay {
       density = hn::MulAdd(hn::Mul(block.row(row::amplitudes + k), cos_of(phase)),
                            sinc_of(hn::Mul(dot(w, along), half)), density);
     }
-    const Floats depth =
-        hn::Mul(hn::Mul(hn::Add(half, half), block.row(row::by_largest)), density);
+    const Floats depth = hn::Mul(hn::Mul(hn::Add(half, half), block.row(row::by_largest)), density);
     alpha = hn::Min(one_minus_exp_of(depth), constant(limits_.largest));
     // Both are false for NaN in some lane.
-    return hn::And(met, hn::And(hn::Gt(depth, hn::Zero(d)), hn::Ge(alpha, constant(limits_.least))));
+    return hn::And(met,
+                   hn::And(hn::Gt(depth, hn::Zero(d)), hn::Ge(alpha, constant(limits_.least))));
   }
 
  private:
@@ -175,10 +175,11 @@ constexpr RayKernel neural_rays{
     .unused = std::numeric_limits<float>::quiet_NaN(),
     .box = density_box,
     .footprint = [](const Primitives&) { return 0.0f; },
-    .collect = [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                  std::vector<SplatOnRay>& hits) {
-      HWY_DYNAMIC_DISPATCH(collect_densities)(layer, ray, from, to, hits);
-    },
+    .collect =
+        [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
+           std::vector<SplatOnRay>& hits) {
+          HWY_DYNAMIC_DISPATCH(collect_densities)(layer, ray, from, to, hits);
+        },
     .color = splat_color};
 
 }  // namespace tureen::tracing

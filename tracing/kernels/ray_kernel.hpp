@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "tracing/bvh/box.hpp"
+#include "tracing/bvh/bvh.hpp"
 #include "tracing/ray.hpp"
 
 namespace tureen::tracing {

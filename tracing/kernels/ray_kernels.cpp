@@ -1,17 +1,16 @@
-#include "tracing/kernels/ray_kernel.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <iterator>
 
 #include "scene/spherical_harmonics.hpp"
+#include "tracing/kernels/ray_kernel.hpp"
 #include "tracing/layer.hpp"
 
 namespace tureen::tracing {
 
 const RayKernel& ray_kernel_of(const Primitives& primitives) {
-  static constexpr const RayKernel* kernels[] = {&gaussian_rays, &disc_rays,   &window_rays,
+  static constexpr const RayKernel* kernels[] = {&gaussian_rays,      &disc_rays,   &window_rays,
                                                  &corner_window_rays, &neural_rays, &triangle_rays};
   const auto* found = std::find_if(std::begin(kernels), std::end(kernels),
                                    [&](const RayKernel* each) { return each->draws(primitives); });

@@ -2,36 +2,10 @@
 // faces that a ray may meet; each is then tested in double precision, with edge functions that both
 // faces at an edge round alike: no ray slips through between them.
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "tracing/appearance.hpp"
+#include "tracing/kernels/face_on_ray.hpp"
 #include "tracing/kernels/ray_kernel.hpp"
-
-namespace tureen::tracing {
-
-/// A point of a face that a ray may meet, in layer units.
-struct FaceOnRay {
-  double distance, b0, b1;
-  bool exists;
-};
-
-/// Both orientations are met. b_k = E_k / (E_0 + E_1 + E_2) with E_k = d . (v_i x v_j), from the
-/// origin of the ray.
-inline FaceOnRay face_on_ray(const TriangleSoup& soup, std::uint32_t face, const RayInLayer& ray) {
-  const glm::uvec3& t = soup.triangles[face];
-  glm::dvec3 v[3];
-  for (int k = 0; k < 3; ++k) v[k] = glm::dvec3(soup.positions[t[k]]) - ray.origin;
-  double e[3];
-  for (int k = 0; k < 3; ++k)
-    e[k] = glm::dot(ray.direction, glm::cross(v[(k + 1) % 3], v[(k + 2) % 3]));
-  const bool inside = (e[0] >= 0 && e[1] >= 0 && e[2] >= 0) || (e[0] <= 0 && e[1] <= 0 && e[2] <= 0);
-  const double sum = e[0] + e[1] + e[2];
-  const glm::dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
-  const double distance = glm::dot(v[0], normal) / glm::dot(ray.direction, normal);
-  return {distance, e[0] / sum, e[1] / sum, inside && sum != 0 && distance > 0};
-}
-
-}  // namespace tureen::tracing
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tracing/kernels/triangle_rays.cpp"
@@ -53,7 +27,8 @@ HWY_INLINE unsigned faces_that_may_meet(const float* values, const RayInLayer& r
                           from_origin(ray, block.rows(6))};
     Floats largest = hn::Zero(d);
     for (const Vector3& each : v)
-      largest = hn::Max(largest, hn::Max(hn::Abs(each.x), hn::Max(hn::Abs(each.y), hn::Abs(each.z))));
+      largest =
+          hn::Max(largest, hn::Max(hn::Abs(each.x), hn::Max(hn::Abs(each.y), hn::Abs(each.z))));
     // An edge function has 9 roundings of products up to 3 |v_i| |v_j|: below 48 / 2^24.
     const Floats tolerance = hn::Mul(constant(4e-6f), hn::Mul(largest, largest));
     Mask above = hn::Eq(tolerance, tolerance), below = above;
@@ -79,10 +54,9 @@ void intersect_faces(const TracedLayer& layer, const TriangleSoup& soup, const R
       if (ray.from == FaceOfLayer{layer.index(), face}) continue;
       const FaceOnRay hit = face_on_ray(soup, face, own);
       const double distance = hit.distance * layer.scale();
-      const bool is_nearer =
-          distance < nearest.distance ||
-          (distance == nearest.distance && nearest.face.layer == layer.index() &&
-           face < nearest.face.face);
+      const bool is_nearer = distance < nearest.distance ||
+                             (distance == nearest.distance && nearest.face.layer == layer.index() &&
+                              face < nearest.face.face);
       if (hit.exists && is_nearer && is_visible(soup, {face, hit.b0, hit.b1}))
         nearest = {{layer.index(), face}, hit.b0, hit.b1, distance};
     }
@@ -107,27 +81,31 @@ const TriangleSoup& soup_of(const Primitives& primitives) {
 }  // namespace
 
 constexpr RayKernel triangle_rays{
-    .draws = [](const Primitives& primitives) {
-      return std::holds_alternative<TriangleSoup>(primitives);
-    },
+    .draws =
+        [](const Primitives& primitives) {
+          return std::holds_alternative<TriangleSoup>(primitives);
+        },
     .count = [](const Primitives& primitives) { return soup_of(primitives).triangles.size(); },
     .rows = 9,
-    .pack = [](const Primitives& primitives, std::size_t i, float* lane) {
-      const TriangleSoup& soup = soup_of(primitives);
-      for (std::size_t k = 0; k < 9; ++k)
-        lane[width * k] = soup.positions[soup.triangles[i][int(k / 3)]][int(k % 3)];
-    },
+    .pack =
+        [](const Primitives& primitives, std::size_t i, float* lane) {
+          const TriangleSoup& soup = soup_of(primitives);
+          for (std::size_t k = 0; k < 9; ++k)
+            lane[width * k] = soup.positions[soup.triangles[i][int(k / 3)]][int(k % 3)];
+        },
     .unused = std::numeric_limits<float>::quiet_NaN(),
-    .box = [](const Primitives&, const float* lane) {
-      Box box;
-      for (std::size_t k = 0; k < 9; k += 3)
-        box.add({lane[width * k], lane[width * (k + 1)], lane[width * (k + 2)]});
-      return box;
-    },
+    .box =
+        [](const Primitives&, const float* lane) {
+          Box box;
+          for (std::size_t k = 0; k < 9; k += 3)
+            box.add({lane[width * k], lane[width * (k + 1)], lane[width * (k + 2)]});
+          return box;
+        },
     .footprint = [](const Primitives&) { return 0.0f; },
-    .intersect = [](const TracedLayer& layer, const Ray& ray, SurfaceOnRay& nearest) {
-      HWY_DYNAMIC_DISPATCH(intersect_faces)(layer, soup_of(layer.primitives()), ray, nearest);
-    }};
+    .intersect =
+        [](const TracedLayer& layer, const Ray& ray, SurfaceOnRay& nearest) {
+          HWY_DYNAMIC_DISPATCH(intersect_faces)(layer, soup_of(layer.primitives()), ray, nearest);
+        }};
 
 }  // namespace tureen::tracing
 #endif

@@ -49,8 +49,8 @@ class WindowOnRay {
     const Floats b0 = hn::Sub(hn::Sub(constant(1.0f), b1), b2);
     distance = hn::Mul(dot(edge2, other), inverse);
     const Vector3 factors = block.rows(row::factors);
-    Floats rho = hn::Min(hn::Mul(b0, factors.x),
-                         hn::Min(hn::Mul(b1, factors.y), hn::Mul(b2, factors.z)));
+    Floats rho =
+        hn::Min(hn::Mul(b0, factors.x), hn::Min(hn::Mul(b1, factors.y), hn::Mul(b2, factors.z)));
     // False for NaN. Below 1e-37, its logarithm has no meaning, and alpha is 0.
     Mask met = hn::And(hn::Gt(rho, constant(1e-37f)), hn::Gt(distance, hn::Zero(d)));
     met = hn::And(met, hn::Lt(distance, constant(ray_.end)));
@@ -143,19 +143,22 @@ glm::vec3 corner_color(const TracedLayer& layer, const RayInLayer& ray, std::uin
   return sum;
 }
 
-constexpr RayKernel window_kernel(bool (*draws)(const Primitives&), decltype(RayKernel::color) color) {
-  return {.draws = draws,
-          .count = [](const Primitives& primitives) { return windows_of(primitives)->sigma.size(); },
-          .rows = window_row::count,
-          .pack = pack_window,
-          .unused = std::numeric_limits<float>::quiet_NaN(),
-          .box = window_box,
-          .footprint = [](const Primitives&) { return 0.0f; },
-          .collect = [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                        std::vector<SplatOnRay>& hits) {
+constexpr RayKernel window_kernel(bool (*draws)(const Primitives&),
+                                  decltype(RayKernel::color) color) {
+  return {
+      .draws = draws,
+      .count = [](const Primitives& primitives) { return windows_of(primitives)->sigma.size(); },
+      .rows = window_row::count,
+      .pack = pack_window,
+      .unused = std::numeric_limits<float>::quiet_NaN(),
+      .box = window_box,
+      .footprint = [](const Primitives&) { return 0.0f; },
+      .collect =
+          [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
+             std::vector<SplatOnRay>& hits) {
             HWY_DYNAMIC_DISPATCH(collect_windows)(layer, ray, from, to, hits);
           },
-          .color = color};
+      .color = color};
 }
 
 bool are_windows(const Primitives& primitives, bool per_corner) {
