@@ -34,14 +34,14 @@ set(limits
   "code formats 14000: a reader per format with its remarks, checked against hostile files"
   "code oracle 2210: the reference stays readable; light along rays, without a tree"
   "code splatting 3250: loops in vectors, per kernel"
-  "code tracing 2060: a tree and a file per kernel, materials, images by rays"
+  "code tracing 2075: a tree and a file per kernel, materials, images by rays"
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 13200: four methods, CPU and CUDA"
   "code jobs 5740: work that the programs share, and the whole of a training run; what measures and reports grows no further"
   "code viewer 7180: the window"
   "code web 9000: the page"
-  "code cli 6360: the command line computes nothing"
+  "code cli 6425: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
   "bytes page 420000: 2 s over a connection of 1.7 Mbit/s")

@@ -122,23 +122,19 @@ glm::dvec3 Light::along(const LightRay& ray, const std::optional<Face>& from, do
     transmittance = next;
   }
   const bool is_open = surface.face.layer == ~std::size_t(0);
-  return color + transmittance *
-                     (is_open ? background_ : of(surface, ray, weight * transmittance, depth, {}));
+  return color +
+         transmittance * (is_open ? background_ : of(surface, ray, weight * transmittance, depth));
 }
 
-glm::dvec3 Light::of(const Surface& surface, const LightRay& ray, double weight, int depth,
-                     const std::optional<glm::dvec3>& eye) const {
+glm::dvec3 Light::of(const Surface& surface, const LightRay& ray, double weight, int depth) const {
   const Layer& layer = scene_.layers[surface.face.layer];
   const TriangleSoup& soup = soup_of(layer);
   const bool mirror = layer.material && is_mirror(*layer.material);
   const bool glass = layer.material && is_glass(*layer.material);
   if (!mirror && !glass) {
     const LightRay own = in_layer(ray, surface.face.layer);
-    // From an eye at infinity, all directions are the ray's.
-    glm::dvec3 from = own.origin - 1e12 * glm::length(own.origin + glm::dvec3(1)) * own.direction;
-    if (eye) from = in_layer({*eye, ray.direction}, surface.face.layer).origin;
     return color(soup, {std::uint32_t(surface.face.face), surface.b0, surface.b1}, -own.direction,
-                 from);
+                 eye_of(own));
   }
 
   const Corners corners(soup, surface.face.face);
@@ -224,8 +220,7 @@ ImageF Light::image(const FrameInput& input) const {
   for (std::size_t i = 0; i < pixels; ++i) {
     const bool is_open = surfaces[i].face.layer == ~std::size_t(0);
     const double through = blended[i].transmittance;
-    const glm::dvec3 behind =
-        is_open ? background_ : of(surfaces[i], rays[i], through, 0, camera.eye());
+    const glm::dvec3 behind = is_open ? background_ : of(surfaces[i], rays[i], through, 0);
     image.pixels[i] = glm::vec4(glm::clamp(blended[i].color + through * behind, 0.0, 1.0), 1.0);
   }
   return image;

@@ -1,6 +1,6 @@
 // Light along rays with mirrors and glass, in double precision, without a tree: the reference for
-// tracing/. Rays off the image by oracle/splats_on_ray.hpp and oracle/shade.hpp; harmonics are
-// functions of the ray's direction. A mirror's light is the reflected ray's times the base colour;
+// tracing/. Rays off the image by oracle/splats_on_ray.hpp and oracle/shade.hpp, with eye_of() for
+// all harmonics. A mirror's light is the reflected ray's times the base colour;
 // of glass, by Fresnel's equations, the reflected ray's, and the refracted one's times the base
 // colour. A ray that counts less than 1/510, or after more than 8 reflections and refractions, has
 // the colour of the background.
@@ -27,8 +27,7 @@ class Light {
   glm::dvec3 along(const LightRay& ray) const { return along(ray, {}, 1, 0); }
 
   /// The image of a camera: its own rays blend splats as the rasteriser does, in
-  /// SplatOrder::exact, over the light of the nearest surface. One ray a pixel. `rows`: [first,
-  /// end); others are 0.
+  /// SplatOrder::exact, over the light of the nearest surface. One ray a pixel.
   ImageF image(const FrameInput& input) const;
 
  private:
@@ -50,9 +49,7 @@ class Light {
   Surface nearest(const LightRay& ray, const Face& from) const;
   glm::dvec3 along(const LightRay& ray, const std::optional<Face>& from, double weight,
                    int depth) const;
-  /// `eye`: harmonics of the surface are functions of the direction from it.
-  glm::dvec3 of(const Surface& surface, const LightRay& ray, double weight, int depth,
-                const std::optional<glm::dvec3>& eye) const;
+  glm::dvec3 of(const Surface& surface, const LightRay& ray, double weight, int depth) const;
 
   const Scene& scene_;
   glm::dvec3 background_;

@@ -160,8 +160,8 @@ OnRay on_ray(const NeuralDensities& densities, std::size_t i, const SplatProfile
   return {-std::expm1(-std::max(integral, 0.0)), (begin + stop) / 2};
 }
 
-glm::dvec3 color_of(const SplatColor& color, std::size_t element, const glm::dvec3& direction) {
-  const auto basis = harmonics::basis(direction);
+glm::dvec3 color_of(const SplatColor& color, std::size_t element, const glm::dvec3& from_eye) {
+  const auto basis = harmonics::basis(glm::normalize(from_eye));
   const auto bands = std::size_t(harmonics::count(color.degree));
   glm::dvec3 sum(0.5);
   for (std::size_t k = 0; k < bands; ++k)
@@ -226,9 +226,13 @@ SplatOnRay SplatsOnRays::on_ray(std::size_t i, const LightRay& ray, double end) 
   if (splats_.color.per_corner)
     for (int k = 0; k < 3; ++k)
       result.color +=
-          there.weights[k] * color_of(splats_.color, 3 * i + std::size_t(k), ray.direction);
+          there.weights[k] *
+          color_of(splats_.color, 3 * i + std::size_t(k),
+                   glm::dvec3(
+                       std::get<TriangleWindows>(splats_.kernel).corners[3 * i + std::size_t(k)]) -
+                       eye_of(ray));
   else
-    result.color = color_of(splats_.color, i, ray.direction);
+    result.color = color_of(splats_.color, i, center(splats_, i) - eye_of(ray));
   return result;
 }
 

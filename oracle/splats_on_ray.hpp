@@ -23,6 +23,10 @@
 
 namespace tureen::oracle {
 
+/// Colours are functions of the direction from the eye of the ray: back from its origin by the
+/// path.
+inline glm::dvec3 eye_of(const auto& ray) { return ray.origin - ray.path * ray.direction; }
+
 /// In any coordinates. A pixel's ray has the width `pixel` times the length of its path.
 struct LightRay {
   glm::dvec3 origin{0}, direction{0, 0, -1};  // of unit length

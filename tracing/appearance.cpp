@@ -97,7 +97,7 @@ glm::dvec4 factor_of(const TriangleSoup& soup, const UvTextures& textures, const
 /// Of a face or vertex at `place`.
 glm::dvec3 color_of_element(const Harmonics& harmonics, std::size_t element,
                             const glm::dvec3& place, const ViewOfPoint& view) {
-  glm::dvec3 from_eye = view.eye ? place - *view.eye : -view.to_eye;
+  glm::dvec3 from_eye = place - view.eye;
   const double distance = glm::length(from_eye);
   from_eye = distance > 0 ? from_eye / distance : glm::dvec3(0, 0, 1);
   if (distance > 0 && harmonics.view == ViewConvention::surface_to_eye) from_eye = -from_eye;

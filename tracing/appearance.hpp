@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <optional>
 
 #include "scene/triangle_soup.hpp"
 
@@ -17,9 +16,7 @@ struct FacePoint {
 /// In layer coordinates.
 struct ViewOfPoint {
   glm::dvec3 to_eye;  // unit direction against the ray
-  /// The eye, if harmonics are functions of the direction from it to a centroid or vertex, as the
-  /// rasteriser draws them. Without: of the ray's direction.
-  std::optional<glm::dvec3> eye;
+  glm::dvec3 eye;     // RayInLayer::eye, for the harmonics of centroids and vertices
 };
 
 /// Whether the point exists by the cut-out rule of the appearance.

@@ -105,6 +105,7 @@ RayInLayer TracedLayer::in_layer(const Ray& ray, double end) const {
   RayInLayer result;
   result.origin = point_in_layer(ray.origin);
   result.direction = glm::normalize(layer_from_world_ * ray.direction);
+  result.eye = result.origin - ray.path / scale_ * result.direction;
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     result.high[axis] = float(result.origin[axis]);

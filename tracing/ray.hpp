@@ -30,9 +30,12 @@ struct Ray {
 /// The same ray in the coordinates and units of a layer, as vectors of floats read it.
 struct RayInLayer {
   glm::dvec3 origin, direction;  // of unit length
-  float high[3], low[3];         // their sum is the origin: differences from it keep their digits
-  float along[3], inverse[3];    // the direction, and one over it, finite
-  float scale;                   // world units per layer unit
+  /// The eye before all reflections and refractions: back from the origin by the whole path.
+  /// Colours are functions of the direction from it. A plane mirror thus shows the mirrored scene.
+  glm::dvec3 eye;
+  float high[3], low[3];       // their sum is the origin: differences from it keep their digits
+  float along[3], inverse[3];  // the direction, and one over it, finite
+  float scale;                 // world units per layer unit
   float path, pixel;
   /// Boxes grow by grow + grow_by_distance * (distance to their farthest point): by the footprint
   /// of the pixel there, and by the rounding of their distances.

@@ -123,8 +123,7 @@ class TracedImages::Sample {
       if (!surfaces_[i].exists()) return;
       thread_local RayMemory memory;  // no result depends on it
       const double through = 1 - double(rgba_[4 * i + 3]);
-      const glm::dvec3 light =
-          images_.traced_.light_of(surfaces_[i], ray, through, 0, eye_, memory);
+      const glm::dvec3 light = images_.traced_.light_of(surfaces_[i], ray, through, 0, memory);
       for (std::size_t c = 0; c < 3; ++c) rgba_[4 * i + c] += float(through * light[int(c)]);
       rgba_[4 * i + 3] = 1;
     });

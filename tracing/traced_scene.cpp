@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/spherical_harmonics.hpp"
 #include "tracing/appearance.hpp"
 #include "tracing/kernels/ray_kernel.hpp"
 #include "tracing/optics.hpp"
@@ -95,12 +94,7 @@ BlendedSplats TracedScene::splats_on(const Ray& ray, double end, RayMemory& memo
   BlendedSplats result;
   if (splats_.empty()) return result;
   memory.layers.clear();
-  memory.bases.resize(splats_.size());
-  for (std::size_t i = 0; i < splats_.size(); ++i) {
-    memory.layers.push_back(splats_[i]->in_layer(ray, end));
-    const auto basis = harmonics::basis(glm::vec3(memory.layers.back().direction));
-    memory.bases[i].assign(basis.begin(), basis.end());
-  }
+  for (const TracedLayer* each : splats_) memory.layers.push_back(each->in_layer(ray, end));
   const auto place_of = [&](std::uint32_t layer) {
     std::size_t i = 0;
     while (splats_[i]->index() != layer) ++i;
@@ -124,8 +118,8 @@ BlendedSplats TracedScene::splats_on(const Ray& ray, double end, RayMemory& memo
           next < double(std::get<Splats>(layer.primitives()).profile.stop_transmittance);
       if (!stops) {
         const double weight = result.transmittance * double(hit.alpha);
-        result.color += weight * glm::dvec3(layer.kernel().color(layer, memory.layers[i], hit.lane,
-                                                                 memory.bases[i]));
+        result.color +=
+            weight * glm::dvec3(layer.kernel().color(layer, memory.layers[i], hit.lane));
         result.transmittance = next;
       }
       if (stops || next == 0) {
@@ -148,13 +142,12 @@ glm::dvec3 TracedScene::light_along(const Ray& ray, double weight, int depth,
   const BlendedSplats splats = splats_on(ray, surface.distance, memory, depth);
   glm::dvec3 behind = background_;
   if (surface.exists())
-    behind = light_of(surface, ray, weight * splats.transmittance, depth, {}, memory);
+    behind = light_of(surface, ray, weight * splats.transmittance, depth, memory);
   return splats.color + splats.transmittance * behind;
 }
 
 glm::dvec3 TracedScene::light_of(const SurfaceOnRay& surface, const Ray& ray, double weight,
-                                 int depth, const std::optional<glm::dvec3>& eye,
-                                 RayMemory& memory) const {
+                                 int depth, RayMemory& memory) const {
   const TracedLayer& own = layer(surface.face.layer);
   const std::optional<Material>& material = scene_.layers[surface.face.layer].material;
   if (material && is_glass(*material)) return light_of_glass(surface, ray, weight, depth, memory);
@@ -168,9 +161,9 @@ glm::dvec3 TracedScene::light_of(const SurfaceOnRay& surface, const Ray& ray, do
            light_along(next_ray(ray, surface, at.point, reflected), counts, depth + 1, memory);
   }
   const auto& soup = std::get<TriangleSoup>(own.primitives());
-  ViewOfPoint view{-own.in_layer(ray, 1).direction, {}};
-  if (eye) view.eye = own.point_in_layer(*eye);
-  return surface_color(soup, {surface.face.face, surface.b0, surface.b1}, view);
+  const RayInLayer in_layer = own.in_layer(ray, surface.distance);
+  return surface_color(soup, {surface.face.face, surface.b0, surface.b1},
+                       {-in_layer.direction, in_layer.eye});
 }
 
 glm::dvec3 TracedScene::light_of_glass(const SurfaceOnRay& surface, const Ray& ray, double weight,

@@ -7,15 +7,13 @@
 //   refracted
 //            ray times the base colour; normals point out of the glass, which lies in air
 //   others   the colour that every renderer draws
-// Harmonics are functions of the ray's direction. A ray that would count less than 1/510 of the
-// pixel, or that has been reflected or refracted more than 8 times, has the colour of the
-// background.
+// Harmonics are functions of the direction from the ray's eye (RayInLayer::eye). A ray that would
+// count less than 1/510 of the pixel, or that has been reflected or refracted more than 8 times,
+// has the colour of the background.
 #pragma once
 
 #include <array>
 #include <memory>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -37,7 +35,6 @@ struct BlendedSplats {
 /// Memory of one thread between its rays. No result depends on it.
 struct RayMemory {
   std::vector<RayInLayer> layers;
-  std::vector<std::vector<float>> bases;
   std::vector<SplatOnRay> hits;
   /// By depth: the distance up to which the last ray's splats were collected.
   std::array<float, max_depth + 2> reach{};
@@ -60,9 +57,9 @@ class TracedScene {
   BlendedSplats splats_on(const Ray& ray, double end, RayMemory& memory, int depth = 0) const;
   /// The light that comes against the ray, which counts `weight` of the pixel.
   glm::dvec3 light_along(const Ray& ray, double weight, int depth, RayMemory& memory) const;
-  /// The light that a surface sends against the ray. `eye`, in world coordinates: as ViewOfPoint.
+  /// The light that a surface sends against the ray.
   glm::dvec3 light_of(const SurfaceOnRay& surface, const Ray& ray, double weight, int depth,
-                      const std::optional<glm::dvec3>& eye, RayMemory& memory) const;
+                      RayMemory& memory) const;
 
  private:
   const TracedLayer& layer(std::uint32_t index) const { return *layers_[index]; }

@@ -66,8 +66,9 @@ TEST(Materials, ASlabMovesRaysByItsThicknessAndSnellsLaw) {
       // Rays below 1/510 are cut: there are at most two of them.
       EXPECT_NEAR(red, expected, 2.0 / 510) << "index " << ior << ", " << degrees << " degrees";
       const double straight = (3 * std::tan(in) + 10) / 20;
-      if (degrees > 20)
+      if (degrees > 20) {
         EXPECT_GT(std::abs(red - straight), 4.0 / 510) << "the test sees the offset";
+      }
     }
 }
 
@@ -99,10 +100,11 @@ TEST(Materials, BeyondTheCriticalAngleAllLightIsReflected) {
   for (const double beyond : {-0.02, -1e-4, 1e-4, 0.02}) {
     const double angle = critical + beyond;
     const glm::dvec3 light = light_along(scene, {0, -1, 0}, {std::sin(angle), std::cos(angle), 0});
-    if (beyond > 0)
+    if (beyond > 0) {
       EXPECT_EQ(light, glm::dvec3(0, 0, 1));
-    else
+    } else {
       EXPECT_GT(light.r, beyond < -0.01 ? 0.5 : 0.05);
+    }
     EXPECT_NEAR(light.r + light.b, 1, 1e-9);
   }
 }

@@ -96,10 +96,11 @@ TEST_P(TracedImage, OfAMirrorIsThatOfTheMirroredScene) {
   std::printf("%s: %.1f dB, %.3f %% differ by more than 1/255\n", GetParam().name, db,
               100 * differs);
   if (name.starts_with("windows")) return;  // in their own plane: another primitive
-  if (name == "neural" || name == "discs_redisplats")
+  if (name == "neural" || name == "discs_redisplats") {
     EXPECT_LE(differs, 0.001);
-  else
+  } else {
     EXPECT_GE(db, 40);
+  }
 }
 
 TEST_P(TracedImage, GlassOfIndexOneChangesNothing) {

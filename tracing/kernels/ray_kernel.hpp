@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -44,9 +43,8 @@ struct RayKernel {
   /// Splats: adds those on the ray at distances in [from, to), in world units. Null for surfaces.
   void (*collect)(const TracedLayer& layer, const RayInLayer& ray, float from, float to,
                   std::vector<SplatOnRay>& hits) = nullptr;
-  /// Splats: the colour, from harmonics::basis at the ray's direction in layer coordinates.
-  glm::vec3 (*color)(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane,
-                     std::span<const float> basis) = nullptr;
+  /// Splats: the colour, by RayInLayer::eye.
+  glm::vec3 (*color)(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane) = nullptr;
   /// Surfaces: replaces `nearest` by a visible point of the layer that is nearer. At equal
   /// distances the earlier layer, then the lower index wins. Null for splats.
   void (*intersect)(const TracedLayer& layer, const Ray& ray, SurfaceOnRay& nearest) = nullptr;
@@ -59,11 +57,9 @@ extern const RayKernel gaussian_rays, disc_rays, window_rays, corner_window_rays
     triangle_rays;
 
 /// RayKernel::color of splats with one colour.
-glm::vec3 splat_color(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane,
-                      std::span<const float> basis);
-/// max(0, 1/2 + sum_i basis_i c_i) of splat or corner `element`.
-glm::vec3 harmonics_color(const SplatColor& color, std::size_t element,
-                          std::span<const float> basis);
+glm::vec3 splat_color(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane);
+/// max(0, 1/2 + sum_i Y_i c_i) of splat or corner `element`, at the direction of `from_eye`.
+glm::vec3 harmonics_color(const SplatColor& color, std::size_t element, const glm::dvec3& from_eye);
 
 /// The profile's limit as an exponent: the squared distance from the centre, in deviations, at
 /// which a Gaussian reaches the smallest alpha; negative if it never does.

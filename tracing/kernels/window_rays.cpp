@@ -125,8 +125,7 @@ Box window_box(const Primitives& primitives, const float* lane) {
 }
 
 /// The colours of the corners, by the barycentrics in the window's own plane.
-glm::vec3 corner_color(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane,
-                       std::span<const float> basis) {
+glm::vec3 corner_color(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane) {
   const std::uint32_t i = layer.primitive(lane);
   const glm::vec3* corner = &windows_of(layer.primitives())->corners[3 * i];
   const glm::dvec3 start(corner[0]);
@@ -138,8 +137,8 @@ glm::vec3 corner_color(const TracedLayer& layer, const RayInLayer& ray, std::uin
   const float weights[3] = {float(1 - b1 - b2), float(b1), float(b2)};
   glm::vec3 sum(0.0f);
   for (std::size_t k = 0; k < 3; ++k)
-    sum += std::max(weights[k], 0.0f) *
-           harmonics_color(std::get<Splats>(layer.primitives()).color, 3 * i + k, basis);
+    sum += std::max(weights[k], 0.0f) * harmonics_color(std::get<Splats>(layer.primitives()).color,
+                                                        3 * i + k, glm::dvec3(corner[k]) - ray.eye);
   return sum;
 }
 
