@@ -70,12 +70,15 @@ class DensityOnRay {
 
     const Floats half_chord = hn::Sqrt(hn::Mul(hn::ZeroIfNegative(discriminant), by_speed));
     const Floats shift = hn::Add(first, second), middle = hn::Add(to_nearest, shift);
+    const Floats limit = constant(ray_.end);
     const Floats begin = hn::Max(hn::Neg(half_chord), hn::Neg(middle));
-    const Floats end = hn::Min(half_chord, hn::Sub(constant(ray_.end), middle));
+    const Floats end = hn::Min(half_chord, hn::Sub(limit, middle));
     met = hn::And(met, hn::Gt(end, begin));
     const Floats half = hn::Mul(constant(0.5f), hn::Sub(end, begin));
     const Floats at_middle = hn::Mul(constant(0.5f), hn::Add(begin, end));
-    distance = hn::Add(middle, at_middle);
+    // By distances from the origin: of all densities that are cut at both ends it is the same.
+    distance = hn::Mul(constant(0.5f), hn::Add(hn::Max(hn::Sub(middle, half_chord), hn::Zero(d)),
+                                               hn::Min(hn::Add(middle, half_chord), limit)));
     met = hn::And(met, hn::Gt(distance, hn::Zero(d)));
     if (none(met)) return met;
 
