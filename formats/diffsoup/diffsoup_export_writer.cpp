@@ -283,6 +283,8 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
     notes.emplace_back("the scene's origin was added to its vertices, which rounds them");
   }
   if (!scene.cameras.empty()) notes.emplace_back("cameras are not kept");
+  if (!soup->normals.empty()) notes.emplace_back("normals are not kept");
+  if (layer.material) notes.emplace_back("mirrors and glass are not kept");
 
   NewFolder target(folder);
   try {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <deque>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -12,6 +13,7 @@
 #include "formats/gltf/gltf_remarks.hpp"
 #include "formats/gltf/gltf_soup.hpp"
 #include "formats/gltf/gltf_splats.hpp"
+#include "formats/gltf/gltf_surface.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -39,34 +41,33 @@ class Importer {
       : document_(document),
         options_(options),
         generator_(document.model().asset.generator),
-        builder_(document, color_space()),
+        ordinary_(document, color_space(), tally_),
         splats_(document, options.keep_rows) {}
 
   Scene scene() {
     walk();
-    const bool has_soup = builder_.has_faces() || splats_.layers().empty();
-    TriangleSoup soup = builder_.finish();
-    if (const auto reason = defect(soup)) document_.fail("", *reason);
-    if (builder_.has_vertex_colors()) builder_.remarks.push_back({color_remark()});
-    if (!document_.model().animations.empty())
-      builder_.remarks.push_back({&remarks::animations_dropped});
     Scene scene;
-    if (has_soup) scene = scene_of(std::move(soup));
+    if (ordinary_.has_faces()) scene.layers.push_back({.primitives = soup_of(ordinary_)});
+    add_surfaces(scene.layers);
+    if (scene.layers.empty() && splats_.layers().empty())
+      scene.layers.push_back({.primitives = soup_of(ordinary_)});
+    if (!document_.model().animations.empty())
+      tally_.remarks.push_back({&remarks::animations_dropped});
     for (Layer& layer : splats_.layers()) scene.layers.push_back(std::move(layer));
     if (scene.layers.size() > max_layers)
       document_.fail("", std::to_string(scene.layers.size()) + " layers; at most " +
                              std::to_string(max_layers) + " are supported");
-    for (Remark& remark : splats_.remarks()) builder_.remarks.push_back(std::move(remark));
+    for (Remark& remark : splats_.remarks()) tally_.remarks.push_back(std::move(remark));
     scene.cameras = std::move(cameras_);
     scene.info.source = generator_.empty() ? "glTF" : "glTF by " + generator_;
     if (contains_ignoring_case(generator_, "trimesh")) {
       // trimesh does not convert coordinates, and soups exported with it are z up.
       scene.info.up = {0, 0, 1};
       scene.info.up_is_assumed = true;
-      builder_.remarks.push_back({&remarks::up_unknown_to_trimesh});
+      tally_.remarks.push_back({&remarks::up_unknown_to_trimesh});
     }
     std::set<Remark> known;
-    for (Remark& remark : builder_.remarks)
+    for (Remark& remark : tally_.remarks)
       if (known.insert(remark).second) scene.info.remarks.push_back(std::move(remark));
     if (options_.progress) options_.progress(1.0);
     return scene;
@@ -76,6 +77,72 @@ class Importer {
   VertexColorSpace color_space() const {
     if (options_.vertex_colors != VertexColorSpace::automatic) return options_.vertex_colors;
     return writes_srgb_colors(generator_) ? VertexColorSpace::srgb : VertexColorSpace::linear;
+  }
+
+  /// The soup of a builder, without a defect.
+  TriangleSoup soup_of(GltfSoupBuilder& builder) {
+    TriangleSoup soup = builder.finish();
+    if (const auto reason = defect(soup)) document_.fail("", *reason);
+    if (builder.has_vertex_colors()) tally_.remarks.push_back({color_remark()});
+    return soup;
+  }
+
+  /// Appends the mirrors and the glass. A layer that is the only one needs no name.
+  void add_surfaces(std::vector<Layer>& layers) {
+    std::vector<std::string> names;
+    for (Surface& surface : surfaces_) {
+      if (!surface.builder.has_faces()) continue;
+      std::string name = surface.name;
+      for (int number = 2; std::count(names.begin(), names.end(), name) > 0; ++number)
+        name = surface.name + " " + std::to_string(number);
+      names.push_back(name);
+      layers.push_back({.name = std::move(name),
+                        .primitives = soup_of(surface.builder),
+                        .material = surface.material});
+    }
+    if (names.empty()) return;
+    if (layers.size() == 1 && splats_.layers().empty()) layers.front().name.clear();
+    tally_.remarks.push_back({&remarks::surfaces_split, {{"layers", std::move(names)}}});
+  }
+
+  /// The builder of primitives with materials[index]: that of their mirror or glass, or ordinary_.
+  GltfSoupBuilder& builder_of(int index) {
+    const auto& materials = document_.model().materials;
+    if (index < 0 || std::size_t(index) >= materials.size()) return ordinary_;
+    const auto material = read_gltf_surface(document_, index, tally_.remarks);
+    if (!material) return ordinary_;
+    for (Surface& surface : surfaces_)
+      if (surface.material == *material) return surface.builder;
+    if (surfaces_.size() == max_surfaces) {
+      tally_.remarks.push_back(
+          {&remarks::surface_dropped,
+           {{"material", "materials[" + std::to_string(index) + "]"},
+            {"reason", "the file has more than " + std::to_string(max_surfaces) + " of them"}}});
+      return ordinary_;
+    }
+    const std::string& name = materials[std::size_t(index)].name;
+    surfaces_.push_back({*material,
+                         !name.empty()          ? name
+                         : is_mirror(*material) ? "mirror"
+                                                : "glass",
+                         {document_, color_space(), tally_}});
+    return surfaces_.back().builder;
+  }
+
+  /// Adds the primitives of meshes[index] without splats.
+  void add_mesh(int index, const glm::dmat4& world_from_mesh) {
+    const auto& meshes = document_.model().meshes;
+    if (index < 0 || std::size_t(index) >= meshes.size())
+      document_.fail("meshes", "there is no mesh " + std::to_string(index) + " of " +
+                                   std::to_string(meshes.size()));
+    const std::vector<tinygltf::Primitive>& primitives = meshes[std::size_t(index)].primitives;
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+      if (!has_splats(primitives[i]))
+        builder_of(primitives[i].material)
+            .add_primitive(
+                primitives[i],
+                "meshes[" + std::to_string(index) + "].primitives[" + std::to_string(i) + "]",
+                world_from_mesh);
   }
 
   const RemarkKind* color_remark() const {
@@ -133,8 +200,8 @@ class Importer {
       const tinygltf::Node& node = model.nodes[std::size_t(visit.node)];
       const glm::dmat4 world_from_node = visit.world_from_parent * parent_from_node(node, where);
       if (node.mesh != -1) {
-        if (node.skin != -1) builder_.remarks.push_back({&remarks::skins_dropped});
-        builder_.add_mesh(node.mesh, world_from_node);
+        if (node.skin != -1) tally_.remarks.push_back({&remarks::skins_dropped});
+        add_mesh(node.mesh, world_from_node);
         splats_.add_mesh(node.mesh, {node.name, world_from_node}, where);
       }
       if (node.camera != -1) add_camera(node.camera, world_from_node, where);
@@ -179,7 +246,7 @@ class Importer {
                      "names camera " + std::to_string(index) + " of " + std::to_string(all.size()));
     const tinygltf::Camera& json = all[std::size_t(index)];
     if (json.type != "perspective") {
-      builder_.remarks.push_back({&remarks::other_projections_dropped});
+      tally_.remarks.push_back({&remarks::other_projections_dropped});
       return;
     }
     const double fov = json.perspective.yfov;
@@ -191,7 +258,7 @@ class Importer {
     const double volume = std::abs(glm::determinant(axes));
     if (!(fov > 0.0 && fov < 3.14159) || !(aspect > 0.01) || !(height * aspect <= max_image_side) ||
         !(volume > 0.0) || !std::isfinite(volume)) {
-      builder_.remarks.push_back({&remarks::blind_cameras_dropped});
+      tally_.remarks.push_back({&remarks::blind_cameras_dropped});
       return;
     }
     // A scale does not change a camera's view. Orthonormal axes remove it together with shear.
@@ -211,10 +278,20 @@ class Importer {
     cameras_.push_back(camera);
   }
 
+  /// A mirror or glass. Each takes a layer; a scene has at most max_layers.
+  static constexpr std::size_t max_surfaces = 64;
+  struct Surface {
+    Material material;
+    std::string name;
+    GltfSoupBuilder builder;
+  };
+
   GltfDocument& document_;
   const ReadOptions& options_;
   std::string generator_;
-  GltfSoupBuilder builder_;
+  GltfTally tally_;
+  GltfSoupBuilder ordinary_;      // of all other materials
+  std::deque<Surface> surfaces_;  // in the order of first use
   GltfSplatBuilder splats_;
   std::vector<Camera> cameras_;
 };

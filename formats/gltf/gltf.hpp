@@ -3,8 +3,9 @@
 // Supported: triangles, strips and fans in all nodes of the scene, indexed or not,
 // any component type, normalised, quantised (KHR_mesh_quantization) or sparse. Also vertex colours
 // (COLOR_0); the base colour's factor and texture with its sampler, KHR_texture_transform and alpha
-// mode; perspective cameras. Materials are drawn unlit, with or without KHR_materials_unlit, since
-// a trained soup has its light baked in.
+// mode; normals; perspective cameras. Materials are drawn unlit, with or without
+// KHR_materials_unlit, since a trained soup has its light baked in. Mirrors and glass are layers of
+// their own, for rays: formats/gltf/gltf_surface.hpp.
 // Gaussian splats (KHR_gaussian_splatting) become a layer for each primitive of a node:
 // formats/gltf/gltf_splats.hpp.
 // Not supported: lines and other points, animation, skins, morph targets, lights, emission, normal
@@ -34,10 +35,11 @@ bool is_gltf(std::span<const std::byte> head);
 /// The JSON of a .gltf file, without a binary chunk. Throws InputError.
 GlbContainer read_gltf_json(Input& input);
 
-/// Reads the scene of a .gltf or .glb. All triangles are one soup, the first layer; a file with
-/// splats only has no such layer. The soup has VertexColors if no material has a texture, otherwise
-/// UvTextures. Files that the document names lie in `folder`. Throws InputError; its reason begins
-/// with the place in the JSON, as in "accessors[3]: ..".
+/// Reads the scene of a .gltf or .glb. The triangles of each mirror or glass are a layer, and all
+/// others one soup, the first layer; a file without others has no such layer. A soup has
+/// VertexColors if none of its materials has a texture, otherwise UvTextures. Files that the
+/// document names lie in `folder`. Throws InputError; its reason begins with the place in the JSON,
+/// as in "accessors[3]: ..".
 Scene read_gltf(Input& input, GlbContainer glb, const std::filesystem::path& folder,
                 const ReadOptions& options);
 

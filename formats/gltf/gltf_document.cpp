@@ -18,8 +18,9 @@ namespace {
 
 /// Extensions that a file may require. The mesh and texture extensions are applied; materials are
 /// always drawn unlit.
-constexpr std::array known_extensions = {"KHR_gaussian_splatting", "KHR_materials_unlit",
-                                         "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::array known_extensions = {"KHR_gaussian_splatting",     "KHR_materials_ior",
+                                         "KHR_materials_transmission", "KHR_materials_unlit",
+                                         "KHR_mesh_quantization",      "KHR_texture_transform"};
 
 /// tinygltf's messages as one line without a full stop.
 std::string one_line(std::string text) {
@@ -118,7 +119,7 @@ void GltfDocument::parse() {
   // tinygltf ignores an offset or a size that is not an integer. Such a file would be misread
   // without an error.
   for (const char* list : {"accessors", "bufferViews"}) {
-    const auto view = JsonView(glb_.json, input_.name()).find(list);
+    const auto view = root().find(list);
     for (std::size_t i = 0; view && i < view->size(); ++i)
       for (const char* key : {"byteOffset", "byteLength", "byteStride", "count", "bufferView"})
         if (const auto member = view->at(i).find(key)) lean[list][i][key] = member->natural();
@@ -180,7 +181,7 @@ std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
 }
 
 std::vector<std::byte> GltfDocument::load_buffer(std::size_t index, std::uint64_t size) {
-  const JsonView json = JsonView(glb_.json, input_.name())["buffers"].at(index);
+  const JsonView json = root()["buffers"].at(index);
   if (const auto uri = json.find("uri")) return load_uri(*uri, size);
   if (index != 0 || glb_.binary_offset == 0) json.fail("has no uri and no binary chunk");
   if (size > glb_.binary_size)
@@ -195,7 +196,7 @@ std::span<const std::byte> GltfDocument::buffer(int index, const std::string& wh
     fail(where, "names buffer " + std::to_string(index) + " of " + std::to_string(buffers_.size()));
   auto& bytes = buffers_[std::size_t(index)];
   if (!bytes) {
-    const JsonView json = JsonView(glb_.json, input_.name())["buffers"].at(std::size_t(index));
+    const JsonView json = root()["buffers"].at(std::size_t(index));
     bytes = load_buffer(std::size_t(index), json["byteLength"].natural());
     loaded_bytes_ += bytes->size();
   }
@@ -236,7 +237,7 @@ GltfDocument::Elements GltfDocument::elements(int view, std::uint64_t offset, st
 }
 
 Image8 GltfDocument::image(int index) {
-  const JsonView images = JsonView(glb_.json, input_.name())["images"];
+  const JsonView images = root()["images"];
   const JsonView json = images.at(index < 0 ? images.size() : std::size_t(index));
   const auto decode = [&](std::span<const std::byte> bytes) {
     try {

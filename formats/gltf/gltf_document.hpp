@@ -27,6 +27,7 @@ class GltfDocument {
   GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder);
 
   const tinygltf::Model& model() const { return model_; }
+  JsonView root() const { return {glb_.json, input_.name()}; }
 
   struct Elements {
     const std::byte* first = nullptr;

@@ -32,6 +32,17 @@ inline constexpr RemarkKind colors_multiplied{
     "approximates the product in linear light that glTF specifies"};
 inline constexpr RemarkKind materials_unlit{"materials_unlit", Severity::loss,
                                             "lit materials are drawn unlit, by their base colour"};
+inline constexpr RemarkKind surfaces_split{
+    "surfaces_split", Severity::note,
+    "the {layers:material|materials} {layers:and} {layers:is|are} mirrors or glass: each is a "
+    "layer "
+    "of its own, and only rays show more than its base colour"};
+inline constexpr RemarkKind surface_dropped{
+    "surface_dropped", Severity::loss,
+    "{material} is drawn by its base colour, not as a mirror or glass: {reason}"};
+inline constexpr RemarkKind surface_texture_dropped{
+    "surface_texture_dropped", Severity::loss,
+    "{material}: rays use the factor of its base colour, not the texture"};
 inline constexpr RemarkKind blending_cut_out{
     "blending_cut_out", Severity::loss,
     "blended materials are drawn as cut-outs at an alpha of 0.5"};

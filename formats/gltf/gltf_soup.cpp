@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "formats/gltf/gltf_accessor.hpp"
 #include "formats/gltf/gltf_remarks.hpp"
-#include "formats/gltf/gltf_splats.hpp"
 #include "image/srgb.hpp"
+#include "scene/edit/moved_normals.hpp"
 
 namespace tureen {
 
@@ -36,19 +37,6 @@ std::vector<glm::uvec3> assembled(const std::vector<std::uint32_t>& corners, int
 
 }  // namespace
 
-void GltfSoupBuilder::add_mesh(int index, const glm::dmat4& world_from_mesh) {
-  const auto& meshes = document_.model().meshes;
-  if (index < 0 || std::size_t(index) >= meshes.size())
-    document_.fail("meshes", "there is no mesh " + std::to_string(index) + " of " +
-                                 std::to_string(meshes.size()));
-  const tinygltf::Mesh& mesh = meshes[std::size_t(index)];
-  for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
-    if (!has_splats(mesh.primitives[i]))
-      add_primitive(mesh.primitives[i],
-                    "meshes[" + std::to_string(index) + "].primitives[" + std::to_string(i) + "]",
-                    world_from_mesh);
-}
-
 std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive& primitive,
                                                       const std::string& where,
                                                       std::size_t vertices) {
@@ -62,7 +50,7 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
     for (std::size_t i = 0; i < vertices; ++i) corners[i] = std::uint32_t(i);
   }
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
-    remarks.push_back(
+    tally_.remarks.push_back(
         {&remarks::corners_dropped, {{"corners", corners.size()}, {"primitive", where}}});
   // A strip or a fan has two triangles fewer than corners.
   const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
@@ -73,17 +61,17 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
 void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const std::string& where,
                                     const glm::dmat4& world_from_mesh) {
   if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-    remarks.push_back({&remarks::points_and_lines_dropped});
+    tally_.remarks.push_back({&remarks::points_and_lines_dropped});
     return;
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
     document_.fail(where, "mode " + std::to_string(primitive.mode) + " is unknown");
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) {
-    remarks.push_back({&remarks::primitives_without_positions_dropped});
+    tally_.remarks.push_back({&remarks::primitives_without_positions_dropped});
     return;
   }
-  if (!primitive.targets.empty()) remarks.push_back({&remarks::morph_targets_dropped});
+  if (!primitive.targets.empty()) tally_.remarks.push_back({&remarks::morph_targets_dropped});
 
   const std::size_t vertices = accessor_count(document_, position->second);
   if (vertices >= unused) document_.fail(where, "has more vertices than 32 bits can count");
@@ -97,20 +85,21 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
       std::uint64_t(triangles.size()) * sizeof triangles[0] +
       2 * std::min<std::uint64_t>(vertices, 3 * std::uint64_t(triangles.size())) * sizeof used[0];
   document_.take_memory(passing, 1, where);
-  if (renamed_.size() < vertices) {
-    document_.make_room_in(renamed_, vertices - renamed_.size(), where);
-    renamed_.resize(vertices, unused);
+  if (tally_.renamed.size() < vertices) {
+    document_.make_room_in(tally_.renamed, vertices - tally_.renamed.size(), where);
+    tally_.renamed.resize(vertices, unused);
   }
   for (const glm::uvec3& triangle : triangles)
     for (int k = 0; k < 3; ++k)
-      if (renamed_[triangle[k]] == unused) {
-        renamed_[triangle[k]] = 0;
+      if (tally_.renamed[triangle[k]] == unused) {
+        tally_.renamed[triangle[k]] = 0;
         used.push_back(triangle[k]);
       }
   if (!std::is_sorted(used.begin(), used.end())) std::sort(used.begin(), used.end());
-  const std::size_t total = soup_.positions.size() + used.size();
-  if (total > document_.vertex_budget() || total >= unused ||
-      soup_.triangles.size() + triangles.size() > 4 * document_.vertex_budget())
+  tally_.vertices += used.size();
+  tally_.faces += triangles.size();
+  if (tally_.vertices > document_.vertex_budget() || tally_.vertices >= unused ||
+      tally_.faces > 4 * document_.vertex_budget())
     document_.fail(where, "the scene's nodes repeat its meshes to more than " +
                               std::to_string(document_.vertex_budget()) + " vertices");
 
@@ -118,19 +107,22 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
                   material(primitive.material)};
   parts_.push_back(part);
   for (std::size_t i = 0; i < used.size(); ++i)
-    renamed_[used[i]] = std::uint32_t(part.first_vertex + i);
+    tally_.renamed[used[i]] = std::uint32_t(part.first_vertex + i);
   add_positions(position->second, where, world_from_mesh, used);
   document_.make_room_in(soup_.triangles, triangles.size(), where);
   for (const glm::uvec3& t : triangles)
-    soup_.triangles.emplace_back(renamed_[t.x], renamed_[t.y], renamed_[t.z]);
-  for (const std::uint32_t v : used) renamed_[v] = unused;
+    soup_.triangles.emplace_back(tally_.renamed[t.x], tally_.renamed[t.y], tally_.renamed[t.z]);
+  for (const std::uint32_t v : used) tally_.renamed[v] = unused;
 
-  const auto color = primitive.attributes.find("COLOR_0");
-  if (color != primitive.attributes.end()) {
-    if (accessor_count(document_, color->second) != vertices)
-      document_.fail(where + ".attributes.COLOR_0", "does not have as many elements as POSITION");
-    add_colors(color->second, where, used);
-  }
+  const auto attribute = [&](const char* name) -> std::optional<int> {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) return std::nullopt;
+    if (accessor_count(document_, found->second) != vertices)
+      document_.fail(where + ".attributes." + name, "does not have as many elements as POSITION");
+    return found->second;
+  };
+  if (const auto color = attribute("COLOR_0")) add_colors(*color, where, used);
+  if (const auto normal = attribute("NORMAL")) add_normals(*normal, where, world_from_mesh, used);
   add_uv(primitive, materials_[part.material], where, used);
   document_.budget().give_back(passing);
 }
@@ -144,6 +136,21 @@ void GltfSoupBuilder::add_positions(int accessor, const std::string& where,
   for (std::size_t i = 0; i < used.size(); ++i) {
     const float* p = &positions.values[3 * i];
     soup_.positions.emplace_back(world_from_mesh * glm::dvec4(p[0], p[1], p[2], 1.0));
+  }
+}
+
+void GltfSoupBuilder::add_normals(int accessor, const std::string& where,
+                                  const glm::dmat4& world_from_mesh,
+                                  const std::vector<std::uint32_t>& used) {
+  const std::size_t first = soup_.positions.size() - used.size();
+  document_.make_room_in(soup_.normals, first + used.size() - soup_.normals.size(), where);
+  PassingMemory passing(document_.budget());
+  const FloatElements normals = read_float_elements(document_, accessor, {3}, used);
+  const glm::dmat3 matrix = normal_matrix(glm::dmat3(world_from_mesh));
+  soup_.normals.resize(first, glm::vec3(0.0f));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const float* n = &normals.values[3 * i];
+    soup_.normals.push_back(unit_or_zero(matrix * glm::dvec3(n[0], n[1], n[2])));
   }
 }
 
@@ -190,7 +197,7 @@ void GltfSoupBuilder::add_uv(const tinygltf::Primitive& primitive, const GltfMat
 
 std::size_t GltfSoupBuilder::material(int index) {
   const auto [entry, fresh] = material_index_.try_emplace(index, materials_.size());
-  if (fresh) materials_.push_back(read_gltf_material(document_, index, remarks));
+  if (fresh) materials_.push_back(read_gltf_material(document_, index, tally_.remarks));
   return entry->second;
 }
 
@@ -258,7 +265,7 @@ UvTextures GltfSoupBuilder::as_uv_textures() {
                             float(material.factor.w));
     made.mask_threshold = material.masked ? material.cutoff : 0.0f;
   }
-  if (multiplied) remarks.push_back({&remarks::colors_multiplied});
+  if (multiplied) tally_.remarks.push_back({&remarks::colors_multiplied});
   return textures;
 }
 
@@ -266,6 +273,10 @@ TriangleSoup GltfSoupBuilder::finish() {
   if (has_vertex_colors()) {
     document_.make_room_in(vertex_colors_, soup_.positions.size() - vertex_colors_.size(), "");
     vertex_colors_.resize(soup_.positions.size(), glm::vec4(1.0f));
+  }
+  if (!soup_.normals.empty()) {
+    document_.make_room_in(soup_.normals, soup_.positions.size() - soup_.normals.size(), "");
+    soup_.normals.resize(soup_.positions.size(), glm::vec3(0.0f));
   }
   const bool textured = std::any_of(materials_.begin(), materials_.end(),
                                     [](const GltfMaterial& m) { return m.image >= 0; });

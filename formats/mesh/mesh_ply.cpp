@@ -11,14 +11,16 @@
 #include "formats/ply/ply_bytes.hpp"
 #include "formats/ply/ply_values.hpp"
 #include "image/quantise.hpp"
+#include "scene/edit/moved_normals.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// Slots of scalar properties: 0..2 x y z, 3..6 red green blue alpha.
-constexpr int slots = 7;
+/// Slots of scalar properties: 0..2 x y z, 3..6 red green blue alpha, 7..9 nx ny nz.
+constexpr int slots = 10;
 constexpr int first_color = 3;
+constexpr int first_normal = 7;
 constexpr int none = -1;
 
 /// The layout of an element, computed once from its properties.
@@ -26,7 +28,7 @@ struct Layout {
   std::vector<int> slot;               // one a property; none: skipped
   std::array<double, slots> unit{};    // divisor of each slot
   std::optional<std::size_t> indices;  // the list of vertex indices
-  bool has_color = false;
+  bool has_color = false, has_normal = false;
 };
 
 class PlyReader {
@@ -70,8 +72,8 @@ class PlyReader {
   }
 
   Layout layout_of(const PlyElement& element) {
-    static constexpr std::array<const char*, slots> names{"x",     "y",    "z",    "red",
-                                                          "green", "blue", "alpha"};
+    static constexpr std::array<const char*, slots> names{"x",    "y",     "z",  "red", "green",
+                                                          "blue", "alpha", "nx", "ny",  "nz"};
     Layout layout;
     layout.slot.assign(element.properties.size(), none);
     std::array<bool, slots> found{};
@@ -81,13 +83,16 @@ class PlyReader {
       if (name.substr(0, 8) == "diffuse_") name.remove_prefix(8);
       const auto slot = std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
       if (slot == names.size()) continue;
+      if (slot >= first_normal && element.name != "vertex") continue;
       if (found[slot])
         fail_element(input_, element, "has a second property '" + property.name + "'");
       if (property.count_type) fail_element(input_, element, "has a list '" + property.name + "'");
       found[slot] = true;
       layout.slot[i] = int(slot);
-      layout.unit[slot] = slot < first_color ? 1.0 : unit_of(element, property);
+      const bool is_color = slot >= first_color && slot < first_normal;
+      layout.unit[slot] = is_color ? unit_of(element, property) : 1.0;
     }
+    layout.has_normal = found[first_normal] && found[first_normal + 1] && found[first_normal + 2];
     layout.has_color = found[3] || found[4] || found[5];
     for (std::size_t slot = 3; slot < 6; ++slot)
       if (layout.has_color && !found[slot])
@@ -138,13 +143,15 @@ class PlyReader {
     // The header check guarantees that the rows fit in the file.
     mesh_.reserve_vertices(element.count);
     if (layout.has_color) mesh_.reserve_colors_of_vertices(element.count);
+    if (layout.has_normal) mesh_.reserve_normals(element.count);
     for (std::uint64_t v = 0; v < element.count; ++v) {
-      std::array<float, slots> row{0, 0, 0, 0, 0, 0, 1};
+      std::array<float, slots> row{0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
       values_.read_row(element, layout.slot, [&](std::size_t slot, double value) {
         row[slot] = scaled(value, layout.unit[slot]);
       });
       mesh_.positions.emplace_back(row[0], row[1], row[2]);
       if (layout.has_color) mesh_.vertex_rgba.emplace_back(row[3], row[4], row[5], row[6]);
+      if (layout.has_normal) mesh_.normals.push_back(unit_or_zero({row[7], row[8], row[9]}));
     }
   }
 
@@ -266,6 +273,7 @@ std::vector<std::string> write_mesh_ply(const Scene& scene, const std::filesyste
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                        std::to_string(soup.positions.size()) +
                        "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!soup.normals.empty()) header += "property float nx\nproperty float ny\nproperty float nz\n";
   if (vertex_rgba) header += color_properties(as_bytes);
   header += "element face " + std::to_string(soup.triangles.size()) +
             "\nproperty list uchar int vertex_indices\n";
@@ -275,6 +283,7 @@ std::vector<std::string> write_mesh_ply(const Scene& scene, const std::filesyste
   PlyBytes writer(output);
   for (std::size_t i = 0; i < soup.positions.size(); ++i) {
     for (int k = 0; k < 3; ++k) writer.real(soup.positions[i][k]);
+    for (int k = 0; k < 3 && !soup.normals.empty(); ++k) writer.real(soup.normals[i][k]);
     if (vertex_rgba) write_color(writer, (*vertex_rgba)[i], as_bytes);
   }
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {

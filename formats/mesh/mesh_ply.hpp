@@ -1,12 +1,12 @@
 // Polygons in PLY files: ascii and binary of both byte orders, read and written.
 //
-// Supported for vertices: x y z of any type. Supported for faces: a list vertex_indices or
-// vertex_index with any polygon size (fans), or a tristrips element (-1 begins a new strip).
-// Colours of vertices or faces are red green blue [alpha] as uchar (0..255), ushort (0..65535),
-// float or double (0..1); diffuse_red .. are aliases of red .. Other elements and properties are
-// skipped exactly. Elements may come in any order. Non-finite positions are kept. Bytes after the
-// last element give a remark. A face with a missing vertex is an error (SECURITY.md has the
-// reason).
+// Supported for vertices: x y z and nx ny nz of any type. Supported for faces: a list
+// vertex_indices or vertex_index with any polygon size (fans), or a tristrips element (-1 begins a
+// new strip). Colours of vertices or faces are red green blue [alpha] as uchar (0..255), ushort
+// (0..65535), float or double (0..1); diffuse_red .. are aliases of red .. Other elements and
+// properties are skipped exactly. Elements may come in any order. Non-finite positions are kept.
+// Bytes after the last element give a remark. A face with a missing vertex is an error (SECURITY.md
+// has the reason).
 //
 // Not supported: point clouds, which have no faces; the error names them.
 #pragma once

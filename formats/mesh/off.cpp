@@ -294,6 +294,7 @@ std::vector<std::string> write_off(const Scene& scene, const std::filesystem::pa
   const auto* vertex_rgba = mesh.vertex_rgba();
   if (!are_bytes(face_rgba ? *face_rgba : *vertex_rgba))
     mesh.lost.push_back("OFF holds colours in 8 bits: they are rounded.");
+  if (!soup.normals.empty()) mesh.lost.push_back("OFF holds no normals.");
 
   Output output(path);
   LineWriter writer(output);

@@ -9,6 +9,7 @@
 #include "image/quantise.hpp"
 #include "scene/edit/baked_transform.hpp"
 #include "scene/edit/mean_color.hpp"
+#include "scene/edit/moved_normals.hpp"
 #include "scene/opaque_windows.hpp"
 
 namespace tureen {
@@ -35,6 +36,10 @@ void MeshBuilder::reserve_vertices(std::uint64_t count) {
 
 void MeshBuilder::reserve_colors_of_vertices(std::uint64_t count) {
   input_.make_room_in(vertex_rgba, count, "the colours of the vertices");
+}
+
+void MeshBuilder::reserve_normals(std::uint64_t count) {
+  input_.make_room_in(normals, count, "the normals");
 }
 
 void MeshBuilder::reserve_faces(std::uint64_t count) {
@@ -104,6 +109,7 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
   TriangleSoup soup;
   soup.positions = std::move(positions);
   soup.triangles = std::move(triangles_);
+  soup.normals = std::move(normals);
   if (!vertex_rgba.empty()) {
     if (!face_rgba_.empty()) remarks.push_back({&remarks::face_colors_dropped});
     soup.appearance = VertexColors{std::move(vertex_rgba)};
@@ -140,6 +146,7 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
+  if (layer.material) lost.push_back(format + " holds no mirrors and no glass.");
   if (origin_of(layer) != glm::dvec3(0.0))
     lost.push_back(format + " holds no origin: positions are written relative to it.");
 }
@@ -153,7 +160,7 @@ void PlainMesh::use_mean_colors(const std::string& format) {
   if (own_) {
     own_->appearance = std::move(colors);
   } else {
-    own_ = TriangleSoup{soup_->positions, soup_->triangles, std::move(colors)};
+    own_ = TriangleSoup{soup_->positions, soup_->triangles, std::move(colors), soup_->normals};
     soup_ = &*own_;
   }
 }
@@ -163,6 +170,7 @@ void PlainMesh::use_baked_positions(const Layer& layer, const std::string& forma
   if (!own_) own_ = *soup_;
   soup_ = &*own_;
   own_->positions = baked_positions(own_->positions, layer);
+  move_normals(own_->normals, glm::dmat3(layer.world_from_layer));
   // Other programs take the side of a triangle from the order of its corners; a mirror swaps it.
   if (glm::determinant(glm::dmat3(layer.world_from_layer)) < 0)
     for (glm::uvec3& triangle : own_->triangles) std::swap(triangle.y, triangle.z);

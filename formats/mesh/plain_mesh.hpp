@@ -27,9 +27,11 @@ class MeshBuilder {
 
   std::vector<glm::vec3> positions;
   std::vector<glm::vec4> vertex_rgba;  // empty, or one a vertex when finish() is called
+  std::vector<glm::vec3> normals;      // the same
 
   void reserve_vertices(std::uint64_t count);
   void reserve_colors_of_vertices(std::uint64_t count);
+  void reserve_normals(std::uint64_t count);
   void reserve_faces(std::uint64_t count);
 
   void begin_face() { corners_ = 0; }
@@ -72,8 +74,8 @@ class MeshBuilder {
 
 /// A scene as coloured triangles: its own soup if that has FaceColors or VertexColors. Otherwise a
 /// copy of its triangles with the mean colour of each face (scene/edit/mean_color.hpp), and a
-/// sentence in `lost`. A rotation, scale or mirror of the layer is applied to the positions, also
-/// with a sentence.
+/// sentence in `lost`. A rotation, scale or mirror of the layer is applied to positions and
+/// normals, also with a sentence.
 class PlainMesh {
  public:
   /// `format` is the format's name in the sentences. Keeps a reference to the scene if possible.

@@ -40,6 +40,9 @@ std::vector<std::string> write_compressed_glb(const Scene& scene, const Compress
   add_origin(extension, layer);
   if (!layer.name.empty()) losses.push_back("a compressed file holds no name of a layer");
   if (!layer.visible) losses.push_back("the hidden layer is visible in a compressed file");
+  if (!soup->normals.empty()) losses.push_back("a compressed file holds no normals");
+  MaterialList materials;
+  if (layer.material) extension["material"] = materials.add(*layer.material);
   extension["vertex_count"] = used_vertices(soup->triangles);
   extension["face_count"] = soup->triangles.size();
   const auto put = [&](json& holder, const std::string& key, std::span<const std::byte> bytes) {
@@ -51,13 +54,14 @@ std::vector<std::string> write_compressed_glb(const Scene& scene, const Compress
   json& appearance = extension["appearance"];
   if (texture->mlp) appearance["color_mlp"] = mlp_json(plan, *texture->mlp);
   put(appearance, "slim_texels", compressed.texels);
-  write_glb({{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
-             {"extensionsUsed", json::array({tureen_extension})},
-             {"extensionsRequired", json::array({tureen_extension})},
-             {"scene", 0},
-             {"scenes", json::array({json::object()})},
-             {"extensions", {{tureen_extension, std::move(extension)}}}},
-            plan, path);
+  json document = {{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
+                   {"extensionsUsed", json::array({tureen_extension})},
+                   {"extensionsRequired", json::array({tureen_extension})},
+                   {"scene", 0},
+                   {"scenes", json::array({json::object()})},
+                   {"extensions", {{tureen_extension, std::move(extension)}}}};
+  materials.write(document);
+  write_glb(std::move(document), plan, path);
   return losses;
 }
 

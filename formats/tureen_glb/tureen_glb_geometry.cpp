@@ -1,6 +1,7 @@
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 
 #include "base/json/json_vector.hpp"
+#include "formats/glb/glb_material.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "image/png.hpp"
@@ -89,6 +90,15 @@ Layer read_layer_of_node(const JsonView& node) {
   if (const auto reason = defect(layer)) matrix.fail(*reason);
   layer.visible = is_visible(node);
   return layer;
+}
+
+std::optional<Material> read_layer_material(const GlbArrays& arrays, const JsonView& extension) {
+  const auto reference = extension.find("material");
+  if (!reference) return std::nullopt;
+  const JsonView view = arrays.root()["materials"].at(GlbArrays::index(*reference));
+  const Material material = read_glb_material(view);
+  if (const auto reason = defect(material)) view.fail(*reason);
+  return material;
 }
 
 GeometryLayout geometry_layout(const GlbArrays& arrays, const JsonView& extension) {

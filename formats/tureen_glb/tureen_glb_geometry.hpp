@@ -24,6 +24,9 @@ Layer read_layer_at_origin(const JsonView& extension);
 /// The layer of a node, in a file with has_layers(), without primitives.
 Layer read_layer_of_node(const JsonView& node);
 
+/// The material of a layer with the extension `extension`, if it has one.
+std::optional<Material> read_layer_material(const GlbArrays& arrays, const JsonView& extension);
+
 /// Locations of a soup's vertices and triangles in an uncompressed file. `extension` is that of the
 /// root or of a layer.
 struct GeometryLayout {

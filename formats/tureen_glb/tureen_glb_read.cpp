@@ -57,6 +57,7 @@ class Reader {
     read_geometry(soup);
     const Edits edits = read_preset(scene, soup);
     layer.primitives = primitives(extension_, std::move(soup));
+    layer.material = read_layer_material(arrays_, extension_);
     if (edits == Edits{}) return;
     if (auto* edited_soup = std::get_if<TriangleSoup>(&layer.primitives))
       *edited_soup = with_edits(std::move(*edited_soup), edits, scene.info.remarks);
@@ -115,6 +116,7 @@ class Reader {
     TriangleSoup soup;
     tureen::read_geometry(arrays_, geometry_layout(arrays_, extension), soup);
     result.primitives = primitives(extension, std::move(soup));
+    result.material = read_layer_material(arrays_, extension);
     return result;
   }
 
@@ -124,6 +126,9 @@ class Reader {
     if (appearance["type"].text() == "soft_triangles")
       return soft_triangles(extension, std::move(soup));
     soup.appearance = read_appearance(appearance, soup);
+    if (extension.find("normals"))
+      soup.normals = arrays_.read<glm::vec3>(extension, "normals", soup.positions.size(),
+                                             glb_formats::vec3_float);
     if (const auto reason = defect(soup)) extension.fail(*reason);
     return soup;
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output.hpp"
+#include "formats/glb/glb_material.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
@@ -180,8 +181,9 @@ bool is_unshared(const TriangleSoup& soup) {
 }
 
 /// The mesh for other glTF viewers. If faces share vertices but not a colour, the mesh is an
-/// unshared copy, and the soup's own vertices and triangles follow it.
-json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
+/// unshared copy, and the soup's own vertices and triangles follow it. Without `with_colors`, the
+/// material alone gives the colour.
+json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup, bool with_colors) {
   json attributes, primitive = {{"material", 0}, {"mode", 4}};
   const auto* vertex_colors = std::get_if<VertexColors>(&soup.appearance);
   const bool unshared = is_unshared(soup);
@@ -209,7 +211,9 @@ json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
             corners.empty() ? soup.positions : corners);
 
   std::vector<glm::u16vec4> colors;
-  if (vertex_colors) {
+  if (!with_colors) {
+    // no COLOR_0
+  } else if (vertex_colors) {
     colors.reserve(vertex_colors->rgba.size());
     for (const glm::vec4& rgba : vertex_colors->rgba)
       colors.push_back(linear_unorm16(glm::vec3(rgba)));
@@ -251,6 +255,24 @@ std::string utf8(const std::string& text, std::vector<std::string>& losses) {
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
         .get<std::string>();
   }
+}
+
+/// Adds the soup's normals, and to a mesh that is lit NORMAL. glTF allows no normal of length 0.
+void add_normals(BinaryPlan& plan, json& extension, json& primitive, const TriangleSoup& soup) {
+  plan.accessor(extension, "normals", bytes_of(soup.normals), vec3_float);
+  const auto& normals = soup.normals;
+  if (primitive.is_null() || !extension.contains("material") || normals.empty() ||
+      std::find(normals.begin(), normals.end(), glm::vec3(0.0f)) != normals.end())
+    return;
+  json& attributes = primitive["attributes"];
+  if (attributes["POSITION"] == extension["positions"]) {
+    attributes["NORMAL"] = extension["normals"];
+    return;
+  }
+  std::vector<glm::vec3> corners;
+  for (const glm::uvec3& triangle : soup.triangles)
+    for (int k = 0; k < 3; ++k) corners.push_back(normals[triangle[k]]);
+  plan.owned_accessor(attributes, "NORMAL", corners, vec3_float);
 }
 
 json windows_json(BinaryPlan& plan, const Splats& splats) {
@@ -299,6 +321,31 @@ json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
                  {"view", view_conventions[int(mlp.view)]}};
   if (mlp.blend_channel) result["blend_channel"] = *mlp.blend_channel;
   return result;
+}
+
+std::size_t MaterialList::add(const Material& material) {
+  require_sound(material);
+  if (std::find(materials_.begin(), materials_.end(), material) == materials_.end())
+    materials_.push_back(material);
+  const auto found = std::find(materials_.begin(), materials_.end(), material);
+  return std::size_t(found - materials_.begin()) + 1;
+}
+
+void MaterialList::write(json& document) const {
+  if (materials_.empty() && !document.contains("meshes")) return;
+  document["materials"] =
+      json::array({{{"doubleSided", true},
+                    {"alphaMode", "OPAQUE"},
+                    // For viewers without KHR_materials_unlit: neither metallic nor glossy.
+                    {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
+                    {"extensions", {{"KHR_materials_unlit", json::object()}}}}});
+  for (const Material& material : materials_)
+    document["materials"].push_back(glb_material_json(material));
+  json& used = document["extensionsUsed"];
+  for (const json& material : document["materials"])
+    if (material.contains("extensions"))
+      for (const auto& [name, ignored] : material["extensions"].items())
+        if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
 json info_json(const Scene& scene, std::vector<std::string>& losses) {
@@ -404,9 +451,13 @@ class Document {
     require_sound(soup);
     extension["vertex_count"] = soup.positions.size();
     extension["face_count"] = soup.triangles.size();
-    json primitive = add_mesh(plan_, extension, soup);
+    const bool has_material = layer.material && !splats;
+    if (has_material) extension["material"] = materials_.add(*layer.material);
+    json primitive = add_mesh(plan_, extension, soup, !has_material);
+    if (has_material && !primitive.is_null()) primitive["material"] = extension["material"];
     extension["appearance"] =
         splats ? windows_json(plan_, *splats) : std::visit(AddAppearance{plan_}, soup.appearance);
+    add_normals(plan_, extension, primitive, soup);
     return add_mesh_of(std::move(primitive));
   }
 
@@ -437,11 +488,8 @@ class Document {
       document["scenes"][0]["nodes"] = json::array({0});
       document["nodes"] = std::move(nodes);
     }
-    if (!meshes_.empty()) {
-      document["meshes"] = std::move(meshes_);
-      document["materials"] = json::array({unlit_material()});
-      document["extensionsUsed"].push_back("KHR_materials_unlit");
-    }
+    if (!meshes_.empty()) document["meshes"] = std::move(meshes_);
+    materials_.write(document);
     if (any_points_) {
       document["extensionsUsed"].push_back(layout::splatting_extension);
       document["extensionsUsed"].push_back(layout::splats_extension);
@@ -466,17 +514,10 @@ class Document {
     return hard_shapes(std::get<TriangleWindows>(splats.kernel).corners, splats.color);
   }
 
-  static json unlit_material() {
-    return {{"doubleSided", true},
-            {"alphaMode", "OPAQUE"},
-            // For viewers without KHR_materials_unlit: neither metallic nor glossy.
-            {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
-            {"extensions", {{"KHR_materials_unlit", json::object()}}}};
-  }
-
   BinaryPlan plan_;
   std::deque<TriangleSoup> shapes_;  // the plan refers to them; a deque never moves its elements
   json meshes_ = json::array();
+  MaterialList materials_;
   bool any_hidden_ = false;
   bool any_points_ = false;  // a layer of splats that are stored as points
 };

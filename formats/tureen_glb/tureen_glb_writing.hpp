@@ -99,6 +99,18 @@ class BinaryPlan {
   std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
 };
 
+/// glTF's list of materials. The first is the unlit one of layers without a material.
+class MaterialList {
+ public:
+  /// Returns the index of the material. Throws UsageError if it has a defect().
+  std::size_t add(const Material& material);
+  /// Sets the document's materials, unless nothing uses them, and extends its extensionsUsed.
+  void write(json& document) const;
+
+ private:
+  std::vector<Material> materials_;
+};
+
 inline constexpr BinaryPlan::Format scalar_u32{"SCALAR", layout::unsigned_int, 1};
 inline constexpr BinaryPlan::Format scalar_u8{"SCALAR", layout::unsigned_byte, 1};
 inline constexpr BinaryPlan::Format scalar_float{"SCALAR", layout::float32, 1};
@@ -108,7 +120,7 @@ inline constexpr BinaryPlan::Format vec4_float{"VEC4", layout::float32, 4};
 inline constexpr BinaryPlan::Format vec4_unorm8{"VEC4", layout::unsigned_byte, 4, true};
 inline constexpr BinaryPlan::Format vec4_unorm16{"VEC4", layout::unsigned_short, 4, true};
 
-/// Throws UsageError if the layer, its contents or the quality has a defect().
+/// Throws UsageError if the layer, its contents, its material or the quality has a defect().
 template <class T>
 void require_sound(const T& part) {
   if (const auto reason = defect(part)) throw UsageError("the scene cannot be written: " + *reason);

@@ -16,6 +16,7 @@
 #include "formats/mesh/mesh_remarks.hpp"
 #include "formats/ply_file.hpp"
 #include "formats/scene_file.hpp"
+#include "scene/edit/moved_normals.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 
@@ -145,6 +146,26 @@ TEST(Ply, ReadsVertexColours) {
               ElementsAre(glm::vec4(1, 0.5f, 0, 1), glm::vec4(1, 0, 1, 1), glm::vec4(0, 0, 0, 1)));
   EXPECT_THAT(floats.info.remarks,
               Contains(Remark{&remarks::color_components_clamped, {{"components", 3}}}));
+}
+
+TEST(Ply, ReadsNormalsOfAnyLengthAndOnlyWholeOnes) {
+  const auto normals = [](const std::string& properties, const std::string& values) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\n" +
+        properties +
+        "element face 1\nproperty list uchar int vertex_indices\n"
+        "property float nx\nend_header\n";
+    for (const char* vertex : {"0 0 0", "1 0 0", "0 1 0"})
+      text += std::string(vertex) + " " + values + "\n";
+    return only_soup(read_bytes(text + "3 0 1 2 9\n")).normals;
+  };
+  const std::string x = "property double nx\n", y = "property double ny\n",
+                    z = "property double nz\n";
+  EXPECT_THAT(normals(x + y + z, "0 3 4"), testing::Each(glm::vec3(0, 0.6f, 0.8f)));
+  EXPECT_THAT(normals(x + z + y, "0 3 4"), testing::Each(glm::vec3(0, 0.8f, 0.6f)));
+  EXPECT_THAT(normals(x + y + z, "nan 0 1"), testing::Each(glm::vec3(0)));
+  EXPECT_TRUE(normals(x + y, "0 1").empty());
 }
 
 TEST(Ply, ReadsTriangleStrips) {
@@ -427,6 +448,8 @@ TEST(Ply, RoundTripsBitForBit_seed7) {
         soup.appearance = VertexColors{rgba};
       else
         soup.appearance = FaceColors{rgba};
+      for (int i = 0; by_vertex && i < 200; ++i)
+        soup.normals.push_back(unit_or_zero({double(random()), -1e9, double(random())}));
       Scene scene = scene_of(soup);
       scene.info.up = {0, 0, 1};
       const TemporaryFolder folder;
@@ -434,6 +457,7 @@ TEST(Ply, RoundTripsBitForBit_seed7) {
       const Scene again = read_ply(folder / "a.ply");
       EXPECT_EQ(only_soup(again).positions, soup.positions);
       EXPECT_EQ(only_soup(again).triangles, soup.triangles);
+      EXPECT_EQ(only_soup(again).normals, soup.normals);
       EXPECT_EQ(by_vertex ? vertex_rgba(again) : face_rgba(again), rgba);
       std::ifstream file(folder / "a.ply", std::ios::binary);
       const std::string text((std::istreambuf_iterator<char>(file)), {});

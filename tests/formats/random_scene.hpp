@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/edit/moved_normals.hpp"
 #include "scene/lattice.hpp"
 #include "scene/scene.hpp"
 #include "scene/spherical_harmonics.hpp"
@@ -40,6 +41,23 @@ class RandomScene {
                                       : glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2));
     }
     return soup;
+  }
+
+  /// Of unit length, except that the first is zero.
+  std::vector<glm::vec3> normals(std::size_t count) {
+    std::vector<glm::vec3> result(count);
+    for (std::size_t i = 1; i < count; ++i)
+      result[i] = unit_or_zero({real(-1, 1), real(-1, 1), real(0.1f, 1)});
+    return result;
+  }
+  Material material() {
+    const glm::vec3 color(real(), real(), real());
+    return whole(2) ? Material{.base_color = color, .metallic = real(0.5f, 1), .roughness = 0.05f}
+                    : Material{.base_color = color,
+                               .metallic = 0.25f,
+                               .roughness = real(0, 0.1f),
+                               .transmission = real(0.5f, 1),
+                               .ior = real(1, 3)};
   }
 
   ColorMlp mlp(std::vector<int> widths, DirectionEncoding encoding, std::optional<int> blend) {
@@ -268,6 +286,7 @@ struct SameAppearance {
 struct SamePrimitives {
   bool operator()(const TriangleSoup& a, const TriangleSoup& b) {
     return same_bits(a.positions, b.positions) && same_bits(a.triangles, b.triangles) &&
+           same_bits(a.normals, b.normals) &&
            std::visit(SameAppearance{}, a.appearance, b.appearance);
   }
   bool operator()(const Splats& a, const Splats& b) {
@@ -313,6 +332,7 @@ inline std::string difference(const Scene& a, const Scene& b) {
     if (!std::visit(SamePrimitives{}, of_a.primitives, of_b.primitives))
       return "primitives" + layer;
     if (!same_bits(of_a.world_from_layer, of_b.world_from_layer)) return "world_from_layer" + layer;
+    if (of_a.material != of_b.material) return "material" + layer;
     if (of_a.name != of_b.name || of_a.visible != of_b.visible) return "name or visible" + layer;
   }
   if (a.info.name != b.info.name || a.info.source != b.info.source) return "name or source";

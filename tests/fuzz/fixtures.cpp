@@ -99,9 +99,10 @@ void add_glb(Collection& all) {
   const Scene layers = test::layered_scene(
       test::glb_kinds_named({"face_bytes_shared", "lattice_bytes_mlp", "soft_triangles"}), 4, 2);
   all.add("gltf", "layers.glb", test::glb_bytes(layers, "layers"));
-  for (const test::GlbKind& kind : test::splat_glb_kinds())
-    all.add("gltf", std::string(kind.name) + ".glb",
-            test::glb_bytes(test::random_scene(kind, 1, 2), kind.name));
+  for (const auto& kinds : {test::splat_glb_kinds(), test::surface_glb_kinds()})
+    for (const test::GlbKind& kind : kinds)
+      all.add("gltf", std::string(kind.name) + ".glb",
+              test::glb_bytes(test::random_scene(kind, 1, 2), kind.name));
   const Scene scene = compressed_scene();
   const CompressedSoup compressed = encode_compressed(only_soup(scene), {});
   all.add_file("gltf", "compressed.glb",
@@ -142,6 +143,29 @@ std::string foreign_gltf() {
   {"buffer": 0, "byteOffset": 36, "byteLength": 24},
   {"buffer": 0, "byteOffset": 60, "byteLength": 12}],
  "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,AQIAAAAAAQACAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA//wAA/wD/AP8AAP//"}]
+})";
+}
+
+/// A mirror with normals as bytes, and glass that shares its positions, below a node that
+/// stretches.
+std::string foreign_surfaces() {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0, "scale": [1, -2, 3]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "material": 0},
+                            {"attributes": {"POSITION": 0, "NORMAL": 2}, "material": 1},
+                            {"attributes": {"POSITION": 0}, "material": 2}]}],
+ "materials": [{"name": "mirror", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1],
+    "metallicFactor": 1, "roughnessFactor": 0.05}},
+  {"name": "ball", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
+   "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+                  "KHR_materials_ior": {"ior": 1.33}}},
+  {"pbrMetallicRoughness": {"metallicFactor": 0}}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+  {"bufferView": 1, "componentType": 5120, "normalized": true, "count": 3, "type": "VEC3"},
+  {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36},
+  {"buffer": 0, "byteOffset": 36, "byteLength": 12, "byteStride": 4}],
+ "buffers": [{"byteLength": 48, "uri": "data:application/octet-stream;base64,AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/fwAAAAB/AAAAAH8A"}]
 })";
 }
 
@@ -458,6 +482,7 @@ std::vector<Fixture> made_fixtures() {
   Collection all;
   add_glb(all);
   all.add("gltf", "foreign.gltf", foreign_gltf());
+  all.add("gltf", "surfaces.gltf", foreign_surfaces());
   add_text_meshes(all);
   add_splats(all);
   add_torch(all);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.hpp"
@@ -48,6 +49,24 @@ TEST(BakedTransform, KeepsVerticesWhereTheyAre) {
       // A coordinate of at most 8, rounded to float: 2^-22. The world's million has 2^-34.
       EXPECT_NEAR(origin_of(layer)[k] + double(baked[i][k]), expected[k], 2.5e-7);
   }
+}
+
+TEST(BakedTransform, TurnsNormalsWithTheSurface) {
+  Layer layer = layer_of(FaceColors{{glm::vec4(1)}});
+  auto& soup = std::get<TriangleSoup>(layer.primitives);
+  const auto normal_of = [&] {
+    const auto& p = soup.positions;
+    return glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+  };
+  const glm::vec3 own = normal_of();
+  soup.normals = {own, glm::vec3(0), -own};
+  bake_transform(layer);
+  // The corners of a mirrored face turn the other way round; the normal stays on its side.
+  const glm::vec3 expected = -normal_of();
+  EXPECT_LT(glm::distance(soup.normals[0], expected), 1e-6f);  // rounding of positions near 8
+  EXPECT_EQ(soup.normals[1], glm::vec3(0));
+  EXPECT_EQ(soup.normals[2], -soup.normals[0]);
+  EXPECT_EQ(defect(soup), std::nullopt);
 }
 
 TEST(BakedTransform, ATranslationChangesNothing) {

@@ -20,7 +20,7 @@ bool same(const Document& a, const Document& b) {
                     [](const DocumentLayer& x, const DocumentLayer& y) {
                       return x.id == y.id && x.primitives == y.primitives && x.name == y.name &&
                              x.visible == y.visible && x.bounds == y.bounds &&
-                             x.world_from_layer == y.world_from_layer;
+                             x.world_from_layer == y.world_from_layer && x.material == y.material;
                     });
 }
 
@@ -62,7 +62,7 @@ Edit random_edit(Document& document, Random& random) {
   };
   const LayerId id =
       document.layers.empty() ? 0 : document.layers[below(document.layers.size())].id;
-  switch (below(9)) {
+  switch (below(10)) {
     case 0: {
       AddLayers add;
       for (std::size_t i = 0; i < 1 + below(2); ++i)
@@ -84,6 +84,10 @@ Edit random_edit(Document& document, Random& random) {
       return ChangeUp{glm::dvec3(0, 0, below(2) == 0 ? 1 : -1)};
     case 7:
       return ChangeQuality{{.supersampling = 1 + int(below(8))}};
+    case 8:
+      return SetMaterial{id, below(3) == 0   ? std::nullopt
+                             : below(2) == 0 ? std::optional(mirror_material())
+                                             : glass_material(1 + random.uniform(0, 1))};
     default:
       return ChangeProfile{profile_named(below(2) == 0 ? "3dgs" : "mip")};
   }
@@ -120,9 +124,9 @@ TEST(Documents, RandomEditsUndosAndRedosEndEqual) {
 TEST(Documents, EditsOfLayersThatTheDocumentLacksChangeNothing) {
   Document document = three_layers();
   const Document before = document;
-  for (const Edit& edit :
-       {Edit(RemoveLayers{{99}}), Edit(PlaceLayer{99, moved(1)}), Edit(RenameLayer{99, "x"}),
-        Edit(ShowLayer{99, false}), Edit(ReorderLayer{99, 0})})
+  for (const Edit& edit : {Edit(RemoveLayers{{99}}), Edit(PlaceLayer{99, moved(1)}),
+                           Edit(RenameLayer{99, "x"}), Edit(ShowLayer{99, false}),
+                           Edit(ReorderLayer{99, 0}), Edit(SetMaterial{99, mirror_material()})})
     apply_edit(document, apply_edit(document, edit));
   EXPECT_TRUE(same(document, before));
 }
@@ -134,10 +138,12 @@ TEST(Histories, StepsHaveNames) {
   history.perform(document, PlaceLayer{soup, moved(1)});
   history.perform(document, ShowLayer{mesh, false});
   history.perform(document, ReorderLayer{mesh, 0});
+  history.perform(document, SetMaterial{mesh, mirror_material()});
   history.perform(document, RemoveLayers{{soup}});
   history.perform(document, ChangeUp{{0, 0, 1}});
-  EXPECT_THAT(names(history), ElementsAre("Move soup", "Hide mesh", "Reorder mesh", "Remove soup",
-                                          "Change the up axis"));
+  EXPECT_THAT(names(history),
+              ElementsAre("Move soup", "Hide mesh", "Reorder mesh", "Change the surface of mesh",
+                          "Remove soup", "Change the up axis"));
   EXPECT_THAT(names(document), ElementsAre("mesh", "splats"));
   history.undo(document);
   history.undo(document);
@@ -159,6 +165,21 @@ TEST(Histories, AGestureIsOneStep) {
   EXPECT_EQ(document.layers[0].world_from_layer, moved(10));
   history.undo(document);
   EXPECT_TRUE(same(document, before));
+}
+
+TEST(Histories, AnIndexThatIsDraggedIsOneStep) {
+  Document document = three_layers();
+  History history;
+  const LayerId mesh = document.layers[2].id;
+  history.perform(document, SetMaterial{mesh, mirror_material()});
+  for (int i = 1; i <= 10; ++i)
+    history.perform(document, SetMaterial{mesh, glass_material(1 + 0.1f * float(i))}, 7);
+  EXPECT_EQ(history.steps().size(), 2u);
+  EXPECT_EQ(document.layers[2].material, glass_material(2));
+  history.undo(document);
+  EXPECT_EQ(document.layers[2].material, mirror_material());
+  history.undo(document);
+  EXPECT_EQ(document.layers[2].material, std::nullopt);
 }
 
 TEST(Histories, KnowWhatIsSaved) {

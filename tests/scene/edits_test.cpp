@@ -9,6 +9,9 @@
 #include "scene/edit/keep_faces.hpp"
 #include "scene/edit/lattice_bytes.hpp"
 #include "scene/edit/lattice_levels.hpp"
+#include "scene/edit/mean_color.hpp"
+#include "scene/edit/moved_normals.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace edits_test {
@@ -79,6 +82,39 @@ TEST(Edits, EachIsWhatItsFunctionMakes) {
   const TriangleSoup fewer = edited(soup, {.keeps_face = keeps});
   EXPECT_EQ(fewer.triangles, keep_faces(soup, keeps).triangles);
   EXPECT_EQ(texture_of(fewer).texels, texture_of(keep_faces(soup, keeps)).texels);
+}
+
+// Of every appearance, each face keeps its corners, its colours and its normals.
+TEST(Edits, KeptFacesKeepTheirData) {
+  for (const test::Kind kind : test::all_kinds)
+    for (const bool shared : {false, true}) {
+      SCOPED_TRACE(test::to_string(kind) + (shared ? ", shared" : ""));
+      TriangleSoup soup =
+          test::random_soup(3, {.kind = kind, .faces = 20, .shared_vertices = shared, .level = 1});
+      for (const glm::vec3& p : soup.positions)
+        soup.normals.push_back(unit_or_zero(glm::dvec3(p.y, p.z, p.x)));
+      std::vector<std::uint8_t> keeps(20, 0);
+      keeps[3] = keeps[4] = keeps[19] = 1;
+      const TriangleSoup kept = keep_faces(soup, keeps);
+      ASSERT_EQ(defect(kept), std::nullopt);
+      ASSERT_EQ(kept.triangles.size(), 3u);
+      EXPECT_LE(kept.positions.size(), 9u);
+      EXPECT_LT(byte_size(kept), byte_size(soup));
+      const std::size_t faces[] = {3, 4, 19};
+      for (std::size_t t = 0; t < 3; ++t)
+        for (int k = 0; k < 3; ++k) {
+          const std::uint32_t before = soup.triangles[faces[t]][k], after = kept.triangles[t][k];
+          EXPECT_EQ(kept.positions[after], soup.positions[before]);
+          EXPECT_EQ(kept.normals[after], soup.normals[before]);
+          if (const auto* textures = std::get_if<UvTextures>(&kept.appearance)) {
+            const auto& all = std::get<UvTextures>(soup.appearance);
+            EXPECT_EQ(textures->uv[after], all.uv[before]);
+            EXPECT_EQ(textures->material_of_face[t], all.material_of_face[faces[t]]);
+          }
+        }
+      const auto means = mean_colors(soup), kept_means = mean_colors(kept);
+      for (std::size_t t = 0; t < 3; ++t) EXPECT_EQ(kept_means[t], means[faces[t]]);
+    }
 }
 
 TEST(Edits, ComeOneAfterTheOther) {

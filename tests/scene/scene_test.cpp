@@ -128,6 +128,35 @@ TEST(Layer, TheBoundsOfWindowsAreThoseOfTheirCorners) {
   }
 }
 
+TEST(Layer, AMaterialOutsideItsRangeIsADefect) {
+  Layer layer{.material = glass_material(1.5f)};
+  EXPECT_EQ(defect(layer), std::nullopt);
+  EXPECT_TRUE(is_glass(*layer.material));
+  EXPECT_FALSE(is_mirror(*layer.material));
+  EXPECT_TRUE(is_mirror(mirror_material()));
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Material& wrong :
+       {Material{.base_color = {1, 1.01f, 1}}, Material{.metallic = -0.1f},
+        Material{.roughness = 2}, Material{.transmission = nan}, Material{.ior = 0.99f},
+        Material{.ior = nan}, Material{.ior = std::numeric_limits<float>::infinity()}})
+    EXPECT_NE(defect(Layer{.material = wrong}), std::nullopt);
+}
+
+TEST(Soup, NormalsHaveLengthOneOrZeroAndAreAllOrNone) {
+  TriangleSoup soup = triangle();
+  const std::size_t bytes = byte_size(soup);
+  soup.normals = {{0, 0, 1}, {0.6f, 0.8f, 0}, {0, 0, 0}};
+  EXPECT_EQ(defect(soup), std::nullopt);
+  EXPECT_EQ(byte_size(soup), bytes + 3 * sizeof(glm::vec3));
+  for (const glm::vec3& wrong : {glm::vec3(0.6f, 0.8f, 0.01f), glm::vec3(1e-20f, 0, 0),
+                                 glm::vec3(std::numeric_limits<float>::quiet_NaN(), 0, 0)}) {
+    soup.normals[1] = wrong;
+    EXPECT_NE(defect(soup), std::nullopt);
+  }
+  soup.normals.pop_back();
+  EXPECT_NE(defect(soup), std::nullopt);
+}
+
 TEST(Scene, OfOneSoupHasOneLayer) {
   Scene scene = scene_of(triangle(), {1, 2, 3});
   EXPECT_EQ(scene.layers.size(), 1u);

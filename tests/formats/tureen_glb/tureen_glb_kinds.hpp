@@ -86,6 +86,13 @@ inline std::vector<GlbKind> glb_kinds() {
     add(shared ? "uv_mlp_shared" : "uv_mlp",
         [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, true); });
   }
+  for (const bool shared : {false, true})
+    all.push_back({shared ? "normals_shared" : "normals",
+                   [=](RandomScene& random, Scene& scene, std::size_t faces) {
+                     TriangleSoup soup = random.geometry(faces, shared);
+                     soup.normals = random.normals(soup.positions.size());
+                     fill_soup(scene, std::move(soup), FaceColors{random.colors(faces, true)});
+                   }});
   all.push_back({"soft_triangles", [](RandomScene& random, Scene& scene, std::size_t faces) {
                    only_layer(scene).primitives = random.windows(faces, 3);
                  }});
@@ -119,8 +126,33 @@ inline std::vector<GlbKind> splat_glb_kinds() {
   return all;
 }
 
+/// Mirrors and glass: their mesh has a material instead of COLOR_0, and normals that are shared
+/// with the soup, copied for each corner, or left out because one is zero.
+inline std::vector<GlbKind> surface_glb_kinds() {
+  std::vector<GlbKind> all;
+  const auto add = [&](const char* name, bool shared, bool zero, auto appearance) {
+    all.push_back({name, [=](RandomScene& random, Scene& scene, std::size_t faces) {
+                     TriangleSoup soup = random.geometry(faces, shared);
+                     soup.normals = random.normals(soup.positions.size());
+                     if (!zero && faces > 0) soup.normals[0] = {0, 0, -1};
+                     fill_soup(scene, soup, appearance(random, soup));
+                     only_layer(scene).material = random.material();
+                   }});
+  };
+  const auto vertex_colors = [](RandomScene& r, const TriangleSoup& s) {
+    return VertexColors{r.colors(s.positions.size(), true)};
+  };
+  add("surface", true, false, vertex_colors);
+  add("surface_flat", true, true, vertex_colors);
+  add("surface_of_corners", true, false, [](RandomScene& r, const TriangleSoup& s) {
+    return FaceColors{r.colors(s.triangles.size(), true)};
+  });
+  return all;
+}
+
 inline std::vector<GlbKind> every_glb_kind() {
   std::vector<GlbKind> all = glb_kinds();
+  for (GlbKind& kind : surface_glb_kinds()) all.push_back(std::move(kind));
   for (GlbKind& kind : splat_glb_kinds()) all.push_back(std::move(kind));
   return all;
 }
@@ -153,7 +185,8 @@ inline Scene layered_scene(std::span<const GlbKind> kinds, unsigned seed, std::s
     scene.layers.push_back({.name = kinds[i].name,
                             .world_from_layer = random_similarity(random, i % 3 == 1),
                             .visible = i % 2 == 0,
-                            .primitives = std::move(one.layers.front().primitives)});
+                            .primitives = std::move(one.layers.front().primitives),
+                            .material = one.layers.front().material});
   }
   return scene;
 }
