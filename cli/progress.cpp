@@ -21,12 +21,11 @@ int percent(double fraction) { return int(std::clamp(fraction, 0.0, 1.0) * 100);
 
 }  // namespace
 
-std::string with_time_left(double fraction, double seconds) {
-  const std::string done = std::to_string(percent(fraction)) + " %";
-  if (seconds < 5 || !(fraction > 0)) return done;
+std::string time_left_text(double fraction, double seconds) {
+  if (seconds < 5 || !(fraction > 0)) return {};
   const double left = seconds / fraction - seconds;
-  return left < 90 ? done + ", " + std::to_string(int(left) + 1) + " s left"
-                   : done + ", " + std::to_string(int(left / 60) + 1) + " min left";
+  return left < 90 ? std::to_string(int(left) + 1) + " s left"
+                   : std::to_string(int(left / 60) + 1) + " min left";
 }
 
 Progress::Output Progress::standard_error() {

@@ -8,8 +8,8 @@
 
 namespace tureen::cli {
 
-/// "42 %, 3 min left" for work that took `seconds` so far; only the percentage in the first 5 s.
-std::string with_time_left(double fraction, double seconds);
+/// "3 min left" for work that took `seconds` so far; empty in the first 5 s.
+std::string time_left_text(double fraction, double seconds);
 
 class Progress {
  public:

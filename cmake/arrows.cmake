@@ -69,7 +69,7 @@ set(arrows
   "jobs/visibility: base image scene oracle runtime runtime/gl"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
-  "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
+  "jobs/tradeoff: base image scene oracle splatting/* tracing runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
   "jobs/report: base"
   "jobs/training: base image scene formats runtime/gl jobs/eval trainer/*"

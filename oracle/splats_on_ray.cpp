@@ -202,15 +202,17 @@ SplatsOnRays::SplatsOnRays(const Splats& splats) : splats_(splats) {
 }
 
 void SplatsOnRays::find(const LightRay& ray, double end, std::vector<Found>& found) const {
+  const double widening = widening_ * ray.pixel;
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
     const Sphere& sphere = spheres_[i];
     const glm::dvec3 to_center = sphere.center - ray.origin;
     const double along = glm::dot(to_center, ray.direction);
-    const double radius =
-        sphere.radius * (1 + 1e-9) + widening_ * ray.pixel * (ray.path + std::max(along, 0.0));
-    if (sphere.radius < 0 || !(along > -radius)) continue;
-    const glm::dvec3 off = to_center - along * ray.direction;
-    if (!(glm::dot(off, off) <= radius * radius)) continue;
+    const double radius = sphere.radius + widening * (ray.path + std::max(along, 0.0));
+    // 1e-9 for the rounding of this difference.
+    const double squared = glm::dot(to_center, to_center);
+    if (squared * (1 - 1e-9) - along * along > radius * radius || !(along > -radius) ||
+        sphere.radius < 0)
+      continue;
     const SplatOnRay splat = on_ray(i, ray, end);
     if (splat.alpha > 0) found.push_back({splat, i});
   }

@@ -49,9 +49,10 @@ struct SplatOnRay {
   /// The order along the ray: the bits of the distance from the origin, in world units, as a float
   /// >= 0, above the place of the splat in the order of layers and indices.
   std::uint64_t key;
-  float alpha;          // limited by the profile
-  std::uint32_t layer;  // index in Scene::layers
-  std::uint32_t lane;   // its place in the layer's blocks
+  float alpha;         // limited by the profile
+  std::uint32_t lane;  // its place in the blocks of its layer
+
+  std::uint32_t place() const { return std::uint32_t(key); }
 };
 
 /// The point at which a ray meets a soup.

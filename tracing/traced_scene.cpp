@@ -95,9 +95,9 @@ BlendedSplats TracedScene::splats_on(const Ray& ray, double end, RayMemory& memo
   if (splats_.empty()) return result;
   memory.layers.clear();
   for (const TracedLayer* each : splats_) memory.layers.push_back(each->in_layer(ray, end));
-  const auto place_of = [&](std::uint32_t layer) {
-    std::size_t i = 0;
-    while (splats_[i]->index() != layer) ++i;
+  const auto layer_of = [&](const SplatOnRay& hit) {
+    std::size_t i = splats_.size() - 1;
+    while (splats_[i]->first() > hit.place()) --i;
     return i;
   };
 
@@ -111,7 +111,7 @@ BlendedSplats TracedScene::splats_on(const Ray& ray, double end, RayMemory& memo
     std::sort(memory.hits.begin(), memory.hits.end(),
               [](const SplatOnRay& a, const SplatOnRay& b) { return a.key < b.key; });
     for (const SplatOnRay& hit : memory.hits) {
-      const std::size_t i = place_of(hit.layer);
+      const std::size_t i = layer_of(hit);
       const TracedLayer& layer = *splats_[i];
       const double next = result.transmittance * (1 - double(hit.alpha));
       const bool stops =

@@ -43,7 +43,7 @@ class SlowProgress {
   explicit SlowProgress(const Drawer& drawer) : is_slow_(!drawer.warms_up) {}
 
   void update(double fraction) {
-    progress_.update(fraction, is_slow_ ? with_time_left(fraction, steady_seconds() - start_) : "");
+    progress_.update(fraction, is_slow_ ? time_left_text(fraction, steady_seconds() - start_) : "");
   }
 
  private:

@@ -2,11 +2,14 @@
 // time; building and refitting the tree; an image with a mirror and a glass ball. Prints JSON
 // lines.
 //
-//   trace_benchmark SCENE
+// With two points, only rays of the camera between them.
+//
+//   trace_benchmark SCENE [EYE_X EYE_Y EYE_Z TARGET_X TARGET_Y TARGET_Z]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <glm/ext/matrix_transform.hpp>
@@ -175,7 +178,7 @@ void measure_image(Scene scene, const Camera& camera, const glm::dvec3& center, 
 }
 
 int run(int argc, char** argv) {
-  if (argc != 2) throw std::runtime_error("needs SCENE");
+  if (argc != 2 && argc != 8) throw std::runtime_error("needs SCENE, or SCENE and two points");
   const Scene scene = read_scene(argv[1]);
   const auto& splats = std::get<Splats>(scene.layers.at(0).primitives);
   const Bounds middle = middle_bounds(splats);
@@ -185,7 +188,14 @@ int run(int argc, char** argv) {
     return look_at(center + distance * radius * glm::normalize(glm::dvec3(0.3, 0.2, 1)), center,
                    glm::dvec3(scene.info.up), 0.8, width, height);
   };
-  measure_rays(scene, "near", camera(0.45, 640, 360));
+  if (argc == 8) {
+    const auto point = [&](int first) {
+      return glm::dvec3(std::atof(argv[first]), std::atof(argv[first + 1]),
+                        std::atof(argv[first + 2]));
+    };
+    measure_rays(scene, "given", look_at(point(2), point(5), {0, 1, 0}, 0.8, 640, 360));
+    return 0;
+  }
   measure_rays(scene, "far", camera(2.2, 640, 360));
   measure_image(scene, camera(1.6, 1280, 720), center, radius);
   measure_build(splats, float(2 * radius));

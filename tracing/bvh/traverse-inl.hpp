@@ -188,8 +188,7 @@ void collect_on(const TracedLayer& layer, const RayInLayer& ray, float from, flo
         const auto i = std::size_t(std::countr_zero(bits));
         const auto lane = std::uint32_t(leaf * width + part * lanes + i);
         const std::uint64_t order = std::bit_cast<std::uint32_t>(distances[i]);
-        hits.push_back(
-            {order << 32 | (first + layer.primitive(lane)), alphas[i], layer.index(), lane});
+        hits.push_back({order << 32 | (first + layer.primitive(lane)), alphas[i], lane});
       }
     }
   });
