@@ -13,6 +13,7 @@
 #include "cli/files/scene_page.hpp"
 #include "cli/files/scratch.hpp"
 #include "cli/options/edit_options.hpp"
+#include "cli/options/material_option.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/options/scene_argument.hpp"
@@ -37,6 +38,7 @@ struct ConvertOptions {
   bool json = false;
   Edits edits;
   QualityOptions quality;
+  MaterialChoices materials;
   CompressArguments compressed;
 };
 
@@ -96,9 +98,11 @@ void check_output(const ConvertOptions& options) {
   const fs::path output = options.output;
   check_compressed(options.compressed, output);
   require_known_extension(output);
-  if (options.quality.any() && extension_of(output) != ".glb" && !is_scene_page(output))
+  if ((options.quality.any() || !options.materials.empty()) && extension_of(output) != ".glb" &&
+      !is_scene_page(output))
     throw UsageError(
-        "only .glb and .html store --supersample, --resolution-scale and --splat-order");
+        "only .glb and .html store --supersample, --resolution-scale, --splat-order and "
+        "--material");
   require_not_inputs(output, options.scene);
   // These checks do not depend on --force.
   if (is_export(output))
@@ -148,8 +152,9 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 /// Whether the page can contain the scene's file unchanged.
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.choice == ReadingChoice{} &&
-         options.edits == Edits{} && !options.quality.any() && options.layer.empty() &&
-         options.scene.paths.size() == 1 && is_our_glb(options.scene.paths.front());
+         options.edits == Edits{} && !options.quality.any() && options.materials.empty() &&
+         options.layer.empty() && options.scene.paths.size() == 1 &&
+         is_our_glb(options.scene.paths.front());
 }
 
 Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions& options) {
@@ -177,6 +182,7 @@ ExitCode convert_scene(ConvertOptions options) {
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
   Scene scene = read(options.scene);
   say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
+  apply_materials(options.materials, scene);
   if (!options.layer.empty()) keep_layer(scene, options.layer);
   apply(options.edits, scene);
   if (triangle_count(scene) + splat_count(scene) == 0)
@@ -233,6 +239,8 @@ Examples:
                                               one scene with three layers
   tureen convert garden.glb --layer fox -o one.glb
                                               one layer, at its place
+  tureen convert room.glb ball.glb -o both.glb --material ball=glass:1.33
+                                              stores the layer "ball" as water, for rays
   tureen convert soup.glb soup.html           a page to share
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
   command
@@ -250,6 +258,7 @@ Examples:
                    "print the output and the losses as JSON to standard output");
   add_edit_options(command, options->edits);
   add_quality_options(command, options->quality);
+  add_material_option(command, options->materials);
   add_compressed_arguments(command, options->compressed);
   command.does([options] { return convert_scene(*options); });
 }

@@ -183,10 +183,17 @@ std::string place_text(const Layer& layer) {
   return describe(similarity_of(layer.world_from_layer)) + (layer.visible ? "" : "; hidden");
 }
 
+std::string surface_text(const Material& material) {
+  if (is_mirror(material)) return "mirror";
+  if (is_glass(material)) return fmt::format("glass, index of refraction {:g}", material.ior);
+  return "its appearance: the material is neither a mirror nor glass";
+}
+
 void add_appearance(Table& table, const LayerFacts& facts) {
   if (facts.splats) return;
   table.row({"appearance", appearance_name(facts.soup->appearance)});
   for (const std::string& line : facts.appearance.lines) table.row({"", line});
+  if (facts.layer->material) table.row({"for rays", surface_text(*facts.layer->material)});
 }
 
 std::string triangles_text(std::size_t triangles, std::size_t vertices) {
@@ -236,6 +243,12 @@ Json contents_json(const LayerFacts& facts) {
                {"soft_triangles", false},
                {"appearance", appearance_name(facts.soup->appearance)}};
   json.update(facts.appearance.json);
+  if (const auto& material = facts.layer->material)
+    json["material"] = {{"base_color", to_json(glm::dvec3(material->base_color))},
+                        {"metallic", material->metallic},
+                        {"roughness", material->roughness},
+                        {"transmission", material->transmission},
+                        {"ior", material->ior}};
   return json;
 }
 

@@ -13,6 +13,7 @@
 #include "cli/options/arguments.hpp"
 #include "cli/options/debug_view_option.hpp"
 #include "cli/options/drawing_options.hpp"
+#include "cli/options/material_option.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/options/renderer_option.hpp"
@@ -39,6 +40,7 @@ struct RenderOptions {
   std::string background;  // empty: the scene's own
   DrawingOptions drawing;
   DebugViewOption show;
+  MaterialChoices materials;
   MeasuredOutputs measured;
   int frames = 0;
   bool json = false;
@@ -198,6 +200,7 @@ ExitCode render(RenderOptions options) {
   check_output(options, background);
 
   Scene scene = read(options.scene);
+  apply_materials(options.materials, scene);
   apply_opaque(scene, options.drawing);
   const Views views = resolve_views(options.views, scene, options.scene.paths.front());
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
@@ -281,6 +284,7 @@ void add_options(Command& command, const std::shared_ptr<RenderOptions>& options
   command.add_option("--background COLOR", options->background,
                      "colour of pixels without a triangle: white, black, transparent, or r,g,b "
                      "from 0 to 1; the scene's own by default");
+  add_material_option(command, options->materials);
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
   command.add_flag(

@@ -182,9 +182,11 @@ Option Option::split_at_commas() {
   return *this;
 }
 
-Option Option::comma_list() {
+Option Option::comma_list() { return repeatable().split_at_commas(); }
+
+Option Option::repeatable() {
   option_->allow_extra_args(false);
-  return split_at_commas();
+  return *this;
 }
 
 bool Option::is_given() const { return option_->count() > 0; }

@@ -61,6 +61,8 @@ class Option {
   Option split_at_commas();
   /// The same, and only one argument follows the option, not all until the next option.
   Option comma_list();
+  /// A list of one value each time that the option is given.
+  Option repeatable();
   /// After parsing.
   bool is_given() const;
 

@@ -74,6 +74,28 @@ TEST_F(LayersProgram, ConvertOfOneSceneIsAsBefore) {
   EXPECT_FALSE(info({"a.glb"}).contains("layers"));
 }
 
+TEST_F(LayersProgram, ConvertStoresMaterials) {
+  const ChildResult result = run({"convert", "scene.off", "fox.off", "-o", "all.glb", "--material",
+                                  "fox=glass:1.33", "--material", "scene=mirror"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  Scene scene = read_scene(folder / "all.glb");
+  EXPECT_EQ(scene.layers[0].material, mirror_material());
+  EXPECT_EQ(scene.layers[1].material, glass_material(1.33f));
+  ASSERT_EQ(run({"convert", "all.glb", "one.glb", "--layer", "fox"}).exit_code, 0);
+  EXPECT_EQ(only_layer(read_scene(folder / "one.glb")).material, glass_material(1.33f));
+  ASSERT_EQ(run({"convert", "all.glb", "same.glb", "--material", "fox=stored"}).exit_code, 0);
+  EXPECT_EQ(read_scene(folder / "same.glb").layers[1].material, glass_material(1.33f));
+  expect_usage_error({"convert", "scene.off", "no.glb", "--material", "wall=mirror"},
+                     "the layers are: layer 1");
+  expect_usage_error({"convert", "scene.off", "no.glb", "--material", "layer 1=gold"},
+                     "mirror, glass and stored");
+  expect_usage_error({"convert", "scene.off", "no.ply", "--material", "layer 1=mirror"},
+                     "--material");
+  expect_usage_error({"render", "all.glb", "-o", "no.png", "--material", "wall=mirror"},
+                     "the layers are: scene, fox");
+  for (const char* name : {"no.glb", "no.ply", "no.png"}) EXPECT_FALSE(exists(name));
+}
+
 TEST_F(LayersProgram, ConvertRefusesSeveralLayersWhereOneIsNeeded) {
   expect_usage_error({"convert", "scene.off"}, "OUT");
   expect_usage_error({"convert", "scene.off", "fox.off", "out.glb"}, "-o OUT");

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
 #include "cli/files/image_file.hpp"
+#include "cli/options/material_option.hpp"
 #include "cli/options/values.hpp"
 #include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
@@ -41,6 +42,42 @@ TEST(Suggestion, NamesTheNearestAndNothingThatIsFar) {
   EXPECT_EQ(nearest("COVNERT", known), "convert");
   EXPECT_EQ(nearest("COMP", known), "compare");
   EXPECT_EQ(nearest("Scene.GLP", std::vector<std::string>{"scene.glb", "Scene.GLB"}), "Scene.GLB");
+}
+
+TEST(MaterialOption, ReadsLayerMaterialAndIndex) {
+  const auto parsed = [](const std::string& text) { return parse_material_choice(text); };
+  EXPECT_EQ(parsed("ball=mirror").layer, "ball");
+  EXPECT_EQ(parsed("ball=mirror").material, mirror_material());
+  EXPECT_EQ(parsed("a = b=glass").layer, "a = b") << "the last = separates";
+  EXPECT_EQ(parsed("ball=glass").material, glass_material(1.5f));
+  EXPECT_EQ(parsed("layer 2=glass:1.33").material, glass_material(1.33f));
+  EXPECT_EQ(parsed("ball=glass:1").material, glass_material(1));
+  EXPECT_EQ(parsed("ball=stored").material, std::nullopt);
+  for (const char* bad :
+       {"", "ball", "=mirror", "ball=", "ball=gold", "ball=glass:", "ball=glass:x",
+        "ball=glass:0.9", "ball=glass:nan", "ball=glass:inf", "ball=mirror:1"})
+    EXPECT_THROW(parsed(bad), UsageError) << bad;
+}
+
+TEST(MaterialOption, AppliesToMeshesByTheirLabels) {
+  Scene scene = scene_of(TriangleSoup{});
+  scene.layers[0].material = glass_material(2);
+  scene.layers.push_back({.name = "ball"});
+  scene.layers.push_back({.name = "fox", .primitives = Splats{}});
+  apply_materials({{"ball", mirror_material()}, {"layer 1", mirror_material()}, {"layer 1", {}}},
+                  scene);
+  EXPECT_EQ(scene.layers[0].material, glass_material(2)) << "as stored";
+  EXPECT_EQ(scene.layers[1].material, mirror_material());
+  const auto message = [&](const MaterialChoice& choice) -> std::string {
+    try {
+      apply_materials({choice}, scene);
+    } catch (const UsageError& error) {
+      return error.reason();
+    }
+    return "";
+  };
+  EXPECT_THAT(message({"wall", mirror_material()}), HasSubstr("layer 1, ball, fox"));
+  EXPECT_THAT(message({"fox", mirror_material()}), HasSubstr("has splats"));
 }
 
 TEST(Values, ReadWhatIsMeantAndRefuseTheRest) {

@@ -58,8 +58,9 @@ TEST_F(Saving, AGlbHoldsTheDocument) {
   const LayerId soup = document.layers[0].id;
   for (const Edit& edit :
        {moved(source, 1), Edit(ShowLayer{soup, false}), Edit(RenameLayer{soup, "house"}),
-        Edit(ReorderLayer{soup, 1}), Edit(ChangeUp{{0, 0, 1}}),
-        Edit(ChangeQuality{{.supersampling = 2}}), Edit(ChangeProfile{profile_named("mip")})})
+        Edit(ReorderLayer{soup, 1}), Edit(SetMaterial{soup, glass_material(1.33f)}),
+        Edit(ChangeUp{{0, 0, 1}}), Edit(ChangeQuality{{.supersampling = 2}}),
+        Edit(ChangeProfile{profile_named("mip")})})
     apply_edit(document, edit);
   EXPECT_FALSE(source.is_as_read());
   Saved saved = save_scene(source, folder_ / "both.glb", false);
@@ -72,6 +73,7 @@ TEST_F(Saving, AGlbHoldsTheDocument) {
     EXPECT_EQ(after.name, before.name);
     EXPECT_EQ(after.visible, before.visible);
     EXPECT_EQ(after.world_from_layer, before.world_from_layer);
+    EXPECT_EQ(after.material, before.material);
     EXPECT_EQ(primitive_count(after), primitive_count(before));
   }
   EXPECT_EQ(again.document.up, document.up);
@@ -87,6 +89,20 @@ TEST_F(Saving, AGlbHoldsTheDocument) {
   keep_changes(reread, source);
   EXPECT_TRUE(reread.is_as_read());
   EXPECT_EQ(reread.document.layers[1].id, soup);
+}
+
+// A material alone is a change, and it outlives reading the file again.
+TEST_F(Saving, AMaterialIsAChange) {
+  two_files();
+  SceneSource source = read({"soup.glb"});
+  EXPECT_TRUE(source.is_as_read());
+  apply_edit(source.document, SetMaterial{source.document.layers[0].id, mirror_material()});
+  EXPECT_FALSE(source.is_as_read());
+  SceneSource reread = read_again(source, {.paths = {}, .progress = [](double) {}});
+  keep_changes(reread, source);
+  EXPECT_EQ(reread.document.layers[0].material, mirror_material());
+  save_scene(source, folder_ / "mirror.glb", false);
+  EXPECT_EQ(read({"mirror.glb"}).document.layers[0].material, mirror_material());
 }
 
 TEST_F(Saving, ASingleLayerWithoutANameStaysOne) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,6 +22,8 @@ namespace {
 
 /// Smallest and largest scale.
 constexpr double min_scale = 1e-6, max_scale = 1e6;
+/// Largest index of refraction: that of germanium, in infrared light.
+constexpr float max_ior = 4.0f;
 
 /// Returns whether the layer was clicked.
 bool layer_row(State& state, const DocumentLayer& layer, bool selected) {
@@ -108,6 +111,30 @@ void place_of(State& state, const DocumentLayer& layer) {
   }
 }
 
+/// What rays see of a mesh.
+void surface_row(State& state, const DocumentLayer& layer) {
+  if (!soup_of(layer)) return;
+  const Layer* const read = state.source.as_read(layer);
+  const std::optional<Material> stored = read ? read->material : std::nullopt;
+  const bool glass = layer.material && is_glass(*layer.material);
+  constexpr const char* names[] = {"As stored", "Mirror", "Glass"};
+  const int shown = layer.material == stored ? 0 : glass ? 2 : 1;
+  int chosen = shown;
+  field("Surface");
+  if (ImGui::Combo("##surface", &chosen, names, int(std::size(names))) && chosen != shown)
+    state.edit(SetMaterial{layer.id, chosen == 0   ? stored
+                                     : chosen == 1 ? std::optional(mirror_material())
+                                                   : glass_material(default_ior)});
+  tip("For traced images: as the file stores it, a perfect mirror, or clear glass");
+  if (!glass) return;
+  Material material = *layer.material;
+  field("Index");
+  if (ImGui::DragFloat("##ior", &material.ior, 0.005f, 1.0f, max_ior, "%.3f",
+                       ImGuiSliderFlags_AlwaysClamp))
+    state.edit(SetMaterial{layer.id, material}, true);
+  tip("Index of refraction: 1 changes no direction, water has 1.333, glass 1.5");
+}
+
 void order_buttons(State& state, std::size_t index) {
   const std::vector<DocumentLayer>& layers = state.source.document.layers;
   const LayerId id = layers[index].id;
@@ -153,6 +180,9 @@ void layers_panel(State& state) {
     tip("The position, rotation, scale and mirror that the file gives");
   }
   order_buttons(state, selected);
+  ImGui::PushID(int(layer.id));
+  surface_row(state, layer);
+  ImGui::PopID();
 }
 
 }  // namespace tureen::viewer

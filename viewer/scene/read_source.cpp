@@ -43,6 +43,7 @@ void append_scene(SceneSource& source, const fs::path& path, const FileWatch& wa
     added.bounds = framed_bounds(layer);
     added.world_from_layer = layer.world_from_layer;
     added.visible = layer.visible;
+    added.material = layer.material;
     added.primitives =
         std::make_shared<const Primitives>(std::exchange(layer.primitives, TriangleSoup{}));
     source.origins[added.id] = {source.files.size(), i};

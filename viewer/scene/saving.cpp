@@ -39,7 +39,8 @@ Scene header_of(const SceneSource& source) {
   const Document& document = source.document;
   scene.layers.clear();
   for (const DocumentLayer& layer : document.layers)
-    scene.layers.push_back({layer.name, layer.world_from_layer, layer.visible, TriangleSoup{}});
+    scene.layers.push_back(
+        {layer.name, layer.world_from_layer, layer.visible, TriangleSoup{}, layer.material});
   // A file of one layer without a name stays one.
   if (const auto& layers = document.layers; layers.size() == 1) {
     const auto origin = source.origins.find(layers[0].id);

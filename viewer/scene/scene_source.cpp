@@ -78,7 +78,8 @@ bool SceneSource::is_as_read() const {
           layer.name != origin->second.name)
         return false;
       const Layer& read = *as_read(layer);
-      if (layer.world_from_layer != read.world_from_layer || layer.visible != read.visible)
+      if (layer.world_from_layer != read.world_from_layer || layer.visible != read.visible ||
+          layer.material != read.material)
         return false;
     }
   }
@@ -156,6 +157,7 @@ void keep_changes(SceneSource& read, const SceneSource& now) {
       if (old.world_from_layer != before.world_from_layer)
         layer.world_from_layer = old.world_from_layer;
       if (old.visible != before.visible) layer.visible = old.visible;
+      if (old.material != before.material) layer.material = old.material;
       read.origins[old.id].name = origin->second.name;
     } else if (origin == now.origins.end() ||
                read.files[origin->second.file].header == now.files[origin->second.file].header) {
