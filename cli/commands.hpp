@@ -18,6 +18,7 @@ void add_eval(Command& program);
 void add_info(Command& program);
 void add_render(Command& program);
 void add_report(Command& program);
+void add_trace(Command& program);
 void add_tradeoff(Command& program, std::vector<std::string> arguments);
 void add_train(Command& program, std::vector<std::string> arguments);
 void add_view(Command& program);

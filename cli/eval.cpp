@@ -9,11 +9,13 @@
 #include "cli/files/eval_images.hpp"
 #include "cli/files/eval_result.hpp"
 #include "cli/files/result_files.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options/arguments.hpp"
 #include "cli/options/dataset_argument.hpp"
 #include "cli/options/drawing_options.hpp"
 #include "cli/options/memory_option.hpp"
 #include "cli/options/output_argument.hpp"
+#include "cli/options/renderer_option.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/options/values.hpp"
 #include "cli/progress.hpp"
@@ -29,6 +31,7 @@ struct EvalOptions {
   SceneArgument scene;
   DatasetArgument dataset;
   DrawingOptions drawing;
+  RendererChoice renderer;
   EvaluationOptions evaluation;
   DatasetPart split = DatasetPart::test;
   std::string background;  // empty: the scene's own
@@ -78,7 +81,17 @@ ExitCode evaluate_scene(EvalOptions options) {
   {
     Progress progress("evaluating");
     evaluation.progress = [&](double fraction) { progress.update(fraction); };
-    result = evaluate(scene, photographs, evaluation);
+    if (const ProcessorRenderer* renderer = options.renderer.renderer) {
+      const auto source = renderer->make(scene, {.quality = evaluation.plan.quality,
+                                                 .background = evaluation.background,
+                                                 .progress = [](double) { throw_if_interrupted(); },
+                                                 .samples = options.renderer.samples});
+      result = evaluate(*source, photographs, evaluation);
+      result.renderer = renderer->name;
+      result.context = "processor";
+    } else {
+      result = evaluate(scene, photographs, evaluation);
+    }
   }
   std::vector<std::string> output;
   if (images) output = images->finish();
@@ -128,6 +141,7 @@ Examples:
   tureen eval soup.glb lego -o views            images with heat maps, and a report
   tureen eval soup.glb lego --json              the metrics for scripts
   tureen eval splats.ply fox                    splats, blended as their method does
+  tureen eval splats.ply fox --renderer trace   the same in exact order along each ray
   tureen eval soup.glb lego --ssim-border uniform7    SSIM as in DiffSoup on synthetic
                                                       scenes
 
@@ -151,7 +165,11 @@ context, 5 the scene does not fit on the device, or the output cannot be written
   add_drawing_options(command, options->drawing);
   command.add_flag("--verbose", options->verbose, "also print the plan");
   command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
-  command.does([options] { return evaluate_scene(*options); });
+  const auto check_renderer = add_renderer_option(command, options->renderer);
+  command.does([options, check_renderer] {
+    check_renderer();
+    return evaluate_scene(*options);
+  });
 }
 
 }  // namespace tureen::cli

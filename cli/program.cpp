@@ -26,6 +26,7 @@ ExitCode exit_code_of(const std::exception& error) {
 
 void add_commands(Command& program, const std::vector<std::string>& arguments) {
   add_render(program);
+  add_trace(program);
   add_view(program);
   add_cameras(program);
   add_train(program, arguments);

@@ -22,6 +22,13 @@ int percent(double fraction) { return int(std::clamp(fraction, 0.0, 1.0) * 100);
 
 }  // namespace
 
+std::string time_left_text(double fraction, double seconds) {
+  if (seconds < 5 || !(fraction > 0)) return {};
+  const double left = seconds / fraction - seconds;
+  return left < 90 ? std::to_string(int(left) + 1) + " s left"
+                   : std::to_string(int(left / 60) + 1) + " min left";
+}
+
 Progress::Output Progress::standard_error() {
   return {.stream = stderr, .terminal = is_terminal(stderr), .seconds = steady_seconds};
 }

@@ -8,6 +8,9 @@
 
 namespace tureen::cli {
 
+/// "3 min left" for work that took `seconds` so far; empty in the first 5 s.
+std::string time_left_text(double fraction, double seconds);
+
 class Progress {
  public:
   struct Output {

@@ -34,7 +34,7 @@ namespace {
 
 struct RenderOptions {
   SceneArguments scene;
-  const ProcessorRenderer* renderer = nullptr;  // null: OpenGL
+  RendererChoice renderer;
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
@@ -108,10 +108,11 @@ WrittenImages draw_without_gl(const Scene& scene, const RenderOptions& options,
                               const glm::vec4& background, const Views& views) {
   const bool opaque = background.a >= 1;
   std::function<void(double)> progress;
-  const std::unique_ptr<ImageSource> images = options.renderer->make(
+  const std::unique_ptr<ImageSource> images = options.renderer.renderer->make(
       scene, {.quality = preferences_for(scene, options.drawing).quality,
               .background = opaque ? std::optional(glm::vec3(background)) : std::nullopt,
-              .progress = [&](double done) { progress(done); }});
+              .progress = [&](double done) { progress(done); },
+              .samples = options.renderer.samples});
   return draw_views(drawer_of(*images, progress, opaque), views, options.output);
 }
 
@@ -236,7 +237,7 @@ ExitCode render(RenderOptions options) {
   require_shown(options.show, scene);
   require_new_images(options, views);
   const Camera& first = views.cameras.front();
-  if (options.renderer) {
+  if (const ProcessorRenderer* renderer = options.renderer.renderer) {
     const WrittenImages images = draw_without_gl(scene, options, background, views);
     say_list("Reading " + listed(options.scene) + ":", notes_of(scene.info));
     say_what_is_hidden(scene);
@@ -244,12 +245,12 @@ ExitCode render(RenderOptions options) {
     if (options.verbose)
       say(fmt::format("{}; {} x {} by {}; {:.2f} s per image",
                       primitives_text(triangle_count(scene), splat_count(scene)), first.width,
-                      first.height, options.renderer->name, median(images.ms) / 1000));
+                      first.height, renderer->name, median(images.ms) / 1000));
     say_written(images, views);
     if (options.json)
       print_json({{"width", first.width},
                   {"height", first.height},
-                  {"renderer", options.renderer->name},
+                  {"renderer", renderer->name},
                   {"triangles", triangle_count(scene)},
                   {"splats", splat_count(scene)},
                   {"frame_ms", frame_ms_json(images.ms)},
@@ -302,40 +303,7 @@ ExitCode render(RenderOptions options) {
   return ExitCode::done;
 }
 
-}  // namespace
-
-void add_render(Command& program) {
-  auto options = std::make_shared<RenderOptions>();
-  Command command = program.add_command("render", "Draw images of a scene");
-  command.footer(
-      R"(The default view is the first view that the scene stores (convert --view); without one, the
-recorded camera that looks most directly at what the cameras photographed, from their usual distance
-and height. Without cameras, it is a view of the whole scene from the front, slightly from the right
-and from above. Orbits and turntables of captured places go around that point, among the cameras.
-
-Examples:
-  tureen render soup.glb -o image.png
-  tureen render house.glb fox.glb -o both.png             several scenes in one image
-  tureen render table.glb guitar.ply -o both.png --place guitar=at:0,0,1.2/turn:0,0,90/scale:0.5
-                                                          one layer moved, turned and made smaller
-  tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
-  tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
-  tureen render soup.glb --camera transforms.json:12 --size 540x960
-  tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
-  tureen render soup.glb --path cameras -o flight.mp4     along the recorded cameras
-  tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
-                                                          the frames along a camera path
-  tureen render soup.glb --supersample 4 -o smooth.png    16 samples per pixel
-  tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
-  tureen render soup.glb --renderer oracle -o exact.png   in double precision, without OpenGL
-  tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
-  tureen render soup.glb --depth depth.exr --alpha a.png  also values: 32-bit floats or 16 bits
-  tureen render soup.glb --frames 100 --json              milliseconds per frame
-  tureen render soup.glb --pipeline baseline --frames 100 --json
-                                                          the same for the baseline
-
-Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
-5 the scene does not fit on the device, or an image cannot be written.)");
+void add_options(Command& command, const std::shared_ptr<RenderOptions>& options) {
   add_scene_arguments(command, options->scene);
   add_placing_options(command, options->scene.choice);
   add_memory_option(command);
@@ -372,6 +340,63 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
     check_renderer();
     return render(*options);
   });
+}
+
+}  // namespace
+
+void add_render(Command& program) {
+  Command command = program.add_command("render", "Draw images of a scene");
+  command.footer(
+      R"(The default view is the first view that the scene stores (convert --view); without one, the
+recorded camera that looks most directly at what the cameras photographed, from their usual distance
+and height. Without cameras, it is a view of the whole scene from the front, slightly from the right
+and from above. Orbits and turntables of captured places go around that point, among the cameras.
+
+Examples:
+  tureen render soup.glb -o image.png
+  tureen render house.glb fox.glb -o both.png             several scenes in one image
+  tureen render table.glb guitar.ply -o both.png --place guitar=at:0,0,1.2/turn:0,0,90/scale:0.5
+                                                          one layer moved, turned and made smaller
+  tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
+  tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
+  tureen render soup.glb --camera transforms.json:12 --size 540x960
+  tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
+  tureen render soup.glb --path cameras -o flight.mp4     along the recorded cameras
+  tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
+                                                          the frames along a camera path
+  tureen render soup.glb --supersample 4 -o smooth.png    16 samples per pixel
+  tureen render soup.glb --size 40000x20000 -o poster.png beyond the device's limit: in tiles
+  tureen render soup.glb --renderer oracle -o exact.png   in double precision, without OpenGL
+  tureen render soup.glb --renderer trace -o rays.png     mirrors and glass; also: tureen trace
+  tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
+  tureen render soup.glb --depth depth.exr --alpha a.png  also values: 32-bit floats or 16 bits
+  tureen render soup.glb --frames 100 --json              milliseconds per frame
+  tureen render soup.glb --pipeline baseline --frames 100 --json
+                                                          the same for the baseline
+
+Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
+5 the scene does not fit on the device, or an image cannot be written.)");
+  add_options(command, std::make_shared<RenderOptions>());
+}
+
+void add_trace(Command& program) {
+  Command command = program.add_command("trace", "Draw images by rays, with mirrors and glass");
+  command.footer(
+      R"(The short form of `tureen render --renderer trace`: its options are the same, except those
+that need --renderer gl. Splats are blended in their exact order on each ray. Materials of meshes
+are those that the file stores, or those of --material.
+
+Examples:
+  tureen trace scene.glb -o image.png
+  tureen trace splats.ply ball.glb --samples 16 -o smooth.png   16 rays per pixel
+  tureen trace scene.glb --turntable 4 -o turn.mp4              a video; needs ffmpeg
+
+Ctrl-C keeps the images that are complete, and the samples of the current one.
+
+Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 5 an image cannot be written.)");
+  auto options = std::make_shared<RenderOptions>();
+  options->renderer = ray_renderer();
+  add_options(command, options);
 }
 
 }  // namespace tureen::cli

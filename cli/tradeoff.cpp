@@ -140,10 +140,14 @@ on the device, or the output cannot be written.)");
                      "folder for report.html and tradeoff.json");
   add_choice<tradeoff::Samples>(
       command, "--reference NAME", options->samples,
-      {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
+      {{"device", tradeoff::Samples::device},
+       {"exact", tradeoff::Samples::exact},
+       {"trace", tradeoff::Samples::traced}},
       "reference for edits, drawn by the CPU in double precision: device (default, vertices "
       "rounded as on the device, splats in the order of their centres) or exact (vertices not "
-      "rounded, splats in exact order; the error then includes those of the device)");
+      "rounded, splats in exact order; the error then includes those of the device), or trace "
+      "(exact "
+      "by rays, faster, splats in single precision)");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
       "measure more: 1280x720, 8 views and 4 adversarial views, 5 rounds, up to 8 x 8 samples, all "

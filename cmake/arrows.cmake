@@ -43,6 +43,8 @@ set(arrows
   "splatting/windows: scene splatting splatting/tiles splatting/tiles/tile_lists.*"
   "splatting/kernel_rows.cpp splatting/layer.cpp: base scene splatting/*"
 
+  "tracing: base image scene splatting/*"
+
   "shaders:"
   "shaders/splats: shaders"
   "shaders/debug_views: shaders"
@@ -71,7 +73,7 @@ set(arrows
   "jobs/visibility: base image scene oracle runtime runtime/gl"
   "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes runtime/splats jobs/baseline jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
-  "jobs/tradeoff: base image scene oracle splatting/* runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
+  "jobs/tradeoff: base image scene oracle splatting/* tracing runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/bench jobs/eval jobs/timing jobs/visibility"
   "jobs/cameras: base image scene formats/*"
   "jobs/compress: base image scene camera formats/* runtime runtime/gl jobs/visibility"
   "jobs/conversion: image scene camera runtime/splats"
@@ -95,12 +97,12 @@ set(arrows
   "web/report:"
 
   "cli/exit_code.hpp cli/interrupt.* cli/progress.* cli/report.* cli/table.* cli/version.*: base scene"
-  "cli/options: base image scene camera oracle formats/* runtime/* jobs/* cli/exit_code.hpp"
+  "cli/options: base image scene camera oracle tracing formats/* runtime/* jobs/* cli/exit_code.hpp"
   "cli/files: base image scene formats/* runtime/* trainer/common jobs/* cli/exit_code.hpp cli/options"
   "cli/measuring: base scene camera runtime/gl jobs/* cli/exit_code.hpp cli/options"
   "cli/bench: base scene jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"
   "cli/tradeoff: base scene camera formats/* runtime/gl jobs/* cli/exit_code.hpp cli/options cli/files cli/measuring"
-  "cli: base image scene camera formats/* oracle splatting/* runtime/* trainer/* jobs/* cli/*")
+  "cli: base image scene camera formats/* oracle splatting/* tracing runtime/* trainer/* jobs/* cli/*")
 
 set(wrong "")
 set(modules "")

@@ -32,15 +32,16 @@ set(limits
   "code scene 4880: the model, its edits, places as text"
   "code camera 1800: navigation, views around captures, paths along cameras"
   "code formats 17040: a reader per format with its remarks, checked against hostile files"
-  "code oracle 1710: the reference stays readable"
+  "code oracle 2210: the reference stays readable; light along rays, without a tree"
   "code splatting 3250: loops in vectors, per kernel"
+  "code tracing 2075: a tree and a file per kernel, materials, images by rays"
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 13250: four methods, CPU and CUDA, fitted to a time"
-  "code jobs 7980: work that the programs share, the whole of a training run, and cameras for photographs; what measures and reports grows no further"
+  "code jobs 7990: work that the programs share, the whole of a training run, and cameras for photographs; what measures and reports grows no further"
   "code viewer 7260: the window"
   "code web 9400: the page"
-  "code cli 7090: the command line computes nothing"
+  "code cli 7190: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
   "bytes page 410000: 2 s over a connection of 1.7 Mbit/s")
@@ -68,7 +69,7 @@ endfunction()
 # Folders with sources, without those that a build or npm makes.
 file(GLOB_RECURSE paths LIST_DIRECTORIES true RELATIVE "${ROOT}"
   "${ROOT}/base/*" "${ROOT}/image/*" "${ROOT}/scene/*" "${ROOT}/camera/*" "${ROOT}/formats/*"
-  "${ROOT}/oracle/*" "${ROOT}/splatting/*" "${ROOT}/shaders/*" "${ROOT}/runtime/*" "${ROOT}/trainer/*"
+  "${ROOT}/oracle/*" "${ROOT}/splatting/*" "${ROOT}/tracing/*" "${ROOT}/shaders/*" "${ROOT}/runtime/*" "${ROOT}/trainer/*"
   "${ROOT}/jobs/*" "${ROOT}/viewer/*" "${ROOT}/cli/*" "${ROOT}/examples/*" "${ROOT}/cmake/*"
   "${ROOT}/docs/*" "${ROOT}/tests/*" "${ROOT}/web/engine/*" "${ROOT}/web/viewer/*" "${ROOT}/web/common/*"
   "${ROOT}/web/page/*"

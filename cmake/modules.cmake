@@ -1,7 +1,7 @@
 # Checks the arrows between modules (cmake/arrows.cmake) and the limits on size (cmake/limits.cmake)
 # before compiling.
 file(GLOB_RECURSE checked_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
-  base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp splatting/*.?pp
+  base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp splatting/*.?pp tracing/*.?pp
   runtime/*.?pp trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp cli/*.?pp shaders/* web/engine/*.?pp
   web/viewer/* web/common/* web/page/* web/bench/* web/package/* web/report/*)
 file(GLOB_RECURSE measured_by_limits CONFIGURE_DEPENDS LIST_DIRECTORIES false

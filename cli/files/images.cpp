@@ -37,6 +37,21 @@ bool needs_tiles(const Quality& quality, const gl::Capabilities& device, const C
   return std::max(columns, rows) > device.max_image_side || columns * rows > max_samples;
 }
 
+/// Progress of drawing; slow renderers, which do not warm up, show the time that is left.
+class SlowProgress {
+ public:
+  explicit SlowProgress(const Drawer& drawer) : is_slow_(!drawer.warms_up) {}
+
+  void update(double fraction) {
+    progress_.update(fraction, is_slow_ ? time_left_text(fraction, steady_seconds() - start_) : "");
+  }
+
+ private:
+  bool is_slow_;
+  double start_ = steady_seconds();
+  Progress progress_{"drawing"};
+};
+
 /// The same view at the size of a thumbnail.
 Camera small_view(const Camera& camera) {
   constexpr int cell = 320;  // the default of contact_sheet()
@@ -116,7 +131,7 @@ WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& camer
   const int count = int(cameras.size());
   WrittenImages result;
   std::vector<Image8> thumbnails;
-  Progress progress("drawing");
+  SlowProgress progress(drawer);
   // For an image without tiles, this also creates the targets.
   const Camera& first = cameras.front();
   if (drawer.warms_up) timed_draw(drawer, {drawer.needs_tiles(first) ? small_view(first) : first});
@@ -143,7 +158,7 @@ WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& camera
   const Camera& first = cameras.front();
   WrittenImages result{{path}, {}};
   VideoFile video(path, {first.width, first.height, frames_per_second});
-  Progress progress("drawing");
+  SlowProgress progress(drawer);
   if (drawer.warms_up) timed_draw(drawer, {first});
   for (const Camera& camera : cameras) {
     const auto update = [&](double done) {

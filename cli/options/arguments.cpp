@@ -276,6 +276,10 @@ void Command::add_text_flag(const std::string& name, std::function<std::string()
 
 Option Command::option(const std::string& name) const { return Option(app_->get_option(name)); }
 
+bool Command::has_option(const std::string& name) const {
+  return app_->get_option_no_throw(name) != nullptr;
+}
+
 void Command::does(Action action) {
   app_->callback([chosen = chosen_, action = std::move(action)] { *chosen = action; });
 }

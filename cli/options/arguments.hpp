@@ -116,6 +116,7 @@ class Command {
 
   /// An option that was added before.
   Option option(const std::string& name) const;
+  bool has_option(const std::string& name) const;
 
   /// Sets the action of the command. It lives as long as the CommandLine.
   void does(Action action);

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "oracle/oracle_images.hpp"
 #include "runtime/splats/tile_images.hpp"
+#include "tracing/traced_images.hpp"
 
 namespace tureen::cli {
 
@@ -38,7 +39,20 @@ std::unique_ptr<ImageSource> tile_images(const Scene& scene, const ProcessorImag
   return std::make_unique<TileImages>(scene, images.background, order);
 }
 
-constexpr ProcessorRenderer renderers[] = {{"oracle", oracle_images}, {"tiles", tile_images}};
+std::unique_ptr<ImageSource> traced_images(const Scene& scene, const ProcessorImages& images) {
+  const int side = images.quality.supersampling;
+  if (side > 1 && images.samples > 1)
+    throw UsageError("--samples and --supersample exclude each other", "remove one of them");
+  return std::make_unique<tracing::TracedImages>(
+      scene, tracing::TraceOptions{.samples = images.samples,
+                                   .supersampling = side,
+                                   .background = images.background,
+                                   .progress = images.progress});
+}
+
+constexpr ProcessorRenderer renderers[] = {
+    {"oracle", oracle_images}, {"tiles", tile_images}, {"trace", traced_images}};
+constexpr const ProcessorRenderer& rays = renderers[2];
 
 /// Options of `render` that OpenGL alone supports.
 constexpr const char* gl_options[] = {
@@ -48,20 +62,31 @@ constexpr const char* gl_options[] = {
 
 }  // namespace
 
-std::function<void()> add_renderer_option(Command& command, const ProcessorRenderer*& renderer) {
+RendererChoice ray_renderer() { return {&rays}; }
+
+std::function<void()> add_renderer_option(Command& command, RendererChoice& choice) {
   std::vector<std::pair<std::string, const ProcessorRenderer*>> choices{{"gl", nullptr}};
   for (const ProcessorRenderer& each : renderers) choices.emplace_back(each.name, &each);
-  add_choice(command, "--renderer NAME", renderer, std::move(choices),
-             "what draws: gl (default); oracle: the reference in double precision, seconds to "
-             "hours per image; tiles: splats on the CPU. Only gl needs OpenGL");
+  add_choice(
+      command, "--renderer NAME", choice.renderer, std::move(choices),
+      "what draws: gl (default); oracle: the reference in double precision, seconds to "
+      "hours per image; tiles: splats on the CPU; trace: rays, with mirrors, glass and "
+      "splats in exact order. Only gl needs OpenGL");
+  command.add_option("--samples N", choice.samples,
+                     "rays per pixel of --renderer trace, jittered over the pixel; 1 by default",
+                     between(1, 4096));
   std::vector<std::pair<std::string, Option>> options;
-  for (const char* name : gl_options) options.emplace_back(name, command.option(name));
-  return [&renderer, options = std::move(options)] {
-    if (!renderer) return;
+  for (const char* name : gl_options)
+    if (command.has_option(name)) options.emplace_back(name, command.option(name));
+  return [&choice, options = std::move(options)] {
+    if (choice.samples > 1 && choice.renderer != &rays)
+      throw UsageError("--samples needs --renderer trace",
+                       "add it, or use --supersample, which all renderers support");
+    if (!choice.renderer) return;
     for (const auto& [name, option] : options)
       if (option.is_given())
         throw UsageError(name + " needs --renderer gl",
-                         "remove " + name + ", or --renderer " + renderer->name);
+                         "remove " + name + ", or --renderer " + choice.renderer->name);
   };
 }
 

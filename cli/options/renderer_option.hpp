@@ -16,6 +16,7 @@ struct ProcessorImages {
   Quality quality;
   std::optional<glm::vec3> background;   // nullopt: transparent
   std::function<void(double)> progress;  // called with the fraction done of an image
+  int samples = 1;                       // jittered, for each pixel; only rays support more
 };
 
 /// Draws whole images on the CPU.
@@ -25,9 +26,16 @@ struct ProcessorRenderer {
   std::unique_ptr<ImageSource> (*make)(const Scene& scene, const ProcessorImages& images);
 };
 
-/// Adds --renderer, after all other options. Null: OpenGL. The returned function throws UsageError
+struct RendererChoice {
+  const ProcessorRenderer* renderer = nullptr;  // null: OpenGL
+  int samples = 1;                              // ProcessorImages::samples
+};
+/// Draws by rays.
+RendererChoice ray_renderer();
+
+/// Adds --renderer and --samples, after all other options. The returned function throws UsageError
 /// if a processor renderer is chosen and an option is given that only OpenGL supports; call it
 /// after parsing.
-std::function<void()> add_renderer_option(Command& command, const ProcessorRenderer*& renderer);
+std::function<void()> add_renderer_option(Command& command, RendererChoice& choice);
 
 }  // namespace tureen::cli

@@ -172,7 +172,9 @@ TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
       splat_count(scene)};
   report.machine = this_machine();
   report.with_flip = options.with_flip;
-  report.samples = options.samples == tradeoff::Samples::device ? "device" : "exact";
+  report.samples = options.samples == tradeoff::Samples::device  ? "device"
+                   : options.samples == tradeoff::Samples::exact ? "exact"
+                                                                 : "trace";
   report.limits = options.limits;
   return report;
 }

@@ -71,7 +71,7 @@ void say_model(const TradeoffReport& report) {
 }  // namespace
 
 const char* where_it_looks(const TradeoffReport& report) {
-  const bool exact = report.samples == "exact";
+  const bool exact = report.samples != "device";
   if (report.scene.splats > 0)
     return exact ? "in exact order of the splats" : "in the order of the splats' centres";
   return exact ? "with exact triangles" : "at the device's sample points";

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "oracle/oracle_images.hpp"
+#include "tracing/traced_images.hpp"
 
 namespace tureen::tradeoff {
 
@@ -20,6 +21,10 @@ int device_subpixel_bits() {
 }
 
 ImageF reference_image(const Scene& scene, const Camera& camera, const ReferenceOptions& options) {
+  if (options.samples == Samples::traced)
+    return *tracing::TracedImages(scene,
+                                  {.background = options.background, .progress = options.progress})
+                .exact_image({camera});
   const bool antialiased = options.samples == Samples::antialiased;
   const int n = antialiased ? antialiased_samples : 1;
   // A snapped image is drawn in one piece, because clipping depends on the image's border.

@@ -18,6 +18,9 @@ enum class Samples {
   device,
   /// One sample per pixel, at its centre, of the exact triangles; splats in exact order.
   exact,
+  /// The same by rays (tracing/): splats in single precision, an error below 1/255 at 99.9 % of the
+  /// pixels, in a small part of the time.
+  traced,
   /// antialiased_samples^2 samples per pixel, on a regular grid, of the exact triangles; splats in
   /// the order of their centres.
   antialiased,

@@ -85,11 +85,13 @@ std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOpti
 
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
+  const bool traced = options.samples == Samples::traced;
   References references{
       oracle_images(scene, options, Samples::device, StudyStage::device_references),
-      oracle_images(scene, options, Samples::exact, StudyStage::exact_references)};
+      oracle_images(scene, options, traced ? Samples::traced : Samples::exact,
+                    StudyStage::exact_references)};
   study.grid = error_between(references.exact, references.judge, options.with_flip);
-  if (options.samples == Samples::exact) references.judge = references.exact;
+  if (traced || options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
 
   panel.settings = settings_of(scene, options);

@@ -150,6 +150,13 @@ TEST(Progress, DrawsABarOnATerminalAndWipesIt) {
   EXPECT_THAT(text, testing::EndsWith("\r\033[K"));
 }
 
+TEST(Progress, EstimatesTheTimeThatIsLeft) {
+  EXPECT_EQ(time_left_text(0.5, 4), "");
+  EXPECT_EQ(time_left_text(0.0, 10), "");
+  EXPECT_EQ(time_left_text(0.5, 10), "11 s left");
+  EXPECT_EQ(time_left_text(0.1, 60), "10 min left");
+}
+
 TEST(Progress, WritesPlainLinesElsewhere) {
   EXPECT_EQ(progress_text(false, {{6, 0.25}, {7, 0.3}, {12, 0.75}}),
             "working: 25 %\nworking: 75 %\n");

@@ -283,7 +283,20 @@ TEST_F(Program, RenderNeedsNoOpenGlWithTheOracle) {
   refused({"--renderer", "oracle", "--frames", "1"}, "--frames needs --renderer gl");
   refused({"--renderer", "tiles", "--debug-view", "depth"}, "--debug-view needs --renderer gl");
   refused({"--renderer", "tiles"}, "tiles draw only splats");
-  refused({"--renderer", "rays"}, "gl, oracle, tiles");
+  refused({"--renderer", "rays"}, "gl, oracle, tiles, trace");
+  refused({"--renderer", "oracle", "--samples", "4"}, "--samples needs --renderer trace");
+  refused({"--renderer", "trace", "--samples", "4", "--supersample", "2"}, "--supersample");
+
+  // By rays, also as the command of that name.
+  ASSERT_EQ(draw({"--renderer", "trace"}).exit_code, 0);
+  const Image8 traced = read_png("out.png");
+  EXPECT_EQ(traced.at(32, 24), glm::u8vec4(255, 0, 0, 255));
+  EXPECT_GT(psnr_from_mse(mean_squared_error(to_float(exact), to_float(traced))), 30);
+  ASSERT_EQ(run({"trace", "scene.off", "--size", "64x48", "--eye", "0,-5,0", "--target", "0,0,0",
+                 "--samples", "1"})
+                .exit_code,
+            0);
+  EXPECT_EQ(read_png("out.png").pixels, traced.pixels);
 }
 
 TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
