@@ -121,6 +121,8 @@ TEST(Messages, NameOptionsAndCommandsThatExist) {
   // tureen view starts another program.
   for (const std::string& literal : literals_of(text_of(root / "viewer/main.cpp")))
     if (literal.starts_with("--")) known.insert(literal.substr(0, literal.find_first_of(" ,")));
+  // An option of REdiSplats' program, and an earlier name of --images.
+  known.insert({"--quant", "--pictures"});
   // Formats of results that are named after their source.
   const std::set<std::string> formats{"web", "measurements"};
   std::size_t checked = 0;

@@ -58,6 +58,7 @@ class TrainedImages final : public trainer::Trainable {
   }
   int steps() const override { return 1; }
   int steps_done() const override { return 0; }
+  void set_steps(int) override {}
   trainer::StepReport step() override { return {}; }
   trainer::PrimitiveCount primitives() const override {
     return {trainer::PrimitiveKind::splats, trainer_->parameters().count()};

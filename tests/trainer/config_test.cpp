@@ -81,6 +81,7 @@ TEST(ConfigFields, HaveAReasonForEveryRange) {
   for (const ConfigField& field : config_fields()) {
     const bool number = std::holds_alternative<int Config::*>(field.member) ||
                         std::holds_alternative<float Config::*>(field.member) ||
+                        std::holds_alternative<double Config::*>(field.member) ||
                         std::holds_alternative<std::uint64_t Config::*>(field.member) ||
                         std::holds_alternative<Color Config::*>(field.member);
     EXPECT_EQ(number, field.range.low < field.range.high) << field.name;
