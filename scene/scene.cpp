@@ -151,6 +151,9 @@ Layer& layer_named(Scene& scene, const std::string& name) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     if (label(scene.layers[i], i) == name) found.push_back(i);
+  if (found.empty())
+    for (std::size_t i = 0; i < scene.layers.size(); ++i)
+      if (label({}, i) == name) found.push_back(i);
   if (found.size() != 1)
     throw UsageError(
         (found.empty() ? "no layer has the name '" : "several layers have the name '") + name +

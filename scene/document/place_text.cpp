@@ -107,24 +107,6 @@ class PlaceReader {
   PlaceChange change_;
 };
 
-Layer& layer_named(Scene& scene, const std::string& name) {
-  Layer* found = nullptr;
-  std::string labels;
-  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    const std::string each = label(scene.layers[i], i);
-    labels += (i > 0 ? ", " : "") + each;
-    if (each != name) continue;
-    if (found)
-      throw UsageError("several layers are named " + name,
-                       "\"layer 1\" is the first layer, \"layer 2\" the second");
-    found = &scene.layers[i];
-  }
-  if (found) return *found;
-  for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    if (name == label({}, i)) return scene.layers[i];
-  throw UsageError("there is no layer " + name, "the layers are: " + labels);
-}
-
 }  // namespace
 
 PlaceChange parse_place(std::string_view text) { return PlaceReader(text).change(); }

@@ -70,10 +70,10 @@ TEST(PlaceText, ErrorsListWhatExists) {
   const auto place = [&](const std::string& text) {
     return error_of([&] { place_layers(scene, {parse_place(text)}); });
   };
-  EXPECT_THAT(place("fox=hidden"), HasSubstr("there is no layer fox"));
+  EXPECT_THAT(place("fox=hidden"), HasSubstr("no layer has the name 'fox'"));
   EXPECT_THAT(place("table=turn:0,0,30/scale:2.5e-323"), HasSubstr("the place of table"));
   scene.layers[1].name = "table";
-  EXPECT_THAT(place("table=hidden"), HasSubstr("several layers are named table"));
+  EXPECT_THAT(place("table=hidden"), HasSubstr("several layers have the name 'table'"));
   place_layers(scene, {parse_place("layer 2=hidden")});
   EXPECT_FALSE(scene.layers[1].visible);
 }
