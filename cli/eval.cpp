@@ -165,7 +165,7 @@ context, 5 the scene does not fit on the device, or the output cannot be written
   add_drawing_options(command, options->drawing);
   command.add_flag("--verbose", options->verbose, "also print the plan");
   command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
-  const auto check_renderer = add_renderer_option(command, options->renderer);
+  const auto check_renderer = add_renderer_option(command, options->renderer, "--scale");
   command.does([options, check_renderer] {
     check_renderer();
     return evaluate_scene(*options);

@@ -64,7 +64,8 @@ constexpr const char* gl_options[] = {
 
 RendererChoice ray_renderer() { return {&rays}; }
 
-std::function<void()> add_renderer_option(Command& command, RendererChoice& choice) {
+std::function<void()> add_renderer_option(Command& command, RendererChoice& choice,
+                                          const std::string& own) {
   std::vector<std::pair<std::string, const ProcessorRenderer*>> choices{{"gl", nullptr}};
   for (const ProcessorRenderer& each : renderers) choices.emplace_back(each.name, &each);
   add_choice(
@@ -77,7 +78,7 @@ std::function<void()> add_renderer_option(Command& command, RendererChoice& choi
                      between(1, 4096));
   std::vector<std::pair<std::string, Option>> options;
   for (const char* name : gl_options)
-    if (command.has_option(name)) options.emplace_back(name, command.option(name));
+    if (name != own && command.has_option(name)) options.emplace_back(name, command.option(name));
   return [&choice, options = std::move(options)] {
     if (choice.samples > 1 && choice.renderer != &rays)
       throw UsageError("--samples needs --renderer trace",

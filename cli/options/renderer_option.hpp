@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "cli/options/arguments.hpp"
 #include "runtime/renderer.hpp"
@@ -35,7 +36,9 @@ RendererChoice ray_renderer();
 
 /// Adds --renderer and --samples, after all other options. The returned function throws UsageError
 /// if a processor renderer is chosen and an option is given that only OpenGL supports; call it
-/// after parsing.
-std::function<void()> add_renderer_option(Command& command, RendererChoice& choice);
+/// after parsing. `own`: an option of the command that means something else than render's of this
+/// name, or empty.
+std::function<void()> add_renderer_option(Command& command, RendererChoice& choice,
+                                          const std::string& own = {});
 
 }  // namespace tureen::cli
