@@ -180,7 +180,8 @@ TEST_F(VideoFrames, AreTakenFromAVideo) {
     last = fraction;
   });
   const PhotoSet set = find_photographs(folder / "50% frames", no_progress);
-  EXPECT_GE(set.photos.size(), 120u);  // 75 seconds; more than a sum of ffmpeg's may have
+  const auto taken = std::distance(fs::directory_iterator(folder / "50% frames"), {});
+  EXPECT_GE(taken, 120);  // of 75 seconds; more than a sum in ffmpeg's language may have
   EXPECT_EQ(set.photos[0].name, "00001.jpg");
   EXPECT_EQ(set.photos[0].size, glm::ivec2(96, 64));
   write_file(folder / "no.mp4", "no video");
