@@ -84,7 +84,7 @@ class Ffmpeg {
     std::string text(500, '\0');
     std::rewind(complaints_.get());
     text.resize(std::fread(text.data(), 1, text.size(), complaints_.get()));
-    text = text.substr(0, text.find('\n'));
+    text = text.substr(0, std::min<std::size_t>(200, text.find('\n')));
     throw InputError({video_.string()}, "ffmpeg cannot decode the video" +
                                             (text.empty() ? std::string() : ": " + text));
   }
@@ -130,7 +130,7 @@ FrameFacts FrameMeter::measure(std::span<const std::uint8_t> frame) {
 std::vector<std::size_t> chosen_frames(std::span<const FrameFacts> frames, double seconds) {
   std::vector<std::size_t> chosen;
   if (frames.empty()) return chosen;
-  constexpr double per_second = 2, levels = 12;
+  constexpr double per_second = 2, levels = 24;
   std::vector<double> middles;  // of each frame on the path of all, in intervals
   double length = 0;
   for (const FrameFacts& frame : frames) {
@@ -177,10 +177,12 @@ void take_video_frames(const fs::path& video, const fs::path& folder,
     small.finish();
   }
   if (frames.empty()) throw InputError({video.string()}, "the video has no frames");
+  // ffmpeg refuses sums of more than about a hundred terms, but not sums of sums.
   std::string select;
   const std::vector<std::size_t> chosen = chosen_frames(frames, facts.seconds);
-  for (const std::size_t frame : chosen)
-    select += (select.empty() ? "" : "+") + fmt::format("eq(n,{})", frame);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    select += fmt::format("{}eq(n,{})", i == 0 ? "(" : i % 20 == 0 ? ")+(" : "+", chosen[i]);
+  select += ")";
   std::string output;  // in which % begins a number
   for (const char c : folder.string()) output += c == '%' ? "%%" : std::string(1, c);
   Ffmpeg full(video,

@@ -33,7 +33,7 @@ class FrameMeter {
 inline constexpr int video_frame_side = 512;
 
 /// The indices of the frames to keep, in order: 40 to 200, where there are as many. Intervals are
-/// short where the picture changes fast: two a second, and one for each 12 grey levels of motion.
+/// short where the picture changes fast: two a second, and one for each 24 grey levels of motion.
 std::vector<std::size_t> chosen_frames(std::span<const FrameFacts> frames, double seconds);
 
 /// Writes the chosen frames of the video as 00001.jpg and so on into `folder`, which exists.

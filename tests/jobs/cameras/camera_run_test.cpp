@@ -177,9 +177,9 @@ TEST_F(CameraSearch, RefusesWhatDeterminesNoCameras) {
   take(1, 12);
   const std::pair<const char*, const RemarkKind*> cases[] = {
       {"blank", &remarks::few_features},        {"flat", &remarks::flat_pictures},
-      {"turning", &remarks::only_turning},      {"still", &remarks::no_motion},
-      {"split", &remarks::few_registered},      {"register=5", &remarks::few_registered},
-      {"fail=mapper", &remarks::few_registered}};
+      {"plane", &remarks::flat_pictures},       {"turning", &remarks::only_turning},
+      {"still", &remarks::no_motion},           {"split", &remarks::few_registered},
+      {"register=5", &remarks::few_registered}, {"fail=mapper", &remarks::few_registered}};
   for (const auto& [words, kind] : cases) {
     behave(words);
     fs::remove_all(folder / "dataset.work");

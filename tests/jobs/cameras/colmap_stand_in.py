@@ -6,7 +6,8 @@ environment chooses what happens:
   STAND_IN_LOG    file that gets a line with each call
   STAND_IN        words: kill=COMMAND (ends by a signal), fail=COMMAND (exit code 1), slow=COMMAND (waits
                   half a minute in the middle), register=N (cameras for the first N photographs), split
-                  (two models), blank (few features), flat (planar pairs, no model), turning, still
+                  (two models), blank (few features), flat (planar pairs, no model), plane (with
+                  a model), turning, still
 """
 import math
 import os
@@ -102,7 +103,7 @@ def match():
     lines = open(arguments["--match_list_path"]).read().split("\n")
     print("Matching block [1/1]", end="", flush=True)
     middle()
-    flat = any(word in OPTIONS for word in ("flat", "turning", "still"))
+    flat = any(word in OPTIONS for word in ("flat", "turning", "still", "plane"))
     for line in filter(None, lines):
         a, b = sorted(numbers[name] for name in line.split())
         database.execute("INSERT OR IGNORE INTO two_view_geometries VALUES (?, ?, ?, ?)",
@@ -128,6 +129,7 @@ def write_model(folder, members):
         file.write(struct.pack("<Q", count))
         for i in range(count):
             position = [math.sin(12.9 * i * (k + 1)) for k in range(3)]
+            position[2] *= 0.01 if "plane" in OPTIONS else 1
             file.write(struct.pack("<Q3d3BdQ", i + 1, *position, 200, 100, 50, 0.5, 3))
             for k in range(3):
                 file.write(struct.pack("<II", members[(i + k) % len(members)][1], i))

@@ -163,9 +163,8 @@ TEST(ChosenFrames, AreTheSharpestOfEachIntervalAndMoreWhereItMoves) {
 TEST_F(VideoFrames, AreTakenFromAVideo) {
   if (!have_ffmpeg()) GTEST_SKIP() << "videos need ffmpeg";
   {
-    VideoFile video(folder / "a %d video.mp4",
-                    {.width = 96, .height = 64, .frames_per_second = 10});
-    for (int i = 0; i < 90; ++i) {
+    VideoFile video(folder / "a %d video.mp4", {.width = 96, .height = 64, .frames_per_second = 4});
+    for (int i = 0; i < 300; ++i) {
       Image8 frame(96, 64, glm::u8vec4(0, 0, 0, 255));
       for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 96; ++x)  // every third frame has more contrast
@@ -181,7 +180,8 @@ TEST_F(VideoFrames, AreTakenFromAVideo) {
     last = fraction;
   });
   const PhotoSet set = find_photographs(folder / "50% frames", no_progress);
-  EXPECT_GE(set.photos.size() + set.remarks.size(), 38u);
+  const auto taken = std::distance(fs::directory_iterator(folder / "50% frames"), {});
+  EXPECT_GE(taken, 120);  // of 75 seconds; more than a sum in ffmpeg's language may have
   EXPECT_EQ(set.photos[0].name, "00001.jpg");
   EXPECT_EQ(set.photos[0].size, glm::ivec2(96, 64));
   write_file(folder / "no.mp4", "no video");
