@@ -150,13 +150,13 @@ void check_images(const std::string& pattern, const RenderOptions& options) {
   const int count = std::max(options.views.orbit, 1);
   for (int i = 0; i < count; ++i) require_not_inputs(image_name(pattern, i, count), options.scene);
   const std::filesystem::path first = image_name(pattern, 0, count);
-  require_new(first, options);
   // The number of views in a camera file or an animation, and so the names of the images, are not
   // known yet.
   if (options.views.is_animation() || !options.views.camera.empty())
     require_writable_beside(first);
   else
     require_writable_file(first);
+  require_new(first, options);
 }
 
 /// Throws UsageError and OutputError.

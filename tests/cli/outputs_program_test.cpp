@@ -218,7 +218,7 @@ TEST_F(Outputs, AndInputsHaveNames) {
 TEST_F(Outputs, OfRenderReplaceNothingWithoutForce) {
   const auto render = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"render", "scene.off", "--context", "osmesa", "--size", "16x12"});
-    return run(more);
+    return test::run_tureen(more, folder);
   };
   const ChildResult first = render({"-o", "first.png", "--background", "#ff8000", "--up", "-y"});
   ASSERT_EQ(first.exit_code, 0) << first.err;

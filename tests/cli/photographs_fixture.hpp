@@ -34,7 +34,7 @@ class ProgramWithPhotographs : public Program {
       const std::string which = std::string("data/transforms_") + split + ".json:all";
       const ChildResult drawn =
           run({"render", scene, "--camera", which, "-o", std::string("data/") + split + "/r_%d.png",
-               "--context", "osmesa", "--force"});
+               "--context", "osmesa"});
       ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     }
     ASSERT_TRUE(exists("data/test/r_1.png"));

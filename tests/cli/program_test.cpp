@@ -77,7 +77,7 @@ TEST_F(Program, WrongUsageIsTwoAndAHint) {
   expect({"render", "scene.off", "--eye", "1,2"}, "1,2");
   expect({"render", "scene.off", "--target", "1,2,3"}, "--target", "--eye");
   expect({"render", "scene.off", "--orbit", "0"}, "--orbit");
-  expect({"render", "scene.off", "--background", "pink"}, "pink");
+  expect({"render", "scene.off", "--background", "pinkish"}, "pinkish");
   expect({"render", "scene.off", "-o", "out.jpg"}, "out.jpg");
   expect({"render", "scene.off", "-o", "out%s.png"}, "out%s.png");
   expect({"compare", "a.png", "b.png", "--metric", "psnr"}, "psnr", "psnr_db");

@@ -90,7 +90,7 @@ TEST(RunInput, ComesBackFromTheLog) {
   RunInput input{"photos/ball", {.scale = 0.25, .images_folder = 2, .test_every = 5}};
   input.options.alpha = AlphaMeaning::mask;
   input.options.is_strict = true;
-  write(R"({"step":0,"plan":{"input":)" + to_json(input, log) + "}}");
+  write(R"({"step":0,"plan":{"input":)" + nlohmann::json::parse(to_json(input, log)).dump() + "}}");
   const auto read = input_of_log(log);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->dataset, std::filesystem::absolute("photos/ball"));

@@ -147,7 +147,7 @@ class Window : public testing::Test {
   /// The image of `tureen render` with these options.
   Image8 rendered(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"render", "soup.glb"});
-    arguments.insert(arguments.end(), {"-o", "rendered.png"});
+    arguments.insert(arguments.end(), {"-o", "rendered.png", "--force"});
     const ChildResult result = Child(arguments, folder_, TUREEN_HEADLESS_PROGRAM).wait();
     EXPECT_EQ(result.exit_code, 0) << result.err;
     Input input = Input::open(folder_ / "rendered.png");
