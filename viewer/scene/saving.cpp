@@ -107,7 +107,7 @@ Saved save_scene(const SceneSource& source, const fs::path& file, bool accepts_l
     saved.is_written = true;
   } else {  // writing finds the losses
     fs::path name = temporary_beside(target);
-    name += target.extension();
+    name += target.filename();  // with both extensions of .compressed.ply
     const TemporaryFile temporary(name);
     saved.lost = write_scene(scene, name);
     if (progress) progress(1);
