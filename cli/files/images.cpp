@@ -144,6 +144,7 @@ WrittenImages draw_images(const Drawer& drawer, const std::vector<Camera>& camer
                                               : draw_whole(drawer, camera, path, result.ms, update);
     if (with_sheet) thumbnails.push_back(std::move(small));
     result.paths.push_back(path.string());
+    update(1);  // reports an interrupt, after which a renderer may have kept a part of the image
   }
   if (with_sheet) {
     const std::filesystem::path sheet = contact_sheet_name(names.pattern);
