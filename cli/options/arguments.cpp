@@ -189,11 +189,6 @@ Option Option::repeatable() {
   return *this;
 }
 
-Option Option::repeatable() {
-  option_->allow_extra_args(false);
-  return *this;
-}
-
 bool Option::is_given() const { return option_->count() > 0; }
 
 Command Command::add_command(const std::string& name, const std::string& description) {
