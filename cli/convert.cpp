@@ -212,8 +212,7 @@ bool is_page_of_file(const ConvertOptions& options) {
   return !options.compressed.compressed && options.scene.choice == ReadingChoice{} &&
          options.edits == Edits{} && !options.quality.any() && options.materials.empty() &&
          options.layer.empty() && !options.moves && options.view.empty() &&
-         options.scene.paths.size() == 1 &&
-         is_our_glb(options.scene.paths.front());
+         options.scene.paths.size() == 1 && is_our_glb(options.scene.paths.front());
 }
 
 Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions& options) {

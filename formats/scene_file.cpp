@@ -59,7 +59,7 @@ struct Format {
   std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&,
                                     const WriteOptions&) = nullptr;
   glm::vec3 (*assumed_up)(const Scene&) = nullptr;  // null: files store the up axis
-  bool is_quantised = false;  // rounds splats so that images show it
+  bool is_quantised = false;                        // rounds splats so that images show it
 };
 
 /// A writer without options. A page writes no files: without the writers, its program is 4 %

@@ -68,11 +68,10 @@ std::function<void()> add_renderer_option(Command& command, RendererChoice& choi
                                           const std::string& own) {
   std::vector<std::pair<std::string, const ProcessorRenderer*>> choices{{"gl", nullptr}};
   for (const ProcessorRenderer& each : renderers) choices.emplace_back(each.name, &each);
-  add_choice(
-      command, "--renderer NAME", choice.renderer, std::move(choices),
-      "what draws: gl (default); oracle: the reference in double precision, seconds to "
-      "hours per image; tiles: splats on the CPU; trace: rays, with mirrors, glass and "
-      "splats in exact order. Only gl needs OpenGL");
+  add_choice(command, "--renderer NAME", choice.renderer, std::move(choices),
+             "what draws: gl (default); oracle: the reference in double precision, seconds to "
+             "hours per image; tiles: splats on the CPU; trace: rays, with mirrors, glass and "
+             "splats in exact order. Only gl needs OpenGL");
   command.add_option("--samples N", choice.samples,
                      "rays per pixel of --renderer trace, jittered over the pixel; 1 by default",
                      between(1, 4096));

@@ -508,8 +508,11 @@ std::vector<Fixture> made_fixtures() {
   add_benchmarks(all);
   const FolderFiles diffsoup = diffsoup_files(), mobilenerf = mobilenerf_files();
   const FolderFiles sog = sog_files();
-  for (std::size_t i = 0; i < sog.size(); ++i)
-    all.add("sog_folder", sog[i].first, with_first_byte(i, sog[i].second));
+  for (std::size_t i = 0; i < sog.size(); ++i) {
+    std::string name = sog[i].first;  // "0_0/meta.json"
+    std::replace(name.begin(), name.end(), '/', '_');
+    all.add("sog_folder", name, with_first_byte(i, sog[i].second));
+  }
   for (std::size_t i = 0; i < diffsoup.size(); ++i)
     all.add("diffsoup", diffsoup[i].first, with_first_byte(i, diffsoup[i].second));
   for (std::size_t i = 0; i < mobilenerf.size(); ++i)

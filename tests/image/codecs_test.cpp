@@ -111,15 +111,14 @@ TEST(Exif, OrientationIsFoundInBothByteOrders) {
 
 /// A JPEG whose EXIF data have the focal length 5.25 mm, as 21 / 4.
 std::vector<std::byte> jpeg_with_focal_length() {
+  const int values[] = {0xff, 0xd8, 0xff, 0xe1, 0, 60, 'E', 'x',  'i',  'f',  0, 0,  //
+                        'M',  'M',  0,    42,   0, 0,  0,   8,  // the first list is at 8
+                        0,    1,    0x87, 0x69, 0, 4,  0,   0,    0,    1,    0, 0, 0,
+                        26,   0,    0,    0,    0, 0,  1,   0x92, 0x0a, 0,    5, 0, 0,
+                        0,    1,    0,    0,    0, 44, 0,   0,    0,    0,  // the second one at 26
+                        0,    0,    0,    21,   0, 0,  0,   4,    0xff, 0xda, 0, 2};
   std::vector<std::byte> bytes;
-  for (const int
-           value : {0xff, 0xd8, 0xff, 0xe1, 0, 60, 'E', 'x',  'i',  'f',  0, 0,  //
-                    'M',  'M',  0,    42,   0, 0,  0,   8,  // the first list is at 8
-                    0,    1,    0x87, 0x69, 0, 4,  0,   0,    0,    1,    0, 0, 0,
-                    26,   0,    0,    0,    0, 0,  1,   0x92, 0x0a, 0,    5, 0, 0,
-                    0,    1,    0,    0,    0, 44, 0,   0,    0,    0,  // the second one at 26
-                    0,    0,    0,    21,   0, 0,  0,   4,    0xff, 0xda, 0, 2})
-    bytes.push_back(std::byte(value));
+  for (const int value : values) bytes.push_back(std::byte(value));
   return bytes;
 }
 
