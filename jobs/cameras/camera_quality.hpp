@@ -36,7 +36,7 @@ struct CameraQuality {
   double points_per_photograph = 0;  // points / registered
   /// The largest angle between the rays of two cameras to a point, the median of the points.
   double parallax_degrees = 0;
-  bool is_flat = false;  // whether the points lie in a plane
+  bool is_flat = false;                        // whether the points lie in a plane
   std::vector<std::string> unregistered = {};  // names
   std::vector<Remark> refusals = {};           // why the cameras should not be used
   std::vector<Remark> notes = {};
@@ -53,8 +53,9 @@ std::vector<std::filesystem::path> models_in(const std::filesystem::path& folder
 /// Sentences and numbers, for people: "67 of 67 photographs registered".
 std::vector<std::string> describe(const CameraQuality& quality);
 
-/// `photographs`, `registered`, `models[]` (photographs of each), `points`, `reprojection_error_px`,
-/// `photographs_per_point`, `points_per_photograph`, `parallax_degrees`, `unregistered[]` (names).
+/// `photographs`, `registered`, `models[]` (photographs of each), `points`,
+/// `reprojection_error_px`, `photographs_per_point`, `points_per_photograph`, `parallax_degrees`,
+/// `unregistered[]` (names).
 Json to_json(const CameraQuality& quality);
 
 }  // namespace tureen
