@@ -55,7 +55,7 @@ void add_cameras(Command& program) {
   auto options = std::make_shared<CamerasCommand>();
   Command command = program.add_command("cameras", "Find the cameras of photographs or of a video");
   command.footer(
-      R"(Finds where photographs were taken, and the lens, with COLMAP (3.8 or later, no GPU), and writes a
+      R"(Finds where photographs were taken, and the lens, with COLMAP 3.8 (no GPU), and writes a
 dataset for tureen train: DATASET with the folders images and sparse, and a plot, cameras.svg. The
 sharpest frames of a video become photographs (ffmpeg). Prints how many photographs have a camera and
 how exact the cameras are, and stops, with what to photograph again, if they cannot be trusted. After
