@@ -142,8 +142,10 @@ TEST_F(Saving, PlaceArgumentsGiveTheDocument) {
   EXPECT_NE(source.document.layers[1].world_from_layer, glm::dmat4(1.0));
   const auto check = [&](const std::vector<std::string>& files, std::vector<bool> visible) {
     std::vector<Scene> scenes;
-    for (const std::string& file : files) scenes.push_back(read_scene(folder_ / file));
-    scenes.back().info.name = "splats";
+    for (const std::string& file : files) {
+      scenes.push_back(read_scene(folder_ / file));
+      scenes.back().info.name = fs::path(file).stem().string();
+    }
     Scene scene = merged(std::move(scenes));
     std::vector<PlaceChange> changes;
     const std::vector<std::string> arguments = place_arguments(source);
