@@ -81,34 +81,44 @@ HWY_INLINE Floats log2_of(Floats x) {
   return hn::MulAdd(y, t, hn::ConvertTo(d, exponent));
 }
 
-/// sin(x - shift pi) by turns of half a circle: `half_turns` is x / pi - shift, rounded. For |x| up
-/// to 1e5 to 2e-7 + 6e-8 |x|, the rounding of x itself; near 0 to 2e-7 of the value. Beyond 1e7
-/// the result has no meaning and may be large. The constants sum to pi, and products of the first
-/// with multiples of 1/2 up to 2^15 are exact. Polynomial of r^2: interpolation of sin(r) / r in
-/// Chebyshev's nodes on [-pi/2, pi/2].
-HWY_INLINE Floats sine_of(Floats x, Floats half_turns, float shift) {
-  const Floats zeros = hn::Add(half_turns, constant(shift));
-  Floats r = hn::NegMulAdd(zeros, constant(3.140625f), x);
-  r = hn::NegMulAdd(zeros, constant(9.67653589793e-4f), r);
-  const Floats rr = hn::Mul(r, r);
-  Floats y = hn::MulAdd(constant(2.60510764e-6f), rr, constant(-1.98090174e-4f));
-  y = hn::MulAdd(y, rr, constant(0.00833305017f));
-  y = hn::MulAdd(y, rr, constant(-0.166666579f));
-  y = hn::Mul(hn::MulAdd(y, rr, constant(0.999999996f)), r);
-  // Odd numbers of half turns change the sign.
-  const hn::RebindToSigned<FloatTag> di;
-  const auto sign = hn::ShiftLeft<31>(hn::ConvertTo(di, half_turns));
-  return hn::Xor(y, hn::BitCast(d, sign));
-}
-inline constexpr float inverse_pi = 0.318309886f;
-/// With the errors of sine_of().
-HWY_INLINE Floats sin_of(Floats x) {
-  return sine_of(x, hn::Round(hn::Mul(x, constant(inverse_pi))), 0.0f);
-}
-/// cos(x) = sin(x + pi / 2).
-HWY_INLINE Floats cos_of(Floats x) {
-  return sine_of(x, hn::Round(hn::MulAdd(x, constant(inverse_pi), constant(0.5f))), -0.5f);
-}
+/// An angle relative to the nearest multiple of pi, for its sine and cosine. For |x| up to 1e5
+/// these are exact to 2e-7 + 6e-8 |x|, the rounding of x itself; the sine near 0 to 2e-7 of its
+/// value. Beyond 1e7 the results have no meaning and may be large. The constants sum to pi, and
+/// products of the first with whole numbers up to 2^16 are exact. Polynomials of the square:
+/// interpolation of sin(r) / r and of cos(r) in Chebyshev's nodes on [-pi/2, pi/2].
+class Angle {
+ public:
+  HWY_INLINE explicit Angle(Floats x) {
+    // As in exp2_of(). An odd number of half turns changes the sign.
+    const Floats to_last_bits = constant(0x1.8p23f);
+    const Floats shifted = hn::MulAdd(x, constant(0.318309886f), to_last_bits);
+    const Floats half_turns = hn::Sub(shifted, to_last_bits);
+    rest_ = hn::NegMulAdd(half_turns, constant(3.140625f), x);
+    rest_ = hn::NegMulAdd(half_turns, constant(9.67653589793e-4f), rest_);
+    squared_ = hn::Mul(rest_, rest_);
+    const hn::RebindToSigned<FloatTag> di;
+    sign_ = hn::BitCast(d, hn::ShiftLeft<31>(hn::BitCast(di, shifted)));
+  }
+  HWY_INLINE Floats sine() const {
+    Floats y = hn::MulAdd(constant(2.60510764e-6f), squared_, constant(-1.98090174e-4f));
+    y = hn::MulAdd(y, squared_, constant(0.00833305017f));
+    y = hn::MulAdd(y, squared_, constant(-0.166666579f));
+    y = hn::Mul(hn::MulAdd(y, squared_, constant(0.999999996f)), rest_);
+    return hn::Xor(y, sign_);
+  }
+  HWY_INLINE Floats cosine() const {
+    Floats y = hn::MulAdd(constant(2.31524167e-5f), squared_, constant(-0.00138536295f));
+    y = hn::MulAdd(y, squared_, constant(0.0416635732f));
+    y = hn::MulAdd(y, squared_, constant(-0.499999048f));
+    return hn::Xor(hn::MulAdd(y, squared_, constant(0.999999953f)), sign_);
+  }
+
+ private:
+  Floats rest_, squared_, sign_;
+};
+/// With the errors of Angle.
+HWY_INLINE Floats sin_of(Floats x) { return Angle(x).sine(); }
+HWY_INLINE Floats cos_of(Floats x) { return Angle(x).cosine(); }
 
 /// sin(x) / x, to 2e-7 for |x| up to 1e5.
 HWY_INLINE Floats sinc_of(Floats x) {

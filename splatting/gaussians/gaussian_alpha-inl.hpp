@@ -46,7 +46,7 @@ struct GaussianAlpha {
     const Blocks least_v = hn::Mul(set(entry.r), smallest(dy, to_dy));
     const Blocks bound =
         hn::NegMulAdd(least_u, least_u, hn::NegMulAdd(least_v, least_v, set(entry.log_opacity)));
-    return bits_of(hn::Ge(bound, set(hn::GetLane(min_log_alpha))));
+    return bits_of(of_blocks, hn::Ge(bound, set(hn::GetLane(min_log_alpha))));
   }
 
   HWY_INLINE Mask operator()(const GaussianEntry& entry, Floats x, Floats y, Floats inverse_behind,

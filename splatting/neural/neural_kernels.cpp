@@ -1,5 +1,6 @@
 #include "splatting/neural/neural_kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -130,7 +131,9 @@ void project_densities_on(const ImageView& view, const ParameterRows& densities,
     store(out::twice_by_largest, hn::Add(by_largest, by_largest));
     for (std::size_t k = 0; k < neurons; ++k) {
       const Vector3 frequency = product(view.view_from_layer, load_vector(in::frequencies + 3 * k));
-      store_vector(out::frequencies + 3 * k, product(frequency, by_largest));
+      store(out::frequencies + k, hn::Mul(frequency.x, by_largest));
+      store(out::frequencies + neurons + k, hn::Mul(frequency.y, by_largest));
+      store(out::frequencies + 2 * neurons + k, hn::Mul(frequency.z, by_largest));
       store(out::phases + k, load(in::phases + k));
       store(out::amplitudes + k, load(in::amplitudes + k));
     }
@@ -197,16 +200,17 @@ void NeuralKernel::read(const Projected& projected, std::size_t i, Entry& entry,
   entry.by_unit = value(row::by_unit);
   entry.near = value(row::near);
   entry.twice_by_largest = value(row::twice_by_largest);
+  entry.offset = value(row::offset);
   read(row::frequencies, entry.frequencies);
   read(row::phases, entry.phases);
   read(row::amplitudes, entry.amplitudes);
-  entry.offset = value(row::offset);
   entry.red = value(row::red);
   entry.green = value(row::green);
   entry.blue = value(row::blue);
   float of_outline[7];
   read(row::outline, of_outline);
   const auto& [x, y, p, q, r, half_width, half_height] = of_outline;
+  std::copy_n(of_outline, std::size(entry.outline), entry.outline);
   outline = {.x = x,
              .y = y,
              .p = p,

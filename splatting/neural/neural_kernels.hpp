@@ -39,7 +39,7 @@ inline constexpr auto neural_texel_rows = [] {
   return rows;
 }();
 
-/// Rows of projected neural densities: first the members of NeuralEntry, in their order.
+/// Rows of projected neural densities: the members of NeuralEntry, and more.
 namespace projected_neural_row {
 enum : std::size_t {
   center,
@@ -47,11 +47,11 @@ enum : std::size_t {
   by_unit = sphere_from_view + 9,
   near,
   twice_by_largest,
+  offset,
   frequencies,
   phases = frequencies + 3 * neurons,
   amplitudes = phases + neurons,
-  offset = amplitudes + neurons,
-  red,
+  red = amplitudes + neurons,
   green,
   blue,
   depth,    // of the centre, in layer units; NaN: not drawn
@@ -62,16 +62,21 @@ enum : std::size_t {
 }
 
 /// A projected neural density, as the compositing loop reads it. Lengths are in the splat's own
-/// unit, the power of 2 at or below the largest semi-axis; vectors are in view coordinates.
+/// unit, the power of 2 at or below the largest semi-axis; vectors are in view coordinates. Each
+/// cache line has what is used at the same time; arrays of neurons are aligned as vectors.
 struct alignas(64) NeuralEntry {
+  float outline[5];  // x, y, p, q and r of the Ellipse with the limit 1
   float center[3];
-  float sphere_from_view[9];       // row by row; the ellipsoid becomes the unit sphere
-  float by_unit;                   // one over the unit, in layer units
-  float near;                      // the depth of the near plane
-  float twice_by_largest;          // 2 over the largest semi-axis
-  float frequencies[3 * neurons];  // x, y, z of each neuron, over the largest semi-axis
-  float phases[neurons], amplitudes[neurons], offset;
+  float phases[neurons];
+  float sphere_from_view[9];  // row by row; the ellipsoid becomes the unit sphere
+  float by_unit;              // one over the unit, in layer units
+  float near;                 // the depth of the near plane
+  float twice_by_largest;     // 2 over the largest semi-axis
+  float offset;
   float red, green, blue;  // >= 0
+  // Over the largest semi-axis: x of all neurons, then y and z.
+  float frequencies[3 * neurons];
+  float amplitudes[neurons];
 };
 
 /// See KernelFunctions. x of an outline is NaN if the splat may cover any pixel.

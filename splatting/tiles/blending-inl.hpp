@@ -101,10 +101,12 @@ HWY_INLINE Blocks largest_in_block(Blocks at_corner, float x_factor, float y_fac
                                                                std::max(y_factor, 0.0f))));
 }
 
-HWY_INLINE unsigned bits_of(hn::Mask<BlockTag> mask) {
+/// A bit for each lane, at most 16.
+template <class Tag>
+HWY_INLINE unsigned bits_of(Tag tag, hn::Mask<Tag> mask) {
   std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(of_blocks, mask, bits);
-  return bits[0];
+  hn::StoreMaskBits(tag, mask, bits);
+  return bits[0] | unsigned(bits[1]) << 8;
 }
 
 /// `color_of` of blend_entries(), for entries of one colour.

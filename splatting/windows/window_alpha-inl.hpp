@@ -55,7 +55,7 @@ struct WindowAlpha {
     };
     const float* edges = entry.edges;
     const Blocks rho = hn::Min(hn::Min(largest(edges), largest(edges + 3)), largest(edges + 6));
-    return bits_of(hn::Ge(rho, set(entry.min_rho)));
+    return bits_of(of_blocks, hn::Ge(rho, set(entry.min_rho)));
   }
 
   /// Returns the pixels where alpha reaches the smallest value, and sets `alpha` there.

@@ -4,7 +4,8 @@
 // A kernel is a struct with constants of the view, `view` itself, made from it and from
 // TileGradient::by_square, and
 //   Entry, Moments
-//   value_of(entry, x, y)     a value at pixels, below the threshold where the entry is not drawn
+//   value_of(entry, x, y)     a value at pixels, below the threshold where the entry is not drawn;
+//                             or instead find_covering(), as below with an end and the open pixels
 //   threshold_of(entry)       the entry covers the pixels whose value is at least this
 //   alpha_of(entry, value)    alpha before it is limited to the largest; anything below the
 //                             threshold, where it is not used
@@ -68,18 +69,21 @@ HWY_INLINE void find_covering(const Kernel& kernel, std::span<const typename Ker
   const Mask none = hn::Lt(hn::Zero(d), hn::Zero(d));
   covering.count = 0;
   const std::size_t end = std::min(begin + tested_batch, tile.size());
-  for (std::size_t k = begin; k < end; ++k) {
-    const auto& entry = entries[tile[k] & place_mask];
-    const Floats threshold = kernel.threshold_of(entry);
-    Mask covered = none;
-    for (std::size_t part = 0; part < parts; ++part) {
-      const Floats value = kernel.value_of(entry, block.x[part], block.y[part]);
-      covered = hn::Or(covered, hn::And(open[part], hn::Ge(value, threshold)));
-      hn::Store(value, d, covering.values[covering.count] + part * lanes);
+  if constexpr (requires { &Kernel::find_covering; })
+    return kernel.find_covering(entries, tile, begin, end, block, open, covering);
+  else
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& entry = entries[tile[k] & place_mask];
+      const Floats threshold = kernel.threshold_of(entry);
+      Mask covered = none;
+      for (std::size_t part = 0; part < parts; ++part) {
+        const Floats value = kernel.value_of(entry, block.x[part], block.y[part]);
+        covered = hn::Or(covered, hn::And(open[part], hn::Ge(value, threshold)));
+        hn::Store(value, d, covering.values[covering.count] + part * lanes);
+      }
+      covering.place[covering.count] = std::uint32_t(k);
+      covering.count += !hn::AllFalse(d, covered);
     }
-    covering.place[covering.count] = std::uint32_t(k);
-    covering.count += !hn::AllFalse(d, covered);
-  }
 }
 
 /// Blends the entries front to back into a tile without opaque surfaces, with its record.
@@ -306,39 +310,55 @@ struct BlockGradient {
   }
 };
 
+/// An entry blended again into a vector of a block's pixels.
+struct Again {
+  Floats weight;
+  Floats along;  // c . g, see trainer/splats/tile_passes.hpp
+  Floats after;  // the transmittance behind the entry, where it is blended
+  Mask moves;    // it is blended, and alpha is not limited to the largest
+};
+
+/// Blends an entry again into the pixels that it covers. `unlimited` is alpha before it is limited
+/// to the largest.
+template <class Entry>
+HWY_INLINE Again again(const ImageView& view, const Entry& entry, Mask covered, Floats unlimited,
+                       BlockGradient& block, std::size_t part) {
+  Floats& transmittance = block.transmittance[part];
+  Floats& behind = block.behind[part];
+  const Floats max_alpha = constant(view.max_alpha);
+  const Floats alpha = hn::Min(unlimited, max_alpha);
+  Again result;
+  result.after = hn::NegMulAdd(alpha, transmittance, transmittance);
+  Mask blended = hn::And(covered, hn::Gt(transmittance, hn::Zero(d)));
+  const Mask ends = hn::And(blended, hn::Lt(result.after, constant(view.stop_transmittance)));
+  blended = hn::AndNot(ends, blended);
+  result.weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
+  result.along =
+      hn::MulAdd(constant(entry.red), block.red[part],
+                 hn::MulAdd(constant(entry.green), block.green[part],
+                            hn::MulAdd(constant(entry.blue), block.blue[part],
+                                       constant(block.by_square * square_of_color(entry)))));
+  behind = hn::NegMulAdd(result.weight, result.along, behind);
+  result.moves = hn::And(blended, hn::Le(unlimited, max_alpha));
+  transmittance = hn::IfThenElse(blended, result.after, transmittance);
+  transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
+  return result;
+}
+
 /// The derivatives of a vector of a block's pixels.
 struct Replayed {
   Floats weight;
   Floats h;  // dL/d ln(alpha); 0 where alpha is limited to the largest
 };
 
-/// Blends an entry again into the pixels that it covers. `unlimited` is alpha before it is limited
-/// to the largest, `ratio` is alpha / (1 - alpha) after.
+/// The same with its derivatives. `ratio` is alpha / (1 - alpha) after it is limited.
 template <class Entry>
 HWY_INLINE Replayed blend_again(const ImageView& view, const Entry& entry, Mask covered,
                                 Floats unlimited, Floats ratio, BlockGradient& block,
                                 std::size_t part) {
-  Floats& transmittance = block.transmittance[part];
-  Floats& behind = block.behind[part];
-  const Floats max_alpha = constant(view.max_alpha);
-  const Floats alpha = hn::Min(unlimited, max_alpha);
-  const Floats after = hn::NegMulAdd(alpha, transmittance, transmittance);
-  Mask blended = hn::And(covered, hn::Gt(transmittance, hn::Zero(d)));
-  const Mask ends = hn::And(blended, hn::Lt(after, constant(view.stop_transmittance)));
-  blended = hn::AndNot(ends, blended);
-  Replayed result;
-  result.weight = hn::IfThenElseZero(blended, hn::Mul(alpha, transmittance));
-  const Floats along =
-      hn::MulAdd(constant(entry.red), block.red[part],
-                 hn::MulAdd(constant(entry.green), block.green[part],
-                            hn::MulAdd(constant(entry.blue), block.blue[part],
-                                       constant(block.by_square * square_of_color(entry)))));
-  behind = hn::NegMulAdd(result.weight, along, behind);
-  const Mask moves = hn::And(blended, hn::Le(unlimited, max_alpha));
-  result.h = hn::IfThenElseZero(moves, hn::NegMulAdd(behind, ratio, hn::Mul(result.weight, along)));
-  transmittance = hn::IfThenElse(blended, after, transmittance);
-  transmittance = hn::IfThenElse(ends, hn::Neg(transmittance), transmittance);
-  return result;
+  const Again a = again(view, entry, covered, unlimited, block, part);
+  return {a.weight, hn::IfThenElseZero(a.moves, hn::NegMulAdd(block.behind[part], ratio,
+                                                              hn::Mul(a.weight, a.along)))};
 }
 
 /// The same for an entry with this value at the pixels.

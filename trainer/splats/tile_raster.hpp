@@ -161,7 +161,13 @@ class TileRaster {
   void prefetch(int column, int row) const {
     if (column >= lists_.columns()) return;
     for (const std::uint32_t splat : lists_.tile(column, row))
-      hwy::Prefetch(&projected_.entries()[splat]);
+      prefetch_object(projected_.entries()[splat]);
+  }
+  /// All cache lines of it, which have 64 bytes or more.
+  template <class Object>
+  static void prefetch_object(const Object& object) {
+    for (std::size_t at = 0; at < sizeof object; at += 64)
+      hwy::Prefetch(reinterpret_cast<const char*>(&object) + at);
   }
 
   void draw_row(int row, std::span<float> planes) {

@@ -88,10 +88,11 @@ HWY_INLINE Gradient gradient_of(const BackwardInput<NeuralMoments>& input, const
   gradient.values[row::offset] = m[moment::offset];
   Vector3 by_center{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   for (std::size_t k = 0; k < neurons; ++k) {
-    const std::size_t at = moment::frequencies + 3 * k;
+    const std::size_t at = moment::frequencies + k;
     const Vector3 frequency = load_vector(row::frequencies + 3 * k);
     const Vector3 by_frequency = product(
-        transposed_product(view.view_from_layer, {m[at], m[at + 1], m[at + 2]}), by_largest);
+        transposed_product(view.view_from_layer, {m[at], m[at + neurons], m[at + 2 * neurons]}),
+        by_largest);
     set(row::frequencies + 3 * k, by_frequency);
     const Floats by_phase = m[moment::phases + k], by_amplitude = m[moment::amplitudes + k];
     gradient.values[row::phases + k] = by_phase;

@@ -19,7 +19,7 @@ namespace tureen::trainer {
 /// Places in NeuralMoments.
 namespace neural_moment {
 enum : std::size_t {
-  frequencies,                                    // derivatives by NeuralEntry's
+  frequencies,                                    // derivatives by NeuralEntry's, in its order
   phases = frequencies + 3 * splatting::neurons,  // likewise
   amplitudes = phases + splatting::neurons,       // likewise
   offset = amplitudes + splatting::neurons,       // likewise
