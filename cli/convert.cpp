@@ -359,7 +359,7 @@ Examples:
       "--no-measure", options->no_measure,
       "do not compare images of the source and of OUT, where its format rounds splats");
   command.add_option("--spz-version N", options->writing.spz_version,
-                     "version of .spz: 4 (default), or 3 for programs that do not know 4",
+                     "version of .spz: 4 (default), or 3 for programs without version 4",
                      between(3.0, 4.0));
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json,

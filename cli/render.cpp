@@ -274,7 +274,7 @@ ExitCode render(RenderOptions options) {
   say_what_is_hidden(scene);
   say_list("Cameras:", views.notes);
   if (options.verbose) say_list("Plan:", drawn.plan);
-  say_list("Legend:", drawn.legend);
+  say_list(std::string("Legend of ") + name_of(options.show.what) + ":", drawn.legend);
   if (options.verbose)
     say(fmt::format("{}, {} on the device; {} x {} on {} ({})",
                     primitives_text(triangle_count(scene), splat_count(scene)),

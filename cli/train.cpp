@@ -165,8 +165,8 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
   }
 }
 
-/// With --resume: the method of the checkpoint, and of the dataset what is not given as the log has
-/// it. Throws UsageError if the dataset is unknown.
+/// With --resume: the method of the checkpoint, and dataset options that are not given come from
+/// the log. Throws UsageError if the dataset is unknown.
 void take_from_the_run(TrainOptions& options) {
   TrainingJob& job = options.job;
   if (job.resume && !job.output.empty()) {

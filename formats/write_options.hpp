@@ -6,7 +6,7 @@
 namespace tureen {
 
 struct WriteOptions {
-  int spz_version = 4;  // or 3, for programs that do not know 4
+  int spz_version = 4;  // or 3, for programs without version 4
   /// As that of write_tureen_glb(); other writers do not call it.
   std::function<void(double)> progress = {};
 };

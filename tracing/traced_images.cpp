@@ -187,6 +187,7 @@ void TracedImages::report(double done) {
 }
 
 std::optional<ImageF> TracedImages::exact_image(const FrameInput& input) {
+  is_cancelled_ = false;
   const Camera& camera = input.camera;
   const int side = options_.supersampling;
   int count = side > 1 ? side * side : options_.samples, done = 0;

@@ -76,7 +76,8 @@ void add_camera_options(Command& command, CameraOptions& options) {
 
 std::filesystem::path default_dataset(const std::filesystem::path& photographs) {
   const auto path = photographs.has_filename() ? photographs : photographs.parent_path();
-  const auto name = std::filesystem::is_directory(path) ? path.filename() : path.stem();
+  std::error_code ignored;
+  const auto name = std::filesystem::is_directory(path, ignored) ? path.filename() : path.stem();
   return name.empty() || name == "." || name == ".." ? "photographs.dataset"
                                                      : name.string() + ".dataset";
 }

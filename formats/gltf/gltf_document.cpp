@@ -22,6 +22,17 @@ constexpr std::array known_extensions = {"KHR_gaussian_splatting",     "KHR_mate
                                          "KHR_materials_transmission", "KHR_materials_unlit",
                                          "KHR_mesh_quantization",      "KHR_texture_transform"};
 
+/// A hint for a file that requires an extension that is not supported; "" without one.
+std::string way_out(const std::string& extension) {
+  if (extension.starts_with("KHR_gaussian_splatting_compression_spz"))
+    return "its splats are an SPZ file; splat-transform IN.glb OUT.ply converts it";
+  if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+    return "gltf-transform copy IN.glb OUT.glb decompresses it";
+  if (extension == "KHR_texture_basisu")
+    return "gltf-transform ktxdecompress IN.glb OUT.glb decompresses it";
+  return {};
+}
+
 /// tinygltf's messages as one line without a full stop.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -73,8 +84,8 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
       const std::string& name = required->at(i).text();
       if (std::find(known_extensions.begin(), known_extensions.end(), name) ==
           known_extensions.end())
-        required->at(i).fail("the file requires the extension " + name +
-                             ", which is not supported");
+        required->at(i).fail("the file requires the extension " + name + ", which is not supported",
+                             way_out(name));
     }
   if (const auto list = root.find("buffers")) buffers_.resize(list->size());
   take_model_memory();

@@ -72,6 +72,7 @@ std::optional<double> exif_focal_length(FileBytes file) {
     const std::size_t value = value_of(tiff, at, tag, big_endian);
     if (value == 0) return std::nullopt;
     at = number(tiff, value, 4, big_endian);
+    if (at == 0) return std::nullopt;  // the file ends before
   }
   const double above = number(tiff, at, 4, big_endian), below = number(tiff, at + 4, 4, big_endian);
   if (!(above > 0 && below > 0)) return std::nullopt;

@@ -252,7 +252,8 @@ class Decoder {
     if (in_.read(3) != 0) fail("its version is not 0");
     require_bits();
     const std::uint64_t size = std::uint64_t(width) * std::uint64_t(height) * sizeof(Argb);
-    take(size, "an image of " + std::to_string(width) + " x " + std::to_string(height));
+    // The pixels as they are decoded, and the result.
+    take(2 * size, "an image of " + std::to_string(width) + " x " + std::to_string(height));
     std::vector<AppliedTransform> transforms;
     const int packed_width = read_transforms(transforms, width, height);
     std::vector<Argb> pixels = read_pixels(packed_width, height, true);

@@ -88,14 +88,18 @@ std::vector<std::byte> encode_webp(const Image8& image, int effort) {
   picture.writer = [](const std::uint8_t* data, std::size_t size, const WebPPicture* target) {
     auto& out = *static_cast<std::vector<std::byte>*>(target->custom_ptr);
     const auto* begin = reinterpret_cast<const std::byte*>(data);
-    out.insert(out.end(), begin, begin + size);
+    try {  // the caller is C
+      out.insert(out.end(), begin, begin + size);
+    } catch (const std::bad_alloc&) {
+      return 0;
+    }
     return 1;
   };
   done = WebPPictureImportRGBA(&picture, reinterpret_cast<const std::uint8_t*>(image.pixels.data()),
                                4 * image.width) &&
          WebPEncode(&config, &picture);
   WebPPictureFree(&picture);
-  if (!done) throw std::bad_alloc();  // the only other fault
+  if (!done) throw std::bad_alloc();  // the size is the caller's, so it is the only fault left
   return bytes;
 }
 #endif

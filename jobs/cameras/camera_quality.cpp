@@ -232,6 +232,7 @@ CameraQuality judge(const std::vector<fs::path>& models, const std::vector<std::
     if (others >= least_photographs && 10 * others >= all) {
       std::vector<std::string> parts;
       for (std::size_t i = 0; i < std::min<std::size_t>(members.size(), 4); ++i) {
+        if (members[i].empty()) continue;
         const std::vector<std::string> part = ranges(names, members[i]);
         parts.push_back(part.front() + (part.size() > 1 ? " and others: " : ": ") +
                         std::to_string(members[i].size()));

@@ -115,7 +115,12 @@ class CameraRun {
       std::error_code error;
       if (fs::exists(link, error)) continue;
       fs::create_hard_link(photo.path, link, error);
-      if (error) fs::copy_file(photo.path, link, error);
+      if (error) {  // an interrupted copy must not look like a whole one
+        fs::path part = link;
+        part += ".part";
+        fs::copy_file(photo.path, part, fs::copy_options::overwrite_existing, error);
+        if (!error) fs::rename(part, link, error);
+      }
       if (error) throw OutputError({link.string()}, "cannot be written: " + error.message());
     }
   }
@@ -212,7 +217,8 @@ class CameraRun {
     if (fs::exists(file, error)) try {
         for (const auto& photo : FeatureDatabase(file).photos()) cameras[photo.name] = photo.camera;
       } catch (const InputError&) {
-        for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(file.string() + suffix, error);
+        for (const char* suffix : {"", "-wal", "-shm", "-journal"})
+          fs::remove(file.string() + suffix, error);
       }
     return cameras;
   }
@@ -255,11 +261,14 @@ class CameraRun {
   void write_dataset(const fs::path& model) {
     const fs::path made = work_ / "dataset";
     std::error_code error;
-    fs::remove_all(made / "sparse", error);
+    fs::remove_all(made, error);
     make_folder(made / "sparse/0");
-    for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"})
-      fs::copy_file(model / name, made / "sparse/0" / name, error);
-    if (!error && fs::exists(work_ / "images", error))
+    const char* const files[] = {"cameras.bin", "images.bin", "points3D.bin"};
+    error.clear();
+    for (std::size_t i = 0; i < std::size(files) && !error; ++i)
+      fs::copy_file(model / files[i], made / "sparse/0" / files[i], error);
+    std::error_code unknown;
+    if (!error && fs::exists(work_ / "images", unknown))
       fs::rename(work_ / "images", made / "images", error);
     if (error) throw OutputError({made.string()}, "cannot be written: " + error.message());
     write_file(made / source_file, inputs_of(options_.photographs));

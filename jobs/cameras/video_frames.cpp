@@ -190,8 +190,11 @@ void take_video_frames(const fs::path& video, const fs::path& folder,
                "-y", "file:" + output + "/%05d.jpg"},
               false);
   while (!full.process().ended()) {
-    std::error_code ignored;
-    const auto written = std::distance(fs::directory_iterator(folder, ignored), {});
+    std::error_code error;
+    std::size_t written = 0;
+    for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
+         at.increment(error))
+      ++written;
     progress(0.5 + 0.5 * std::min(1.0, double(written) / double(chosen.size())));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

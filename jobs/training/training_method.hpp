@@ -76,8 +76,8 @@ struct TrainingMethodInfo {
   /// All constants as text: name, default, meaning, range or words.
   std::string (*reference)();
   trainer::CheckpointMagic magic;
-  // For the size of the photographs by --minutes (photograph_size.hpp). Measured on a room, a
-  // bottle and lego.
+  // For the size of the photographs by --minutes (photograph_size.hpp): rounded from runs of a
+  // minute on a room, a bottle and lego.
   double cost_of_pixel;  // time of a step for each pixel of a photograph, over that of Gaussians
   int least_steps;       // with fewer, smaller photographs give better scenes
   std::unique_ptr<TrainingMethod> (*make)(const TrainingOptions& options);

@@ -175,7 +175,7 @@ TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
   expect({"eval", example, "data", "--scale", "0"}, 2, "--scale", 0);
   expect({"eval", example, "data", "--scale", "1.5"}, 2, "--scale", 1.5);
   expect({"eval", example, "data", "--split", "tets"}, 2, "tets", "test");
-  expect({"eval", example, "data", "--background", "pink"}, 2, "pink");
+  expect({"eval", example, "data", "--background", "pinkish"}, 2, "pinkish");
   expect({"eval", example, "data", "--context", "osmesa", "--scale", "0.1"}, 3, "6 x 5", 11);
   expect({"eval", example, "data", "--background", "transparent"}, 2, "0.2,0.4,1");
   expect({"eval", example, "dat"}, 3, "dat", "data");

@@ -116,7 +116,8 @@ TEST_F(LayersProgram, ConvertAppliesTheTransformOfALayer) {
   const ChildResult result = run({"convert", "turned.glb", "turned.off"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("OFF holds no transform"));
-  EXPECT_EQ(only_soup(read_scene(folder / "turned.off")).positions[0], glm::vec3(0, 10, 0));
+  // In world coordinates: the layer's origin is at (1e6, 0, 0).
+  EXPECT_EQ(only_soup(read_scene(folder / "turned.off")).positions[0], glm::vec3(1e6f, 10, 0));
 }
 
 TEST_F(LayersProgram, InfoListsEachLayer) {

@@ -71,7 +71,8 @@ TEST_F(Program, WrongUsageIsTwoAndAHint) {
   expect({"zebra"}, "zebra");
   expect({"render", "scene.off", "--sise", "8x8"}, "--sise", "--size");
   expect({"render"}, "SCENE");
-  expect({"compare", "a.png", "b.png", "other.png"}, "other.png");
+  expect({"compare", "a.png", "b.png", "dataset", "other.png"}, "other.png");
+  expect({"compare", "scene.off", "scene.off"}, "DATASET");
   expect({"render", "scene.off", "--size", "80"}, 80, "1280x720");
   expect({"render", "scene.off", "--context", "elg"}, "elg", "--context");
   expect({"render", "scene.off", "--eye", "1,2"}, "1,2");
@@ -100,7 +101,9 @@ TEST_F(Program, ABadInputIsThreeAndAPlace) {
   expect({"info", "nowhere/scene.off"}, "nowhere/scene.off");
   expect({"info", "broken.off"}, "broken.off:4");
   expect({"render", "broken.off"}, "broken.off:4");
-  expect({"compare", "scene.off", "scene.off"}, "scene.off");
+  write("a.png", "no image");
+  expect({"compare", "a.png", "a.png"}, "a.png");
+  expect({"compare", "a.png", "none.png"}, "a.png");
   expect({"render", "scene.off", "--camera", "cameras.json"}, "cameras.json");
   expect({"render", "scene.off", "--camera", "scene.off"}, "scene.off");
 }
@@ -293,7 +296,7 @@ TEST_F(Program, RenderNeedsNoOpenGlWithTheOracle) {
   EXPECT_EQ(traced.at(32, 24), glm::u8vec4(255, 0, 0, 255));
   EXPECT_GT(psnr_from_mse(mean_squared_error(to_float(exact), to_float(traced))), 30);
   ASSERT_EQ(run({"trace", "scene.off", "--size", "64x48", "--eye", "0,-5,0", "--target", "0,0,0",
-                 "--samples", "1"})
+                 "--samples", "1", "--force"})
                 .exit_code,
             0);
   EXPECT_EQ(read_png("out.png").pixels, traced.pixels);

@@ -43,7 +43,7 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
                                     "export/mlp_weights.json"};
   if (have_ffmpeg()) expected.insert(expected.begin(), "ball-previews.mp4");
   EXPECT_EQ(files(), expected);
-  EXPECT_THAT(result.err, Names("--preset object"));
+  EXPECT_THAT(result.err, Names("preset object"));
 
   ASSERT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);  // one line
   const auto json = nlohmann::ordered_json::parse(result.out);
@@ -359,7 +359,7 @@ TEST_F(Train, ExitCodesSayWhoIsToBlame) {
   };
   expect({"train"}, 2, "DATASET");
   expect({"train", "ball"}, 2, "-o", "OUT.glb");
-  expect({"train", "ball", "-o", "ball.ply"}, 2, "ball.ply", ".glb");
+  expect({"train", "ball", "-o", "ball.jpg"}, 2, "ball.jpg", ".glb");
   expect(given("b.glb", {"--preset", "scenery"}), 2, "scenery", "scene");
   expect(given("b.glb", {"--level", "9"}), 2, "max_level", 9);
   expect(given("b.glb", {"--batch", "0"}), 2, "batch", 0);

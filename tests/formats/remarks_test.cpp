@@ -78,6 +78,7 @@ const std::vector<Remark> every_kind{
     {&remarks::near_limit_lowered, {{"radius", 0.1}, {"published", 0.2}, {"limit", 0.01}}},
     {&remarks::near_limit_hides, {{"limit", 0.2}, {"hidden", 0.5}}},
     {&remarks::near_limit_large, {{"limit", 0.2}, {"radius", 0.1}}},
+    {&remarks::turned_upright, {{"from", "-y"}, {"to", "+z"}}},
     {&remarks::filter_applied},
     {&remarks::level_chosen, {{"levels", 7}, {"level", 1}, {"splats", 250000}, {"finest", 500000}}},
     {&remarks::splat_extensions_ignored, {{"extensions", Counts{3, 258}}}},

@@ -92,9 +92,7 @@ TEST(Shortcuts, ThatMessagesNameExist) {
     std::ifstream file(entry.path());
     const std::string source{std::istreambuf_iterator<char>(file), {}};
     for (std::sregex_iterator each(source.begin(), source.end(), named), end; each != end; ++each) {
-      std::string name = (*each)[1];
-      for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
-      const std::optional<Key> key = key_named(name);
+      const std::optional<Key> key = key_named((*each)[1].str());
       EXPECT_TRUE(
           key && std::ranges::any_of(shortcuts(), [&](const Shortcut& s) { return s.key == *key; }))
           << entry.path() << ": " << each->str();

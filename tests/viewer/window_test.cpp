@@ -296,6 +296,7 @@ TEST_F(Window, SavesImagesUnderNewNames) {
                                         .wait()
                                         .press(Key::h)
                                         .press(Key::right_bracket)
+                                        .wait()  // until the view is there
                                         .press(Key::p)
                                         .wait()
                                         .press_with_control(Key::s, Key::shift)
@@ -316,6 +317,7 @@ TEST_F(ThoroughWindow, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
                                         .wait()
                                         .press(Key::right_bracket)
+                                        .wait()
                                         .click(view_header)
                                         .click(scene_header)
                                         .click(image_header)

@@ -83,9 +83,8 @@ struct Children {
 template <class Act>
 HWY_INLINE void for_each_leaf(const Bvh& bvh, const RayInLayer& ray, float from, float to,
                               const Act& act) {
-  // Below Builder's depth of 24, and the halvings of at most 2^32 items by 3 levels a node after
-  // it.
-  std::uint32_t stack[(24 + 16) * width];
+  // At most Builder's depth of 24, and below it one halving of at most 2^32 items per node.
+  std::uint32_t stack[(24 + 32) * width];
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
