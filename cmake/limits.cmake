@@ -31,7 +31,7 @@ set(limits
   "code image 2670: images, metrics, video files, and the decoder of lossless WebP (560)"
   "code scene 4880: the model, its edits, places as text"
   "code camera 1800: navigation, views around captures, paths along cameras"
-  "code formats 17050: a reader per format with its remarks, checked against hostile files"
+  "code formats 17060: a reader per format with its remarks, checked against hostile files"
   "code oracle 2210: the reference stays readable; light along rays, without a tree"
   "code splatting 3350: loops in vectors, per kernel, and of neurons in lanes"
   "code tracing 2075: a tree and a file per kernel, materials, images by rays"

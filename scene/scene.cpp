@@ -154,6 +154,7 @@ Layer& layer_named(Scene& scene, const std::string& name) {
   if (found.empty())
     for (std::size_t i = 0; i < scene.layers.size(); ++i)
       if (label({}, i) == name) found.push_back(i);
+  if (found.empty() && scene.layers.size() == 1 && name == scene.info.name) return scene.layers[0];
   if (found.size() != 1)
     throw UsageError(
         (found.empty() ? "no layer has the name '" : "several layers have the name '") + name +

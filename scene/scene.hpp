@@ -95,8 +95,8 @@ const Layer& only_layer(const Scene& scene);
 TriangleSoup& only_soup(Scene& scene);
 const TriangleSoup& only_soup(const Scene& scene);
 
-/// The layer with this label(), or "layer 2" for the second one if no layer has that label. Throws
-/// UsageError, which lists the labels, unless exactly one layer has it.
+/// The layer with this label(); if there is none, "layer 2" is the second one, and the scene's name
+/// that of an only layer. Throws UsageError, which lists the labels, for no layer or several.
 Layer& layer_named(Scene& scene, const std::string& name);
 
 /// Removes all layers but layer_named(), which keeps its transform and becomes visible.

@@ -76,7 +76,12 @@ class UsdReader {
   /// A prim, or a property of `prim`.
   void read_statement(const glm::dmat4& parent, int depth, UsdPrim* prim) {
     const std::string_view first = text_.word();
-    if (first == "def" || first == "over" || first == "class") return read_prim(parent, depth);
+    if (first == "def" || first == "over" || first == "class") {
+      const bool outside = std::exchange(is_class_, is_class_ || first == "class");
+      read_prim(parent, depth);
+      is_class_ = outside;
+      return;
+    }
     if (first == "variantSet") {
       text_.next();
       text_.quoted();
@@ -116,6 +121,7 @@ class UsdReader {
       prim.is_constant = metadata.find("KernelConstantSurfletAPI") != metadata.npos;
     }
     text_.expect('{');
+    path_.push_back(&prim);
     // Children need the prim's place, which its properties give; they come first in practice.
     while (!text_.take('}')) {
       if (!text_.next()) text_.fail("the file ends within the prim \"" + prim.name + "\"");
@@ -123,7 +129,8 @@ class UsdReader {
       read_statement(prim.world, depth + 1, &prim);
     }
     prim.world = parent * local(prim);
-    if (prim.is_field()) add_field(prim);
+    if (prim.is_field() && !is_class_) add_field(prim);
+    path_.pop_back();
   }
 
   void read_value(std::string_view name, UsdPrim& prim) {
@@ -203,10 +210,11 @@ class UsdReader {
   }
 
   void add_field(const UsdPrim& prim) {
-    for (const std::string& name : prim.order)
-      if (!prim.steps.contains(name))
-        text_.fail("the transform " + name + " of the prim \"" + prim.name +
-                   "\" is not supported or has no value");
+    for (const UsdPrim* each : path_)
+      for (const std::string& name : each->order)
+        if (!each->steps.contains(name))
+          text_.fail("the transform " + name + " of the prim \"" + each->name +
+                     "\" is not supported or has no value");
     if (prim.is_constant) text_.fail("constant surflets are not supported");
     const std::size_t count = prim.positions.size() / 3;
     const std::size_t each = std::size_t(harmonics::count(prim.degree));
@@ -244,7 +252,8 @@ class UsdReader {
     Layer& layer = scene.layers.front();
     layer.name = prim.name;
     layer.world_from_layer = prim.world * layer.world_from_layer;
-    layer.visible = prim.is_visible;
+    layer.visible = std::all_of(path_.begin(), path_.end(),
+                                [](const UsdPrim* above) { return above->is_visible; });
     if (const auto reason = defect(layer)) text_.fail(*reason);
     scenes_.push_back(std::move(scene));
   }
@@ -252,7 +261,9 @@ class UsdReader {
   Input& input_;
   UsdText text_;
   const ReadOptions& options_;
-  glm::vec3 up_{0, 1, 0};  // USD's default
+  glm::vec3 up_{0, 1, 0};             // USD's default
+  std::vector<const UsdPrim*> path_;  // from the root to the prim that is being read
+  bool is_class_ = false;             // it only describes prims, and none of its fields is drawn
   std::vector<Scene> scenes_;
 };
 

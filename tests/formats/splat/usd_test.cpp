@@ -120,6 +120,23 @@ TEST(Usd, FaultsNameTheLineAndTheWayOut) {
   EXPECT_THROW(write_usd(scene_of(random_splats(splat_kinds[0], 3, 0.1, 1)), "a.usda"), UsageError);
 }
 
+TEST(Usd, ParentsPlaceHideAndDescribe) {
+  const auto with_parent = [](const std::string& type, const std::string& properties) {
+    std::string text = two_fields;
+    text.replace(text.find("def Xform"), 9, type);
+    return text.insert(text.find("double3 xformOp:translate"), properties + "\n    ");
+  };
+  for (const Layer& layer :
+       read(with_parent("def Xform", "token visibility = \"invisible\"")).layers)
+    EXPECT_FALSE(layer.visible) << layer.name;
+  EXPECT_THAT(error_of([&] { read(with_parent("class Xform", "")); }),
+              ErrorIn("a.usda", "Particle"));
+  std::string text = two_fields;
+  text.replace(text.find("[\"xformOp:translate\"]"), 21,
+               "[\"xformOp:translate\", \"xformOp:rotateX\"]");
+  EXPECT_THAT(error_of([&] { read(text); }), ErrorIn("a.usda", "xformOp:rotateX", "World"));
+}
+
 TEST(Usd, SurvivesDamage) {
   const auto read_bytes = [](std::span<const std::byte> bytes) {
     for (const Layer& layer : read_usd(Input::memory("a.usda", bytes)).layers) {
