@@ -130,7 +130,7 @@ TEST(Usd, ParentsPlaceHideAndDescribe) {
        read(with_parent("def Xform", "token visibility = \"invisible\"")).layers)
     EXPECT_FALSE(layer.visible) << layer.name;
   EXPECT_THAT(error_of([&] { read(with_parent("class Xform", "")); }),
-              ErrorIn("a.usda", "Particle"));
+              ErrorIn("a.usda", "ParticleField3DGaussianSplat"));
   std::string text = two_fields;
   text.replace(text.find("[\"xformOp:translate\"]"), 21,
                "[\"xformOp:translate\", \"xformOp:rotateX\"]");
