@@ -52,8 +52,8 @@ std::vector<Camera> orbit(const Capture& capture, int count, const Lens& lens);
 /// and back.
 CameraPathData turntable(const Capture& capture, const Lens& lens, double seconds);
 
-/// The camera that programs show first: the stored one; otherwise of the cameras that which is most
-/// like view_of() their capture, or the first if there is no capture. nullopt without cameras.
+/// The camera that programs show first: the stored one; otherwise the camera most like view_of()
+/// their capture, or the first one if there is no capture. nullopt if there are no cameras.
 std::optional<Camera> first_view_of(const std::optional<Camera>& stored,
                                     std::span<const Camera> cameras, const glm::dvec3& up);
 

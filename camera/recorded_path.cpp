@@ -18,14 +18,15 @@ namespace {
 
 constexpr std::size_t max_cameras = 1000;
 
-/// What an order and a path need of a camera. `turn_length`: the distance that a turn by one radian
-/// counts as, in world units: that from which the cameras look at their subject.
+/// What orders and paths use from a camera.
 struct Pose {
   glm::dvec3 eye, forward, up;
 };
 
 struct Tour {
   std::vector<Pose> poses;
+  // The distance, in world units, that counts as much as a turn by one radian: that between the
+  // cameras and their subject.
   double turn_length = 1;
 
   double step(std::size_t a, std::size_t b) const {

@@ -173,7 +173,7 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an input cannot b
   command.add_option(
       "--background COLOR", options->background,
       "colour behind transparent pixels: a name, #rrggbb, or r,g,b from 0 to 1; by default black, "
-      "of scenes that of A");
+      "that of scene A for scenes");
   command.add_option("--diff OUT.png", options->diff,
                      "image to write: A, B and a heat map of their differences, side by side");
   add_memory_option(command);

@@ -331,8 +331,8 @@ Examples:
                                               one layer, at its place
   tureen convert room.glb ball.glb -o both.glb --material ball=glass:1.33
                                               stores the layer "ball" as water, for rays
-  tureen convert table.glb guitar.ply -o room.glb --place guitar=at:0,0,1.2/turn:0,0,90/scale:0.5
-                                              one layer on the other, turned and made smaller
+  tureen convert table.glb guitar.ply -o room.glb --place guitar=at:0,0,1.2/scale:0.5
+                                              one layer on the other, made smaller
   tureen convert soup.glb turned.ply --rotate 90,0,0 --resize 0.01
                                               the whole scene turned, and in metres
   tureen convert soup.glb view.glb --view 12  programs show camera 12 first

@@ -127,10 +127,12 @@ void require_shown(const DebugViewOption& show, const Scene& scene) {
 }
 
 /// Throws UsageError if a file exists. An image of another scene or view may be the only one.
-void require_new(const std::filesystem::path& path, const RenderOptions& options) {
+void require_new(const std::filesystem::path& path, const RenderOptions& options,
+                 const char* way_out = "choose another name") {
   std::error_code unknown;
   if (!options.force && std::filesystem::exists(path, unknown))
-    throw UsageError(path.string() + " exists", "choose another name, or replace it with --force");
+    throw UsageError(path.string() + " exists",
+                     std::string(way_out) + ", or replace it with --force");
 }
 
 /// The same for all images of a run, once their number is known.
@@ -142,7 +144,7 @@ void require_new_images(const RenderOptions& options, const Views& views) {
     for (int i = 0; i < count && !pattern.empty() && !is_video_name(pattern); ++i)
       require_new(image_name(pattern, i, count), options);
   if (has_sheet(count, views) && !is_video_name(options.output))
-    require_new(contact_sheet_name(options.output), options);
+    require_new(contact_sheet_name(options.output), options, "choose another folder");
 }
 
 /// Throws UsageError and OutputError for the names of one image for each view.
@@ -355,8 +357,8 @@ and from above. Orbits and turntables of captured places go around that point, a
 Examples:
   tureen render soup.glb -o image.png
   tureen render house.glb fox.glb -o both.png             several scenes in one image
-  tureen render table.glb guitar.ply -o both.png --place guitar=at:0,0,1.2/turn:0,0,90/scale:0.5
-                                                          one layer moved, turned and made smaller
+  tureen render table.glb guitar.ply -o both.png --place guitar=at:0,0,1.2/scale:0.5
+                                                          one layer moved and made smaller
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      also writes contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960

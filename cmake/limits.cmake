@@ -38,7 +38,7 @@ set(limits
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 13410: four methods, CPU and CUDA"
-  "code jobs 8000: work that the programs share, the whole of a training run, and cameras for photographs; what measures and reports grows no further"
+  "code jobs 8010: work that the programs share, the whole of a training run, and cameras for photographs; what measures and reports grows no further"
   "code viewer 7260: the window"
   "code web 9400: the page"
   "code cli 7190: the command line computes nothing"

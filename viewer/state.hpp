@@ -218,6 +218,7 @@ struct State {
   bool show_interface = true;
   bool show_keys = false;
   FileList files;
+  bool adds_files = false;                    // they become layers of the scene
   bool show_files = false;                    // the window that opens files
   std::optional<std::string> scene_to_train;  // text of the dialog that starts a training
   TrainingChoice training_choice;             // of that dialog

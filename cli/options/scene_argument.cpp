@@ -99,9 +99,9 @@ void add_placing_options(Command& command, ReadingChoice& choice) {
   command
       .add_option("--place NAME=PARTS", choice.places,
                   "place, hide or show a layer; once for each layer. PARTS are separated by "
-                  "slashes: at:X,Y,Z, turn:X,Y,Z (degrees about x, then y, then z), scale:FACTOR, "
-                  "mirror or mirror:no, hidden or visible. Missing parts stay as they are; info "
-                  "prints names and places",
+                  "slashes: at:X,Y,Z, turn:X,Y,Z (degrees about x, then y, then z; instead of a "
+                  "turn to the common up axis), scale:FACTOR, mirror or mirror:no, hidden or "
+                  "visible. Missing parts stay as they are; info prints names and places",
                   [](const std::string& text) {
                     parse_place(text);
                     return std::string();

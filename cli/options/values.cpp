@@ -93,7 +93,11 @@ glm::dvec3 parse_vector(const std::string& text) {
 glm::dvec3 parse_direction(const std::string& text) {
   const bool is_negative = text.starts_with('-');
   const std::string axis = text.substr(is_negative || text.starts_with('+') ? 1 : 0);
-  if (axis.size() != 1 || axis < "x" || axis > "z") return parse_vector(text);
+  if (axis.size() != 1 || axis < "x" || axis > "z") {
+    if (const auto vector = three_numbers(text)) return *vector;
+    throw UsageError("'" + text + "' is not a direction",
+                     "write an axis such as z or -y, or 0,0,1");
+  }
   glm::dvec3 direction(0.0);
   direction[axis[0] - 'x'] = is_negative ? -1 : 1;
   return direction;

@@ -56,9 +56,9 @@ inline constexpr RemarkKind few_registered{
     "between those with a camera and the others ({names})."};
 inline constexpr RemarkKind little_parallax{
     "little_parallax", Severity::loss,
-    "The cameras stand too close together for their distance from the subject: a point is seen "
-    "over "
-    "{degrees:.1} degrees at the median. Take photographs from several sides."};
+    "The cameras stand too close together for their distance from the subject: the lines of sight "
+    "to a point differ by {degrees:.1} degrees at the median. Take photographs from several "
+    "sides."};
 inline constexpr RemarkKind few_points{
     "few_points", Severity::loss,
     "The cameras rest on too few points: {points} for each photograph, where 25 to 460 are usual. "

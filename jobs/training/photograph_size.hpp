@@ -33,11 +33,11 @@ struct PhotographSize {
 /// Photographs at full size.
 struct FullPhotographs {
   std::vector<Camera> cameras;  // at least one
-  bool of_an_object = false;    // before nothing: a quarter of the steps show as much
+  bool of_an_object = false;    // without surroundings: a quarter of the steps suffices
 };
 
-/// The training photographs of a dataset. Throws the errors of read_dataset_summary(). They are
-/// taken for those of an object if the file of the first has transparent pixels.
+/// The training photographs of a dataset. Throws the errors of read_dataset_summary(). They
+/// show an object if the file of the first has transparent pixels.
 FullPhotographs full_photographs(const std::filesystem::path& dataset, DatasetOptions options);
 
 /// The size for a training by this method.

@@ -48,7 +48,12 @@ void check_existing(const TrainingJob& job, const TrainingFiles& files) {
   if (const fs::path mesh = job.training.mesh(); fs::equivalent(mesh, files.scene, error))
     throw UsageError("-o would replace " + mesh.string() + ", the scene for --init",
                      "choose another name");
-  if (!job.resume && fs::exists(files.checkpoint, error))
+  const bool has_checkpoint = fs::exists(files.checkpoint, error);
+  if (job.resume && !has_checkpoint)
+    throw UsageError(
+        "there is no " + files.checkpoint.string() + ": this training has ended, or was not begun",
+        "leave --resume out to train");
+  if (!job.resume && has_checkpoint)
     throw UsageError(files.checkpoint.string() + " exists, from an unfinished run",
                      "continue this run with --resume, or remove the file to start again");
 }

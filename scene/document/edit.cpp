@@ -1,7 +1,11 @@
 #include "scene/document/edit.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
+
+#include "scene/similarity.hpp"
 
 namespace tureen {
 
@@ -101,7 +105,23 @@ struct Describe {
   std::string operator()(const RemoveLayers& edit) const {
     return "Remove " + one_or(name_of(edit.ids.front()), edit.ids.size());
   }
-  std::string operator()(const PlaceLayer& edit) const { return "Move " + name_of(edit.id); }
+  std::string operator()(const PlaceLayer& edit) const {
+    const DocumentLayer* const layer = find_layer(document, edit.id);
+    if (!layer) return "Place " + name_of(edit.id);
+    const Similarity before = similarity_of(layer->world_from_layer);
+    const Similarity after = similarity_of(edit.world_from_layer);
+    // Angles and scales come from matrices, which round them.
+    constexpr double rounding = 1e-6;
+    const bool moves = before.position != after.position, mirrors = before.mirror != after.mirror;
+    const bool turns = glm::distance(before.angles, after.angles) > rounding;
+    const bool scales = std::abs(after.scale / before.scale - 1) > rounding;
+    const char* const word = moves + turns + scales + mirrors > 1 ? "Place "
+                             : turns                              ? "Turn "
+                             : scales                             ? "Scale "
+                             : mirrors                            ? "Mirror "
+                                                                  : "Move ";
+    return word + layer->name;
+  }
   std::string operator()(const RenameLayer& edit) const { return "Rename " + name_of(edit.id); }
   std::string operator()(const ShowLayer& edit) const {
     return (edit.visible ? "Show " : "Hide ") + name_of(edit.id);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/document/history.hpp"
+#include "scene/similarity.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/random_splats.hpp"
 
@@ -132,6 +133,22 @@ TEST(Documents, EditsOfLayersThatTheDocumentLacksChangeNothing) {
                            Edit(ReorderLayer{99, 0}), Edit(SetMaterial{99, mirror_material()})})
     apply_edit(document, apply_edit(document, edit));
   EXPECT_TRUE(same(document, before));
+}
+
+TEST(Histories, StepsOfPlacesAreNamedByWhatChanges) {
+  Document document = three_layers();
+  History history;
+  const LayerId soup = document.layers[0].id;
+  Similarity place{.position = {1, 2, 3}};
+  history.perform(document, PlaceLayer{soup, matrix_of(place)});
+  place.angles.y = 30;
+  history.perform(document, PlaceLayer{soup, matrix_of(place)});
+  place.scale = 2.5;
+  history.perform(document, PlaceLayer{soup, matrix_of(place)});
+  place.position.x = 0;
+  place.scale = 1;
+  history.perform(document, PlaceLayer{soup, matrix_of(place)});
+  EXPECT_THAT(names(history), ElementsAre("Move soup", "Turn soup", "Scale soup", "Place soup"));
 }
 
 TEST(Histories, StepsHaveNames) {

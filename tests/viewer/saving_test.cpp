@@ -220,10 +220,10 @@ TEST_F(Saving, ForeignFilesAreNotReplaced) {
   std::ofstream(folder_ / "foreign.glb") << "glTF, it says";
   EXPECT_FALSE(can_be_replaced(source.files[0]));
   EXPECT_EQ(proposed_file(source), folder_ / "foreign-2.glb");
-  EXPECT_THAT(name_defect(folder_ / "a.fbx"), testing::HasSubstr(".fbx"));
-  EXPECT_THAT(name_defect(folder_ / "none" / "a.glb"), testing::HasSubstr("no folder"));
-  EXPECT_NE(name_defect(folder_ / "a"), "");
-  EXPECT_EQ(name_defect(folder_ / "a.glb"), "");
+  EXPECT_THAT(name_defect(source, folder_ / "a.fbx"), testing::HasSubstr(".fbx"));
+  EXPECT_THAT(name_defect(source, folder_ / "none" / "a.glb"), testing::HasSubstr("no folder"));
+  EXPECT_NE(name_defect(source, folder_ / "a"), "");
+  EXPECT_EQ(name_defect(source, folder_ / "a.glb"), "");
 }
 
 TEST_F(Saving, AKilledProgramLeavesTheOldFileOrTheNewOne) {

@@ -19,7 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 void open(State& state, const fs::path& path) {
-  state.ask(OpenPath{path});
+  if (state.adds_files)
+    state.ask(AddPaths{{path}});
+  else
+    state.ask(OpenPath{path});
   state.show_files = false;
 }
 
@@ -37,6 +40,11 @@ fs::path folder_buttons(State& state) {
   ImGui::SameLine();
   if (button("Choose this folder")) open(state, state.files.folder);
   tip("A dataset, a DiffSoup export, a MobileNeRF model");
+  if (state.stage) {
+    ImGui::SameLine();
+    check("Add to the scene", &state.adds_files);
+    tip("Scenes become layers of the one that is shown, as if they were dropped on the window");
+  }
   return next;
 }
 
@@ -113,7 +121,10 @@ void files_overlay(State& state) {
   // Outside of the field, Escape is a shortcut.
   if (escape_pressed() && ImGui::GetIO().WantTextInput && !state.has_dialog())
     state.show_files = false;
-  if (!state.show_files) state.files = {};
+  if (!state.show_files) {
+    state.files = {};
+    state.adds_files = false;
+  }
 }
 
 }  // namespace tureen::viewer

@@ -24,18 +24,19 @@ void name_dialog(State& state) {
   auto& name = state.saving.name;
   const Dialog dialog("Save the scene as", name.has_value());
   if (!dialog.is_open()) return;
-  paragraph("In the folder " + name->folder.string());
+  const fs::path file = name->folder / name->typed;
+  paragraph("In the folder " + file.parent_path().string());
   field("File");
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered =
-      ImGui::InputText("##file", &name->typed, ImGuiInputTextFlags_EnterReturnsTrue);
-  const fs::path file = name->folder / name->typed;
-  const std::string defect = name_defect(file);
+      ImGui::InputText("##file", &name->typed,
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const std::string defect = name_defect(state.source, file);
   std::error_code unknown;
   const bool exists = fs::exists(file, unknown);
   aside(!defect.empty() ? defect
         : exists        ? "This file exists. It will be replaced."
-                        : ".glb stores everything; other formats: .ply, .off, .coff.");
+                        : written_extensions(state.source));
   const bool pressed = [&] {
     const Disabled disabled(!defect.empty());
     return strong_button(exists ? "Replace" : "Save");
@@ -56,7 +57,7 @@ void losses_dialog(State& state) {
   if (!dialog.is_open()) return;
   paragraph("Lost in " + short_name(losses->request.file) + ":");
   for (const std::string& each : losses->lost) aside(each);
-  const bool saves = strong_button("Save all the same");
+  const bool saves = strong_button("Save all the same") || enter_pressed();
   ImGui::SameLine();
   const bool renames = button("Another name");
   ImGui::SameLine();
@@ -76,7 +77,7 @@ void leaving_dialog(State& state) {
   const Dialog dialog("Unsaved changes", leaving.has_value());
   if (!dialog.is_open()) return;
   paragraph("The changes of " + short_names(state.source.paths()) + " are not saved.");
-  const bool saves = strong_button("Save");
+  const bool saves = strong_button("Save") || enter_pressed();
   ImGui::SameLine();
   const bool discards = button("Discard");
   ImGui::SameLine();

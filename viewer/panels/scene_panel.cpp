@@ -65,6 +65,7 @@ void steps_menu(State& state) {
   }
   tip("The list of changes: a click goes back to one, or forth");
   if (!ImGui::BeginPopup("steps")) return;
+  if (escape_pressed()) ImGui::CloseCurrentPopup();
   const std::size_t position = history.position();
   if (ImGui::Selectable("Before the first step", position == 0)) state.ask(GoToStep{0});
   for (std::size_t i = 0; i < history.steps().size(); ++i) {
@@ -120,7 +121,7 @@ void scene_panel(State& state) {
     for (const std::string& note : notes) aside(note);
   }
   if (button("Open")) state.show_files = true;
-  tip("O: replaces the scene; scenes that are dropped on the window become layers");
+  tip("O: replaces the scene, or adds layers to it, as scenes do that are dropped on the window");
   ImGui::SameLine();
   recent_menu(state);
   ImGui::SameLine();

@@ -215,6 +215,13 @@ void progress_bar(double fraction) {
 
 bool escape_pressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false); }
 
+bool enter_pressed() {
+  // Not in the frame in which a dialog opens: Enter in the dialog before may have opened it.
+  return !ImGui::IsWindowAppearing() &&
+         (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
+          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeypadEnter), false));
+}
+
 Dialog::Dialog(const char* title, bool open) {
   if (open && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
   const ImVec2 window = ImGui::GetIO().DisplaySize;

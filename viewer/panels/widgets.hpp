@@ -99,8 +99,9 @@ class Dialog {
   bool begun_ = false, open_ = false;
 };
 
-/// Whether the user has pressed Escape, also in a field.
+/// Whether the user has pressed the key, also in a field.
 bool escape_pressed();
+bool enter_pressed();
 
 /// Undoes at the end of its scope, by `end`, what a derived class does at the beginning.
 template <void (*end)()>

@@ -83,11 +83,22 @@ fs::path proposed_file(const SceneSource& source) {
   }
 }
 
-std::string name_defect(const fs::path& file) {
+std::string written_extensions(const SceneSource& source) {
+  if (source.document.layers.size() > 1) return "Several layers are stored as .glb.";
+  std::string list;
+  for (const FormatInfo& format : known_formats())
+    for (const std::string& extension : format.written_extensions)
+      if (extension != ".glb") list += (list.empty() ? "" : ", ") + extension;
+  return ".glb stores everything; other formats: " + list + ".";
+}
+
+std::string name_defect(const SceneSource& source, const fs::path& file) {
   if (!file.has_filename() || file.extension().empty())
     return "The name needs an extension: .glb stores everything.";
   try {
     require_written_format(file);
+    if (source.document.layers.size() > 1 && !is_glb_name(file))
+      return "Only .glb stores several layers: choose it, or remove all other layers.";
     writable_file(file);
   } catch (const Error& error) {
     return error.what();
@@ -110,6 +121,8 @@ Saved save_scene(const SceneSource& source, const fs::path& file, bool accepts_l
     name += target.filename();  // with both extensions of .compressed.ply
     const TemporaryFile temporary(name);
     saved.lost = write_scene(scene, name);
+    if (is_quantised(file))
+      saved.lost.emplace_back("The format rounds splats. tureen convert measures by how much.");
     if (progress) progress(1);
     saved.is_written = accepts_losses || saved.lost.empty();
     std::error_code failed;

@@ -23,8 +23,11 @@ bool can_be_replaced(const SceneFile& file);
 /// A name that no file has, beside the scene's first file: "garden-2.glb".
 std::filesystem::path proposed_file(const SceneSource& source);
 
-/// The reason why a scene cannot be saved under this name, or "". For the user.
-std::string name_defect(const std::filesystem::path& file);
+/// The extensions of the formats that hold the scene: ".glb stores everything; other formats: ..".
+std::string written_extensions(const SceneSource& source);
+
+/// The reason why the scene cannot be saved under this name, or "". For the user.
+std::string name_defect(const SceneSource& source, const std::filesystem::path& file);
 
 /// A file that is removed at the end of its scope, if it still exists.
 struct TemporaryFile {
