@@ -307,7 +307,7 @@ class Bench:
             self.keep('browser', {'browser': rows_of(text or '')})
 
     def viewers(self):
-        """Gaussians in Tureen's page and in viewers from npm, which it installs into web/bench/viewers."""
+        """Gaussians in Tureen's page and in viewers from npm, which it installs into tests/bench/viewers."""
         scene = next((path for path in self.options.scene if path.suffix == '.ply'),
                      self.options.data / 'gaussians/guitar_3dgs_dc.ply')
         if not scene.exists():

@@ -4,7 +4,7 @@
 //   node viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick] [--only-first]
 //
 // --only-first: only the time until the first image, from more visits.
-// --views: the cameras, by default those of the guitar (web/bench/viewers/guitar_views.json); `./dev bench` uses
+// --views: the cameras, by default those of the guitar (tests/bench/viewers/guitar_views.json); `./dev bench` uses
 // SCENE.views.json if it exists. Writes the images to OUT, and rows as lines of JSON to standard output.
 
 import { execFileSync } from 'node:child_process';
@@ -16,7 +16,7 @@ import { serve } from '../../web/serve.mjs';
 import { built, launch, programs, source } from '../web/browser.mjs';
 import { writePng } from '../web/png.mjs';
 
-const sources = join(source, 'web/bench/viewers');
+const sources = join(source, 'tests/bench/viewers');
 const { positionals: [out, scene], values: { views: viewsFile, quick, 'only-first': onlyFirst } } = parseArgs({
   allowPositionals: true,
   options: {
