@@ -287,9 +287,14 @@ class Bench:
             photographs = self.photographs(name)
             text = self.run(f'compress-{name}', TUREEN, 'convert', path, self.out / 'soups/compressed.glb',
                             '--compress', '--force', '--json', *(['--photographs', *photographs] if photographs else []))
+            export = self.out / 'soups/export'
+            exported = self.run(f'export-{name}', TUREEN, 'convert', path, f'{export}/', '--force', '--json')
             if text:
-                rows.append({'scene': name, **{key: value for key, value in json.loads(text).items()
-                                               if isinstance(value, (int, float, str))}})
+                row = {key: value for key, value in json.loads(text).items() if isinstance(value, (int, float, str))}
+                if exported:
+                    row['published_bytes'] = sum(file.stat().st_size for file in export.iterdir())
+                    row['times_smaller'] = row['published_bytes'] / row['scene_bytes']
+                rows.append({'scene': name, **row})
         self.keep('compress', {'compress': rows})
 
     def step(self):

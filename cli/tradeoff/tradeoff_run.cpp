@@ -208,16 +208,16 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
   study.background = scene.info.background;
   study.samples = options.samples;
   study.rounds = report.rounds;
-  study.factorial.max_configurations =
+  study.max_combinations =
       std::size_t(options.combinations >= 0 ? options.combinations : defaults.combinations);
   study.max_samples = defaults.samples;
   study.with_flip = options.with_flip;
   std::optional<Progress> progress;
-  std::optional<tradeoff::StudyStage> stage;
-  study.progress = [&](tradeoff::StudyStage now, double fraction) {
+  std::string stage;
+  study.progress = [&](const char* now, double fraction) {
     if (now != stage) {
       progress.reset();
-      progress.emplace(name_of(now));
+      progress.emplace(now);
       stage = now;
     }
     progress->update(fraction);

@@ -36,10 +36,8 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
     if (panel.outcomes[i].factor != tradeoff::Factor::generic) add_row(table, report, panel, i);
   say(title);
   for (const std::string& line : table.lines()) say(line);
-  say(
-      fmt::format("  R1, the reference in 8 bits: {:.2f} dB; A/A spread of the times: {:.1f} %; "
-                  "hypervolume: {:.1f} decade dB",
-                  panel.ideal.psnr_db, 100 * panel.aa_spread, panel.hypervolume));
+  say(fmt::format("  R1, the reference in 8 bits: {:.2f} dB; A/A spread of the times: {:.1f} %",
+                  panel.ideal.psnr_db, 100 * panel.aa_spread));
   std::vector<std::string> lines = panel.notes;
   for (const tradeoff::SkippedOutcome& skipped : panel.skipped)
     lines.push_back(skipped.name + ": " + skipped.reason);

@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "image/codecs/vp8l.hpp"
 #include "image/png.hpp"
 
 namespace tureen {
@@ -35,6 +34,10 @@ bool is_webp(std::span<const std::byte> bytes) {
 glm::ivec2 webp_size(std::span<const std::byte>, const std::string& name) {
   throw InputError({name}, "WebP images are not supported here");
 }
+Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget) {
+  const glm::ivec2 size = webp_size(bytes, name);  // throws
+  return {size.x, size.y};
+}
 #else
 glm::ivec2 webp_size(std::span<const std::byte> bytes, const std::string& name) {
   WebPBitstreamFeatures features;
@@ -45,13 +48,8 @@ glm::ivec2 webp_size(std::span<const std::byte> bytes, const std::string& name) 
     throw InputError({name}, "the WebP file is an animation, not an image");
   return {features.width, features.height};
 }
-#endif
 
 Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget budget) {
-  if (const auto lossless = vp8l_stream(bytes, name)) return decode_vp8l(*lossless, name, budget);
-#ifdef __EMSCRIPTEN__
-  throw InputError({name}, "lossy WebP images are not supported here");
-#else
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
     throw InputError({name}, reason, hint);
   };
@@ -69,10 +67,8 @@ Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, Me
     fail("the WebP image is damaged");
   passing.keep(size);
   return image;
-#endif
 }
 
-#ifndef __EMSCRIPTEN__
 std::vector<std::byte> encode_webp(const Image8& image, int effort) {
   WebPConfig config;
   WebPPicture picture;

@@ -1,4 +1,4 @@
-// WebP: lossless by our own decoder (vp8l.hpp), lossy by libwebp.
+// WebP, by libwebp, which the page lacks.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace tureen {
 
 bool is_webp(std::span<const std::byte> bytes);
 
-/// As decode_image() (image/png.hpp). Throws InputError; for an animation, too, and for a lossy
-/// image in programs without libwebp, such as the page's.
+/// As decode_image() (image/png.hpp). Throws InputError; for an animation, too, and always in the
+/// page.
 Image8 decode_webp(std::span<const std::byte> bytes, const std::string& name, MemoryBudget budget);
 
 /// Width and height by the header, which may be all of `bytes`. Throws as decode_webp().

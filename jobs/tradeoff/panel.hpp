@@ -10,7 +10,7 @@
 #include "image/render_error.hpp"
 #include "jobs/timing/frame_statistics.hpp"
 #include "jobs/tradeoff/pareto.hpp"
-#include "jobs/tradeoff/quality_settings.hpp"
+#include "jobs/tradeoff/settings.hpp"
 
 namespace tureen::tradeoff {
 
@@ -51,6 +51,17 @@ struct SkippedOutcome {
   std::string reason;
 };
 
+/// The effect of one setting over its values.
+struct SettingRange {
+  std::size_t setting = 0;
+  double time_ratio = 1;  // the slowest over the fastest
+  double psnr_db = 0;     // the best minus the worst
+
+  /// More than 5 % of time and more than 0.5 dB. A setting that affects only one of them is no
+  /// trade-off and needs no experiment.
+  bool matters() const { return time_ratio > 1.05 && psnr_db > 0.5; }
+};
+
 /// Outcomes with a common reference. The drawing panel has the edits, the antialiasing panel the
 /// quality settings.
 struct Panel {
@@ -61,7 +72,6 @@ struct Panel {
   std::vector<std::string> notes;
   double aa_spread = 0;            // largest of all groups
   std::vector<std::size_t> front;  // indices of outcomes, fastest first; from candidates()
-  double hypervolume = 0;          // decades times decibels
 
   /// R1: the error of the reference's images after rounding to 8 bits per channel.
   RenderError ideal;
@@ -82,7 +92,15 @@ struct Candidates {
 };
 Candidates candidates(const Panel& panel);
 
-/// Computes front and hypervolume from the candidates.
+/// Computes the range of every setting from the outcomes that change at most this setting, with
+/// specialisations. Ignores errors that have no meaning.
+void find_ranges(Panel& panel);
+
+/// The combinations of the settings that matter, at most `most`, of at most four settings. They are
+/// ranked by the product of their effects on time and error; a note counts those that are left out.
+std::vector<Configuration> combinations_of(Panel& panel, std::size_t most);
+
+/// Computes the front from the candidates.
 void find_front(Panel& panel);
 
 bool is_on_front(const Panel& panel, std::size_t outcome);
