@@ -385,16 +385,6 @@ def fit(kind, rows):
 # The first two run only when named.
 PARTS = ['training', 'viewers', 'frames', 'splats', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
 
-# Removed parts and options of `./dev bench`, and their replacements.
-RETIRED = {
-    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test runtime -R oracle',
-    'train-fox': 'the part training', 'train-bottle': 'the part training', 'train-lego': 'the part training',
-    'train-example': 'the part training', 'ablations': 'tureen train --config FILE',
-    '--ficus': '--data FOLDER', '--fox': '--scene FILE', '--photographs': '--data FOLDER', '--lego': '--data FOLDER',
-    '--bottle': '--data FOLDER',
-}
-
-
 def bench(arguments):
     parts = ''.join(f'  {name:16} {getattr(Bench, name).__doc__}\n' for name in PARTS)
     parser = argparse.ArgumentParser(
@@ -413,8 +403,6 @@ def bench(arguments):
                         help='folder with soups/ficus_2dts.off, gaussians/guitar_3dgs_dc.ply, rendered/lego, '
                              'photos/fox and photos/bottle, all optional (default ../shared/data)')
     parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # only checks the arguments
-    for word in (argument.split('=')[0] for argument in arguments):
-        word not in RETIRED or parser.error(f'{word} was removed; use {RETIRED[word]}')
     options = parser.parse_args(arguments)
     if options.data != parser.get_default('data') and not options.data.is_dir():
         parser.error(f'--data: folder {options.data} does not exist')

@@ -179,8 +179,7 @@ class CommandLine {
   ///    exceptions from its function. This step sets variables and calls functions. A flag that
   ///    prints a text ends parsing in this step. --help ends parsing at the end of this step;
   /// 4. for each option in the same order: required and missing, needs(), excludes();
-  /// 5. unknown options, with the replacement of those from earlier versions
-  ///    (cli/options/retired.hpp), and unexpected arguments;
+  /// 5. unknown options, and unexpected arguments;
   /// 6. an empty value, such as "$UNSET" in a shell.
   Action parse(std::vector<std::string> arguments);
 
