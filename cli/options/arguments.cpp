@@ -279,11 +279,8 @@ void Command::does_with_rest(std::function<ExitCode(const std::vector<std::strin
 
 Option add_word_option(Command& command, const std::string& name,
                        const std::vector<std::string>& words,
-                       const std::function<void(std::size_t)>& choose, const std::string& help,
-                       const RemovedWords& removed) {
+                       const std::function<void(std::size_t)>& choose, const std::string& help) {
   const auto find = [=, bare = without_value(name)](const std::string& word) {
-    for (const auto& [known, hint] : removed)
-      if (known == word) throw UsageError(bare + " no longer takes '" + word + "'", hint);
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) throw unknown_word(bare, word, words);
     choose(std::size_t(found - words.begin()));

@@ -149,10 +149,9 @@ void measure_models(const TradeoffOptions& options, const Scene& scene,
                                .background = scene.info.background,
                                .with_flip = options.with_flip};
   model.progress = [&](double fraction) { progress.update(0.8 * fraction); };
-  report.drawing_model = tradeoff::model_errors(report.study.drawing, scene, photographs, model);
+  tradeoff::add_model_errors(report.study.drawing, scene, photographs, model);
   model.progress = [&](double fraction) { progress.update(0.8 + 0.2 * fraction); };
-  report.antialiasing_model =
-      tradeoff::model_errors(report.study.antialiasing, scene, photographs, model);
+  tradeoff::add_model_errors(report.study.antialiasing, scene, photographs, model);
 }
 
 /// The part of the report that is known before the measurements.

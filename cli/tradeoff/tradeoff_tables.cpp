@@ -52,15 +52,11 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
 void say_model(const TradeoffReport& report) {
   if (!report.model) return;
   Table table({"configuration", "PSNR dB", "SSIM"});
-  const auto add = [&](const tradeoff::Panel& panel,
-                       const std::vector<std::optional<tradeoff::ModelError>>& list) {
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (list[i])
-        table.row({panel.outcomes[i].name, fmt::format("{:.2f}", list[i]->psnr_db),
-                   fmt::format("{:.4f}", list[i]->ssim)});
-  };
-  add(report.study.drawing, report.drawing_model);
-  add(report.study.antialiasing, report.antialiasing_model);
+  for (const tradeoff::Panel* panel : {&report.study.drawing, &report.study.antialiasing})
+    for (const tradeoff::Outcome& each : panel->outcomes)
+      if (each.model)
+        table.row({each.name, fmt::format("{:.2f}", each.model->psnr_db),
+                   fmt::format("{:.4f}", each.model->ssim)});
   say_list(fmt::format("E_model, against {} photographs ({}) of {}:", report.model->photographs,
                        report.model->split, report.model->dataset),
            table.lines());

@@ -20,6 +20,13 @@ struct ExactError {
   double coverage_mismatch = 0;
 };
 
+/// The error of a configuration against photographs.
+struct ModelError {
+  double psnr_db = 0;  // mean of the views' PSNR, as in eval
+  double ssim = 0;     // border `valid`
+  double flip = 0;     // 0 if not computed
+};
+
 /// The method of drawing: our plan, our plan without specialisations (--no-specialise), or the
 /// baseline.
 enum class Factor { specialised, generic, baseline };
@@ -40,6 +47,7 @@ struct Outcome {
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
   std::optional<ExactError> exact;  // only in the drawing panel
+  std::optional<ModelError> model;  // only with photographs
   bool stable = true;               // whether the warm-up was stable before timing
 
   int departures() const { return tradeoff::departures(configuration); }
