@@ -33,8 +33,8 @@ std::string describe_edits(const Applied& applied);
 Scene edited(Scene scene, const Applied& applied, const std::function<void(double)>& progress = {});
 
 struct SettingValue {
-  std::string value;  // name for programs: "3", "base"
-  std::string words;  // description: "lattice level 3", "base colour"
+  std::string value = {};  // name for programs: "3", "base"
+  std::string words = {};  // description: "lattice level 3", "base colour"
   /// What differs from the defaults; nothing for the default.
   Applied change = {};
 };
