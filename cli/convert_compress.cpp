@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "cli/files/scene_page.hpp"
-#include "cli/files/scratch.hpp"
 #include "cli/measuring/bench_words.hpp"
 #include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
-#include "formats/diffsoup/diffsoup_export.hpp"
 #include "jobs/compress/compress.hpp"
 #include "scene/edit/baked_transform.hpp"
 
@@ -34,18 +31,6 @@ std::string views_text(const CompressViews& views) {
 }
 
 namespace fs = std::filesystem;
-
-/// Size in bytes of the scene as a DiffSoup export: two PNGs, a PLY and JSON. The export is written
-/// beside `glb` and then removed. Empty if the format cannot store the scene.
-std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& glb) {
-  const Scratch folder(glb.string() + ".export", "the export for the comparison");
-  try {
-    write_diffsoup_export(scene, folder.path());
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
-  return bytes_on_disk(folder.path());
-}
 
 /// The name of the dataset's folder. The path above it may be private, and the file stores this
 /// name.
@@ -198,7 +183,6 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
     if (scene.cameras.size() < min_representative_cameras)
       request.training_cameras = training_cameras(arguments.photographs, lost);
   }
-  const std::optional<std::uint64_t> published = published_bytes(scene, glb);
   CompressResult result;
   {
     Progress progress("compressing");
@@ -240,33 +224,23 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
                   bytes_text(bytes), bytes_text(result.soup.geometry.size()),
                   bytes_text(result.soup.texels.size()),
                   double(bytes) / double(std::max<std::size_t>(faces, 1))));
-  if (published)
-    say(
-        fmt::format("{:.2f} times smaller than the DiffSoup export of the same soup ({}: two PNGs, "
-                    "PLY and JSON)",
-                    double(*published) / double(bytes), bytes_text(*published)));
-  Json json = {{"scene_bytes", bytes},
-               {"geometry_bytes", result.soup.geometry.size()},
-               {"texel_bytes", result.soup.texels.size()},
-               {"position_bits", result.position_bits},
-               {"color_step", result.color_step},
-               {"loss_db", result.loss.db},
-               {"loss_is_measured", with_photographs},
-               {"render_psnr_db", result.loss.render_psnr_db},
-               {"views", views_text(result.views)},
-               {"recorded_cameras", cameras},
-               {"training_cameras", result.lent_cameras},
-               {"compressed_before", compressed_before},
-               {"faces_left_out", result.unseen},
-               {"texels_kept_roughly", result.unseen_texels},
-               {"notes", notes},
-               {"remarks", remarks},
-               {"lost", lost}};
-  if (published) {
-    json["published_bytes"] = *published;
-    json["times_smaller"] = double(*published) / double(bytes);
-  }
-  return json;
+  return {{"scene_bytes", bytes},
+          {"geometry_bytes", result.soup.geometry.size()},
+          {"texel_bytes", result.soup.texels.size()},
+          {"position_bits", result.position_bits},
+          {"color_step", result.color_step},
+          {"loss_db", result.loss.db},
+          {"loss_is_measured", with_photographs},
+          {"render_psnr_db", result.loss.render_psnr_db},
+          {"views", views_text(result.views)},
+          {"recorded_cameras", cameras},
+          {"training_cameras", result.lent_cameras},
+          {"compressed_before", compressed_before},
+          {"faces_left_out", result.unseen},
+          {"texels_kept_roughly", result.unseen_texels},
+          {"notes", notes},
+          {"remarks", remarks},
+          {"lost", lost}};
 }
 
 }  // namespace tureen::cli

@@ -25,9 +25,8 @@ void add_compressed_arguments(Command& command, CompressArguments& arguments);
 /// Checks the options before the scene is read. Throws UsageError.
 void check_compressed(const CompressArguments& arguments, const std::filesystem::path& output);
 
-/// Writes the compressed file `glb`. Prints all losses, and the size relative to the DiffSoup
-/// export of the same soup. Returns both as JSON. Throws Interrupted, and the exceptions of
-/// compress() and write_compressed_glb().
+/// Writes the compressed file `glb`. Prints all losses and the size, and returns both as JSON.
+/// Throws Interrupted, and the exceptions of compress() and write_compressed_glb().
 Json convert_compressed(Scene scene, const CompressArguments& arguments,
                         const std::filesystem::path& glb);
 

@@ -287,9 +287,14 @@ class Bench:
             photographs = self.photographs(name)
             text = self.run(f'compress-{name}', TUREEN, 'convert', path, self.out / 'soups/compressed.glb',
                             '--compress', '--force', '--json', *(['--photographs', *photographs] if photographs else []))
+            export = self.out / 'soups/export'
+            exported = self.run(f'export-{name}', TUREEN, 'convert', path, f'{export}/', '--force', '--json')
             if text:
-                rows.append({'scene': name, **{key: value for key, value in json.loads(text).items()
-                                               if isinstance(value, (int, float, str))}})
+                row = {key: value for key, value in json.loads(text).items() if isinstance(value, (int, float, str))}
+                if exported:
+                    row['published_bytes'] = sum(file.stat().st_size for file in export.iterdir())
+                    row['times_smaller'] = row['published_bytes'] / row['scene_bytes']
+                rows.append({'scene': name, **row})
         self.keep('compress', {'compress': rows})
 
     def step(self):
@@ -307,7 +312,7 @@ class Bench:
             self.keep('browser', {'browser': rows_of(text or '')})
 
     def viewers(self):
-        """Gaussians in Tureen's page and in viewers from npm, which it installs into web/bench/viewers."""
+        """Gaussians in Tureen's page and in viewers from npm, which it installs into tests/bench/viewers."""
         scene = next((path for path in self.options.scene if path.suffix == '.ply'),
                      self.options.data / 'gaussians/guitar_3dgs_dc.ply')
         if not scene.exists():
@@ -380,16 +385,6 @@ def fit(kind, rows):
 # The first two run only when named.
 PARTS = ['training', 'viewers', 'frames', 'splats', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
 
-# Removed parts and options of `./dev bench`, and their replacements.
-RETIRED = {
-    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test runtime -R oracle',
-    'train-fox': 'the part training', 'train-bottle': 'the part training', 'train-lego': 'the part training',
-    'train-example': 'the part training', 'ablations': 'tureen train --config FILE',
-    '--ficus': '--data FOLDER', '--fox': '--scene FILE', '--photographs': '--data FOLDER', '--lego': '--data FOLDER',
-    '--bottle': '--data FOLDER',
-}
-
-
 def bench(arguments):
     parts = ''.join(f'  {name:16} {getattr(Bench, name).__doc__}\n' for name in PARTS)
     parser = argparse.ArgumentParser(
@@ -408,8 +403,6 @@ def bench(arguments):
                         help='folder with soups/ficus_2dts.off, gaussians/guitar_3dgs_dc.ply, rendered/lego, '
                              'photos/fox and photos/bottle, all optional (default ../shared/data)')
     parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # only checks the arguments
-    for word in (argument.split('=')[0] for argument in arguments):
-        word not in RETIRED or parser.error(f'{word} was removed; use {RETIRED[word]}')
     options = parser.parse_args(arguments)
     if options.data != parser.get_default('data') and not options.data.is_dir():
         parser.error(f'--data: folder {options.data} does not exist')

@@ -15,8 +15,9 @@ bool may_be_json(std::string_view text) {
          std::string_view("{[\"-0123456789tfn").find(text[first]) != std::string_view::npos;
 }
 
-}  // namespace
-
+/// An upper bound of the number of values and keys that a parser creates from `text`, whether or
+/// not it is JSON; 1 if it stops at the first character. Throws InputError if the nesting exceeds
+/// max_json_depth. The error names the byte in `file`, where `text` begins at `first_byte`.
 std::uint64_t count_json_values(std::string_view text, const std::string& file,
                                 std::uint64_t first_byte) {
   std::uint64_t values = 1;
@@ -58,6 +59,8 @@ std::uint64_t count_json_values(std::string_view text, const std::string& file,
   }
   return values;
 }
+
+}  // namespace
 
 void take_json_memory(std::string_view text, const std::string& file, std::uint64_t first_byte,
                       MemoryBudget budget) {

@@ -20,12 +20,6 @@ inline constexpr int max_json_depth = 64;
 /// its texts: the value, the tree node with its key, and spare capacity of vectors.
 inline constexpr std::size_t json_value_bytes = 128;
 
-/// An upper bound of the number of values and keys that a parser creates from `text`, whether or
-/// not it is JSON; 1 if it stops at the first character. Throws InputError if the nesting exceeds
-/// max_json_depth. The error names the byte in `file`, where `text` begins at `first_byte`.
-std::uint64_t count_json_values(std::string_view text, const std::string& file,
-                                std::uint64_t first_byte = 0);
-
 /// Counts the memory needed to parse `text`. Throws InputError if it exceeds the budget or the
 /// nesting is too deep.
 void take_json_memory(std::string_view text, const std::string& file, std::uint64_t first_byte,

@@ -9,11 +9,11 @@
 #include "base/existing_path.hpp"
 #include "base/input.hpp"
 #include "base/output.hpp"
-#include "cli/bench/bench_comparison.hpp"
 #include "cli/files/result_files.hpp"
 #include "cli/measuring/bench_words.hpp"
 #include "cli/options/output_argument.hpp"
 #include "cli/report.hpp"
+#include "cli/table.hpp"
 #include "jobs/bench/comparison_json.hpp"
 
 namespace tureen::cli {
@@ -49,6 +49,24 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 }
 
 }  // namespace
+
+std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
+  std::vector<std::string> lines;
+  if (!comparison.ratios.empty()) {
+    Table table(
+        {"configuration", "<cameras", "<size", "ms then", "ms now", "ratio", "<", "spread", "<"});
+    for (const BenchRatio& ratio : comparison.ratios)
+      table.row({ratio.configuration, ratio.camera_set, ratio.size, ms_text(ratio.then_ms),
+                 ms_text(ratio.now_ms), fmt::format("{:.3f}", ratio.ratio),
+                 verdict_text(ratio.verdict, ratio.rounds),
+                 ratio.spread ? fmt::format("{:.1f} %", 100 * *ratio.spread) : not_known,
+                 ratio.same_pixels ? "" : "different image"});
+    lines = table.lines();
+  }
+  for (std::string& line : results::circumstances(comparison)) lines.push_back(std::move(line));
+  for (std::string& line : results::unmatched_lines(comparison)) lines.push_back(std::move(line));
+  return lines;
+}
 
 void add_bench_report_options(Command& command, BenchReportOptions& options) {
   command.add_option("-o,--output FOLDER", options.folder,

@@ -7,6 +7,7 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/options/arguments.hpp"
+#include "jobs/bench/bench_comparison.hpp"
 #include "jobs/bench/bench_json.hpp"
 
 namespace tureen::cli {
@@ -18,6 +19,9 @@ struct BenchReportOptions {
   std::optional<double> fail_slower;
   bool json = false;  // the result on standard output
 };
+
+/// A comparison for a terminal: a table, then circumstances() and unmatched_lines().
+std::vector<std::string> comparison_lines(const BenchComparison& comparison);
 
 /// --output, --against, --fail-slower and --json.
 void add_bench_report_options(Command& command, BenchReportOptions& options);

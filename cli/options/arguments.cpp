@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "base/suggestion.hpp"
-#include "cli/options/retired.hpp"
 #include "cli/report.hpp"
 
 namespace tureen::cli {
@@ -90,26 +89,16 @@ void require_known_command(const CLI::App& program, const std::vector<std::strin
   if (names.empty() || arguments.empty() || arguments.front().starts_with('-')) return;
   const std::string& word = arguments.front();
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
-  if (const std::string instead = replacement_of(word); !instead.empty())
-    throw UsageError("this version has no command " + word, instead);
   throw UsageError("unknown command " + word, did_you_mean(word, names));
 }
 
 /// Converts an error from CLI11.
 UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
   const std::vector<std::string> extras = command.remaining(true);
-  const auto option_of = [](const std::string& extra) { return extra.substr(0, extra.find('=')); };
-  // Options of earlier versions come first: CLI11 may only report an argument that is newly
-  // required.
-  for (const std::string& extra : extras) {
-    const std::string word = option_of(extra);
-    if (const std::string instead = replacement_of(command.get_name(), word); !instead.empty())
-      return UsageError(command.get_name() + " no longer has " + word, instead);
-  }
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     for (const std::string& extra : extras) {
       if (extra.size() < 2 || extra[0] != '-') continue;
-      const std::string word = option_of(extra);
+      const std::string word = extra.substr(0, extra.find('='));
       std::vector<std::string> known;
       for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
@@ -290,11 +279,8 @@ void Command::does_with_rest(std::function<ExitCode(const std::vector<std::strin
 
 Option add_word_option(Command& command, const std::string& name,
                        const std::vector<std::string>& words,
-                       const std::function<void(std::size_t)>& choose, const std::string& help,
-                       const RemovedWords& removed) {
+                       const std::function<void(std::size_t)>& choose, const std::string& help) {
   const auto find = [=, bare = without_value(name)](const std::string& word) {
-    for (const auto& [known, hint] : removed)
-      if (known == word) throw UsageError(bare + " no longer takes '" + word + "'", hint);
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) throw unknown_word(bare, word, words);
     choose(std::size_t(found - words.begin()));

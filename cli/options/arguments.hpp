@@ -131,27 +131,22 @@ class Command {
   Action* chosen_;  // of the CommandLine
 };
 
-/// Words that earlier versions accepted, each with the hint of its error.
-using RemovedWords = std::vector<std::pair<std::string, std::string>>;
-
 /// An option that takes one of a few words; calls `choose` with the word's index. UsageError for
 /// any other word.
 Option add_word_option(Command& command, const std::string& name,
                        const std::vector<std::string>& words,
-                       const std::function<void(std::size_t)>& choose, const std::string& help,
-                       const RemovedWords& removed = {});
+                       const std::function<void(std::size_t)>& choose, const std::string& help);
 
 /// The same, but sets `value` to the value of the word.
 template <class T>
 Option add_choice(Command& command, const std::string& name, T& value,
-                  std::vector<std::pair<std::string, T>> choices, const std::string& help,
-                  const RemovedWords& removed = {}) {
+                  std::vector<std::pair<std::string, T>> choices, const std::string& help) {
   std::vector<std::string> words;
   for (const auto& choice : choices) words.push_back(choice.first);
   const auto choose = [&value, choices = std::move(choices)](std::size_t index) {
     value = choices[index].second;
   };
-  return add_word_option(command, name, words, choose, help, removed);
+  return add_word_option(command, name, words, choose, help);
 }
 
 /// All commands of a program, and the parsed arguments.
@@ -179,8 +174,7 @@ class CommandLine {
   ///    exceptions from its function. This step sets variables and calls functions. A flag that
   ///    prints a text ends parsing in this step. --help ends parsing at the end of this step;
   /// 4. for each option in the same order: required and missing, needs(), excludes();
-  /// 5. unknown options, with the replacement of those from earlier versions
-  ///    (cli/options/retired.hpp), and unexpected arguments;
+  /// 5. unknown options, and unexpected arguments;
   /// 6. an empty value, such as "$UNSET" in a shell.
   Action parse(std::vector<std::string> arguments);
 

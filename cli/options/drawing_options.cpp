@@ -1,7 +1,6 @@
 #include "cli/options/drawing_options.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "cli/report.hpp"
 
@@ -11,10 +10,6 @@ namespace {
 
 Specialisation specialisation_of(const std::string& name) {
   if (const auto known = specialisation_named(name)) return *known;
-  constexpr std::array removed{"transparent-rims", "base-color", "texel-table"};
-  if (std::find(removed.begin(), removed.end(), name) != removed.end())
-    throw UsageError("--keep no longer takes '" + name + "', a specialisation that was removed",
-                     "delete the name");
   std::vector<std::string> names;
   for (const SpecialisationName& known : specialisation_names()) names.emplace_back(known.name);
   throw unknown_word("--keep", name, names);
@@ -65,8 +60,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   add_choice<ShadingStage>(
       command, "--shading NAME", options.plan.shading_stage,
       {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
-      "shader of the shading pass, for scenes that have one: fragment (default) or compute",
-      {{"measured", "use fragment, the default, or compute"}});
+      "shader of the shading pass, for scenes that have one: fragment (default) or compute");
   add_choice<SplatBlending>(
       command, "--blend NAME", options.plan.splat_blending,
       {{"auto", SplatBlending::automatic},

@@ -149,10 +149,9 @@ void measure_models(const TradeoffOptions& options, const Scene& scene,
                                .background = scene.info.background,
                                .with_flip = options.with_flip};
   model.progress = [&](double fraction) { progress.update(0.8 * fraction); };
-  report.drawing_model = tradeoff::model_errors(report.study.drawing, scene, photographs, model);
+  tradeoff::add_model_errors(report.study.drawing, scene, photographs, model);
   model.progress = [&](double fraction) { progress.update(0.8 + 0.2 * fraction); };
-  report.antialiasing_model =
-      tradeoff::model_errors(report.study.antialiasing, scene, photographs, model);
+  tradeoff::add_model_errors(report.study.antialiasing, scene, photographs, model);
 }
 
 /// The part of the report that is known before the measurements.
@@ -208,16 +207,16 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
   study.background = scene.info.background;
   study.samples = options.samples;
   study.rounds = report.rounds;
-  study.factorial.max_configurations =
+  study.max_combinations =
       std::size_t(options.combinations >= 0 ? options.combinations : defaults.combinations);
   study.max_samples = defaults.samples;
   study.with_flip = options.with_flip;
   std::optional<Progress> progress;
-  std::optional<tradeoff::StudyStage> stage;
-  study.progress = [&](tradeoff::StudyStage now, double fraction) {
+  std::string stage;
+  study.progress = [&](const char* now, double fraction) {
     if (now != stage) {
       progress.reset();
-      progress.emplace(name_of(now));
+      progress.emplace(now);
       stage = now;
     }
     progress->update(fraction);

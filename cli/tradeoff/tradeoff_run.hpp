@@ -8,7 +8,7 @@
 #include "cli/options/scene_argument.hpp"
 #include "cli/tradeoff/tradeoff_tables.hpp"
 #include "jobs/tradeoff/pareto.hpp"
-#include "jobs/tradeoff/reference.hpp"
+#include "jobs/tradeoff/references.hpp"
 #include "runtime/gl/context.hpp"
 
 namespace tureen::cli {

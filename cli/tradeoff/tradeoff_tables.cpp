@@ -36,10 +36,8 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
     if (panel.outcomes[i].factor != tradeoff::Factor::generic) add_row(table, report, panel, i);
   say(title);
   for (const std::string& line : table.lines()) say(line);
-  say(
-      fmt::format("  R1, the reference in 8 bits: {:.2f} dB; A/A spread of the times: {:.1f} %; "
-                  "hypervolume: {:.1f} decade dB",
-                  panel.ideal.psnr_db, 100 * panel.aa_spread, panel.hypervolume));
+  say(fmt::format("  R1, the reference in 8 bits: {:.2f} dB; A/A spread of the times: {:.1f} %",
+                  panel.ideal.psnr_db, 100 * panel.aa_spread));
   std::vector<std::string> lines = panel.notes;
   for (const tradeoff::SkippedOutcome& skipped : panel.skipped)
     lines.push_back(skipped.name + ": " + skipped.reason);
@@ -54,15 +52,11 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
 void say_model(const TradeoffReport& report) {
   if (!report.model) return;
   Table table({"configuration", "PSNR dB", "SSIM"});
-  const auto add = [&](const tradeoff::Panel& panel,
-                       const std::vector<std::optional<tradeoff::ModelError>>& list) {
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (list[i])
-        table.row({panel.outcomes[i].name, fmt::format("{:.2f}", list[i]->psnr_db),
-                   fmt::format("{:.4f}", list[i]->ssim)});
-  };
-  add(report.study.drawing, report.drawing_model);
-  add(report.study.antialiasing, report.antialiasing_model);
+  for (const tradeoff::Panel* panel : {&report.study.drawing, &report.study.antialiasing})
+    for (const tradeoff::Outcome& each : panel->outcomes)
+      if (each.model)
+        table.row({each.name, fmt::format("{:.2f}", each.model->psnr_db),
+                   fmt::format("{:.4f}", each.model->ssim)});
   say_list(fmt::format("E_model, against {} photographs ({}) of {}:", report.model->photographs,
                        report.model->split, report.model->dataset),
            table.lines());

@@ -69,6 +69,14 @@ bool find_beyond_int(const nlohmann::json& value, bool are_indices, std::string&
   return false;
 }
 
+/// Values and keys.
+std::uint64_t count_values(const nlohmann::json& value) {
+  std::uint64_t count = value.is_object() ? 1 + value.size() : 1;
+  if (value.is_structured())
+    for (const nlohmann::json& member : value) count += count_values(member);
+  return count;
+}
+
 }  // namespace
 
 GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder)
@@ -88,40 +96,31 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
                              way_out(name));
     }
   if (const auto list = root.find("buffers")) buffers_.resize(list->size());
-  take_model_memory();
   parse();
 }
 
-/// Counts the memory of the JSON's copy and of tinygltf's model. The model's structures are large:
-/// {} becomes a material of two kilobytes.
+/// Counts the memory of tinygltf's model. Its structures are large: {} becomes a material of two
+/// kilobytes.
 void GltfDocument::take_model_memory() const {
-  // At most as long as the file's text plus about two dozen characters per number; both were
-  // counted when it was parsed.
-  const std::string text = glb_.json.dump();
-  const std::uint64_t values = count_json_values(text, input_.name());
-  // The copy, its text, tinygltf's own copy, and its values for extensions and extras.
-  take_memory(values, 2 * json_value_bytes + sizeof(tinygltf::Value), "");
-  take_memory(2 * text.size(), 1, "");
   constexpr std::pair<const char*, std::size_t> lists[] = {
       {"accessors", sizeof(tinygltf::Accessor)}, {"bufferViews", sizeof(tinygltf::BufferView)},
       {"cameras", sizeof(tinygltf::Camera)},     {"materials", sizeof(tinygltf::Material)},
       {"meshes", sizeof(tinygltf::Mesh)},        {"nodes", sizeof(tinygltf::Node)},
       {"samplers", sizeof(tinygltf::Sampler)},   {"scenes", sizeof(tinygltf::Scene)},
       {"textures", sizeof(tinygltf::Texture)}};
-  const JsonView root(glb_.json, input_.name());
-  const auto take = [&](const JsonView& list, std::size_t each) {
-    // Vectors double, and the old array still exists while it is copied.
-    take_memory(list.size(), 3 * each, list.path());
-  };
+  // Three times, because vectors double, and the old array still exists while it is copied.
   for (const auto& [name, each] : lists)
-    if (const auto list = root.find(name)) take(*list, each);
-  if (const auto meshes = root.find("meshes"))
-    for (std::size_t i = 0; i < meshes->size(); ++i)
-      if (const auto primitives = meshes->at(i).find("primitives"))
-        take(*primitives, sizeof(tinygltf::Primitive));
+    if (const auto list = root().find(name)) take_memory(list->size(), 3 * each, list->path());
+  const auto meshes = root().find("meshes");
+  for (std::size_t i = 0; meshes && i < meshes->size(); ++i)
+    if (const auto list = meshes->at(i).find("primitives"))
+      take_memory(list->size(), 3 * sizeof(tinygltf::Primitive), list->path());
 }
 
 void GltfDocument::parse() {
+  // The copy, tinygltf's own copy, and its values for extensions and extras.
+  take_memory(count_values(glb_.json), 2 * json_value_bytes + sizeof(tinygltf::Value), "");
+  take_model_memory();
   nlohmann::json lean = glb_.json;
   for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
     lean.erase(key);
@@ -136,6 +135,9 @@ void GltfDocument::parse() {
         if (const auto member = view->at(i).find(key)) lean[list][i][key] = member->natural();
   }
   const std::string text = lean.dump();
+  // At most as long as the file's text plus about two dozen characters per number; both were
+  // counted when it was parsed.
+  take_memory(2 * text.size(), 1, "");
   if (text.size() > std::numeric_limits<unsigned int>::max()) fail("", "more than 4 GiB of JSON");
   tinygltf::TinyGLTF loader;
   std::string error, warning;

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/steady_seconds.hpp"
-#include "jobs/bench/order_time.hpp"
-#include "runtime/passes/copy_ceiling.hpp"
+#include "jobs/baseline/splat_baseline_order.hpp"
+#include "jobs/bench/copy_ceiling.hpp"
+#include "runtime/passes/pass.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
+#include "runtime/splats/ordered_splats.hpp"
 
 namespace tureen {
 
@@ -28,6 +31,49 @@ const std::vector<std::string> all_names{ours,    in_fragments, as_compute, by_r
                                          generic, "baseline",   baseline,   triangles, copy};
 
 double milliseconds_since(double start) { return 1000 * (steady_seconds() - start); }
+
+/// Milliseconds a view for sorting all splats, by SplatOrder (also for tiles, which sort the same
+/// keys) or by the baseline's order: the mean over the cameras of the best of three times. Empty
+/// without splats. `clock` is in seconds; null: the steady clock.
+std::optional<double> time_of_order(const Scene& scene, PipelineKind pipeline,
+                                    std::span<const Camera> cameras,
+                                    const std::function<double()>& clock) {
+  struct Centers {
+    std::vector<glm::vec3> centers;
+    const glm::dmat4& world_from_layer;
+  };
+  std::vector<Centers> layers;
+  for (const Layer& layer : scene.layers)
+    if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
+      Centers& of_layer = layers.emplace_back(Centers{{}, layer.world_from_layer});
+      for (std::size_t i = 0; i < count(*splats); ++i)
+        of_layer.centers.push_back(center(*splats, i));
+    }
+  if (layers.empty()) return std::nullopt;
+  const auto now = [&] { return clock ? clock() : steady_seconds(); };
+  SplatOrder order;
+  SplatBaselineOrder baseline;
+  double seconds = 0;
+  for (const Camera& camera : cameras) {
+    std::vector<FrameCamera> in_layers;
+    std::vector<SplatsInView> views;
+    for (const Centers& layer : layers) {
+      in_layers.push_back(camera_in_layer(camera, layer.world_from_layer, {}));
+      views.push_back(in_view(layer.centers, in_layers.back()));
+    }
+    double best = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const double start = now();
+      if (pipeline == PipelineKind::tureen)
+        order.sort(views);
+      else
+        baseline.sort(layers.front().centers, in_layers.front());
+      best = std::min(best, now() - start);
+    }
+    seconds += best;
+  }
+  return 1000 * seconds / double(cameras.size());
+}
 
 /// A renderer with one plan, as in `tureen render`.
 class RendererCase final : public BenchCase {
@@ -66,7 +112,7 @@ class RendererCase final : public BenchCase {
                                  const std::function<double()>& clock) const override {
     const bool sorts = renderer_->plan().quality.splat_order != Quality::SplatOrder::stochastic;
     if (!sorts) return std::nullopt;
-    return tureen::order_ms(scene_, pipeline_, cameras, clock);
+    return time_of_order(scene_, pipeline_, cameras, clock);
   }
   bool blends_in_tiles() const override { return renderer_->plan().splats_in_tiles; }
 

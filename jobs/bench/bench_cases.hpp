@@ -40,7 +40,8 @@ class BenchCase {
   virtual Image8 last_frame() const = 0;
   /// The mean times of passes over these views; a reason and no times if the device has no timer.
   virtual PassTimes passes(std::span<const Camera> cameras) = 0;
-  /// As order_ms() (jobs/bench/order_time.hpp).
+  /// Milliseconds a view in which the processor orders the splats, also of a moving camera. Empty
+  /// if it orders none. `clock` is in seconds; null: the steady clock.
   virtual std::optional<double> order_ms(std::span<const Camera>,
                                          const std::function<double()>& /*clock*/) const {
     return std::nullopt;

@@ -42,12 +42,6 @@ auto list(const JsonView& view, Read read) {
   return result;
 }
 
-/// nullopt for null, otherwise the result of read().
-template <class Read>
-auto unless_null(const JsonView& view, Read read) {
-  return view.value().is_null() ? std::nullopt : std::optional(read(view));
-}
-
 /// A text of at most `longest` bytes. Reports repeat it in rows and at points in plots.
 inline std::string text_within(const JsonView& view, std::size_t longest) {
   std::string text = view.text();

@@ -14,17 +14,15 @@ Json specialisations_json(std::span<const AppliedSpecialisation> specialisations
   return list;
 }
 
-std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration) {
-  const auto applied = configuration.find("specialisations");
-  if (!applied) return {};
+std::vector<AppliedSpecialisation> specialisations_of(const JsonView& list) {
   std::vector<AppliedSpecialisation> known;
-  list(*applied, [&](const JsonView& each) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonView each = list.at(i);
     const auto count = [&](const char* key) { return std::size_t(integer(each[key])); };
     // Names from other versions are skipped, so that their results stay readable.
     if (const auto what = specialisation_named(each["name"].text()))
       known.push_back({*what, count("count"), count("total"), each["margin"].number()});
-    return 0;
-  });
+  }
   return known;
 }
 

@@ -14,8 +14,7 @@ namespace tureen::results {
 /// "count" of "total" faces, bands or neurons, or 0 of 0.
 Json specialisations_json(std::span<const AppliedSpecialisation> specialisations);
 
-/// Reads the member "specialisations" of `configuration`; empty if it is missing, as in files from
-/// earlier versions. Throws InputError.
-std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration);
+/// Reads such a list. Throws InputError.
+std::vector<AppliedSpecialisation> specialisations_of(const JsonView& list);
 
 }  // namespace tureen::results

@@ -56,13 +56,15 @@ std::string hash_of(const JsonView& view) {
 }
 
 BenchConfiguration configuration_of(const JsonView& view) {
+  const std::optional<JsonView> applied = view.find("specialisations");
   return {.name = view["name"].text(),
           .options = {},
           .plan = texts(view["plan"]),
           .plan_ms = milliseconds(view["plan_ms"]),
           .upload_ms = milliseconds(view["upload_ms"]),
           .device_mib = mebibytes(view["device_bytes"]),
-          .specialisations = specialisations_of(view)};
+          .specialisations =
+              applied ? specialisations_of(*applied) : std::vector<AppliedSpecialisation>()};
 }
 
 /// The part that the cases of one measurement share.

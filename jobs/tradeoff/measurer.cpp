@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "jobs/baseline/baseline.hpp"
 #include "jobs/timing/benchmark.hpp"
-#include "jobs/tradeoff/study_images.hpp"
+#include "jobs/tradeoff/references.hpp"
 
 namespace tureen::tradeoff {
 
@@ -19,6 +19,18 @@ FrameStatistics scaled(FrameStatistics ms, double factor) {
     *value *= factor;
   ms.low_1_percent_fps /= factor;
   return ms;
+}
+
+/// The errors against both references; FLIP only against the judge.
+using Errors = std::pair<RenderError, std::optional<ExactError>>;
+
+Errors errors_of(const References& references, std::span<const ImageF> drawn, bool with_flip) {
+  Errors errors{error_between(references.judge, drawn, with_flip), std::nullopt};
+  if (!references.exact.empty()) {
+    const RenderError exact = error_between(references.exact, drawn, false);
+    errors.second = ExactError{exact.psnr_db, exact.coverage_mismatch};
+  }
+  return errors;
 }
 
 }  // namespace
@@ -35,7 +47,7 @@ Job job_of(const std::vector<QualitySetting>& settings, const Configuration& con
   return job;
 }
 
-void Measurer::measure(std::vector<Job> jobs, StudyStage stage) {
+void Measurer::measure(std::vector<Job> jobs, const char* stage) {
   for (std::size_t begin = 0; begin < jobs.size();) {
     const std::size_t room = options_.group - (control_ ? 1 : 0);
     const std::size_t end = std::min(begin + std::max<std::size_t>(room, 1), jobs.size());
@@ -47,7 +59,7 @@ void Measurer::measure(std::vector<Job> jobs, StudyStage stage) {
 }
 
 void Measurer::report_share(double fraction) const {
-  report(options_, stage_, share_.first + share_.second * fraction);
+  options_.report(stage_, share_.first + share_.second * fraction);
 }
 
 std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {

@@ -11,6 +11,13 @@
 
 namespace tureen::tradeoff {
 
+/// Reference images of all cameras.
+struct References {
+  std::vector<ImageF> judge;
+  /// Exact triangles, one sample per pixel; empty if the device's rounding is not measured.
+  std::vector<ImageF> exact;
+};
+
 /// One case: its plan, and its properties known before the measurement.
 struct Job {
   Outcome outcome;
@@ -30,7 +37,7 @@ class Measurer {
 
   /// The very first job is the defaults, the control of every later group. Throws the Renderer's
   /// errors for them. Other jobs that fail with a UsageError or a DeviceLimitError are skipped.
-  void measure(std::vector<Job> jobs, StudyStage stage);
+  void measure(std::vector<Job> jobs, const char* stage);
 
  private:
   struct Running {
@@ -52,7 +59,7 @@ class Measurer {
   double control_ms_ = 0;
   std::pair<double, double> share_{0, 1};  // of the progress: begin and length of this group
   double made_ = 0;                        // the fraction of the group's renderers already created
-  StudyStage stage_ = StudyStage::settings;
+  const char* stage_ = "";
 };
 
 }  // namespace tureen::tradeoff

@@ -36,19 +36,17 @@ std::vector<Photograph> spread_out(std::vector<Photograph> photographs, std::siz
   return chosen;
 }
 
-std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Scene& scene,
-                                                    std::span<const Photograph> photographs,
-                                                    const ModelOptions& options) {
-  std::vector<std::optional<ModelError>> errors(panel.outcomes.size());
+void add_model_errors(Panel& panel, const Scene& scene, std::span<const Photograph> photographs,
+                      const ModelOptions& options) {
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
-    const Outcome& outcome = panel.outcomes[i];
+    Outcome& outcome = panel.outcomes[i];
     const Share progress = [&](double fraction) {
-      if (options.progress) options.progress((double(i) + fraction) / double(errors.size()));
+      if (options.progress)
+        options.progress((double(i) + fraction) / double(panel.outcomes.size()));
     };
     if (outcome.factor != Factor::generic)
-      errors[i] = drawn_error(outcome, scene, photographs, options, progress);
+      outcome.model = drawn_error(outcome, scene, photographs, options, progress);
   }
-  return errors;
 }
 
 }  // namespace tureen::tradeoff

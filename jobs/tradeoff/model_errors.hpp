@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,13 +11,6 @@
 #include "scene/photographs.hpp"
 
 namespace tureen::tradeoff {
-
-/// The error of a configuration against photographs.
-struct ModelError {
-  double psnr_db = 0;  // mean of the views' PSNR, as in eval
-  double ssim = 0;     // border `valid`
-  double flip = 0;     // 0 if not computed
-};
 
 struct ModelOptions {
   gl::Backend backend = gl::Backend::automatic;
@@ -30,9 +22,8 @@ struct ModelOptions {
 /// At most `most` of the photographs, evenly spaced in their order; all if `most` is 0.
 std::vector<Photograph> spread_out(std::vector<Photograph> photographs, std::size_t most);
 
-/// One entry for each outcome of the panel; nullopt for generic twins, which draw the same images.
-std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Scene& scene,
-                                                    std::span<const Photograph> photographs,
-                                                    const ModelOptions& options);
+/// Sets Outcome::model of the panel, except of generic twins, which draw the same images.
+void add_model_errors(Panel& panel, const Scene& scene, std::span<const Photograph> photographs,
+                      const ModelOptions& options);
 
 }  // namespace tureen::tradeoff

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "jobs/timing/benchmark.hpp"
-#include "jobs/tradeoff/reference.hpp"
+#include "jobs/tradeoff/references.hpp"
 
 namespace tureen::tradeoff {
 
@@ -32,10 +33,49 @@ Candidates candidates(const Panel& panel) {
   return result;
 }
 
+void find_ranges(Panel& panel) {
+  for (std::size_t setting = 0; setting < panel.settings.size(); ++setting) {
+    std::vector<double> ms, psnr_db;
+    for (const Outcome& outcome : panel.outcomes) {
+      const int others = outcome.departures() - (outcome.configuration[setting] != 0 ? 1 : 0);
+      if (outcome.factor != Factor::specialised || others != 0) continue;
+      ms.push_back(outcome.ms.min_of_medians);
+      if (is_judged(outcome)) psnr_db.push_back(outcome.error.psnr_db);
+    }
+    const auto [fastest, slowest] = std::minmax_element(ms.begin(), ms.end());
+    const auto [worst, best] = std::minmax_element(psnr_db.begin(), psnr_db.end());
+    panel.ranges.push_back({setting, *slowest / *fastest, *best - *worst});
+  }
+}
+
+std::vector<Configuration> combinations_of(Panel& panel, std::size_t most) {
+  std::vector<SettingRange> ranges = panel.ranges;
+  std::erase_if(ranges, [](const SettingRange& range) { return !range.matters(); });
+  std::stable_sort(ranges.begin(), ranges.end(), [](const SettingRange& a, const SettingRange& b) {
+    return std::log(a.time_ratio) * a.psnr_db > std::log(b.time_ratio) * b.psnr_db;
+  });
+  std::vector<std::size_t> varied;
+  for (const SettingRange& range : ranges) varied.push_back(range.setting);
+  if (varied.size() > 4) varied.resize(4);
+  std::vector<Configuration> list = combinations(panel.settings, varied);
+  while (list.size() > most) {
+    varied.pop_back();
+    list = combinations(panel.settings, varied);
+  }
+  if (varied.size() < ranges.size())
+    panel.notes.push_back(fmt::format(
+        "{} settings matter; {} (the limits are 4 settings and {} configurations)", ranges.size(),
+        varied.size() < 2
+            ? "no combination is measured"
+            : fmt::format("only the {} with the largest effect on time and error are combined",
+                          varied.size()),
+        most));
+  return list;
+}
+
 void find_front(Panel& panel) {
   const Candidates all = candidates(panel);
   for (const std::size_t i : pareto_front(all.points)) panel.front.push_back(all.index[i]);
-  panel.hypervolume = hypervolume(all.points);
 }
 
 bool is_on_front(const Panel& panel, std::size_t outcome) {

@@ -10,7 +10,7 @@
 #include "image/render_error.hpp"
 #include "jobs/timing/frame_statistics.hpp"
 #include "jobs/tradeoff/pareto.hpp"
-#include "jobs/tradeoff/quality_settings.hpp"
+#include "jobs/tradeoff/settings.hpp"
 
 namespace tureen::tradeoff {
 
@@ -18,6 +18,13 @@ namespace tureen::tradeoff {
 struct ExactError {
   double psnr_db = 0;
   double coverage_mismatch = 0;
+};
+
+/// The error of a configuration against photographs.
+struct ModelError {
+  double psnr_db = 0;  // mean of the views' PSNR, as in eval
+  double ssim = 0;     // border `valid`
+  double flip = 0;     // 0 if not computed
 };
 
 /// The method of drawing: our plan, our plan without specialisations (--no-specialise), or the
@@ -40,6 +47,7 @@ struct Outcome {
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
   std::optional<ExactError> exact;  // only in the drawing panel
+  std::optional<ModelError> model;  // only with photographs
   bool stable = true;               // whether the warm-up was stable before timing
 
   int departures() const { return tradeoff::departures(configuration); }
@@ -49,6 +57,17 @@ struct Outcome {
 struct SkippedOutcome {
   std::string name;
   std::string reason;
+};
+
+/// The effect of one setting over its values.
+struct SettingRange {
+  std::size_t setting = 0;
+  double time_ratio = 1;  // the slowest over the fastest
+  double psnr_db = 0;     // the best minus the worst
+
+  /// More than 5 % of time and more than 0.5 dB. A setting that affects only one of them is no
+  /// trade-off and needs no experiment.
+  bool matters() const { return time_ratio > 1.05 && psnr_db > 0.5; }
 };
 
 /// Outcomes with a common reference. The drawing panel has the edits, the antialiasing panel the
@@ -61,7 +80,6 @@ struct Panel {
   std::vector<std::string> notes;
   double aa_spread = 0;            // largest of all groups
   std::vector<std::size_t> front;  // indices of outcomes, fastest first; from candidates()
-  double hypervolume = 0;          // decades times decibels
 
   /// R1: the error of the reference's images after rounding to 8 bits per channel.
   RenderError ideal;
@@ -82,7 +100,15 @@ struct Candidates {
 };
 Candidates candidates(const Panel& panel);
 
-/// Computes front and hypervolume from the candidates.
+/// Computes the range of every setting from the outcomes that change at most this setting, with
+/// specialisations. Ignores errors that have no meaning.
+void find_ranges(Panel& panel);
+
+/// The combinations of the settings that matter, at most `most`, of at most four settings. They are
+/// ranked by the product of their effects on time and error; a note counts those that are left out.
+std::vector<Configuration> combinations_of(Panel& panel, std::size_t most);
+
+/// Computes the front from the candidates.
 void find_front(Panel& panel);
 
 bool is_on_front(const Panel& panel, std::size_t outcome);

@@ -1,7 +1,6 @@
 #include "jobs/tradeoff/pareto.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -49,17 +48,6 @@ std::vector<std::size_t> pareto_front(std::span<const Point> points, double tie_
     reached = points[*taken].psnr_db;
   }
   return front;
-}
-
-double hypervolume(std::span<const Point> points, const Corner& corner) {
-  double area = 0, reached = corner.psnr_db;
-  for (const std::size_t i : by_time(points)) {
-    const Point& point = points[i];
-    if (point.ms >= corner.ms || point.psnr_db <= reached) continue;
-    area += std::log10(corner.ms / point.ms) * (point.psnr_db - reached);
-    reached = point.psnr_db;
-  }
-  return area;
 }
 
 std::optional<std::size_t> cheapest_within(std::span<const Point> points, const Limits& limits) {

@@ -1,5 +1,5 @@
-// The Pareto front of time and error over measured configurations, its hypervolume, and the choice.
-// Plain arithmetic, without drawing.
+// The Pareto front of time and error over measured configurations, and the choice. Plain
+// arithmetic, without drawing.
 #pragma once
 
 #include <cstddef>
@@ -29,18 +29,6 @@ inline constexpr double psnr_tie_db = 0.1;
 /// the fastest, then the first. Times and PSNR therefore both increase along the front. For every
 /// other point, a point on the front is as fast and as good, up to the ties.
 std::vector<std::size_t> pareto_front(std::span<const Point> points, double tie_db = psnr_tie_db);
-
-/// The reference point of the hypervolume: 100 ms and 20 dB.
-struct Corner {
-  double ms = 100;
-  double psnr_db = 20;
-};
-
-/// The area between the corner and the points, with the logarithm of time on the horizontal axis:
-/// decades times decibels. It grows if a point on the front that is better than the corner becomes
-/// faster or better. It is 0 if every point is slower or worse than the corner. Exact, without
-/// ties.
-double hypervolume(std::span<const Point> points, const Corner& corner = {});
 
 /// Error limits for an automatic choice.
 struct Limits {

@@ -1,27 +1,21 @@
 #include "jobs/tradeoff/study.hpp"
 
-#include <fmt/format.h>
-
 #include <cassert>
+#include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/tradeoff/measurer.hpp"
-#include "jobs/tradeoff/splat_weights.hpp"
-#include "jobs/tradeoff/study_images.hpp"
 #include "jobs/visibility/visibility_count.hpp"
+#include "runtime/passes/pass.hpp"
+#include "scene/clip_range.hpp"
 #include "splatting/layer.hpp"
+#include "splatting/tiles/tile_renderer.hpp"
 
 namespace tureen::tradeoff {
 
 namespace {
-
-/// Rejects configurations that cannot be drawn, before any upload.
-Refusal refusal_of(const std::vector<QualitySetting>& settings) {
-  return [&settings](const Configuration& configuration) {
-    return defect(applied_by(settings, configuration).quality);
-  };
-}
 
 std::vector<Job> jobs_of(const std::vector<QualitySetting>& settings,
                          const std::vector<Configuration>& list, bool specialised) {
@@ -31,111 +25,114 @@ std::vector<Job> jobs_of(const std::vector<QualitySetting>& settings,
   return jobs;
 }
 
-void add_skipped(Panel& panel, const Design& design) {
-  for (const Skipped& skipped : design.skipped)
-    panel.skipped.push_back({describe(panel.settings, skipped.configuration), skipped.reason});
-}
-
-/// The ranges of the settings, from the specialised outcomes of the star.
-void find_ranges(Panel& panel) {
-  std::vector<Configuration> configurations;
-  std::vector<Measured> measured;
-  for (const Outcome& outcome : panel.outcomes) {
-    if (outcome.factor == Factor::generic || outcome.factor == Factor::baseline) continue;
-    configurations.push_back(outcome.configuration);
-    measured.push_back(
-        {outcome.ms.min_of_medians, is_judged(outcome) ? outcome.error.psnr_db : std::nan("")});
-  }
-  panel.ranges = setting_ranges(configurations, measured, panel.settings.size());
-}
-
-/// After the star: all combinations of the settings that matter, and the front.
-void finish(const StudyOptions& options, StudyStage stage, Measurer& measurer, Panel& panel) {
+/// After the single changes: all combinations of the settings that matter, and the front.
+void finish(const StudyOptions& options, const char* stage, Measurer& measurer, Panel& panel) {
   find_ranges(panel);
-  const Design rest = factorial(value_counts(panel.settings), panel.ranges,
-                                refusal_of(panel.settings), options.factorial);
-  add_skipped(panel, rest);
-  panel.notes = describe(rest.reduction, options.factorial);
-  measurer.measure(jobs_of(panel.settings, rest.configurations, true), stage);
+  measurer.measure(jobs_of(panel.settings, combinations_of(panel, options.max_combinations), true),
+                   stage);
   find_front(panel);
   if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
+}
+
+std::vector<ImageF> references_of(const StudyScene& scene, const StudyOptions& options,
+                                  Samples samples, const char* stage) {
+  return reference_images(scene.scene, scene.cameras,
+                          {.samples = samples,
+                           .subpixel_bits = options.subpixel_bits,
+                           .background = options.background,
+                           .progress = [&](double done) { options.report(stage, done); }});
 }
 
 RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
   return error_between(reference, as_shown(reference), with_flip);
 }
 
+/// For each splat, the sum over all pixels of the views of alpha times the transmittance of the
+/// splats in front, in millionths: its share of the images, whatever its colour. `world_from_layer`
+/// as Layer has it. `progress` is called with the fraction done, 0..1, and may throw.
+std::vector<std::uint64_t> splat_weights(const Splats& splats, const glm::dmat4& world_from_layer,
+                                         std::span<const Camera> views,
+                                         const std::function<void(double)>& progress) {
+  std::vector<std::uint32_t> all(count(splats));
+  std::iota(all.begin(), all.end(), 0u);
+  const std::vector<std::uint32_t> drawn = splatting::without_nan(splats, all);
+  const std::unique_ptr<splatting::Layer> layer = splatting::make_layer(
+      splatting::layer_data(splats, splats.profile, drawn, splats.color.degree));
+  splatting::TileRenderer renderer({});
+  std::vector<double> weights(drawn.size());
+  const LayerPlace placed{bounds(splats), world_from_layer};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const ClipRange range = clip_range({&placed, 1}, views[i], DepthStorage::reversed_float);
+    const FrameCamera camera = camera_in_layer(views[i], world_from_layer, range);
+    renderer.add_weights({layer.get(),
+                          splatting::image_view(camera.camera, camera.eye, camera.range.near,
+                                                splats.profile, camera.camera),
+                          camera.scale},
+                         weights);
+    if (progress) progress(double(i + 1) / double(views.size()));
+  }
+  std::vector<std::uint64_t> result(all.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    result[drawn[i]] = std::uint64_t(std::llround(1e6 * weights[i]));
+  return result;
+}
+
 std::vector<QualitySetting> settings_of(const StudyScene& scene, const StudyOptions& options) {
   const Layer& layer = only_layer(scene.scene);
   const auto* soup = std::get_if<TriangleSoup>(&layer.primitives);
+  const auto progress = [&](double done) { options.report("visible primitives", done); };
   if (!soup) {
     const auto& splats = std::get<Splats>(layer.primitives);
     std::vector<std::uint64_t> weights;
     if (splatting::has_layer_for(splats))
-      weights = splat_weights(splats, layer.world_from_layer, scene.counting, [&](double fraction) {
-        report(options, StudyStage::visibility, fraction);
-      });
+      weights = splat_weights(splats, layer.world_from_layer, scene.counting, progress);
     return drawing_settings(splats, weights);
   }
-  const std::vector<std::uint64_t> visible = count_visible_pixels(
-      scene.context, *soup, origin_of(layer), scene.counting,
-      [&](double fraction) { report(options, StudyStage::visibility, fraction); });
-  return drawing_settings(*soup, visible);
+  return drawing_settings(*soup, count_visible_pixels(scene.context, *soup, origin_of(layer),
+                                                      scene.counting, progress));
 }
 
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
   const bool traced = options.samples == Samples::traced;
-  References references{
-      oracle_images(scene, options, Samples::device, StudyStage::device_references),
-      oracle_images(scene, options, traced ? Samples::traced : Samples::exact,
-                    StudyStage::exact_references)};
+  References references{references_of(scene, options, Samples::device, "reference images"),
+                        references_of(scene, options, traced ? Samples::traced : Samples::exact,
+                                      "exact reference images")};
   study.grid = error_between(references.exact, references.judge, options.with_flip);
   if (traced || options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
 
   panel.settings = settings_of(scene, options);
-  const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
-  add_skipped(panel, star);
+  const std::vector<Configuration> single = single_changes(panel.settings);
 
   Measurer measurer(scene, options, references, panel);
-  std::vector<Job> jobs = jobs_of(panel.settings, star.configurations, true);
+  std::vector<Job> jobs = jobs_of(panel.settings, single, true);
   // The baseline follows the defaults, so that both are in the same group.
-  Job baseline = job_of(panel.settings, star.configurations.front(), true);
+  Job baseline = job_of(panel.settings, single.front(), true);
   baseline.outcome.name = "baseline";
   baseline.outcome.factor = Factor::baseline;
   baseline.plan = {};
   jobs.insert(jobs.begin() + 1, std::move(baseline));
-  std::vector<Job> generic = jobs_of(panel.settings, star.configurations, false);
+  std::vector<Job> generic = jobs_of(panel.settings, single, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
-  measurer.measure(std::move(jobs), StudyStage::settings);
+  measurer.measure(std::move(jobs), "one setting at a time");
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     if (panel.outcomes[i].factor == Factor::baseline) study.baseline = i;
-  finish(options, StudyStage::combined_settings, measurer, panel);
+  finish(options, "combined settings", measurer, panel);
 }
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
   const References references{
-      oracle_images(scene, options, Samples::antialiased, StudyStage::antialiased_references), {}};
+      references_of(scene, options, Samples::antialiased, "antialiased reference images"), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
   panel.settings = antialiasing_settings(options.max_samples, splat_count(scene.scene) > 0);
-  const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
-  add_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
-  measurer.measure(jobs_of(panel.settings, star.configurations, true), StudyStage::antialiasing);
-  finish(options, StudyStage::combined_antialiasing, measurer, panel);
+  measurer.measure(jobs_of(panel.settings, single_changes(panel.settings), true), "antialiasing");
+  finish(options, "combined antialiasing", measurer, panel);
 }
 
 }  // namespace
-
-const char* name_of(StudyStage stage) {
-  constexpr const char* names[] = {"reference images",   "exact reference images",
-                                   "visible primitives", "one setting at a time",
-                                   "combined settings",  "antialiased reference images",
-                                   "antialiasing",       "combined antialiasing"};
-  return names[std::size_t(stage)];
-}
 
 Study run_study(const StudyScene& scene, const StudyOptions& options) {
   assert(!scene.cameras.empty());

@@ -12,26 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "jobs/tradeoff/experiment.hpp"
 #include "jobs/tradeoff/panel.hpp"
-#include "jobs/tradeoff/reference.hpp"
+#include "jobs/tradeoff/references.hpp"
 #include "runtime/renderer.hpp"
 
 namespace tureen::tradeoff {
-
-enum class StudyStage {
-  device_references,  // oracle images at the device's sample points
-  exact_references,
-  visibility,
-  settings,  // one at a time
-  combined_settings,
-  antialiased_references,
-  antialiasing,
-  combined_antialiasing,
-};
-
-/// "reference images", ..: for progress.
-const char* name_of(StudyStage stage);
 
 struct StudyOptions {
   glm::vec3 background{0.0f};
@@ -41,20 +26,17 @@ struct StudyOptions {
   int rounds = 5;
   /// Largest number of simultaneous renderers; each holds the scene on the device.
   std::size_t group = 12;
-  FactorialLimits factorial = {};
-  int max_samples = 4;  // largest number of supersampling samples per axis
+  std::size_t max_combinations = 64;  // of edits; as many of quality settings
+  int max_samples = 4;                // largest number of supersampling samples per axis
   bool with_flip = true;
   /// As BenchmarkOptions::clock.
   std::function<double()> clock = nullptr;
   /// Called often with the current stage and its fraction done; may throw to cancel the study.
-  std::function<void(StudyStage, double fraction)> progress = {};
-};
+  std::function<void(const char* stage, double fraction)> progress = {};
 
-/// Reference images of all cameras.
-struct References {
-  std::vector<ImageF> judge;
-  /// Exact triangles, one sample per pixel; empty if the device's rounding is not measured.
-  std::vector<ImageF> exact;
+  void report(const char* stage, double fraction) const {
+    if (progress) progress(stage, fraction);
+  }
 };
 
 /// The scene on the device, and the views.

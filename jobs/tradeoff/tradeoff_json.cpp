@@ -1,6 +1,6 @@
 #include "jobs/tradeoff/tradeoff_json.hpp"
 
-#include "jobs/bench/provenance.hpp"
+#include "jobs/bench/bench_json.hpp"
 
 namespace tureen::results {
 
@@ -42,13 +42,7 @@ Json settings_json(const tradeoff::Panel& panel, const tradeoff::Outcome& outcom
   return json;
 }
 
-std::optional<tradeoff::ModelError> model_of(
-    const std::vector<std::optional<tradeoff::ModelError>>& list, std::size_t i) {
-  return i < list.size() ? list[i] : std::nullopt;
-}
-
-Json configuration_json(const TradeoffReport& report, const tradeoff::Panel& panel, std::size_t i,
-                        const std::optional<tradeoff::ModelError>& model) {
+Json configuration_json(const TradeoffReport& report, const tradeoff::Panel& panel, std::size_t i) {
   const tradeoff::Outcome& outcome = panel.outcomes[i];
   return {{"name", outcome.name},
           {"scene", report.scene.name},
@@ -64,7 +58,7 @@ Json configuration_json(const TradeoffReport& report, const tradeoff::Panel& pan
           {"mib", outcome.device_mib},
           {"e_render", to_json(outcome.error, report.with_flip)},
           {"e_render_exact", to_json(outcome.exact)},
-          {"e_model", to_json(model, report.with_flip)},
+          {"e_model", to_json(outcome.model, report.with_flip)},
           {"on_front", tradeoff::is_on_front(panel, i)},
           {"stable", outcome.stable},
           {"judged", tradeoff::is_judged(outcome)},
@@ -72,8 +66,7 @@ Json configuration_json(const TradeoffReport& report, const tradeoff::Panel& pan
           {"warnings", tradeoff::warnings_about(outcome)}};
 }
 
-Json panel_json(const TradeoffReport& report, const tradeoff::Panel& panel,
-                const std::vector<std::optional<tradeoff::ModelError>>& model) {
+Json panel_json(const TradeoffReport& report, const tradeoff::Panel& panel) {
   Json settings = Json::array(), configurations = Json::array(), skipped = Json::array();
   for (std::size_t i = 0; i < panel.settings.size(); ++i) {
     Json values = Json::array();
@@ -87,13 +80,12 @@ Json panel_json(const TradeoffReport& report, const tradeoff::Panel& panel,
                         {"matters", panel.ranges[i].matters()}});
   }
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    configurations.push_back(configuration_json(report, panel, i, model_of(model, i)));
+    configurations.push_back(configuration_json(report, panel, i));
   for (const tradeoff::SkippedOutcome& each : panel.skipped)
     skipped.push_back({{"name", each.name}, {"reason", each.reason}});
   return {{"knobs", settings},
           {"configurations", configurations},
           {"front", panel.front},
-          {"hypervolume_decade_db", panel.hypervolume},
           {"aa_spread", panel.aa_spread},
           {"r1", to_json(panel.ideal, report.with_flip)},
           {"skipped", skipped},
@@ -141,8 +133,8 @@ Json to_json(const TradeoffReport& report) {
           {"limits",
            {{"least_psnr_db", report.limits.min_psnr_db},
             {"most_coverage_mismatch", report.limits.max_coverage_mismatch}}},
-          {"drawing", panel_json(report, study.drawing, report.drawing_model)},
-          {"antialiasing", panel_json(report, study.antialiasing, report.antialiasing_model)},
+          {"drawing", panel_json(report, study.drawing)},
+          {"antialiasing", panel_json(report, study.antialiasing)},
           {"r0", study.baseline ? Json(*study.baseline) : Json(nullptr)},
           {"subpixel_grid", to_json(study.grid, report.with_flip)},
           {"e_model", model_protocol_json(report)},

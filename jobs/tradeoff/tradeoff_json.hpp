@@ -8,7 +8,6 @@
 
 #include "base/json/json_text.hpp"
 #include "jobs/bench/bench_json.hpp"
-#include "jobs/tradeoff/model_errors.hpp"
 #include "jobs/tradeoff/panel.hpp"
 
 namespace tureen::results {
@@ -39,9 +38,7 @@ struct TradeoffReport {
   std::string samples;          // reference of the drawing panel: "device" or "exact"
   tradeoff::Limits limits;
   tradeoff::Study study;
-  /// E_model for the outcomes of the drawing and the antialiasing panel, in their order; nullopt if
-  /// not measured. Empty without a dataset.
-  std::vector<std::optional<tradeoff::ModelError>> drawing_model, antialiasing_model;
+  /// E_model; empty without a dataset.
   std::optional<ModelProtocol> model;
   std::optional<std::string> scene_written;  // path from --write
   std::vector<std::string> notes;            // on reading the scene, the cameras, the dataset

@@ -1,7 +1,10 @@
 // EGL without a surface: on a device (EGL_EXT_platform_device), for vendors' EGL, or on
-// EGL_MESA_platform_surfaceless. The few required declarations are here, so that the build needs no
-// EGL headers.
-#include <cstdint>
+// EGL_MESA_platform_surfaceless. The build needs EGL's headers (Debian: libegl-dev), not its
+// library.
+#define EGL_NO_PLATFORM_SPECIFIC_TYPES
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
 #include <cstring>
 #include <string>
 #include <vector>
@@ -14,45 +17,19 @@ namespace tureen::gl {
 
 namespace {
 
-using EGLDisplay = void*;
-using EGLConfig = void*;
-using EGLContext = void*;
-using EGLSurface = void*;
-using EGLDevice = void*;
-using EGLint = std::int32_t;
-using EGLBoolean = unsigned;
-
-// From the EGL registry (egl.xml).
-constexpr EGLint egl_none = 0x3038;
-constexpr EGLint egl_extensions = 0x3055;
-constexpr EGLint egl_surface_type = 0x3033;
-constexpr EGLint egl_renderable_type = 0x3040;
-constexpr EGLint egl_opengl_bit = 0x0008;
-constexpr EGLint egl_opengl_es3_bit = 0x0040;
-constexpr unsigned egl_opengl_api = 0x30A2;
-constexpr unsigned egl_opengl_es_api = 0x30A0;
-constexpr EGLint egl_context_major_version = 0x3098;
-constexpr EGLint egl_context_minor_version = 0x30FB;
-constexpr EGLint egl_context_profile_mask = 0x30FD;
-constexpr EGLint egl_context_reset_strategy = 0x31BD;
-constexpr EGLint egl_lose_context_on_reset = 0x31BF;
-constexpr EGLint egl_core_profile_bit = 0x0001;
-constexpr unsigned egl_platform_surfaceless = 0x31DD;
-constexpr unsigned egl_platform_device = 0x313F;
-
 struct Egl {
   SharedLibrary library{"libEGL.so.1"};
-  void* (*get_proc_address)(const char*);
-  const char* (*query_string)(EGLDisplay, EGLint);
-  EGLBoolean (*initialize)(EGLDisplay, EGLint*, EGLint*);
-  EGLBoolean (*bind_api)(unsigned);
-  EGLBoolean (*choose_config)(EGLDisplay, const EGLint*, EGLConfig*, EGLint, EGLint*);
-  EGLContext (*create_context)(EGLDisplay, EGLConfig, EGLContext, const EGLint*);
-  EGLBoolean (*destroy_context)(EGLDisplay, EGLContext);
-  EGLBoolean (*make_current)(EGLDisplay, EGLSurface, EGLSurface, EGLContext);
-  EGLContext (*get_current_context)();
-  EGLDisplay (*get_platform_display)(unsigned, void*, const EGLint*) = nullptr;
-  EGLBoolean (*query_devices)(EGLint, EGLDevice*, EGLint*) = nullptr;
+  Context::GetProcAddress get_proc_address;
+  decltype(&eglQueryString) query_string;
+  decltype(&eglInitialize) initialize;
+  decltype(&eglBindAPI) bind_api;
+  decltype(&eglChooseConfig) choose_config;
+  decltype(&eglCreateContext) create_context;
+  decltype(&eglDestroyContext) destroy_context;
+  decltype(&eglMakeCurrent) make_current;
+  decltype(&eglGetCurrentContext) get_current_context;
+  PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = nullptr;
+  PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;
 
   Egl() {
     library.load(get_proc_address, "eglGetProcAddress");
@@ -84,16 +61,17 @@ const Egl& egl() {
 std::vector<EGLDisplay> displays() {
   std::vector<EGLDisplay> found;
   if (!egl().get_platform_display) throw ContextError("libEGL.so.1 lacks eglGetPlatformDisplayEXT");
-  const char* extensions = egl().query_string(nullptr, egl_extensions);
+  const char* extensions = egl().query_string(nullptr, EGL_EXTENSIONS);
   if (extensions && std::strstr(extensions, "EGL_MESA_platform_surfaceless"))
-    found.push_back(egl().get_platform_display(egl_platform_surfaceless, nullptr, nullptr));
+    found.push_back(egl().get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
   if (extensions && std::strstr(extensions, "EGL_EXT_platform_device") && egl().query_devices) {
-    EGLDevice devices[16];
+    EGLDeviceEXT devices[16];
     EGLint count = 0;
     if (egl().query_devices(16, devices, &count)) {
       std::vector<EGLDisplay> on_devices;
       for (EGLint i = 0; i < count; ++i)
-        on_devices.push_back(egl().get_platform_display(egl_platform_device, devices[i], nullptr));
+        on_devices.push_back(
+            egl().get_platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
       found.insert(found.begin(), on_devices.begin(), on_devices.end());
     }
   }
@@ -127,19 +105,22 @@ class EglPlatform final : public Context::Platform {
 
 EGLContext create_on(EGLDisplay display, const ContextRequest& request, int major, int minor) {
   const bool es = request.api == Api::es;
-  const EGLint config_attributes[] = {egl_surface_type, 0, egl_renderable_type,
-                                      es ? egl_opengl_es3_bit : egl_opengl_bit, egl_none};
+  const EGLint config_attributes[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
+                                      es ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!egl().choose_config(display, config_attributes, &config, 1, &count) || count < 1)
     return nullptr;
-  std::vector<EGLint> attributes = {egl_context_major_version, major, egl_context_minor_version,
+  std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION,
                                     minor};
-  if (!es) attributes.insert(attributes.end(), {egl_context_profile_mask, egl_core_profile_bit});
+  if (!es)
+    attributes.insert(attributes.end(),
+                      {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT});
   // Requests reset notification for throw_if_lost(). EGL supports it from 1.5 on.
   std::vector<EGLint> told = attributes;
-  told.insert(told.end(), {egl_context_reset_strategy, egl_lose_context_on_reset, egl_none});
-  attributes.push_back(egl_none);
+  told.insert(told.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                           EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE});
+  attributes.push_back(EGL_NONE);
   const auto create = [&](const std::vector<EGLint>& wanted) {
     return egl().create_context(display, config, nullptr, wanted.data());
   };
@@ -161,7 +142,7 @@ std::unique_ptr<Context::Platform> create_egl(const ContextRequest& request) {
   else
     versions = {{4, 6}, {4, 5}, {4, 1}, {3, 3}};
 
-  const unsigned api = request.api == Api::es ? egl_opengl_es_api : egl_opengl_api;
+  const unsigned api = request.api == Api::es ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
   for (EGLDisplay display : displays()) {
     if (!display || !egl().initialize(display, nullptr, nullptr)) continue;
     if (!egl().bind_api(api)) continue;

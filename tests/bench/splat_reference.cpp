@@ -33,7 +33,6 @@ struct Rules {
   double min_alpha = 1.0 / 255;
   double max_alpha = 0.99;
   double min_width = 0;
-  double min_discriminant = 0;
 };
 
 struct View {
@@ -65,8 +64,7 @@ std::optional<Ellipse> ellipse_of(const oracle::EwaInView& splat, int scale, con
   const double det = (a * c - b * b) * scale * scale;
   const double xx = c / det, xy = -b / det, yy = a / det;
   const double mean = 0.5 * (xx + yy);
-  const double discriminant = 0.25 * (xx - yy) * (xx - yy) + xy * xy;
-  const double difference = std::sqrt(std::max(discriminant, rules.min_discriminant));
+  const double difference = std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
   const Ellipse ellipse{.center = splat.center() / double(scale),
                         // Half the angle of the deviation (2 xy, xx - yy).
                         .major = glm::dvec2(std::cos(0.5 * std::atan2(2 * xy, xx - yy)),
@@ -164,9 +162,6 @@ int run(int argc, char** argv) {
   app.add_option("--max-alpha", rules.max_alpha, "larger values are clamped");
   app.add_option("--min-width", rules.min_width,
                  "drop splats if 2 sqrt(2 v) is smaller, where v is the larger variance in px^2");
-  app.add_option("--min-discriminant", rules.min_discriminant,
-                 "lower bound of the squared half difference of the variances, in px^4; splats "
-                 "with a variance that is then not positive are dropped");
   CLI11_PARSE(app, argc, argv);
 
   const Scene scene = read_scene(in);

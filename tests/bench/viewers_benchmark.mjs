@@ -1,10 +1,10 @@
-// Tureen's viewer and five viewers of Gaussians from npm in Chromium, on both rasterisers that need no GPU: the times
+// Tureen's viewer and three viewers of Gaussians from npm in Chromium, on both rasterisers that need no GPU: the times
 // of frames while the camera moves, the time until the first whole image, and the PSNR of the images.
 //
 //   node viewers_benchmark.mjs OUT SCENE.ply [--views FILE] [--quick] [--only-first]
 //
 // --only-first: only the time until the first image, from more visits.
-// --views: the cameras, by default those of the guitar (web/bench/viewers/guitar_views.json); `./dev bench` uses
+// --views: the cameras, by default those of the guitar (tests/bench/viewers/guitar_views.json); `./dev bench` uses
 // SCENE.views.json if it exists. Writes the images to OUT, and rows as lines of JSON to standard output.
 
 import { execFileSync } from 'node:child_process';
@@ -16,7 +16,7 @@ import { serve } from '../../web/serve.mjs';
 import { built, launch, programs, source } from '../web/browser.mjs';
 import { writePng } from '../web/png.mjs';
 
-const sources = join(source, 'web/bench/viewers');
+const sources = join(source, 'tests/bench/viewers');
 const { positionals: [out, scene], values: { views: viewsFile, quick, 'only-first': onlyFirst } } = parseArgs({
   allowPositionals: true,
   options: {
@@ -43,13 +43,11 @@ const flags = ['--disable-gpu-watchdog', '--disable-background-timer-throttling'
 /** Deviations of the kernels from 3DGS, as options of splat_reference (tests/bench/splat_reference.cpp). */
 const faint = ['--min-alpha=0.00196', '--max-alpha=1'], cut = ['--cut=8', ...faint], clamped = [...cut, '--clamp-colors'];
 /** `rules`: those of the viewer's own kernel. */
-const allCases = [
+const cases = [
   { name: 'Tureen, raster', viewer: 'tureen', options: { blend: 'raster' }, rules: [] },
   { name: 'Tureen, tiles', viewer: 'tureen', options: { blend: 'tiles' }, rules: [] },
   { name: 'PlayCanvas', viewer: 'playcanvas', rules: ['--quarter-dilation', '--renormalised', '--cut=8', '--min-width=1', '--max-alpha=1'] },
   { name: 'Babylon.js', viewer: 'babylon', rules: ['--quarter-dilation', ...clamped] },
-  { name: 'GaussianSplats3D', viewer: 'gaussian_splats_3d', rules: ['--min-discriminant=0.1', ...clamped] },
-  { name: 'gsplat.js', viewer: 'gsplat', rules: ['--quarter-dilation', ...clamped] },
   { name: 'Spark', viewer: 'spark', rules: ['--mip', '--radial', ...clamped] },
   { name: 'Spark, as 3DGS', viewer: 'spark', options: { exact: true }, rules: ['--max-alpha=1'] },
 ];
@@ -74,7 +72,7 @@ function install() {
 }
 
 /** A folder with the page, the viewers and the scene. */
-async function makeSite(cases) {
+async function makeSite() {
   const folder = join(out, 'site');
   mkdirSync(folder, { recursive: true });
   await build({
@@ -145,7 +143,7 @@ async function visit(rasteriser, { viewer, options = {} }, address, wantsImages)
 }
 
 /** Visits of every case in turn (A B C A B C), so that load on the machine affects all of them. */
-async function measure(cases, address) {
+async function measure(address) {
   const visits = new Map();
   for (let round = 0; round < rounds; ++round)
     for (const rasteriser of ['llvmpipe', 'swiftshader'])
@@ -191,19 +189,9 @@ function rows({ rasteriser, each, done }, references) {
 }
 
 install();
-// An older viewer draws its only way, whatever the option.
-const hasTiles = /\bblend\b/.test(readFileSync(join(built, 'site/viewer.js'), 'utf8'));
-const cases = allCases.filter(({ options }) => hasTiles || options?.blend !== 'tiles');
-const server = await serve(await makeSite(cases), {
-  first(_, response) {
-    // GaussianSplats3D shares memory with its worker.
-    response.setHeader('Cross-Origin-Opener-Policy', 'same-origin');
-    response.setHeader('Cross-Origin-Embedder-Policy', 'require-corp');
-    return false;
-  },
-});
+const server = await serve(await makeSite());
 try {
-  const measured = await measure(cases, `${server.address}viewers/`);
+  const measured = await measure(`${server.address}viewers/`);
   const drawn = new Map();
   const image = (view, rules) => {
     const key = [view, ...rules].join(' ');

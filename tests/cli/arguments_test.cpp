@@ -37,7 +37,7 @@ struct Program {
     draw.add_flag("--fast", fast, "");
     draw.add_flag(
         "--loud", [this] { log.emplace_back("loud"); }, "");
-    add_choice<int>(draw, "--side", side, {{"front", 1}, {"back", 2}}, "", {{"top", "use front"}});
+    add_choice<int>(draw, "--side", side, {{"front", 1}, {"back", 2}}, "");
     draw.does([] { return ExitCode::check_failed; });
     program.add_command("pass", "").does_with_rest([this](const auto& arguments) {
       rest = arguments;
@@ -131,8 +131,6 @@ TEST(Arguments, UnknownNamesAreRefusedWithTheNearest) {
   EXPECT_EQ(program.line.chosen_command(), "draw");
   EXPECT_THAT(program.refusal({"draw", "a.glb", "--side", "bck"}),
               ErrorAt("", "--side", "bck", "front", "back"));
-  EXPECT_THAT(program.refusal({"draw", "a.glb", "--side", "top"}),
-              ErrorAt("", "--side", "top", "use front"));
 }
 
 TEST(Arguments, HelpAndTextsArePrintedInsteadOfTheCommand) {

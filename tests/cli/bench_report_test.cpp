@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/bench/bench_comparison.hpp"
 #include "cli/bench/bench_reports.hpp"
 #include "cli/measuring/bench_words.hpp"
 #include "jobs/bench/bench_json.hpp"

@@ -132,8 +132,7 @@ TEST(Messages, NameOptionsAndCommandsThatExist) {
                              "trainer", "jobs", "cli", "viewer"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / module)) {
       const std::string extension = entry.path().extension().string();
-      if ((extension != ".cpp" && extension != ".hpp") || entry.path().stem() == "retired")
-        continue;  // retired: the options of earlier versions
+      if (extension != ".cpp" && extension != ".hpp") continue;
       if (entry.path().filename() == "colmap_stages.cpp") continue;  // the options of COLMAP
       for (const std::string& literal : literals_of(text_of(entry.path()))) {
         for (const std::string& option : matches(literal, option_pattern, 0)) {

@@ -36,24 +36,6 @@ TEST(DrawingOptions, TheShadingStageIsFragmentUnlessComputeIsAskedFor) {
   EXPECT_THROW(parsed({"--shading", "vertex"}), UsageError);
 }
 
-TEST(DrawingOptions, RemovedValuesAreRefusedWithAHint) {
-  const auto hint = [](const char* option, const char* values) {
-    try {
-      parsed({option, values});
-      return std::string("accepted");
-    } catch (const UsageError& error) {
-      EXPECT_THAT(error.what(), test::Names(option));
-      return error.hint();
-    }
-  };
-  EXPECT_THAT(hint("--shading", "measured"), test::Names("fragment"));
-  const std::string rims = hint("--keep", "transparent-rims");
-  EXPECT_NE(rims, "");
-  // A mistyped value gets the nearest value as a hint, so the hints differ.
-  EXPECT_EQ(hint("--keep", "base-color"), rims);
-  EXPECT_EQ(hint("--keep", "alpha-test,texel-table"), rims);
-}
-
 TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {
   EXPECT_THAT(test::error_of<UsageError>([] {
                 parsed({"--keep", "alpha-tset"});

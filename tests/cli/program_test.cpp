@@ -35,19 +35,6 @@ TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
   EXPECT_THAT(run({"--version"}).out, Names("tureen"));
 }
 
-TEST_F(Program, WhatIsGoneIsRefusedWithItsReplacement) {
-  const auto expect = [&](const std::vector<std::string>& arguments, const char* replacement) {
-    const ChildResult result = run(arguments);
-    EXPECT_EQ(result.exit_code, 2) << arguments[0];
-    EXPECT_THAT(result.err, Names(replacement)) << arguments[0];
-  };
-  expect({"bench", "scene.off", "--csv", "a.csv"}, "-o FOLDER");
-  expect({"bench", "scene.off", "--plots=plots"}, "-o FOLDER");
-  expect({"bench", "--import", "a.json", "--import", "b.json"}, "tureen report FILE..");
-  expect({"tradeoff", "--import", "a.json", "--import", "b.json"}, "tureen report FILE..");
-  expect({"plot", "a.jsonl", "-o", "a.svg"}, "tureen report LOG..");
-}
-
 TEST_F(Program, HelpThatCannotBeWrittenIsFive) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   for (const char* words : {"--help", "--version", "render --help"}) {

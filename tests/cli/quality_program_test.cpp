@@ -8,8 +8,6 @@
 namespace tureen::test {
 namespace quality_program_test {
 
-using ::testing::HasSubstr;
-
 const std::filesystem::path example =
     std::filesystem::path(TUREEN_SOURCE_DIR) / "examples/soup.glb";
 
@@ -80,22 +78,6 @@ TEST_F(QualityProgram, ConvertAppliesEdits) {
   EXPECT_EQ(run({"convert", "face.off", "face.glb", "--lattice-level", "1"}).exit_code, 2);
   EXPECT_FALSE(exists("face.glb"));
   EXPECT_EQ(run({"convert", example.string(), "worse.glb", "--lattice-level", "8"}).exit_code, 2);
-}
-
-// Options of earlier versions, and their replacements.
-TEST_F(QualityProgram, OptionsThatAreGoneNameTheirReplacement) {
-  const std::string scene = example.string();
-  const std::vector<std::vector<std::string>> gone = {
-      {"render", scene, "--preset", "faithful"},
-      {"eval", scene, "photos", "--preset", "scene"},
-      {"bench", scene, "--preset", "faithful"},
-      {"tradeoff", scene, "--write-preset", "fast.glb"},
-      {"tradeoff", scene, "--write-preset"}};
-  for (const std::vector<std::string>& arguments : gone) {
-    const ChildResult result = run(arguments);
-    EXPECT_EQ(result.exit_code, 2) << arguments[0];
-    EXPECT_THAT(result.err, HasSubstr("--write")) << arguments[0];
-  }
 }
 
 }  // namespace quality_program_test

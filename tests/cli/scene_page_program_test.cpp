@@ -114,7 +114,6 @@ TEST_F(ThoroughScenePage, MayBeCompressed) {
   EXPECT_THAT(convert("part.glb", "compressed.html", true).err, Names("--compress"));
   EXPECT_TRUE(scene_in("compressed.html", part_name) == text_of("compressed.glb"));
   EXPECT_FALSE(exists("compressed.html.glb"));
-  EXPECT_FALSE(exists("compressed.html.glb.export"));
   // A compressed scene stays compressed.
   convert("compressed.glb", "again.html", false);
   EXPECT_TRUE(scene_in("again.html", part_name) == text_of("compressed.glb"));

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "camera/navigation.hpp"
+#include "jobs/bench/copy_ceiling.hpp"
 #include "runtime/gl/timer_query.hpp"
-#include "runtime/passes/copy_ceiling.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"

@@ -1,14 +1,16 @@
-// Error against time: Pareto fronts, their area, the choice, and the measured configurations.
+// Error against time: Pareto fronts, the choice, and the measured configurations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <initializer_list>
 #include <set>
+#include <tuple>
 
-#include "jobs/tradeoff/experiment.hpp"
+#include "jobs/tradeoff/panel.hpp"
 #include "jobs/tradeoff/pareto.hpp"
-#include "jobs/tradeoff/quality_settings.hpp"
+#include "jobs/tradeoff/references.hpp"
+#include "jobs/tradeoff/settings.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random.hpp"
 
@@ -118,40 +120,6 @@ TEST(ParetoFront, WithTiesItRisesAndCoversTheRest) {
   }
 }
 
-TEST(Hypervolume, OfOneAndTwoPoints) {
-  // A tenth of the corner's time: one decade, times 30 dB.
-  EXPECT_DOUBLE_EQ(hypervolume(std::vector<Point>{{.ms = 10, .psnr_db = 50}}), 30);
-  EXPECT_DOUBLE_EQ(
-      hypervolume(std::vector<Point>{{.ms = 10, .psnr_db = 50}, {.ms = 1, .psnr_db = 30}}),
-      1 * 30 + 1 * 10);
-  // Points beyond the corner add nothing.
-  EXPECT_EQ(hypervolume(std::vector<Point>{{.ms = 100, .psnr_db = 50}, {.ms = 1, .psnr_db = 20}}),
-            0);
-  EXPECT_EQ(hypervolume(std::vector<Point>{}), 0);
-}
-
-TEST(Hypervolume, IsTheAreaThatDartsFind) {
-  const std::uint64_t seed = 20260603;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  test::Random random(seed);
-  for (int round = 0; round < 10; ++round) {
-    const std::vector<Point> points = random_points(random, 12, false);
-    // Random samples over three decades and 80 dB, which contain the whole area.
-    const int darts = 20000;
-    int hits = 0;
-    for (int dart = 0; dart < darts; ++dart) {
-      const double ms = std::pow(10, random.uniform(-1, 2)), psnr = random.uniform(20, 100);
-      hits += std::any_of(points.begin(), points.end(), [&](const Point& point) {
-        return point.ms <= ms && point.psnr_db >= psnr;
-      });
-    }
-    const double p = double(hits) / darts;
-    // Five standard errors of the samples' mean, plus one sample for p = 0.
-    const double allowed = 240 * (5 * std::sqrt(p * (1 - p) / darts) + 1.0 / darts);
-    EXPECT_NEAR(hypervolume(points), 240 * p, allowed) << "round " << round;
-  }
-}
-
 TEST(TheChoice, IsTheCheapestWithinTheLimits) {
   const std::vector<Point> points{{.ms = 9, .psnr_db = 90},
                                   {.ms = 1, .psnr_db = 49.9},
@@ -171,131 +139,133 @@ TEST(TheChoice, PrefersTheSimplerOfTheEquallyFast) {
   EXPECT_EQ(cheapest_within(points), 2u);
 }
 
-std::optional<std::string> nothing_refused(const Configuration&) { return {}; }
-
-TEST(Star, ChangesOneSettingAtATime) {
-  const std::vector<int> value_counts{3, 1, 2};
-  const Design design = star(value_counts, nothing_refused);
-  EXPECT_THAT(design.configurations, ElementsAre(Configuration{0, 0, 0}, Configuration{1, 0, 0},
-                                                 Configuration{2, 0, 0}, Configuration{0, 0, 1}));
-  EXPECT_THAT(design.skipped, IsEmpty());
+/// Settings with these numbers of values, which change nothing.
+std::vector<QualitySetting> settings_with(std::initializer_list<int> counts) {
+  std::vector<QualitySetting> settings;
+  for (const int count : counts)
+    settings.push_back({"key", "title", std::vector<SettingValue>(std::size_t(count))});
+  return settings;
 }
 
-TEST(Star, SaysWhyAConfigurationIsSkipped) {
-  const std::vector<int> value_counts{3, 2};
-  const Design design =
-      star(value_counts, [](const Configuration& c) -> std::optional<std::string> {
-        if (c[0] == 2) return "the device has no such thing";
-        return {};
-      });
-  EXPECT_THAT(design.configurations, SizeIs(3));
-  ASSERT_THAT(design.skipped, SizeIs(1));
-  EXPECT_EQ(design.skipped[0].configuration, (Configuration{2, 0}));
-  EXPECT_EQ(design.skipped[0].reason, "the device has no such thing");
+TEST(SingleChanges, ChangeOneSettingAtATime) {
+  EXPECT_THAT(single_changes(settings_with({3, 1, 2})),
+              ElementsAre(Configuration{0, 0, 0}, Configuration{1, 0, 0}, Configuration{2, 0, 0},
+                          Configuration{0, 0, 1}));
+}
+
+TEST(AConfiguration, AppliesTheChangesOfItsValues) {
+  const std::vector<QualitySetting> settings{
+      {"a", "a", {{}, {.change = {.edits = {.keeps_face = {1, 0}, .lattice_level = 2}}}}},
+      {"b", "b", {{}, {.change = {.edits = {.color = Edits::Color::base, .byte_texels = true}}}}},
+      {"c", "c", {{}, {.change = {.splat_edits = {.keeps_splat = {0}, .opaque_windows = true}}}}},
+      {"d",
+       "d",
+       {{},
+        {.change = {.quality = {.resolution_scale = 0.5,
+                                .supersampling = 3,
+                                .splat_order = Quality::SplatOrder::exact}}}}}};
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    Configuration configuration(4, 0);
+    configuration[i] = 1;
+    const Applied applied = applied_by(settings, configuration),
+                  &change = settings[i].values[1].change;
+    EXPECT_EQ(applied.edits, change.edits) << i;
+    EXPECT_EQ(applied.splat_edits, change.splat_edits) << i;
+    EXPECT_EQ(applied.quality, change.quality) << i;
+  }
+  const Applied all = applied_by(settings, {1, 1, 1, 1});
+  EXPECT_EQ(all.edits.lattice_level, 2);
+  EXPECT_EQ(all.edits.color, Edits::Color::base);
+  EXPECT_TRUE(all.splat_edits.opaque_windows);
+  EXPECT_EQ(all.quality.supersampling, 3);
+}
+
+Panel measured(const std::vector<QualitySetting>& settings,
+               std::initializer_list<std::tuple<Configuration, double, double>> outcomes) {
+  Panel panel;
+  panel.settings = settings;
+  for (const auto& [configuration, ms, psnr_db] : outcomes) {
+    Outcome& outcome = panel.outcomes.emplace_back();
+    outcome.configuration = configuration;
+    outcome.ms.min_of_medians = ms;
+    outcome.error.psnr_db = psnr_db;
+  }
+  return panel;
 }
 
 TEST(SettingRanges, CompareEachSettingWithTheDefaults) {
-  const std::vector<Configuration> star{{0, 0}, {1, 0}, {2, 0}, {0, 1}};
-  const double none = std::nan("");
-  const std::vector<Measured> measured{{10, 60}, {8, 55}, {12, 58}, {none, 45}};
-  const std::vector<SettingRange> ranges = setting_ranges(star, measured, 2);
-  EXPECT_DOUBLE_EQ(ranges[0].time_ratio, 1.5);
-  EXPECT_DOUBLE_EQ(ranges[0].psnr_db, 5);
-  EXPECT_TRUE(ranges[0].matters());
-  // A setting without a time does not matter, whatever its error.
-  EXPECT_DOUBLE_EQ(ranges[1].time_ratio, 1);
-  EXPECT_DOUBLE_EQ(ranges[1].psnr_db, 15);
-  EXPECT_FALSE(ranges[1].matters());
+  Panel panel = measured(settings_with({3, 2}), {{{0, 0}, 10, 60},
+                                                 {{1, 0}, 8, 55},
+                                                 {{2, 0}, 12, 58},
+                                                 {{0, 1}, 10, 45},
+                                                 {{2, 1}, 1, 1},  // a combination
+                                                 {{1, 0}, 100, 1}});
+  panel.outcomes.back().factor = Factor::generic;
+  find_ranges(panel);
+  ASSERT_THAT(panel.ranges, SizeIs(2));
+  EXPECT_EQ(panel.ranges[1].setting, 1u);
+  EXPECT_DOUBLE_EQ(panel.ranges[0].time_ratio, 1.5);
+  EXPECT_DOUBLE_EQ(panel.ranges[0].psnr_db, 5);
+  EXPECT_TRUE(panel.ranges[0].matters());
+  // A setting that takes no time does not matter, whatever its error.
+  EXPECT_DOUBLE_EQ(panel.ranges[1].time_ratio, 1);
+  EXPECT_DOUBLE_EQ(panel.ranges[1].psnr_db, 15);
+  EXPECT_FALSE(panel.ranges[1].matters());
 }
 
 TEST(SettingRanges, PassOverErrorsThatMeanNothing) {
-  const std::vector<Configuration> star{{0}, {1}, {2}};
-  const std::vector<Measured> measured{{10, 36}, {20, 45}, {40, std::nan("")}};
-  const SettingRange range = setting_ranges(star, measured, 1).front();
-  EXPECT_DOUBLE_EQ(range.psnr_db, 9);
-  EXPECT_DOUBLE_EQ(range.time_ratio, 4);
+  Panel panel = measured(settings_with({3}), {{{0}, 10, 36}, {{1}, 20, 45}, {{2}, 40, 99}});
+  panel.outcomes.back().applied.quality.supersampling = antialiased_samples;
+  find_ranges(panel);
+  EXPECT_DOUBLE_EQ(panel.ranges[0].psnr_db, 9);
+  EXPECT_DOUBLE_EQ(panel.ranges[0].time_ratio, 4);
 }
 
-TEST(Factorial, CombinesTheSettingsThatMatter) {
-  const std::vector<int> value_counts{3, 2, 2};
-  const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.02, 9}, {2, 1.2, 3}};
-  const Design design = factorial(value_counts, ranges, nothing_refused);
-  EXPECT_THAT(design.configurations, ElementsAre(Configuration{1, 0, 1}, Configuration{2, 0, 1}));
-  EXPECT_EQ(design.reduction.mattering, 2u);
-  EXPECT_EQ(design.reduction.combined, 2u);
-  EXPECT_THAT(describe(design.reduction, {}), IsEmpty());
+Panel with_ranges(std::initializer_list<int> counts, std::vector<SettingRange> ranges) {
+  Panel panel;
+  panel.settings = settings_with(counts);
+  panel.ranges = std::move(ranges);
+  return panel;
 }
 
-TEST(Factorial, WithTheStarIsEveryCombinationOnce) {
-  const std::vector<int> value_counts{3, 4, 2, 3};
-  std::vector<SettingRange> ranges;
-  for (std::size_t setting = 0; setting < value_counts.size(); ++setting)
-    ranges.push_back({setting, 2, 2});
-  const Design first = star(value_counts, nothing_refused);
-  const Design rest =
-      factorial(value_counts, ranges, nothing_refused, {.max_configurations = 1000});
-  std::set<Configuration> all(first.configurations.begin(), first.configurations.end());
-  for (const Configuration& c : rest.configurations) EXPECT_TRUE(all.insert(c).second);
+TEST(Combinations, AreOfTheSettingsThatMatter) {
+  Panel panel = with_ranges({3, 2, 2}, {{0, 1.5, 5}, {1, 1.02, 9}, {2, 1.2, 3}});
+  EXPECT_THAT(combinations_of(panel, 64),
+              testing::UnorderedElementsAre(Configuration{1, 0, 1}, Configuration{2, 0, 1}));
+  EXPECT_THAT(panel.notes, IsEmpty());
+}
+
+TEST(Combinations, WithTheSingleChangesAreAllOnce) {
+  Panel panel = with_ranges({3, 4, 2, 3}, {{0, 2, 2}, {1, 2, 2}, {2, 2, 2}, {3, 2, 2}});
+  const std::vector<Configuration> first = single_changes(panel.settings);
+  std::set<Configuration> all(first.begin(), first.end());
+  for (const Configuration& c : combinations_of(panel, 1000)) EXPECT_TRUE(all.insert(c).second);
   EXPECT_EQ(all.size(), 3u * 4 * 2 * 3);
 }
 
-TEST(Factorial, ReportsWhatItsLimitsOmit) {
-  const std::vector<int> value_counts{3, 3, 3, 3, 3};
+TEST(Combinations, ReportWhatTheirLimitsOmit) {
   std::vector<SettingRange> ranges;
   for (std::size_t setting = 0; setting < 5; ++setting)
     ranges.push_back({setting, 1.1 + 0.1 * double(setting), 2});
-  // Four settings with three values have 81 combinations; the star contains 9.
-  const FactorialLimits limits{.max_configurations = 71};
-  const Design design = factorial(value_counts, ranges, nothing_refused, limits);
-  EXPECT_EQ(design.reduction.mattering, 5u);
-  EXPECT_EQ(design.reduction.wanted, 4u);
-  EXPECT_EQ(design.reduction.configurations, 72u);
-  EXPECT_EQ(design.reduction.combined, 3u);
-  EXPECT_THAT(describe(design.reduction, limits), ElementsAre(Names(5, 4), Names(4, 72, 71, 3)));
+  Panel panel = with_ranges({3, 3, 3, 3, 3}, ranges);
+  // Four settings with three values have 81 combinations; 9 are single changes.
+  EXPECT_THAT(combinations_of(panel, 72), SizeIs(72));
+  EXPECT_THAT(panel.notes, ElementsAre(Names(5, 4, 72)));
   // The three settings with the largest effect remain: 27 combinations minus 7.
-  EXPECT_THAT(design.configurations, SizeIs(20));
-  for (const Configuration& c : design.configurations) EXPECT_EQ(c[0] + c[1], 0);
-  EXPECT_THAT(
-      factorial(value_counts, ranges, nothing_refused, {.max_configurations = 72}).configurations,
-      SizeIs(72));
-  EXPECT_THAT(
-      factorial(value_counts, ranges, nothing_refused, {.max_configurations = 0}).configurations,
-      IsEmpty());
+  const std::vector<Configuration> fewer = combinations_of(panel, 71);
+  EXPECT_THAT(fewer, SizeIs(20));
+  for (const Configuration& c : fewer) EXPECT_EQ(c[0] + c[1], 0);
+  EXPECT_THAT(panel.notes, ElementsAre(testing::_, Names(5, 3, 71)));
+  EXPECT_THAT(combinations_of(panel, 0), IsEmpty());
 }
 
-TEST(Factorial, SkipsWhatCannotBeDrawn) {
-  const std::vector<int> value_counts{2, 2};
-  const std::vector<SettingRange> ranges{{0, 2, 2}, {1, 2, 2}};
-  const Design design = factorial(value_counts, ranges, [](const Configuration&) {
-    return std::optional<std::string>("not together");
-  });
-  EXPECT_THAT(design.configurations, IsEmpty());
-  ASSERT_THAT(design.skipped, SizeIs(1));
-  EXPECT_EQ(design.skipped[0].reason, "not together");
-}
-
-TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
-  const std::vector<int> value_counts{2, 3, 2};
-  const auto refuse = [](const Configuration& c) -> std::optional<std::string> {
-    if (c[1] != 0 && c[2] != 0) return "fewer and more";
-    return {};
-  };
-  // Of the 7 combinations, 4 change both exclusive settings.
-  const std::vector<Configuration> drawn{{1, 0, 1}, {1, 1, 0}, {1, 2, 0}};
-  for (const double last_ratio : {1.1, 1.9}) {  // the third setting is ranked last, then first
-    const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, last_ratio, 5}};
-    const Design design = factorial(value_counts, ranges, refuse, {.max_configurations = 3});
-    EXPECT_THAT(design.configurations, testing::UnorderedElementsAreArray(drawn));
-    EXPECT_EQ(design.reduction.combined, 3u);
-    std::vector<Configuration> skipped;
-    for (const Skipped& each : design.skipped) skipped.push_back(each.configuration);
-    EXPECT_THAT(skipped,
-                testing::UnorderedElementsAre(Configuration{0, 1, 1}, Configuration{0, 2, 1}));
-  }
-  const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, 1.3, 5}};
-  const Design fewer = factorial(value_counts, ranges, refuse, {.max_configurations = 2});
-  EXPECT_EQ(fewer.reduction.configurations, 3u);
-  EXPECT_EQ(fewer.reduction.combined, 2u);
+TEST(Combinations, OmitWhatCannotBeDrawn) {
+  const std::vector<QualitySetting> settings = antialiasing_settings(4, true);
+  const std::vector<std::size_t> all{0, 1, 2};
+  // Scale and samples exclude each other: (2 + 2) * 2 combinations with the order remain.
+  const std::vector<Configuration> drawn = combinations(settings, all);
+  EXPECT_THAT(drawn, SizeIs(8));
+  for (const Configuration& c : drawn) EXPECT_TRUE(c[0] == 0 || c[1] == 0);
 }
 
 }  // namespace tradeoff_test

@@ -63,6 +63,15 @@ const onGrid = (copies, maxBytes) => () => visit(`bench.html?scenes=soup.glb&gri
 test('three models on a grid', onGrid(3, 32e6));
 thorough('fourteen models fit on a grid', onGrid(14, 64e6));
 
+test('the form measures what its fields name', () => visit('bench.html?set=hemisphere:1&size=16x16&rounds=1&published=0', async (page) => {
+  await page.waitForFunction(() => document.getElementById('scenes').value === 'soup.glb', null, often);  // the gallery's
+  await page.fill('#set', 'orbit:1');
+  await page.click('button:has-text("Measure")');
+  await page.waitForURL(/run=1/);
+  const { scenes: [{ configurations, measurements: [{ camera_set, width }] }] } = await measured(page);
+  assert.deepEqual([configurations.length, camera_set, width], [1, 'orbit:1', 16]);
+}));
+
 test('a missing scene is reported', () => visit(`bench.html?scenes=nowhere.glb&${small}`, async (page) => {
   await page.locator('[role=alert]', { hasText: 'nowhere.glb' }).waitFor();
 }, { expected: [/404/] }));

@@ -8,7 +8,7 @@ import type { FilesToLoad, PreparedScene, SceneDescription } from '../viewer/loa
 import { isShortage, Loading } from '../viewer/loading.js';
 import { openFiles, readWith } from '../viewer/scene_files.js';
 import { ViewerError, type Assets, type LoadProgress } from '../viewer/types.js';
-import { setName, type CameraChoice, type Size } from './request.js';
+import { setName, type CameraSet, type Size } from './request.js';
 
 export interface Device {
   readonly renderer: string;
@@ -193,9 +193,8 @@ export class BenchEngine {
     return readWith<Pipeline>(this.engine, 'bench_add_published', await openFiles(files, name), { scene });
   }
 
-  setCameras(scene: number, cameras: CameraChoice, { width, height }: Size): void {
-    const from = cameras.kind === 'file' ? { file: cameras.text, count: cameras.count } : { set: setName(cameras) };
-    this.engine.call('bench_cameras', { scene, ...from, width, height });
+  setCameras(scene: number, cameras: CameraSet, { width, height }: Size): void {
+    this.engine.call('bench_cameras', { scene, set: setName(cameras), width, height });
   }
 
   /** Draws frames, with pauses only between steps. Rejects with ViewerError or the signal's reason. */

@@ -1,4 +1,4 @@
-// The page's downloads: JSON for `tureen report` (docs/json.md), and CSV for spreadsheets.
+// The page's download: JSON for `tureen report` (docs/json.md).
 
 import { clockSentence } from './clock.js';
 import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';
@@ -40,22 +40,4 @@ export function benchFile(device: Device, scenes: readonly MeasuredScene[]) {
     protocol: { clock: clockSentence(minSampleMs()) },
     scenes: scenes.map(sceneInFile),
   };
-}
-
-const quoted = (text: string) => (/[,"\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-
-/** One line per configuration and size, with the column names of `tureen bench`. */
-export function benchCsv(file: BenchFile, scenes: readonly MeasuredScene[]): string {
-  const rows = scenes.flatMap((scene) => scene.measurements.flatMap(({ cameraSet, width, height, result }) =>
-    result.entrants.map(({ name, stable, frame_ms, pixels_hash, statistics: ms }) => ({
-      configuration: name, camera_set: cameraSet, width, height,
-      views: frame_ms[0]!.length, rounds: frame_ms.length,
-      mean_ms: ms.mean, median_ms: ms.median, p95_ms: ms.p95, p99_ms: ms.p99, min_of_medians_ms: ms.min_of_medians,
-      spread: ms.spread, aa_spread: result.aa_spread, low_1_percent_fps: ms.low_1_percent_fps, stable, pixels_hash,
-      device_bytes: scene.configurations.find((one) => one.name === name)!.device_bytes, wasm_bytes: scene.wasmBytes,
-      scene: scene.name, triangles: scene.triangles, renderer: file.device.renderer,
-      commit: file.page.commit, date: file.date,
-    }))));
-  const line = (values: readonly unknown[]) => values.map((value) => quoted(String(value))).join(',') + '\n';
-  return line(Object.keys(rows[0] ?? {})) + rows.map((row) => line(Object.values(row))).join('');
 }

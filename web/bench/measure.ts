@@ -4,11 +4,11 @@
 import { nameOf, urlOf } from '../viewer/addresses.js';
 import { download } from '../viewer/download.js';
 import { lowerLevelSentence } from '../viewer/scene_summary.js';
-import { ViewerError, type SceneSource } from '../viewer/types.js';
+import { ViewerError } from '../viewer/types.js';
 import type { FilesToLoad } from '../viewer/loader_messages.js';
 import type { AddedScene, BenchEngine, Cell, BenchCase, Pipeline, RunResult } from './bench_engine.js';
 import { clockStepMs } from './clock.js';
-import { setName, sizeText, type BenchRequest, type Size } from './request.js';
+import { setName, sizeText, type Address, type BenchRequest, type Size } from './request.js';
 
 export interface Configuration extends Pipeline {
   readonly name: string;
@@ -23,7 +23,6 @@ export interface Measurement extends Size {
 /** The results of one scene, or of one grid of scenes. */
 export interface MeasuredScene {
   readonly name: string;
-  /** The address, or the name of the file. */
   readonly source: string;
   readonly triangles: number;
   readonly appearance: string;
@@ -67,7 +66,7 @@ export class Measuring {
   /** Rejects with ViewerError and the signal's reason. */
   async run(): Promise<MeasuredScene[]> {
     const { scenes, grid, copies } = this.request;
-    const frames = grid ? [scenes.flatMap((scene) => Array<SceneSource>(copies).fill(scene))] : scenes.map((scene) => [scene]);
+    const frames = grid ? [scenes.flatMap((scene) => Array<Address>(copies).fill(scene))] : scenes.map((scene) => [scene]);
     const measured: MeasuredScene[] = [];
     for (const [index, sources] of frames.entries()) {
       const tell: Tell = (what, fraction) => this.tell(what, (index + fraction) / frames.length);
@@ -77,7 +76,7 @@ export class Measuring {
   }
 
   /** Measures the scenes of one frame. */
-  private async measureFrame(sources: readonly SceneSource[], tell: Tell): Promise<MeasuredScene> {
+  private async measureFrame(sources: readonly Address[], tell: Tell): Promise<MeasuredScene> {
     const { bench, request } = this;
     const hidden = new Hidden();
     bench.clear();
@@ -112,10 +111,8 @@ export class Measuring {
     };
   }
 
-  private async files(source: SceneSource, tell: Tell): Promise<FilesToLoad> {
-    const name = nameOf(source);
-    if ('files' in source) return { files: source.files, name };
-    const url = urlOf(source);
+  private async files(source: Address, tell: Tell): Promise<FilesToLoad> {
+    const name = nameOf(source), url = urlOf(source);
     let files = this.fetched.get(url);
     if (!files) {
       tell('downloading', 0);
@@ -148,11 +145,11 @@ export class Measuring {
     ]));
   }
 
-  private described(sources: readonly SceneSource[], added: readonly AddedScene[]) {
+  private described(sources: readonly Address[], added: readonly AddedScene[]) {
     const about = added.map(({ description }) => description);
     return {
       name: this.request.grid ? `${added.length} on a grid: ${distinct(about.map(({ name }) => name)).join(', ')}` : about[0]!.name,
-      source: distinct(sources.map((source) => ('url' in source ? source.url : nameOf(source)))).join(', '),
+      source: distinct(sources.map(({ url }) => url)).join(', '),
       triangles: sum(about.map(({ triangles }) => triangles)),
       appearance: distinct(about.map(({ appearance }) => appearance)).join(', '),
       readMs: sum(added.map(({ readMs }) => readMs)),

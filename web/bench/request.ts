@@ -1,17 +1,16 @@
-// A request: the settings of a measurement, in the form and in the page's address.
+// A request: the settings of a measurement. The page's address has them; the form writes such addresses.
 //
 //   bench.html?scenes=soup.glb,models/fox.glb&set=hemisphere:8&size=1280x720,1920x1080&rounds=5&published=1&run=1
 //   bench.html?scenes=soup.glb&grid=1&copies=14&run=1
 
-import { queryText } from '../viewer/addresses.js';
-import { ViewerError, type SceneSource } from '../viewer/types.js';
+import { ViewerError } from '../viewer/types.js';
 
 export interface Size {
   readonly width: number;
   readonly height: number;
 }
 
-/** A camera set that an address can contain. `recorded`: the scene's own cameras. */
+/** `recorded`: the scene's own cameras. */
 export interface CameraSet {
   readonly kind: 'hemisphere' | 'orbit' | 'recorded';
   readonly count: number;
@@ -19,13 +18,15 @@ export interface CameraSet {
 
 const isSet = (kind: string): kind is CameraSet['kind'] => ['hemisphere', 'orbit', 'recorded'].includes(kind);
 
-/** The cameras of a measurement. A camera path gives `count` cameras evenly in time; a list gives its
- *  first ones. */
-export type CameraChoice =
-  | CameraSet
-  | { readonly kind: 'file'; readonly count: number; readonly name: string; readonly text: string };
+/** The address of a scene. */
+export interface Address {
+  readonly url: string;
+}
 
-interface CommonRequest {
+export interface BenchRequest {
+  /** May contain a scene more than once. */
+  readonly scenes: readonly Address[];
+  readonly cameras: CameraSet;
   /** Whether all scenes are in one frame instead of one after the other. */
   readonly grid: boolean;
   /** Number of copies of each scene on a grid. */
@@ -35,29 +36,17 @@ interface CommonRequest {
   readonly rounds: number;
   /** Whether the baseline is measured too, in alternation with ours; never on a grid. */
   readonly published: boolean;
-}
-
-export interface BenchRequest extends CommonRequest {
-  /** May contain a scene more than once. */
-  readonly scenes: readonly SceneSource[];
-  readonly cameras: CameraChoice;
-}
-
-/** The initial values of the form, from the page's address or its defaults. */
-export interface AddressRequest extends CommonRequest {
-  readonly scenes: readonly string[];
-  readonly set: CameraSet;
   /** Whether the measurement starts at once. */
   readonly run: boolean;
 }
 
 /** Upper limits. Larger values would take hours if the processor draws. */
-export const most = { views: 1000, rounds: 1000, copies: 100, side: 16384 } as const;
+const most = { views: 1000, rounds: 1000, copies: 100, side: 16384 } as const;
 
 const usage = (sentence: string) => new ViewerError(sentence, 'usage');
 
 /** A whole number from 1 to `limit`. Throws ViewerError. */
-export function countOf(text: string, what: string, limit: number): number {
+function countOf(text: string, what: string, limit: number): number {
   const value = Number(text);
   if (!/^\d+$/.test(text.trim()) || value < 1 || value > limit)
     throw usage(`“${text}” is not a number of ${what}: enter a number from 1 to ${limit}.`);
@@ -65,7 +54,7 @@ export function countOf(text: string, what: string, limit: number): number {
 }
 
 /** The sizes in a text like "1280x720, 1920x1080". Throws ViewerError. */
-export function sizesOf(text: string): Size[] {
+function sizesOf(text: string): Size[] {
   return text.split(',').map((part) => part.trim()).filter(Boolean).map((part) => {
     const sides = /^(\d+)\s*[x×]\s*(\d+)$/i.exec(part)?.slice(1).map(Number);
     if (!sides?.every((side) => side >= 1 && side <= most.side))
@@ -74,38 +63,27 @@ export function sizesOf(text: string): Size[] {
   });
 }
 
-export const sizeKey = ({ width, height }: Size) => `${width}x${height}`;
 export const sizeText = ({ width, height }: Size) => `${width} × ${height}`;
-/** The name in results: "hemisphere:8". */
-export const setName = (cameras: CameraChoice) => `${cameras.kind === 'file' ? cameras.name : cameras.kind}:${cameras.count}`;
+/** The name in addresses and results: "hemisphere:8". */
+export const setName = ({ kind, count }: CameraSet) => `${kind}:${count}`;
 
-/** Throws ViewerError. */
-export function readAddress(query: string): AddressRequest {
+/** The request of an address, with the defaults of what it lacks. Throws ViewerError. */
+export function readAddress(query: string): BenchRequest {
   const given = new URLSearchParams(query);
-  const flag = (name: string) => given.has(name) && given.get(name) !== '0';
+  // The form sends 0, and 1 after it if its box is checked.
+  const flag = (name: string, usual: boolean) => (given.getAll(name).at(-1) ?? (usual ? '1' : '0')) !== '0';
   const [kind = '', count = '8'] = (given.get('set') ?? 'hemisphere').split(':');
   if (!isSet(kind))
     throw usage(`“${kind}” is not a camera set: use hemisphere:8, orbit:8 or recorded:8, with any number.`);
+  const sizes = sizesOf(given.get('size') ?? ''), grid = flag('grid', false);
   return {
-    scenes: given.getAll('scenes').flatMap((list) => list.split(',')).filter(Boolean),
-    grid: flag('grid'),
+    scenes: given.getAll('scenes').flatMap((list) => list.split(',')).map((part) => ({ url: part.trim() })).filter(({ url }) => url),
+    cameras: { kind, count: countOf(count, 'cameras', most.views) },
+    grid,
     copies: countOf(given.get('copies') ?? '1', 'copies', most.copies),
-    set: { kind, count: countOf(count, 'cameras', most.views) },
-    sizes: sizesOf(given.get('size') ?? ''),
+    sizes: sizes.length ? sizes : [{ width: 1280, height: 720 }],
     rounds: countOf(given.get('rounds') ?? '5', 'rounds', most.rounds),
-    published: given.has('published') ? flag('published') : true,
-    run: flag('run'),
+    published: !grid && flag('published', true),
+    run: flag('run', false),
   };
-}
-
-/** The query for this request; null if it uses local files, which an address cannot contain. */
-export function writeAddress(request: BenchRequest): string | null {
-  const { scenes, grid, copies, cameras, sizes, rounds, published } = request;
-  const addresses = scenes.map((scene) => ('url' in scene ? scene.url : null));
-  if (cameras.kind === 'file' || addresses.some((address) => address === null)) return null;
-  return '?' + [
-    `scenes=${addresses.map((address) => queryText(address!)).join(',')}`,
-    ...(grid ? ['grid=1', `copies=${copies}`] : [`published=${published ? 1 : 0}`]),
-    `set=${cameras.kind}:${cameras.count}`, `size=${sizes.map(sizeKey).join(',')}`, `rounds=${rounds}`,
-  ].join('&');
 }

@@ -1,7 +1,7 @@
-// Results on the page: a sentence for each scene, two tables, and notes.
+// Results on the page: a table and notes. The saved file has more, for `tureen report`.
 
 import { block, fillSentences, make } from '../common/dom.js';
-import { bytesText, millisecondsText } from '../common/numbers.js';
+import { millisecondsText } from '../common/numbers.js';
 import type { CaseResult } from './bench_engine.js';
 import { clockSentence } from './clock.js';
 import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';
@@ -32,11 +32,6 @@ const ratioText = (to: number | null, { result }: Measurement) =>
 
 const cell = (text: string) => make('td', {}, text);
 
-function head(table: HTMLElement, names: readonly (readonly [string, string])[]): void {
-  const cells = names.map(([name, meaning]) => make('th', { scope: 'col', title: meaning || null }, name));
-  table.append(make('thead', {}, make('tr', {}, ...cells)));
-}
-
 const timeColumns = [
   ['Configuration', ''], ['median', '50 % of all samples take less'], ['p95', '95 % of all samples take less'],
   ['p99', '99 % of all samples take less'], ['1 % low', 'frames per second of the slowest 1 % of samples'],
@@ -61,38 +56,11 @@ function timesGroup(scene: MeasuredScene, measurement: Measurement): HTMLElement
   return make('tbody', {}, make('tr', {}, title), ...result.entrants.map((timed) => timesRow(timed, measurement)));
 }
 
-function memoryRow(scene: MeasuredScene, { name, device_bytes, plan_ms, upload_ms }: MeasuredScene['configurations'][number]) {
-  return make('tr', {}, make('th', { scope: 'row' }, `${scene.name}, ${name}`), cell(bytesText(device_bytes)),
-              cell(bytesText(scene.wasmBytes)), cell(millisecondsText(scene.readMs)),
-              cell(millisecondsText(plan_ms)), cell(millisecondsText(upload_ms)));
-}
-
-const memoryColumns = [
-  ['Scene', ''], ['GPU memory', 'buffers and textures'], ['WebAssembly', 'its memory, which never shrinks'],
-  ['reading', 'from the file’s bytes to the soup'], ['planning', 'preparation of the device’s data'], ['upload', 'transfer to the device'],
-] as const;
-
-/** "6.42 ms per frame at 1280 × 720, 3.1 times as fast as the baseline." */
-function summary(scene: MeasuredScene): HTMLElement[] {
-  return scene.measurements.map((measurement) => {
-    const [first, ...others] = measurement.result.entrants;
-    const published = others.find(({ name }) => name === 'published');
-    const to = published && ratio(published, first!, measurement);
-    const compared = !published || Number.isNaN(to) ? '' : to === null ? ', as fast as the baseline' :
-      `, ${to!.toFixed(to! < 10 ? 1 : 0)} times as fast as the baseline`;
-    return make('p', {}, `${scene.name}: `, make('strong', {}, `${millisecondsText(first!.statistics.median)} per frame`),
-                ` at ${sizeText(measurement)}${compared}.`);
-  });
-}
-
 export function showResults(scenes: readonly MeasuredScene[]): void {
-  const times = block('times'), memory = block('memory');
-  for (const table of [times, memory]) table.replaceChildren(table.querySelector('caption')!);
-  head(times, timeColumns);
-  head(memory, memoryColumns);
-  times.append(...scenes.flatMap((scene) => scene.measurements.map((measurement) => timesGroup(scene, measurement))));
-  memory.append(make('tbody', {}, ...scenes.flatMap((scene) => scene.configurations.map((one) => memoryRow(scene, one)))));
-  block('summary').replaceChildren(...scenes.flatMap(summary));
+  const titles = timeColumns.map(([name, meaning]) => make('th', { scope: 'col', title: meaning || null }, name));
+  block('times').append(
+    make('thead', {}, make('tr', {}, ...titles)),
+    ...scenes.flatMap((scene) => scene.measurements.map((measurement) => timesGroup(scene, measurement))));
   const several = scenes.length > 1;
   const notes = scenes.flatMap(({ name, notes }) => notes.map((note) => (several ? `${name}: ${note}` : note)));
   fillSentences(block('notes'), notes);

@@ -6,9 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/steady_seconds.hpp"
-#include "camera/camera_path.hpp"
 #include "camera/camera_sets.hpp"
-#include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/baseline/baseline.hpp"
 #include "jobs/timing/benchmark.hpp"
@@ -114,52 +112,26 @@ Json add_published(Engine& engine, const Json& arguments) {
   return result;
 }
 
-std::vector<Camera> first_of(std::vector<Camera> cameras, int count, const Lens& lens) {
-  if (cameras.size() > std::size_t(count)) cameras.resize(std::size_t(count));
-  for (Camera& camera : cameras) camera = resized(camera, lens.width, lens.height);
-  return cameras;
-}
-
-CameraSetName set_of(const std::string& text) {
-  if (const auto set = parse_camera_set(text, {"hemisphere", "orbit", "recorded"})) return *set;
-  throw UsageError("'" + text +
-                   "' is not a camera set: use hemisphere:N, orbit:N, recorded:N or a file");
-}
-
-std::vector<Camera> named_set(const CameraSetName& set, const BenchScene& scene, const Lens& lens) {
-  if (set.kind == "hemisphere") return hemisphere(scene.subject, set.count, lens);
-  if (set.kind == "orbit")
-    return orbit(scene.subject, set.count, {three_quarter_view.azimuth, orbit_elevation}, lens);
-  if (scene.recorded.empty()) throw UsageError("the scene has no recorded cameras");
-  return first_of(scene.recorded, set.count, lens);
-}
-
-/// A camera path gives `count` cameras evenly in time; a list of cameras gives its first ones.
-std::vector<Camera> cameras_in(const std::string& text, int count, const Lens& lens) {
-  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-  std::vector<Camera> cameras;
-  Input as_path = Input::memory("the camera file", bytes);
-  try {
-    const CameraPath path(read_path(as_path));
-    const double end = path.is_loop() ? count : std::max(count - 1, 1);
-    for (int i = 0; i < count; ++i)
-      cameras.push_back(path.at(path.begin() + path.duration() * i / end, lens.width, lens.height));
-  } catch (const InputError&) {
-    Input as_cameras = Input::memory("the camera file", bytes);
-    cameras = first_of(read_cameras(as_cameras).cameras, count, lens);
-  }
-  if (cameras.empty()) throw UsageError("the camera file has no cameras");
-  return cameras;
-}
-
-/// {"scene", "width", "height", "set"} or {.., "file", "count"}
+/// {"scene", "width", "height", "set"}
 void set_cameras(Engine& engine, const Json& arguments) {
   BenchScene& scene = scene_at(engine, arguments.at("scene"));
   const Lens lens{.width = arguments.at("width"), .height = arguments.at("height")};
-  const auto file = arguments.find("file");
-  scene.cameras = file != arguments.end()
-                      ? cameras_in(file->get<std::string>(), arguments.at("count"), lens)
-                      : named_set(set_of(arguments.at("set").get<std::string>()), scene, lens);
+  const auto text = arguments.at("set").get<std::string>();
+  const auto set = parse_camera_set(text, {"hemisphere", "orbit", "recorded"});
+  if (!set)
+    throw UsageError("'" + text + "' is not a camera set: use hemisphere:N, orbit:N or recorded:N");
+  if (set->kind == "hemisphere") {
+    scene.cameras = hemisphere(scene.subject, set->count, lens);
+  } else if (set->kind == "orbit") {
+    scene.cameras =
+        orbit(scene.subject, set->count, {three_quarter_view.azimuth, orbit_elevation}, lens);
+  } else {
+    if (scene.recorded.empty()) throw UsageError("the scene has no recorded cameras");
+    scene.cameras = scene.recorded;
+    if (scene.cameras.size() > std::size_t(set->count))
+      scene.cameras.resize(std::size_t(set->count));
+    for (Camera& camera : scene.cameras) camera = resized(camera, lens.width, lens.height);
+  }
 }
 
 // -- runs ---------------------------------------------------------------------------------------

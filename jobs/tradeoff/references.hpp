@@ -1,9 +1,12 @@
-// Reference images for errors of drawing: one model, drawn by the oracle.
+// Reference images for errors of drawing: one model, drawn by the oracle; and the errors.
 #pragma once
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <span>
+#include <vector>
 
+#include "image/render_error.hpp"
 #include "oracle/oracle.hpp"
 
 namespace tureen::tradeoff {
@@ -42,7 +45,16 @@ struct ReferenceOptions {
   std::function<void(double)> progress = {};
 };
 
-/// oracle_image() over the background, in strips of at most about 4 million rays.
-ImageF reference_image(const Scene& scene, const Camera& camera, const ReferenceOptions& options);
+/// One image per camera over the background, drawn on all cores. Rethrows exceptions from
+/// options.progress with a short delay.
+std::vector<ImageF> reference_images(const Scene& scene, std::span<const Camera> cameras,
+                                     const ReferenceOptions& options);
+
+/// The images rounded to 8 bits a channel, as on a screen.
+std::vector<ImageF> as_shown(std::span<const ImageF> images);
+
+/// The error over all images; both spans have the same length.
+RenderError error_between(std::span<const ImageF> reference, std::span<const ImageF> drawn,
+                          bool with_flip);
 
 }  // namespace tureen::tradeoff

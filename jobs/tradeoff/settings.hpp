@@ -1,6 +1,5 @@
-// The edits and quality settings that a study of a soup varies: their values, and the effect of
-// each on the soup's data or its sampling. The experiment (jobs/tradeoff/experiment.hpp) uses only
-// their numbers.
+// The edits and quality settings that a study of a scene varies, as a table of values, and the
+// configurations that it measures.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "jobs/tradeoff/experiment.hpp"
 #include "scene/edit/edits.hpp"
 #include "scene/edit/splat_edits.hpp"
 #include "scene/quality.hpp"
@@ -21,9 +19,9 @@ namespace tureen::tradeoff {
 
 /// The edits and the quality of a scene for chosen values.
 struct Applied {
-  Edits edits;             // of a soup
-  SplatEdits splat_edits;  // of splats
-  Quality quality;
+  Edits edits = {};             // of a soup
+  SplatEdits splat_edits = {};  // of splats
+  Quality quality = {};
 };
 
 /// Whether the data change.
@@ -35,16 +33,17 @@ std::string describe_edits(const Applied& applied);
 Scene edited(Scene scene, const Applied& applied, const std::function<void(double)>& progress = {});
 
 struct SettingValue {
-  std::string value;  // name for programs: "3", "base"
-  std::string words;  // description: "lattice level 3", "base colour"
-  std::function<void(Applied&)> apply;
+  std::string value = {};  // name for programs: "3", "base"
+  std::string words = {};  // description: "lattice level 3", "base colour"
+  /// What differs from the defaults; nothing for the default.
+  Applied change = {};
 };
 
 /// An edit or a quality setting.
 struct QualitySetting {
   std::string key;                   // name for programs: "lattice_level"
   std::string title;                 // description: "lattice level"
-  std::vector<SettingValue> values;  // the default first; its apply changes nothing
+  std::vector<SettingValue> values;  // the default first
 };
 
 /// The edits, in the order of docs/tradeoff.md: those that apply to this
@@ -54,7 +53,7 @@ std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels);
 
 /// The same for splats: their order and number, and for windows opaque triangles. `weights` is the
-/// result of splat_weights(); without, the number does not vary.
+/// contribution of each splat to the views; without, the number does not vary.
 std::vector<QualitySetting> drawing_settings(const Splats& splats,
                                              std::span<const std::uint64_t> weights);
 
@@ -62,13 +61,24 @@ std::vector<QualitySetting> drawing_settings(const Splats& splats,
 /// splats their order.
 std::vector<QualitySetting> antialiasing_settings(int max_samples, bool has_splats);
 
-/// The number of values of each setting, for the experiment.
-std::vector<int> value_counts(const std::vector<QualitySetting>& settings);
+/// The value index of each setting; 0 is the default.
+using Configuration = std::vector<int>;
+
+/// Number of settings that differ from their default.
+int departures(const Configuration& configuration);
 
 Applied applied_by(const std::vector<QualitySetting>& settings, const Configuration& configuration);
 
 /// The settings that differ from their defaults, "lattice level 2, base colour", or "defaults".
 std::string describe(const std::vector<QualitySetting>& settings,
                      const Configuration& configuration);
+
+/// The defaults, then every other value of every setting alone.
+std::vector<Configuration> single_changes(const std::vector<QualitySetting>& settings);
+
+/// All combinations of at least two changes of the settings with these indices, except those whose
+/// Quality has a defect.
+std::vector<Configuration> combinations(const std::vector<QualitySetting>& settings,
+                                        std::span<const std::size_t> varied);
 
 }  // namespace tureen::tradeoff

@@ -1,8 +1,9 @@
-#include "jobs/tradeoff/reference.hpp"
+#include "jobs/tradeoff/references.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "base/threads/on_all_cores.hpp"
 #include "oracle/oracle_images.hpp"
 #include "tracing/traced_images.hpp"
 
@@ -12,14 +13,7 @@ namespace {
 
 constexpr double rays_in_a_strip = 4e6;
 
-}  // namespace
-
-int device_subpixel_bits() {
-  GLint bits = 0;
-  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-  return bits >= 1 && bits <= 16 ? bits : 8;
-}
-
+/// oracle_image() over the background, in strips of at most about 4 million rays.
 ImageF reference_image(const Scene& scene, const Camera& camera, const ReferenceOptions& options) {
   if (options.samples == Samples::traced)
     return *tracing::TracedImages(scene,
@@ -41,6 +35,38 @@ ImageF reference_image(const Scene& scene, const Camera& camera, const Reference
   }
   oracle.progress = options.progress;
   return oracle_image(scene, {camera}, std::move(oracle), rows);
+}
+
+}  // namespace
+
+int device_subpixel_bits() {
+  GLint bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+  return bits >= 1 && bits <= 16 ? bits : 8;
+}
+
+std::vector<ImageF> reference_images(const Scene& scene, std::span<const Camera> cameras,
+                                     const ReferenceOptions& options) {
+  std::vector<ImageF> images(cameras.size());
+  on_all_cores(images.size(), options.progress, [&](std::size_t i, const auto& check) {
+    ReferenceOptions of_one = options;
+    of_one.progress = check;
+    images[i] = reference_image(scene, cameras[i], of_one);
+  });
+  return images;
+}
+
+std::vector<ImageF> as_shown(std::span<const ImageF> images) {
+  std::vector<ImageF> rounded;
+  for (const ImageF& image : images) rounded.push_back(to_float(quantised(image)));
+  return rounded;
+}
+
+RenderError error_between(std::span<const ImageF> reference, std::span<const ImageF> drawn,
+                          bool with_flip) {
+  RenderErrorMeter meter({.with_flip = with_flip});
+  for (std::size_t i = 0; i < reference.size(); ++i) meter.add(reference[i], drawn[i]);
+  return meter.result();
 }
 
 }  // namespace tureen::tradeoff

@@ -1,4 +1,4 @@
-#include "runtime/passes/copy_ceiling.hpp"
+#include "jobs/bench/copy_ceiling.hpp"
 
 #include <cassert>
 
