@@ -44,7 +44,7 @@ set(limits
   "code cli 7190: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
-  "bytes page 410000: 2 s over a connection of 1.7 Mbit/s")
+  "bytes page 415000: 2 s over a connection of 1.7 Mbit/s")
 
 set(wrong "")
 
