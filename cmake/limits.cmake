@@ -31,7 +31,7 @@ set(limits
   "code image 2670: images, metrics, video files, and the decoder of lossless WebP (560)"
   "code scene 4880: the model, its edits, places as text"
   "code camera 1800: navigation, views around captures, paths along cameras"
-  "code formats 17060: a reader per format with its remarks, checked against hostile files"
+  "code formats 17160: a reader per format with its remarks, checked against hostile files"
   "code oracle 2210: the reference stays readable; light along rays, without a tree"
   "code splatting 3350: loops in vectors, per kernel, and of neurons in lanes"
   "code tracing 2075: a tree and a file per kernel, materials, images by rays"
@@ -40,7 +40,7 @@ set(limits
   "code trainer 13410: four methods, CPU and CUDA"
   "code jobs 8000: work that the programs share, the whole of a training run, and cameras for photographs; what measures and reports grows no further"
   "code viewer 7260: the window"
-  "code web 9400: the page"
+  "code web 10020: the page: its viewer, all formats on demand, files for the user, tours"
   "code cli 7190: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 

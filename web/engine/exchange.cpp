@@ -1,5 +1,6 @@
 // Commands of the page's second program, which has all formats: which files of a scene are missing,
 // and files for the user.
+#include <algorithm>
 #include <array>
 #include <glm/vec3.hpp>
 #include <utility>
@@ -31,7 +32,9 @@ Json plan_files(Engine&, const Json& arguments) {
   ReadOptions options = read_options(arguments);
   if (!options.max_splats) {
     const double each = load_bytes(1, double(bytes_per_splat(Gaussians{}, 3)));
-    options.max_splats = std::uint64_t(arguments.at("memory").get<double>() / each) + 1;
+    constexpr double most = 1e18;  // fits the type; a caller may have no limit
+    options.max_splats =
+        std::uint64_t(std::min(arguments.at("memory").get<double>() / each, most)) + 1;
   }
   const SogNeeds needs = is_sog_at(path) ? sog_needs(path, options) : SogNeeds{};
   return object({{"levels", needs.levels}, {"level", needs.level}, {"missing", needs.missing}});

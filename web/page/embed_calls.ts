@@ -11,7 +11,7 @@ import { isVector } from '../common/numbers.js';
 import { isPose } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =
-  ['progress', 'preview', 'scene', 'layers', 'steps', 'notice', 'frame', 'view', 'context'];
+  ['progress', 'preview', 'scene', 'layers', 'steps', 'notice', 'frame', 'view', 'tour', 'context'];
 
 function refuse(what: string): never { throw new ViewerError(what, 'usage'); }
 

@@ -94,7 +94,7 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
   const panel = new Panel(), fullScreen = new FullScreen();
   new SceneSection(viewer, (level) => void openings.openLevel(level), loading);
   new DownloadSection(viewer, loading, tell);
-  const tour = new TourSection(viewer, failed);
+  new TourSection(viewer, failed);
   const steps = new StepsSection(viewer, loading, tell);
   new LayersSection(viewer, tell, failed);
   const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
@@ -128,7 +128,6 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
     { key: 'ctrl+z', meaning: 'undo', run: () => void steps.go('undo') },
     { key: 'ctrl+y', meaning: 'redo', run: () => void steps.go('redo') },
     { key: 'ctrl+shift+z', meaning: null, run: () => void steps.go('redo') },
-    { key: 't', meaning: 'turntable on or off', run: () => tour.toggle('turntable') },
     { key: 'k', meaning: 'save this view', run: () => saved.save() },
     { key: 'v', meaning: 'next debug view', run: () => debugViews.next() },
     { key: 'p', meaning: 'save the image', run: () => void image.save() },
