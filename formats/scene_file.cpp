@@ -26,6 +26,7 @@
 #include "formats/splat/ksplat.hpp"
 #include "formats/splat/octagon_npz.hpp"
 #include "formats/splat/splat_records.hpp"
+#include "formats/splat/splat_writing.hpp"
 #include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"

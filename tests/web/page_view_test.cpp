@@ -252,6 +252,25 @@ TEST_F(PageViews, SurviveLostFiles) {
   EXPECT_THROW(view.go_to(0), UsageError) << "no layer would be left";
 }
 
+TEST_F(PageViews, PlayAPathUntilItsEndOrAnother) {
+  Camera first = view.controls().camera(64, 48), last = first;
+  last.view_from_world[3].z -= 1;
+  view.play(CameraPath({.keyframes = {{first, 1}, {last, 3}}}));
+  EXPECT_EQ(view.draw(64, 48, 0), PageView::Next::moving);
+  EXPECT_EQ(view.controls().camera(64, 48).eye(), first.eye());
+  EXPECT_EQ(view.draw(64, 48, 1), PageView::Next::moving);
+  EXPECT_NE(view.controls().camera(64, 48).eye(), first.eye());
+  EXPECT_EQ(view.draw(64, 48, 1.5), PageView::Next::nothing);
+  EXPECT_EQ(view.controls().camera(64, 48).eye(), last.eye());
+  EXPECT_TRUE(view.history().steps().empty());
+  // A loop ends only when it is replaced.
+  view.play(CameraPath(turntable({.first = first, .distance = 2, .seconds = 1})));
+  EXPECT_EQ(view.draw(64, 48, 7.25), PageView::Next::moving);
+  EXPECT_NE(view.controls().camera(64, 48).eye(), first.eye());
+  view.play({});
+  EXPECT_EQ(view.draw(64, 48, 1), PageView::Next::nothing);
+}
+
 TEST_F(PageViews, DebugViewsFollow) {
   PageView::ReadScene read;
   for (const auto& [layer, primitives] : sources) read.layers[layer] = primitives;

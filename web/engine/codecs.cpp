@@ -11,15 +11,15 @@
 // clang-format off
 EM_JS(int, tureen_inflate_begin, (int window_bits), { return Module.codecs.begin(window_bits); })
 // left: receives the number of bytes that are left of input and output.
-EM_JS(int, tureen_inflate, (int stream, const void* in, int in_size, void* out, int out_size, int* left), {
-  const [status, of_input, of_output] = Module.codecs.inflate(stream, HEAPU8, in, in_size, out, out_size);
+EM_JS(int, tureen_inflate, (int stream, const void* from, int from_size, void* to, int to_size, int* left), {
+  const [status, of_input, of_output] = Module.codecs.inflate(stream, HEAPU8, from, from_size, to, to_size);
   HEAP32[left >> 2] = of_input;
   HEAP32[(left >> 2) + 1] = of_output;
   return status;
 })
 EM_JS(void, tureen_inflate_end, (int stream), { Module.codecs.end(stream); })
-EM_JS(int, tureen_unzstd, (const void* in, int in_size, void* out, int out_size), {
-  return Module.codecs.unzstd(HEAPU8.subarray(in, in + in_size), HEAPU8.subarray(out, out + out_size));
+EM_JS(int, tureen_unzstd, (const void* from, int from_size, void* to, int to_size), {
+  return Module.codecs.unzstd(HEAPU8.subarray(from, from + from_size), HEAPU8.subarray(to, to + to_size));
 })
 // clang-format on
 
