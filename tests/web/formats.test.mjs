@@ -1,7 +1,7 @@
 // Formats of splats that the page's second program reads, scenes in several files by address, and files that the page writes.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -152,6 +152,11 @@ test('the page writes GLB, PLY and a page, and plays tours', (context) => visit(
     await load(folder, ['written.glb']);
     assert.deepEqual(await image(wanted), expected);
   });
+  await context.test('cancelled', async () => assert.equal(await page.evaluate(async () => {
+    const ending = new AbortController(), file = viewer.write('glb', { signal: ending.signal });
+    ending.abort();
+    return file.catch((error) => error.kind);
+  }), 'cancelled'));
   await context.test('HTML', async () => {
     await written('html');
     const html = readFileSync(file('written.html'), 'latin1');
@@ -187,6 +192,33 @@ test('the page writes GLB, PLY and a page, and plays tours', (context) => visit(
     assert.ok(refused, 'there are no cameras');
   });
 }));
+
+// splats.ply assumes -y, the example stores z.
+test('an added scene with another up axis is turned upright, unless that is switched off', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const { turned, notes, kept } = await page.evaluate(async (bytes) => {
+    await viewer.load({ url: '/soup.glb' });
+    const files = [{ path: 'splats.ply', data: new Blob([Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0))]) }];
+    const [first] = await viewer.addLayers({ files });
+    const { notes } = viewer.scene;
+    viewer.upright = false;
+    const [second] = await viewer.addLayers({ files });
+    return { turned: first.transform, notes, kept: second.transform };
+  }, splatPly(10).toString('base64'));
+  // The layer's -y becomes the world's z.
+  assert.deepEqual(turned.slice(4, 7).map((value) => Math.round(1e6 * value) / 1e6 + 0), [0, 0, -1]);
+  assert.ok(notes.some((note) => /upright/.test(note)), notes.join('; '));
+  assert.deepEqual(kept, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+}));
+
+test('the list of names has every extension that the program reads', () => {
+  writeFileSync(file('scene.unknown'), 'nothing');
+  const { stderr } = spawnSync(join(programs, 'tureen'), ['info', file('scene.unknown')], { encoding: 'utf8' });
+  const names = [...stderr.matchAll(/\(([^)]*)\)/g)].flatMap(([, some]) => some.split(', ')).filter((name) => name.startsWith('.'));
+  assert.ok(names.length > 12, stderr);
+  const list = readFileSync(join(source, 'web/viewer/formats.ts'), 'utf8');
+  for (const name of names) assert.ok(list.includes(`'${name}'`), name);
+});
 
 // Floor 3 s, aim 1.5 s (issue 62); on two cores that also draw, and perhaps build, a test can only print it.
 test('playbot is shown whole', { skip: existsSync(playbot) ? false : 'no ../shared/data' }, () => visit('drawing.html', async (page) => {

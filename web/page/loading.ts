@@ -59,7 +59,8 @@ export class Loading {
   attempt(source: SceneSource): Promise<SceneSummary> {
     this.messages.clearErrors();
     for (const listener of this.listeners) listener();
-    this.pending.length = 0;  // the viewer cancels them
+    for (const { ending } of this.pending) ending.abort();
+    this.pending.length = 0;
     return this.run(nameOf(source), (signal) => this.viewer.load(source, { signal }));
   }
 
