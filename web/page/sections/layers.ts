@@ -2,7 +2,6 @@
 
 import type { Placement, SceneLayer, Vec3, Viewer } from '../../viewer/types.js';
 import { block, icon, input, make } from '../../common/dom.js';
-import { remember } from '../memory.js';
 import { bytesText, degreesPerRadian, plainNumber, primitivesText } from '../../common/numbers.js';
 
 const axes = ['x', 'y', 'z'] as const;
@@ -27,12 +26,6 @@ export class LayersSection {
         ({ rotation: replaced(now.rotation, axis, value / degreesPerRadian) }));
     }
     this.onNumber('layer-scale', (scale) => ({ scale }));
-    const upright = input('layers-upright');
-    upright.checked = viewer.upright;
-    upright.addEventListener('change', () => {
-      viewer.upright = upright.checked;
-      remember('upright', upright.checked);
-    });
     this.mirror.addEventListener('change', () => this.change({ mirror: this.mirror.checked }));
     viewer.on('layers', () => this.update());
     this.update();
