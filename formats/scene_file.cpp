@@ -254,7 +254,8 @@ const Format& format_to_read(const Candidate& candidate) {
   const std::string extension = extension_of(candidate.path);
 #ifdef TUREEN_FEW_FORMATS
   // Reached only by a page that cannot load the second program, such as one in a single file.
-  for (const char* elsewhere : {".sog", ".ssog", ".spz", ".ksplat", ".usda", ".usdz", ".npz", ".pt"})
+  for (const char* elsewhere :
+       {".sog", ".ssog", ".spz", ".ksplat", ".usda", ".usdz", ".npz", ".pt"})
     if (extension == elsewhere && !candidate.is_folder)
       throw InputError({candidate.path.string()},
                        "this page does not read " + extension + " files; convert it to GLB: " +

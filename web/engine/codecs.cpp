@@ -34,9 +34,9 @@ int inflateInit2_(z_streamp stream, int window_bits, const char*, int) {
 
 int inflate(z_streamp stream, int) {
   std::array<int, 2> left{};
-  const int status = tureen_inflate(int(reinterpret_cast<std::uintptr_t>(stream->state)),
-                                    stream->next_in, int(stream->avail_in), stream->next_out,
-                                    int(stream->avail_out), left.data());
+  const int status =
+      tureen_inflate(int(reinterpret_cast<std::uintptr_t>(stream->state)), stream->next_in,
+                     int(stream->avail_in), stream->next_out, int(stream->avail_out), left.data());
   stream->next_in += stream->avail_in - uInt(left[0]);
   stream->next_out += stream->avail_out - uInt(left[1]);
   stream->avail_in = uInt(left[0]);

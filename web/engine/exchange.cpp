@@ -49,8 +49,8 @@ Scene scene_of(std::vector<Scene> sources, const Json& document) {
   const Json& layers = document.at("layers");
   for (const Json& shown : layers) {
     const std::size_t source = shown.at("source");
-    Layer& layer = (source == 0 ? firsts : sources.at(source).layers)
-                       .at(shown.at("index").get<std::size_t>());
+    Layer& layer =
+        (source == 0 ? firsts : sources.at(source).layers).at(shown.at("index").get<std::size_t>());
     if (layers.size() > 1) layer.name = shown.at("name").get<std::string>();
     layer.world_from_layer = matrix_of(shown.at("transform"));
     layer.visible = shown.at("visible").get<bool>();
@@ -69,8 +69,7 @@ Scene scene_of(std::vector<Scene> sources, const Json& document) {
 Json write(Engine& engine, const Json& arguments) {
   const std::filesystem::path file = arguments.at("file").get<std::string>();
   make_folder(file.parent_path());
-  const Scene scene =
-      scene_of(std::exchange(engine.reread, {}), arguments.at("document"));
+  const Scene scene = scene_of(std::exchange(engine.reread, {}), arguments.at("document"));
   return write_scene(scene, file, {.progress = report_progress});
 }
 

@@ -200,8 +200,8 @@ void show_camera(Engine& engine, const Json& index) {
   controls(engine).adopt(cameras[index.get<std::size_t>()]);
 }
 
-/// {"what": "turntable" or "cameras", "seconds": of a loop or the whole path, or null}: plays a turn
-/// about what the recorded cameras look at, or about the present target, or a flight along the
+/// {"what": "turntable" or "cameras", "seconds": of a loop or the whole path, or null}: plays a
+/// turn about what the recorded cameras look at, or about the present target, or a flight along the
 /// cameras. null: ends it.
 void play(Engine& engine, const Json& arguments) {
   PageView& view = engine.page();
@@ -221,8 +221,7 @@ void play(Engine& engine, const Json& arguments) {
   const auto& layers = view.document().layers;
   const std::vector<LayerPlace> boxes(layers.begin(), layers.end());
   if (const auto capture = capture_of(cameras, controls.up(), boxes))
-    return view.play(
-        CameraPath(turntable(*capture, lens_of(*capture, any_side, any_side), turn)));
+    return view.play(CameraPath(turntable(*capture, lens_of(*capture, any_side, any_side), turn)));
   view.play(CameraPath(turntable({.first = controls.camera(any_side, any_side),
                                   .distance = controls.distance(),
                                   .up = controls.up(),

@@ -2,6 +2,7 @@
 // (writing.ts), or loads one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the worker frees
 // all its memory, so a load is cancelled by ending it.
 
+import { fileNameOf } from './addresses.js';
 import { download } from './download.js';
 import { EarlyTexels } from './early_texels.js';
 import { Engine, type Parcel } from './engine.js';
@@ -28,7 +29,7 @@ const order: readonly Stage[] = ['download', 'read', 'prepare', 'upload'];
 
 /** The file at an address; one that names others has its folder in its path. */
 function fileAt(url: string, name: string, bytes: Uint8Array<ArrayBuffer>): OpenedFiles {
-  const [folder, file] = decodeURI(new URL(url).pathname).split('/').slice(-2);
+  const [folder, file] = url.replace(/[?#].*$/s, '').split('/').slice(-2).map(fileNameOf);
   if (!folder || !file || !namesOthers(file)) return oneFile(name, bytes);
   const path = `${folder}/${file}`;
   return { bytes: new Map([[path, bytes]]), paths: [path] };
