@@ -100,6 +100,7 @@ function placeEngine(folder, engine, parts) {
   write(folder, 'tureen_formats.js', parts.formatsEngine);
   write(folder, 'formats_worker.js', parts.formatsWorker);
   cpSync(join(engine, 'tureen_formats.wasm'), join(folder, 'tureen_formats.wasm'));
+  write(folder, 'formats_licenses.txt', ['fzstd', 'pako'].map((name) => `${name}\n\n${text(from(`node_modules/${name}/LICENSE`))}`).join('\n'));
   write(folder, 'scene_template.html', parts.template);
   write(folder, 'tureen.js', parts.engine);
   write(folder, 'viewer.js', parts.viewer);
