@@ -1,4 +1,8 @@
 // The table of formats, and the functions that search it. A new format needs one entry.
+//
+// The page's own program is compiled with TUREEN_FEW_FORMATS: what a page shows most often, and no
+// writers. Its second program, which it loads for the others, has all but the writers that compress
+// by native libraries.
 #include "formats/scene_file.hpp"
 
 #include <algorithm>
@@ -22,6 +26,7 @@
 #include "formats/splat/ksplat.hpp"
 #include "formats/splat/octagon_npz.hpp"
 #include "formats/splat/splat_records.hpp"
+#include "formats/splat/splat_writing.hpp"
 #include "formats/splat/spz.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
@@ -43,12 +48,6 @@ struct Candidate {
 /// In bytes: enough for the longest signature, and for comments before the header word of an OFF.
 constexpr std::size_t head_size = 4096;
 
-#ifdef __EMSCRIPTEN__
-constexpr bool in_browser = true;
-#else
-constexpr bool in_browser = false;
-#endif
-
 struct Format {
   const char* name = "";
   const char* description = "";
@@ -62,24 +61,32 @@ struct Format {
   bool is_quantised = false;                        // rounds splats so that images show it
 };
 
-/// A writer without options. A page writes no files: without the writers, its program is 4 %
-/// smaller.
-#ifdef __EMSCRIPTEN__
+/// A writer without options. Without the writers, the page's own program is 4 % smaller.
+#ifdef TUREEN_FEW_FORMATS
 template <auto Write>
 constexpr decltype(Format::write) plainly = nullptr;
+constexpr decltype(Format::write) write_glb = nullptr;
 #else
 template <auto Write>
 constexpr decltype(Format::write) plainly = [](const Scene& scene,
                                                const std::filesystem::path& path,
                                                const WriteOptions&) { return Write(scene, path); };
-#endif
-
-#ifdef __EMSCRIPTEN__
-constexpr decltype(Format::write) write_glb = nullptr;
-#else
 std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
                                    const WriteOptions& options) {
   return write_tureen_glb(scene, path, options.progress);
+}
+#endif
+
+/// A writer that compresses by libraries which pages lack.
+#ifdef __EMSCRIPTEN__
+template <auto Write>
+constexpr decltype(Format::write) natively = nullptr;
+#else
+template <auto Write>
+constexpr decltype(Format::write) natively = plainly<Write>;
+std::vector<std::string> write_chosen_spz(const Scene& scene, const std::filesystem::path& path,
+                                          const WriteOptions& options) {
+  return write_spz(scene, path, options.spz_version);
 }
 #endif
 
@@ -104,7 +111,7 @@ const std::vector<Format>& formats() {
        .read = read_off,
        .write = plainly<write_off>,
        .assumed_up = [](const Scene&) { return assumed_up; }},
-#ifndef __EMSCRIPTEN__
+#ifndef TUREEN_FEW_FORMATS
       // Before PLY, which reads it: it is chosen by its longer extension.
       {.name = "compressed PLY",
        .description = "Gaussians and discs in 16 bytes, and harmonics in bytes (PlayCanvas)",
@@ -129,14 +136,14 @@ const std::vector<Format>& formats() {
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
        .write = plainly<write_diffsoup_export>},
-#ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
+#ifndef TUREEN_FEW_FORMATS
       {.name = "octagon mesh",
        .description = "REdiSplats: octagons as flat Gaussians",
        .read_extensions = {".npz"},
        .written_extensions = {".npz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_octagon_npz(c.head); },
        .read = read_octagon_npz,
-       .write = plainly<write_octagon_npz>,
+       .write = natively<write_octagon_npz>,
        .assumed_up = up_of_splats},
       {.name = "USD",
        .description = "Gaussians and discs as fields of particles (UsdVol), as text; experimental",
@@ -144,7 +151,7 @@ const std::vector<Format>& formats() {
        .written_extensions = {".usda", ".usdz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_usd(c.head); },
        .read = read_usd,
-       .write = plainly<write_usd>},
+       .write = natively<write_usd>},
       {.name = "SOG",
        .description = "Gaussians as lossless WebP images, also streamed with levels of detail; a "
                       "folder, its meta.json or lod-meta.json, or an archive",
@@ -153,7 +160,7 @@ const std::vector<Format>& formats() {
        .is_folder = true,
        .recognises = [](const Candidate& c) { return is_sog(c.path, c.head); },
        .read = read_sog,
-       .write = plainly<write_sog>,
+       .write = natively<write_sog>,
        .assumed_up = up_of_splats,
        .is_quantised = true},
       {.name = "checkpoint",
@@ -167,10 +174,9 @@ const std::vector<Format>& formats() {
        .written_extensions = {".spz"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_spz(c.head); },
        .read = read_spz,
-       .write =
-           [](const Scene& scene, const std::filesystem::path& path, const WriteOptions& options) {
-             return write_spz(scene, path, options.spz_version);
-           },
+#ifndef __EMSCRIPTEN__
+       .write = write_chosen_spz,
+#endif
        .assumed_up = up_of_splats,
        .is_quantised = true},
       {.name = ".ksplat",
@@ -182,7 +188,7 @@ const std::vector<Format>& formats() {
        .description = "triangles with one colour per vertex, as text",
        .written_extensions = {".obj"},
        .recognises = [](const Candidate&) { return false; },
-       .write = plainly<write_obj>,
+       .write = natively<write_obj>,
        .assumed_up = [](const Scene&) { return assumed_up; }},
 #endif
       {.name = ".splat",
@@ -207,11 +213,6 @@ const std::vector<Format>& formats() {
 
 bool contains(const std::vector<const char*>& extensions, const std::string& extension) {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
-}
-
-/// Whether a page rejects the extension because it has no zlib and zstd.
-bool needs_conversion(const std::string& extension) {
-  return in_browser && (extension == ".pt" || extension == ".spz" || extension == ".npz");
 }
 
 enum class Direction { read, written };
@@ -251,10 +252,15 @@ const Format& format_to_read(const Candidate& candidate) {
   for (const Format& format : formats())
     if (format.read && format.recognises(candidate)) return format;
   const std::string extension = extension_of(candidate.path);
-  if (needs_conversion(extension) && !candidate.is_folder)
-    throw InputError({candidate.path.string()},
-                     "this page does not read " + extension + " files; convert it to GLB: " +
-                         "tureen convert FILE" + extension + " FILE.glb");
+#ifdef TUREEN_FEW_FORMATS
+  // Reached only by a page that cannot load the second program, such as one in a single file.
+  for (const char* elsewhere :
+       {".sog", ".ssog", ".spz", ".ksplat", ".usda", ".usdz", ".npz", ".pt"})
+    if (extension == elsewhere && !candidate.is_folder)
+      throw InputError({candidate.path.string()},
+                       "this page does not read " + extension + " files; convert it to GLB: " +
+                           "tureen convert FILE" + extension + " FILE.glb");
+#endif
   if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
     throw InputError({candidate.path.string()}, stray->reason, stray->hint);
   for (const Format& format : formats())

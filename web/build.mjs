@@ -39,7 +39,7 @@ function options() {
   const { values } = parseArgs({ options: { engine: { type: 'string' }, out: { type: 'string' } } });
   if (!values.engine || !values.out) fail('usage: node build.mjs --engine DIR --out DIR');
   const engine = resolve(values.engine), out = resolve(values.out);
-  for (const name of ['tureen.js', 'tureen.wasm', 'tureen_bench.js', 'tureen_bench.wasm'])
+  for (const name of ['tureen', 'tureen_bench', 'tureen_formats'].flatMap((program) => [`${program}.js`, `${program}.wasm`]))
     if (!existsSync(join(engine, name))) fail(`${join(engine, name)} is missing: build the engine first.`);
   return { engine, out };
 }
@@ -94,8 +94,14 @@ function gallery(folder) {
   return JSON.stringify(weighed, null, 2) + '\n';
 }
 
-/** Writes the engine, its worker and the viewer module. */
+/** Writes the engine, its worker and the viewer module; what is loaded on demand for further formats; and the page for
+ *  scenes that it saves as HTML. */
 function placeEngine(folder, engine, parts) {
+  write(folder, 'tureen_formats.js', parts.formatsEngine);
+  write(folder, 'formats_worker.js', parts.formatsWorker);
+  cpSync(join(engine, 'tureen_formats.wasm'), join(folder, 'tureen_formats.wasm'));
+  write(folder, 'formats_licenses.txt', ['fzstd', 'pako'].map((name) => `${name}\n\n${text(from(`node_modules/${name}/LICENSE`))}`).join('\n'));
+  write(folder, 'scene_template.html', parts.template);
   write(folder, 'tureen.js', parts.engine);
   write(folder, 'viewer.js', parts.viewer);
   write(folder, 'loader_worker.js', parts.worker);
@@ -133,7 +139,7 @@ const engineModule = async (engine, program = 'tureen') =>
   await bundle(join(engine, `${program}.js`), { format: 'iife', globalName: 'createTureen', define: nowhere }) + engineExport;
 
 /** The worker's script without the engine's. */
-const workerScript = () => bundle(from('viewer/loader_worker.ts'), {
+const workerScript = (entry = 'viewer/loader_worker.ts') => bundle(from(entry), {
   format: 'iife', define: nowhere,
   plugins: [{
     name: 'engine before this script',
@@ -190,13 +196,17 @@ function weigh(site) {
   const row = (name, sizes) =>
     console.log(name.padEnd(18) + sizes.map((size) => size.toLocaleString('en').padStart(12)).join(''));
   console.log(' '.repeat(18) + ['bytes', 'gzip', 'brotli'].map((name) => name.padStart(12)).join(''));
-  for (const name of ['page.js', 'loader_worker.js', 'tureen.js', 'tureen.wasm', 'index.html', 'style.css']) {
+  const weighed = (name) => {
     const bytes = readFileSync(join(site, name));
     const sizes = [bytes.length, gzipSync(bytes, { level: 9 }).length, brotliCompressSync(bytes).length];
     row(name, sizes);
-    sizes.forEach((size, i) => { totals[i] += size; });
-  }
+    return sizes;
+  };
+  for (const name of ['page.js', 'loader_worker.js', 'tureen.js', 'tureen.wasm', 'index.html', 'style.css'])
+    weighed(name).forEach((size, i) => { totals[i] += size; });
   row('together', totals);
+  console.log('on demand, for further formats and for downloads:');
+  for (const name of ['formats_worker.js', 'tureen_formats.js', 'tureen_formats.wasm']) weighed(name);
   if (totals[2] > maxBytes)
     fail(`Engine, scripts and page have ${totals[2]} bytes with brotli; the limit in cmake/limits.cmake is ${maxBytes}.`);
 }
@@ -208,10 +218,13 @@ async function main() {
     engine: await engineModule(engine),
     viewer: await module('package/index.ts'),
     worker: await workerScript(),
+    formatsEngine: await engineModule(engine, 'tureen_formats'),
+    formatsWorker: await workerScript('viewer/formats_worker.ts'),
   };
+  parts.template = await makeTemplate(engine, parts);
   for (const folder of [site, npm]) rmSync(folder, { recursive: true, force: true });
   await makeSite(site, engine, parts);
-  write(out, 'scene_template.html', await makeTemplate(engine, parts));
+  write(out, 'scene_template.html', parts.template);
   makePackage(npm, engine, parts);
   weigh(site);
 }

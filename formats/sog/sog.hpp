@@ -23,6 +23,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -43,6 +44,17 @@ bool is_sog(const std::filesystem::path& path, std::span<const std::byte> head);
 /// its environment is included. Throws InputError.
 Scene read_sog(const std::filesystem::path& path, const ReadOptions& options = {});
 Scene read_sog_archive(Input archive, const ReadOptions& options = {});
+
+/// What read_sog() would read, for a caller that fetches files one after the other.
+struct SogNeeds {
+  std::vector<std::uint64_t> levels = {};  // splats by level of detail; empty if it has none
+  std::size_t level = 0;  // ReadOptions::lod, or the finest with at most ReadOptions::max_splats
+  /// Files of that level that do not exist, relative to the folder. Names that the reader rejects
+  /// are not among them. Further ones may follow when these exist.
+  std::vector<std::string> missing = {};
+};
+/// Throws InputError.
+SogNeeds sog_needs(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Whether write_sog can store the scene: one layer with Gaussians.
 bool fits_sog(const Scene& scene);

@@ -65,7 +65,7 @@ SogMeta::Palette read_palette(const JsonView& view, bool is_first_version) {
 
 }  // namespace
 
-SogMeta read_sog_meta(SogFiles& files, const std::string& name) {
+SogMeta read_sog_meta(SogFiles& files, const std::string& name, SogImages images) {
   const PassingMemory passing(files.input().budget());
   const std::vector<std::byte> bytes = files.read(name);
   const std::string file = files.shown(name);
@@ -103,6 +103,7 @@ SogMeta read_sog_meta(SogFiles& files, const std::string& name) {
     meta.profile = "2dgs";
   else if ((model && model->value() == "antialiased") || (antialias && antialias->value() == true))
     meta.profile = "mip";
+  if (images == SogImages::may_lack) return meta;
   const std::uint64_t room =
       files.size_of(meta.folder + meta.means_low) + files.size_of(meta.folder + meta.means_high);
   if (meta.count / splats_a_byte > room)

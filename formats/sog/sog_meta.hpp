@@ -38,6 +38,9 @@ struct SogMeta {
 
 /// Reads `name`, a meta.json. Throws InputError with the file and the place in it, also for a count
 /// that images of these sizes cannot hold: at most 1024 splats for each byte of the positions.
-SogMeta read_sog_meta(SogFiles& files, const std::string& name);
+/// The count is not checked if the images may_lack.
+enum class SogImages { must_exist, may_lack };
+SogMeta read_sog_meta(SogFiles& files, const std::string& name,
+                      SogImages images = SogImages::must_exist);
 
 }  // namespace tureen

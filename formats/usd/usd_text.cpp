@@ -1,7 +1,8 @@
 #include "formats/usd/usd_text.hpp"
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
-#include <charconv>
 #include <type_traits>
 
 #include "base/decimal.hpp"
@@ -136,7 +137,9 @@ std::vector<Number> UsdText::read_numbers() {
         value = decimal.value;
         end = decimal.end;
       } else {
-        const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+        // As std::from_chars(), which browsers' standard library lacks for floating point.
+        const auto [stop, error] =
+            fast_float::from_chars(rest.data(), rest.data() + rest.size(), value);
         if (error == std::errc()) end = stop;
       }
       if (!end || end == rest.data()) fail("expected a number");

@@ -42,10 +42,9 @@ try {
   for (const { name, how, change } of images) {
     const profile = await browser.newContext(how);
     const page = await profile.newPage();
-    await page.goto(new URL('?scene=soup.glb#view=three-quarter', server.address).href);
+    await page.goto(new URL('?scene=soup.glb', server.address).href);  // its first view
     await page.waitForFunction(() => document.getElementById('loading').hidden && !document.body.classList.contains('empty'));
     await change?.(page);
-    if (!how.isMobile) await page.keyboard.press('7');  // as in the window's images
     await page.waitForTimeout(6000);  // the view has arrived and is smooth
     await page.screenshot({ path: join(folder, name), ...(name.endsWith('jpg') && { quality: 88 }) });
     await profile.close();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <glm/geometric.hpp>
 
 #include "base/error.hpp"
 #include "tests/support/contexts.hpp"
@@ -250,6 +251,29 @@ TEST_F(PageViews, SurviveLostFiles) {
   upload_again({id(1)});
   view.give_up({soup});
   EXPECT_THROW(view.go_to(0), UsageError) << "no layer would be left";
+}
+
+TEST_F(PageViews, PlayAPathUntilItsEndOrAnother) {
+  // Quaternions and logarithms round in doubles.
+  const auto differs = [&](const Camera& from) {
+    return glm::distance(view.controls().camera(64, 48).eye(), from.eye()) > 1e-9;
+  };
+  Camera first = view.controls().camera(64, 48), last = first;
+  last.view_from_world[3].z -= 1;
+  view.play(CameraPath({.keyframes = {{first, 1}, {last, 3}}}));
+  EXPECT_EQ(view.draw(64, 48, 0), PageView::Next::moving);
+  EXPECT_FALSE(differs(first));
+  EXPECT_EQ(view.draw(64, 48, 1), PageView::Next::moving);
+  EXPECT_TRUE(differs(first));
+  EXPECT_EQ(view.draw(64, 48, 1.5), PageView::Next::nothing);
+  EXPECT_FALSE(differs(last));
+  EXPECT_TRUE(view.history().steps().empty());
+  // A loop ends only when it is replaced.
+  view.play(CameraPath(turntable({.first = first, .distance = 2, .seconds = 1})));
+  EXPECT_EQ(view.draw(64, 48, 7.25), PageView::Next::moving);
+  EXPECT_TRUE(differs(first));
+  view.play({});
+  EXPECT_EQ(view.draw(64, 48, 1), PageView::Next::nothing);
 }
 
 TEST_F(PageViews, DebugViewsFollow) {

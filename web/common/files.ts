@@ -2,6 +2,7 @@
 // files or a folder are one scene, with two exceptions: several files of kinds that need no other file, and
 // several folders, are a scene each.
 
+import { isAlone } from '../viewer/formats.js';
 import { ViewerError, type SceneFile, type SceneSource } from '../viewer/types.js';
 
 /** More files than any scene has, but fewer than a home folder that was dropped by mistake. */
@@ -18,9 +19,6 @@ function sourceOf(files: readonly SceneFile[], folder: string | null): SceneSour
     throw new ViewerError(folder ? `The folder ${folder} is empty.` : 'No file was chosen.', 'input');
   return { files, name: folder ?? files[0]!.path };
 }
-
-/** Whether a file of this name is a scene without other files. */
-const isAlone = (name: string) => /\.(?:glb|ply|off)$/i.test(name);
 
 /** One scene, or one for each file if all of them are scenes alone. */
 function sourcesOf(files: readonly SceneFile[], folder: string | null): readonly SceneSource[] {

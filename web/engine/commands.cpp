@@ -33,6 +33,7 @@ Commands all_commands() {
   Commands commands = loader_commands();
   commands.merge(viewer_commands());
   commands.merge(bench_commands());
+  commands.merge(exchange_commands());
   commands.merge(sorting_commands());
   return commands;
 }

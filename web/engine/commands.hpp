@@ -35,6 +35,8 @@ Commands loader_commands();
 Commands viewer_commands();
 /// Commands of both.
 Commands sorting_commands();
+/// Commands of the second program; none in the page's own (no_exchange.cpp).
+Commands exchange_commands();
 /// Commands of the instance in bench.html; none in the page's program (no_bench.cpp).
 Commands bench_commands();
 

@@ -13,6 +13,7 @@
 #include "runtime/device_forecast.hpp"
 #include "runtime/render_options.hpp"
 #include "scene/edit/edits.hpp"
+#include "scene/edit/moved_scene.hpp"
 #include "web/engine/engine.hpp"
 #include "web/engine/page_options.hpp"
 #include "web/engine/prepared_archive.hpp"
@@ -97,6 +98,7 @@ Json describe(const Scene& scene) {
                  {"first_view", first ? to_json(*first) : Json()},
                  {"background", to_json(glm::dvec3(scene.info.background))},
                  {"subject", to_json(subject)},
+                 {"file_up", to_json(glm::dvec3(scene.info.up))},
                  {"up_reason", describe(up)},
                  {"debug_views", debug_views_of(scene)},
                  {"feature_count", features}});
@@ -119,18 +121,13 @@ struct TooManySplats {
   std::uint64_t splats, bytes;
 };
 
-/// Bytes in page and device for splats of `bytes` in memory: the scene and the data for the device
-/// in the loader, these data in the page, and on the device with the projected splats.
-double load_bytes(std::uint64_t splats, std::uint64_t bytes) {
-  constexpr double projected = 64;  // four texels of four floats each
-  return 4.0 * double(bytes) + projected * double(splats);
-}
-
-/// {"folder", "paths", "memory" or "max_splats"}: reads any scene from the file system of this
-/// instance. Returns its description, or {"offer": {"splats", "bytes", "fitting"}} if its splats
-/// need more than `memory`.
+/// {"folder", "paths", "memory" or "max_splats", "lod"?, "up"?, "elsewhere"}: reads any scene from
+/// the file system of this instance, and turns it upright if `up` is another axis. Returns its
+/// description; {"offer": {"splats", "bytes", "fitting"}} if its splats need more than `memory`;
+/// null if another program may read it (`elsewhere`) and this one does not recognise it.
 Json read(Engine& engine, const Json& arguments) {
   forget(engine);  // a preview
+  if (arguments.at("elsewhere").get<bool>() && !is_scene(scene_path(arguments))) return nullptr;
   ReadOptions options = read_options(arguments);
   options.progress = report_progress;
   EarlyTexels early = std::exchange(engine.early_texels, {});
@@ -138,12 +135,15 @@ Json read(Engine& engine, const Json& arguments) {
   if (!options.max_splats)
     options.found_splats = [memory = arguments.at("memory").get<double>()](std::uint64_t splats,
                                                                            std::uint64_t bytes) {
-      if (load_bytes(splats, bytes) > memory) throw TooManySplats{splats, bytes};
+      if (load_bytes(double(splats), double(bytes)) > memory) throw TooManySplats{splats, bytes};
     };
   try {
-    return take(engine, read_scene(scene_path(arguments), options));
+    Scene scene = read_scene(scene_path(arguments), options);
+    if (const auto up = arguments.find("up"); up != arguments.end())
+      turn_upright(scene, glm::vec3(vector_of(*up)));
+    return take(engine, std::move(scene));
   } catch (const TooManySplats& many) {
-    const double bytes = load_bytes(many.splats, many.bytes);
+    const double bytes = load_bytes(double(many.splats), double(many.bytes));
     const double fitting = arguments.at("memory").get<double>() / bytes * double(many.splats);
     return object(
         {{"offer", object({{"splats", many.splats},

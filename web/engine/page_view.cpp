@@ -84,6 +84,7 @@ void PageView::set_viewport(int width, int height) {
 
 void PageView::drop_scene() {
   stage_.reset();
+  path_ = {};
   read_scene_.reset();
   const LayerId next = document_.next_id;  // ids of layers that were shown are not used again
   document_ = {};
@@ -152,7 +153,21 @@ Legend PageView::legend() const {
   return shown && shown->debug_views ? shown->debug_views->legend() : Legend{};
 }
 
-bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
+bool PageView::moving() {
+  return controls().moving() || flight_.direction != glm::dvec3(0.0) || !path_.empty();
+}
+
+void PageView::play(CameraPath path) {
+  path_ = std::move(path);
+  path_seconds_ = path_.begin();
+}
+
+void PageView::follow_path(int width, int height, double seconds) {
+  path_seconds_ += seconds;
+  controls().adopt(path_.at(path_seconds_, width, height));
+  controls().arrive();
+  if (!path_.is_loop() && path_seconds_ >= path_.begin() + path_.duration()) path_ = {};
+}
 
 bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   if (!shows_scene()) return false;
@@ -178,6 +193,7 @@ void PageView::paint(glm::vec3 background) {
 
 PageView::Next PageView::draw(int width, int height, double seconds) {
   controls().advance(seconds, flight_);
+  if (!path_.empty()) follow_path(width, height, seconds);
   Next next = moving() ? Next::moving : Next::nothing;
   if (!shows_scene()) {
     clear_canvas(width, height);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "camera/camera_controls.hpp"
+#include "camera/camera_path.hpp"
 #include "image/image.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/gl/context.hpp"
@@ -139,6 +140,10 @@ class PageView {
   /// Flies like this in each frame, until the next call.
   void fly(const Flight& flight) { flight_ = flight; }
 
+  /// Moves the view along a path, from its beginning on, in each frame; an empty one ends this, as
+  /// does the end of a path that is no loop.
+  void play(CameraPath path);
+
   /// Moves the visible point at `place` to the centre. `place` and `viewport` have the same unit.
   /// Returns false for the background.
   bool focus(glm::dvec2 place, glm::dvec2 viewport);
@@ -177,6 +182,7 @@ class PageView {
     std::vector<LayerId> layers;  // on the device, in the renderer's order; empty in a preview
   };
   bool moving();
+  void follow_path(int width, int height, double seconds);
   bool rests(const FrameInput& input);
   void prepare_renderer(bool for_debug_views);
   Stage make_stage(PreparedScene prepared, ShownScene scene, glm::vec3 background) const;
@@ -213,6 +219,8 @@ class PageView {
   CameraControls idle_;
   std::optional<glm::ivec2> viewport_;
   Flight flight_;
+  CameraPath path_;  // that is played; empty: none
+  double path_seconds_ = 0;
   glm::vec3 background_{0.0f}, background_before_{0.0f};  // before a preview
   bool smooth_at_rest_ = true;
 };

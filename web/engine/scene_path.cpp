@@ -14,6 +14,8 @@ ReadOptions read_options(const Json& arguments) {
   ReadOptions options;
   if (const auto max = arguments.find("max_splats"); max != arguments.end())
     options.max_splats = max->get<std::uint64_t>();
+  if (const auto lod = arguments.find("lod"); lod != arguments.end())
+    options.lod = lod->get<std::size_t>();
   return options;
 }
 

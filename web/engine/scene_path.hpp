@@ -14,7 +14,7 @@ namespace tureen::web {
 /// file names as the page.
 std::filesystem::path scene_path(const Json& arguments);
 
-/// {"max_splats"?}
+/// {"max_splats"?, "lod"?}
 ReadOptions read_options(const Json& arguments);
 
 }  // namespace tureen::web

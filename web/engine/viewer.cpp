@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "camera/capture.hpp"
+#include "camera/recorded_path.hpp"
 #include "camera/view_state.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/plan/plan_description.hpp"
@@ -198,6 +200,34 @@ void show_camera(Engine& engine, const Json& index) {
   controls(engine).adopt(cameras[index.get<std::size_t>()]);
 }
 
+/// {"what": "turntable" or "cameras", "seconds": of a loop or the whole path, or null}: plays a
+/// turn about what the recorded cameras look at, or about the present target, or a flight along the
+/// cameras. null: ends it.
+void play(Engine& engine, const Json& arguments) {
+  PageView& view = engine.page();
+  if (arguments.is_null()) return view.play({});
+  if (!view.shows_scene()) throw UsageError("there is no scene: open one first");
+  const std::vector<Camera>& cameras = view.scene().cameras;
+  const Json& given = arguments.at("seconds");
+  const auto seconds = given.is_null() ? std::nullopt : std::optional(given.get<double>());
+  if (arguments.at("what") == "cameras") {
+    CameraPathData path = path_along(cameras, seconds);
+    if (path.keyframes.empty()) throw UsageError("the scene has no recorded cameras for a path");
+    return view.play(CameraPath(std::move(path)));
+  }
+  constexpr double default_turn = 16;  // seconds; about 23 degrees per second
+  const double turn = seconds.value_or(default_turn);
+  const CameraControls& controls = view.controls();
+  const auto& layers = view.document().layers;
+  const std::vector<LayerPlace> boxes(layers.begin(), layers.end());
+  if (const auto capture = capture_of(cameras, controls.up(), boxes))
+    return view.play(CameraPath(turntable(*capture, lens_of(*capture, any_side, any_side), turn)));
+  view.play(CameraPath(turntable({.first = controls.camera(any_side, any_side),
+                                  .distance = controls.distance(),
+                                  .up = controls.up(),
+                                  .seconds = turn})));
+}
+
 // -- drawing ------------------------------------------------------------------------------------
 
 /// {"width", "height", "seconds"}; returns PageView::Next as a number.
@@ -343,6 +373,11 @@ Commands viewer_commands() {
                                          {a.at(2).get<double>(), a.at(3).get<double>()}));
        }},
 
+      {"play", does(play)},
+      {"shown_camera",
+       [](Engine& engine, const Json& size) {
+         return to_json(controls(engine).camera(size.at(0), size.at(1)));
+       }},
       {"draw", draw},
       {"smooth_at_rest",
        on_view([](PageView& view, const Json& smooth) { view.smooth_at_rest(smooth); })},

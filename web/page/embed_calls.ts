@@ -4,14 +4,14 @@
 import { urlOf } from '../viewer/addresses.js';
 import {
   namedViews, ViewerError, type Matrix, type NamedView, type Placement, type Resolution, type SceneFile, type SceneLayer,
-  type SceneSource, type Vec3, type Viewer, type ViewerEvents, type ViewPose,
+  type SceneSource, type Tour, type Vec3, type Viewer, type ViewerEvents, type ViewPose,
 } from '../viewer/types.js';
 import type { Loading } from './loading.js';
 import { isVector } from '../common/numbers.js';
 import { isPose } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =
-  ['progress', 'preview', 'scene', 'layers', 'steps', 'notice', 'frame', 'view', 'context'];
+  ['progress', 'preview', 'scene', 'layers', 'steps', 'notice', 'frame', 'view', 'tour', 'context'];
 
 function refuse(what: string): never { throw new ViewerError(what, 'usage'); }
 
@@ -115,6 +115,9 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
       if (whole(index, 'The camera') >= count) refuse(`The scene has ${count} cameras, counted from 0.`);
       viewer.showCamera(index as number);
     }],
+    ['play', ([tour, seconds]) => viewer.play(oneOf<Tour>(tour, ['turntable', 'cameras'], 'The tour'),
+                                              seconds === undefined ? undefined : number(seconds, 'seconds'))],
+    ['stop', () => viewer.stop()],
     ['frame', () => viewer.frame()],
     ['home', () => viewer.home()],
     ['orbit', ([dx, dy]) => viewer.orbit(number(dx, 'dx'), number(dy, 'dy'))],

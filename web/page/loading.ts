@@ -12,7 +12,7 @@ const photographsHint =
   'The desktop program trains scenes from photographs, and compares scenes with them: tureen view FOLDER.';
 
 const stageText: Readonly<Record<LoadStage, string>> = {
-  download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'uploading to the graphics device',
+  download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'uploading to the graphics device', write: 'writing',
 };
 
 export class Loading {
@@ -59,7 +59,8 @@ export class Loading {
   attempt(source: SceneSource): Promise<SceneSummary> {
     this.messages.clearErrors();
     for (const listener of this.listeners) listener();
-    this.pending.length = 0;  // the viewer cancels them
+    for (const { ending } of this.pending) ending.abort();
+    this.pending.length = 0;
     return this.run(nameOf(source), (signal) => this.viewer.load(source, { signal }));
   }
 
@@ -71,6 +72,11 @@ export class Loading {
   /** The same, but rejects with the error for the caller. */
   attemptToAdd(source: SceneSource): Promise<readonly SceneLayer[]> {
     return this.run(nameOf(source), (signal) => this.viewer.addLayers(source, { signal }));
+  }
+
+  /** Writes a file with this name. The page shows the error. */
+  async write(name: string, start: (signal: AbortSignal) => Promise<void>): Promise<void> {
+    await this.run(name, start).catch((error: unknown) => this.messages.thrown(error));
   }
 
   /** Goes to a step, which may read sources again. Returns whether it succeeded; otherwise the page shows the error. */

@@ -103,6 +103,12 @@ export class Openings {
                      linked ? this.bar.view() : noView);
   }
 
+  /** Opens the first scene again at another level of detail, and alone, from the same view. */
+  openLevel(lod: number): Promise<boolean> {
+    const first = this.viewer.layers[0]!.source, { origin } = this.opened.get(first)!, pose = this.viewer.getView();
+    return this.open([{ source: { ...first, lod }, origin }], { ...noView, pose });
+  }
+
   openPart(source: SceneSource, view: LinkedView): Promise<boolean> {
     return this.open([{ source, origin: { kind: 'page' } }], view);
   }

@@ -15,12 +15,14 @@ import { Panel } from './panel.js';
 import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
 import { LinkSection } from './sections/link.js';
+import { DownloadSection } from './sections/download.js';
 import { DebugViewSection } from './sections/debug_view.js';
 import { ImageSection } from './sections/image.js';
 import { LayersSection } from './sections/layers.js';
 import { SavedSection } from './sections/saved.js';
 import { SceneSection } from './sections/scene.js';
 import { TimesSection } from './sections/times.js';
+import { TourSection } from './sections/tour.js';
 import { StepsSection } from './sections/steps.js';
 import { ViewsSection } from './sections/views.js';
 import { Shortcuts } from './shortcuts.js';
@@ -90,7 +92,9 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
   const failed = (what: unknown) => messages.thrown(what);
 
   const panel = new Panel(), fullScreen = new FullScreen();
-  new SceneSection(viewer, loading);
+  new SceneSection(viewer, (level) => void openings.openLevel(level), loading);
+  new DownloadSection(viewer, loading, tell);
+  new TourSection(viewer, failed);
   const steps = new StepsSection(viewer, loading, tell);
   new LayersSection(viewer, tell, failed);
   const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
@@ -171,7 +175,7 @@ export async function openViewerPage(options: ViewerPageOptions = {}): Promise<v
     const expected = wanted[0] ? fetchable(wanted[0]) : options.scene;
     const blend = bar.blend();
     viewer = await createViewer(byId('canvas', HTMLCanvasElement), {
-      chooseSplats, smoothAtRest: recall('smooth') !== false, ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
+      chooseSplats, smoothAtRest: recall('smooth') !== false, upright: recall('upright') !== false, ...(options.assets && { assets: options.assets }), ...(expected && { expected }), ...(blend && { blend }),
     });
   } catch (error) {
     return explain(error);

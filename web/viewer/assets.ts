@@ -19,19 +19,30 @@ export function assetsAt(address?: string): Assets {
   return assets;
 }
 
-/** The worker's script: tureen.js without its last line, which exports createTureen, and loader_worker.js (build.mjs). */
-async function workerScript(base: string): Promise<string> {
-  const [engine, loader] = await Promise.all(['tureen.js', 'loader_worker.js'].map(
+/** The worker's script: the engine's without its last line, which exports createTureen, and the loader's (build.mjs). */
+async function workerScript(base: string, names: readonly string[]): Promise<string> {
+  const [engine, loader] = await Promise.all(names.map(
     async (name) => (await fetched(new URL(name, base))).text()));
   const script = engine!.slice(0, engine!.lastIndexOf('export default'));
   return URL.createObjectURL(new Blob([script, loader!], { type: 'text/javascript' }));
 }
 
 function fetchedFrom(base: string): Assets {
-  const script = workerScript(base);
+  const script = workerScript(base, ['tureen.js', 'loader_worker.js']);
   script.catch(() => { known.delete(base); });  // the next call tries again; loaderWorker() reports the error
+  const fileOf = (name: string) => fetched(new URL(name, base));
+  let further: Promise<string> | null = null;
   return {
-    wasm: async () => (await fetched(new URL('tureen.wasm', base))).arrayBuffer(),
+    wasm: async () => (await fileOf('tureen.wasm')).arrayBuffer(),
     loaderWorker: async () => new Worker(await script),
+    further: {
+      wasm: async () => (await fileOf('tureen_formats.wasm')).arrayBuffer(),
+      loaderWorker: async () => {
+        further ??= workerScript(base, ['tureen_formats.js', 'formats_worker.js']);
+        further.catch(() => { further = null; });
+        return new Worker(await further);
+      },
+    },
+    template: async () => (await fileOf('scene_template.html')).text(),
   };
 }

@@ -1,7 +1,7 @@
 // One instance of the engine: WebAssembly, its memory, and named commands (web/engine/commands.hpp).
 // A page has one instance for drawing. Each load has another in a worker, which frees all its memory.
 
-import createTureen, { type TureenModule } from 'tureen-engine';
+import createTureen, { type Codecs, type TureenModule } from 'tureen-engine';
 import { ViewerError, type Assets } from './types.js';
 
 type Failure = { readonly kind: ViewerError['kind']; readonly message: string };
@@ -17,11 +17,15 @@ const vectors = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 17, 11,
 ]);
 
-const compiled = new WeakMap<Assets, Promise<WebAssembly.Module>>();
+const compiled = new WeakMap<Pick<Assets, 'wasm'>, Promise<WebAssembly.Module>>();
 const utf8 = new TextEncoder();
 
+let codecs: Codecs | null = null;
+/** For later engines of the program that reads all formats. */
+export function useCodecs(given: Codecs): void { codecs = given; }
+
 /** The program, compiled once for all instances. Rejects with ViewerError. */
-export function compile(assets: Assets): Promise<WebAssembly.Module> {
+export function compile(assets: Pick<Assets, 'wasm'>): Promise<WebAssembly.Module> {
   let program = compiled.get(assets);
   if (!program) {
     program = WebAssembly.validate(vectors) ? assets.wasm().then((bytes) => WebAssembly.compile(bytes))
@@ -53,6 +57,7 @@ export class Engine {
           return {};
         },
         onProgress: (fraction) => engine?.onProgress?.(fraction),
+        codecs,
       }).then(resolve, reject);
     }).catch((error: unknown) => {
       throw new ViewerError(`The engine cannot start: ${String(error)}.`, 'memory');
@@ -123,6 +128,13 @@ export class Engine {
       this.module.FS.mkdirTree(whole.slice(0, whole.lastIndexOf('/')));
       this.module.FS.writeFile(whole, bytes, { canOwn: true });
     }
+  }
+
+  /** The bytes of a file that a command has written, which is removed. */
+  takeFile(path: string): Uint8Array<ArrayBuffer> {
+    const bytes = this.module.FS.readFile(path);
+    this.module.FS.unlink(path);
+    return bytes;
   }
 
   /** Removes the contents of a folder. The folder itself stays: it is the engine's current folder. */

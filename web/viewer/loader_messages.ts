@@ -8,9 +8,10 @@ import type {
 export interface FilesToLoad {
   readonly files: readonly SceneFile[];
   readonly name: string;
+  readonly lod?: number;
 }
 
-export type SourceToLoad = { readonly url: string; readonly name: string } | FilesToLoad;
+export type SourceToLoad = { readonly url: string; readonly name: string; readonly lod?: number } | FilesToLoad;
 
 /** The loader's description of a scene: web/engine/loader.cpp. */
 export interface SceneDescription
@@ -19,6 +20,13 @@ export interface SceneDescription
   readonly layer_names: readonly string[];
   readonly subject: { readonly low: Vec3; readonly high: Vec3; readonly up: Vec3 };
   readonly up_reason: string;
+  /** The up axis that the file stores, or its reader assumes. */
+  readonly file_up: Vec3;
+  /** Splats by level of detail, and the level that was read; empty if there are none. */
+  readonly levels: readonly number[];
+  readonly lod: number;
+  /** Whether it was read by the program with all formats. */
+  readonly further: boolean;
   readonly debug_views: readonly DebugViewChoice[];
   readonly feature_count: number;
 }
@@ -86,6 +94,7 @@ export type ToLoader =
   /** The answer to an offer: the number of splats to read. */
   | { readonly kind: 'splats'; readonly number: number }
   | SortMessage
+  | WriteMessage
   /** Inflate these streams (inflating.ts). */
   | { readonly kind: 'inflate'; readonly streams: readonly Deflated[] };
 
@@ -106,6 +115,20 @@ export interface LoadMessage {
   readonly memory: number;
   /** Reads at most this number of splats; null: makes an offer if they need more memory. */
   readonly maxSplats: number | null;
+  /** Turns the scene upright, so that its up axis becomes this. */
+  readonly up: Vec3 | null;
+  /** The worker's program: the one with all formats; or another that such a program helps. */
+  readonly program: 'further' | 'first' | 'only';
+}
+
+/** Read sources and write them as one file; of a worker with the program of all formats. */
+export interface WriteMessage {
+  readonly kind: 'write';
+  readonly sources: readonly { readonly source: SourceToLoad; readonly memory: number; readonly maxSplats: number | null }[];
+  /** The layers, as web/engine/exchange.cpp describes them; null: those of the only source, as they are. */
+  readonly document: object | null;
+  /** Its extension selects the format. */
+  readonly file: string;
 }
 
 /** A task for a worker that sorts splats, and does nothing else (splat_sorting.ts). */
@@ -133,6 +156,9 @@ export type FromLoader =
   | { readonly kind: 'block'; readonly block: Block }
   | { readonly kind: 'scene'; readonly scene: PreparedScene }
   | { readonly kind: 'layer'; readonly layer: PreparedLayer }
+  /** The program does not recognise the scene, but that with all formats may. */
+  | { readonly kind: 'elsewhere' }
+  | { readonly kind: 'written'; readonly bytes: Uint8Array<ArrayBuffer>; readonly losses: readonly string[] }
   | { readonly kind: 'inflated'; readonly inflated: Inflated }
   | { readonly kind: 'sorted'; readonly number: number; readonly order: Uint8Array<ArrayBuffer> }
   | { readonly kind: 'error'; readonly error: { readonly kind: ViewerError['kind']; readonly message: string } };

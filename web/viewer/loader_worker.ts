@@ -1,13 +1,16 @@
-// The script of all workers. A worker sorts splats (splat_sorting.ts), inflates for another one (inflating.ts), or loads
-// one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the worker frees
+// The script of all workers. A worker sorts splats (splat_sorting.ts), inflates for another one (inflating.ts), writes a file
+// (writing.ts), or loads one scene: it fetches and reads the scene, prepares the device's data and transfers them. The end of the worker frees
 // all its memory, so a load is cancelled by ending it.
 
+import { fileNameOf } from './addresses.js';
 import { download } from './download.js';
 import { EarlyTexels } from './early_texels.js';
 import { Engine, type Parcel } from './engine.js';
+import { planFiles, type PlannedFiles } from './file_plan.js';
+import { namesOthers } from './formats.js';
 import { inflate } from './inflating.js';
 import type {
-  Deflated, FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, ToLoader,
+  Deflated, FilesToLoad, FromLoader, LoadMessage, PreparedScene, SceneDescription, SortMessage, SourceToLoad, ToLoader, WriteMessage,
 } from './loader_messages.js';
 import { Preview } from './preview.js';
 import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
@@ -15,13 +18,39 @@ import { Sending, type BlobSize, type Prepared } from './sending.js';
 import { ViewerError, type LoadStage, type SplatOffer } from './types.js';
 
 /** Fraction on the progress bar at the start of each stage, for local files and for downloads. */
-const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
+type Stage = Exclude<LoadStage, 'write'>;
+const starts: Record<'files' | 'url', Record<Stage, number>> = {
   files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
   url: { download: 0, read: 0.6, prepare: 0.9, upload: 0.97 },
 };
 /** Part of the time for reading that is spent on decoding texels early, if there are any. An estimate. */
 const decodingPart = 0.8;
-const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
+const order: readonly Stage[] = ['download', 'read', 'prepare', 'upload'];
+
+/** The file at an address; one that names others has its folder in its path. */
+function fileAt(url: string, name: string, bytes: Uint8Array<ArrayBuffer>): OpenedFiles {
+  const [folder, file] = url.replace(/[?#].*$/s, '').split('/').slice(-2).map(fileNameOf);
+  if (!folder || !file || !namesOthers(file)) return oneFile(name, bytes);
+  const path = `${folder}/${file}`;
+  return { bytes: new Map([[path, bytes]]), paths: [path] };
+}
+
+/** The bytes of several downloads. */
+class Downloads {
+  loaded = 0;
+  total: number | null = 0;
+  constructor(private readonly arrived: () => void) {}
+  async part(url: string): Promise<Uint8Array<ArrayBuffer>> {
+    let known: number | null | undefined, before = 0;
+    return download(url, ({ bytes, total }) => {
+      if (known === undefined) this.total = total === null || this.total === null ? null : this.total + total;
+      known = total;
+      this.loaded += bytes.length - before;
+      before = bytes.length;
+      this.arrived();
+    });
+  }
+}
 
 class Loader {
   private description: SceneDescription | null = null;
@@ -55,14 +84,18 @@ class Loader {
 
   async load(): Promise<void> {
     const { source } = this.message;
-    const [files] = await Promise.all([
+    const [found] = await Promise.all([
       'url' in source ? this.fetched(source.url, source.name) : this.opened(source),
       this.starting,
     ]);
+    const planned = this.message.program === 'further' ? await this.planned(found) : { files: found, given: {}, levels: [] };
+    const { files } = planned;
     const begin = performance.now(), [only, ...others] = files.bytes.values();
     if (only && others.length === 0) await this.decodeTexels(only);
     this.engine.onProgress = (fraction) => this.tell('read', this.readFrom + (1 - this.readFrom) * fraction);
-    this.description = await this.read(files);
+    const description = await this.read(planned);
+    if (!description) return post({ kind: 'elsewhere' });
+    this.description = { ...description, levels: planned.levels, lod: planned.given.lod ?? 0, further: this.message.program === 'further' };
     this.readMs = performance.now() - begin;
     const { role } = this.message;
     if (role === 'scene') return this.send();
@@ -80,12 +113,13 @@ class Loader {
   private get engine(): Engine { return this.started!; }
 
   /** Reads the scene, or a part of its splats if the memory does not hold all. */
-  private async read(files: OpenedFiles): Promise<SceneDescription> {
-    const { memory, maxSplats } = this.message;
-    const once = (splats: number | null) => readWith<SceneDescription | { readonly offer: SplatOffer }>(
-      this.engine, 'read', files, splats === null ? { memory } : { max_splats: splats });
+  private async read({ files, given }: PlannedFiles): Promise<SceneDescription | null> {
+    const { memory, maxSplats, up} = this.message;
+    const elsewhere = this.message.program === 'first';
+    const once = (splats: number | null) => readWith<SceneDescription | { readonly offer: SplatOffer } | null>(
+      this.engine, 'read', files, { ...given, elsewhere, ...(up && { up }), ...(splats === null ? { memory } : { max_splats: splats }) });
     const result = once(maxSplats);
-    if (!('offer' in result)) return result;
+    if (!result || !('offer' in result)) return result;
     post({ kind: 'offer', offer: { ...result.offer, name: this.message.source.name, memory } });
     return once(await this.chosen) as SceneDescription;
   }
@@ -122,7 +156,19 @@ class Loader {
       if (this.started) await this.use();
     });
     this.prefix = null;
-    return oneFile(name, bytes);
+    return fileAt(url, name, bytes);
+  }
+
+  /** With the files that the scene names. */
+  private async planned(files: OpenedFiles): Promise<PlannedFiles> {
+    const { source, memory, maxSplats } = this.message;
+    const downloads = new Downloads(() => {
+      const { loaded, total } = downloads;
+      this.loaded = loaded;
+      this.total = total;
+      this.tell('download', total ? loaded / total : null);
+    });
+    return planFiles(this.engine, files, source, memory, maxSplats, (url) => downloads.part(url));
   }
 
   /** Uses the first bytes of a download: after each arrival, and when engine and device are ready. */
@@ -189,7 +235,7 @@ class Loader {
   }
 
   /** Reports progress, but only after a change of 0.1 % or 100 kB. */
-  private tell(stage: LoadStage, part: number | null): void {
+  private tell(stage: Stage, part: number | null): void {
     const begin = starts[this.from], next = order[order.indexOf(stage) + 1];
     const fraction = part === null ? null : begin[stage] + part * ((next ? begin[next] : 1) - begin[stage]);
     const permille = fraction === null ? Math.floor(this.loaded / 1e5) : Math.floor(1000 * fraction);
@@ -210,12 +256,32 @@ function transferred(message: FromLoader): Transferable[] {
     case 'head': return [message.head];
     case 'block': return [message.block.bytes];
     case 'sorted': return [message.order.buffer];
+    case 'written': return [message.bytes.buffer];
     case 'inflated': return message.inflated.map(({ buffer }) => buffer);
     default: return [];
   }
 }
 
 function post(message: FromLoader): void { self.postMessage(message, { transfer: transferred(message) }); }
+
+async function opened(source: SourceToLoad): Promise<OpenedFiles> {
+  return 'url' in source ? fileAt(source.url, source.name, await download(source.url, () => {})) : openFiles(source.files, source.name);
+}
+
+async function write({ sources, document, file }: WriteMessage): Promise<void> {
+  const engine = await Engine.create(await program), count = sources.length + 1;
+  const tell = (stage: LoadStage, part: number) =>
+    post({ kind: 'progress', progress: { stage, fraction: part / count, loadedBytes: 0, totalBytes: null, deviceBytes: null } });
+  for (const [number, { source, memory, maxSplats }] of sources.entries()) {
+    tell('read', number);
+    const { files, given } = await planFiles(engine, await opened(source), source, memory, maxSplats, (url) => download(url, () => {}));
+    readWith(engine, 'read_for_debug_views', files, { ...given, source: number, ...(maxSplats !== null && { max_splats: maxSplats }) });
+  }
+  engine.onProgress = (fraction) => tell('write', sources.length + fraction);
+  tell('write', sources.length);
+  const path = `/written/${file}`, losses = engine.call<string[]>('write', { file: path, document });
+  post({ kind: 'written', bytes: engine.takeFile(path), losses });
+}
 
 let sorter: Promise<Engine> | null = null;
 
@@ -255,6 +321,7 @@ async function handle(message: ToLoader): Promise<void> {
     case 'next': return loader!.sendLayer();
     case 'taken': return loader!.sending.taken(message.taken, message.bytes);
     case 'sort': return sortSplats(message);
+    case 'write': return write(message);
     case 'inflate': return inflateInOrder(message.streams);
   }
 }

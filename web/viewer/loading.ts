@@ -1,8 +1,10 @@
 // One running load: its worker and the worker's messages.
 
 import { fileNameOf, urlOf } from './addresses.js';
+import { compile } from './engine.js';
+import { needsFurther } from './formats.js';
 import type { Block, FromLoader, LoadRole, PreparedLayer, PreparedScene, SourceToLoad, Taken, ToLoader } from './loader_messages.js';
-import { ViewerError, type Assets, type LoadProgress, type SceneSource, type SplatOffer } from './types.js';
+import { ViewerError, type Assets, type LoadProgress, type SceneSource, type SplatOffer, type Vec3 } from './types.js';
 
 interface CommonEvents {
   progress(progress: LoadProgress): void;
@@ -25,17 +27,23 @@ export interface AddingEvents extends CommonEvents {
   layer(layer: PreparedLayer): void;
 }
 
-function sourceToLoad(source: SceneSource): SourceToLoad {
+/** Throws ViewerError. */
+export function sourceToLoad(source: SceneSource): SourceToLoad {
+  const detail = source.lod === undefined ? {} : { lod: source.lod };
   if ('url' in source) {
     const url = urlOf(source);
-    return { url, name: source.name || fileNameOf(url) || 'scene' };
+    return { url, name: source.name || fileNameOf(url) || 'scene', ...detail };
   }
   if (source.files.length === 0) throw new ViewerError('The scene has no files.', 'usage');
   const files = source.files.map(({ path, data }) => ({ path: path.replace(/^\/+/, ''), data }));
   if (files.some(({ path }) => path === '' || path.split('/').includes('..')))
     throw new ViewerError('A file of the scene has no valid path within its folder.', 'usage');
-  return { files, name: source.name || files[0]!.path };
+  return { files, name: source.name || files[0]!.path, ...detail };
 }
+
+/** Whether the names of its files need the program with all formats. */
+const isFurther = (source: SourceToLoad) =>
+  'url' in source ? needsFurther(fileNameOf(source.url)) : source.files.some(({ path }) => needsFurther(path));
 
 /** Whether the memory was too small; a lower lattice level may then fit. */
 export const isShortage = (error: unknown): error is ViewerError => error instanceof ViewerError && error.kind === 'memory';
@@ -53,12 +61,14 @@ export class Loading {
    *  which events run() needs. */
   constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource,
               private readonly memory: number, private readonly maxSplats: number | null,
-              private readonly role: LoadRole = 'scene') {
+              private readonly role: LoadRole = 'scene', private readonly up: Vec3 | null = null) {
     this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
     this.shown.catch(() => {});  // run() returns the error
     limits.catch(() => {});  // begin() awaits it later, after the worker
     this.begin(assets, program, limits, source).catch((error: unknown) => this.end(error));
   }
+
+  private restart: () => void = () => {};
 
   /** Resolves when the scene is shown. Rejects with ViewerError. Call it only once. */
   run(events: LoadingEvents | AddingEvents): Promise<void> {
@@ -71,7 +81,18 @@ export class Loading {
 
   private async begin(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>,
                       source: SceneSource): Promise<void> {
-    const toLoad = sourceToLoad(source);
+    const toLoad = sourceToLoad(source), { further } = assets;
+    this.restart = () => {
+      this.worker!.terminate();
+      this.beginIn(further!, compile(further!), limits, toLoad, 'further').catch((error: unknown) => this.end(error));
+    };
+    if (further && isFurther(toLoad)) return this.beginIn(further, compile(further), limits, toLoad, 'further');
+    return this.beginIn(assets, program, limits, toLoad, further ? 'first' : 'only');
+  }
+
+  private async beginIn(assets: Pick<Assets, 'loaderWorker'>, program: Promise<WebAssembly.Module>, limits: Promise<unknown>,
+                        source: SourceToLoad, which: 'first' | 'only' | 'further'): Promise<void> {
+    program.catch(() => {});  // awaited after the worker
     const worker = this.worker = await assets.loaderWorker();
     if (this.over) return worker.terminate();  // cancelled in the meantime
     const tell = (message: ToLoader) => worker.postMessage(message);
@@ -83,8 +104,8 @@ export class Loading {
       if (this.events) this.hear(data);
       else this.unheard.push(data);
     };
-    const { role, memory, maxSplats } = this;
-    tell({ kind: 'load', source: toLoad, role, memory, maxSplats });
+    const { role, memory, maxSplats, up } = this;
+    tell({ kind: 'load', source, role, memory, maxSplats, up, program: which });
     tell({ kind: 'program', program: await program });
     tell({ kind: 'limits', limits: await limits });
   }
@@ -121,6 +142,7 @@ export class Loading {
           const bytes = taken === 'kept' ? new ArrayBuffer() : block.bytes;
           return this.worker!.postMessage({ kind: 'taken', taken, bytes } satisfies ToLoader, [bytes]);
         }
+        case 'elsewhere': return this.restart();
         case 'offer': return void this.answer(message.offer);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));
         case 'scene': {

@@ -1,6 +1,7 @@
 // The files of a scene in the form that the engine reads: one file, or a folder.
 
 import type { Engine } from './engine.js';
+import { kinds } from './formats.js';
 import { ViewerError, type SceneFile } from './types.js';
 
 /** The engine's folder for files; paths in errors are relative to it. */
@@ -24,8 +25,8 @@ export async function openFiles(files: readonly SceneFile[], name: string): Prom
   if (files.length === 1) return oneFile(files[0]!.path, await bytesOf(files[0]!));
   const whole = name.replaceAll('/', ' '), bytes = new Map<string, Uint8Array<ArrayBuffer>>();
   for (const file of files) bytes.set(`${whole}/${file.path}`, await bytesOf(file));
-  const alone = ['.gltf', '.obj', '.glb', '.off', '.ply']
-    .map((kind) => [...bytes.keys()].filter((path) => path.toLowerCase().endsWith(kind)))
+  const alone = kinds
+    .map(({ end }) => [...bytes.keys()].filter((path) => path.toLowerCase().endsWith(end)))
     .filter((fitting) => fitting.length === 1)
     .map(([path]) => path!);
   return { bytes, paths: [whole, ...alone.slice(0, 1)] };

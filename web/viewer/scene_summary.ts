@@ -50,5 +50,6 @@ export function sceneSummary(first: SceneDescription, sources: readonly SceneDes
     debugViews: debugViewsOf(sources),
     featureCount: Math.min(...sources.map(({ feature_count }) => feature_count)),
     deviceBytes: facts.device_bytes,
+    detail: sources.length === 1 && first.levels.length > 1 ? { splats: first.levels, level: first.lod } : null,
   };
 }

@@ -8,6 +8,7 @@ declare module 'tureen-engine' {
     FS: {
       mkdirTree(path: string): void;
       writeFile(path: string, bytes: Uint8Array, options: { canOwn: boolean }): void;
+      readFile(path: string): Uint8Array<ArrayBuffer>;
       readdir(path: string): string[];
       stat(path: string): { readonly mode: number };
       isDir(mode: number): boolean;
@@ -19,10 +20,22 @@ declare module 'tureen-engine' {
       makeContextCurrent(context: number): boolean;
     };
   }
+  /** web/engine/codecs.cpp calls these. */
+  export interface Codecs {
+    /** `windowBits`: as zlib's; 16 more for gzip. Returns the stream's number. */
+    begin(windowBits: number): number;
+    /** Places and sizes in `heap`. Returns zlib's status and the bytes left of input and output. */
+    inflate(stream: number, heap: Uint8Array, input: number, inputSize: number, output: number, outputSize: number):
+      readonly [number, number, number];
+    end(stream: number): void;
+    /** Fills `output`, and returns its size; -1 if the data are damaged or have another size. */
+    unzstd(input: Uint8Array, output: Uint8Array): number;
+  }
   export interface TureenHooks {
     instantiateWasm(imports: WebAssembly.Imports,
                     done: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void): object;
     onProgress(fraction: number): void;
+    codecs: Codecs | null;
   }
   export default function createTureen(hooks: TureenHooks): Promise<TureenModule>;
 }

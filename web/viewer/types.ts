@@ -10,6 +10,11 @@ export interface Assets {
   wasm(): Promise<ArrayBuffer>;
   /** A new worker that runs the loader. Rejects with ViewerError if its script cannot be fetched. */
   loaderWorker(): Promise<Worker>;
+  /** The same of the program that reads all formats and writes files, when it is needed. Without it, the viewer reads the
+   *  formats of the first program, and writes nothing. */
+  readonly further?: Pick<Assets, 'wasm' | 'loaderWorker'>;
+  /** The page as one file, into which a scene is written. */
+  template?(): Promise<string>;
 }
 
 export type Vec3 = readonly [number, number, number];
@@ -20,10 +25,26 @@ export interface SceneFile {
   readonly data: Blob;
 }
 
-/** A file by its address, or local files: one, or all of a folder. */
+/** A file by its address, or local files: one, or all of a folder. A SOG in several files is the address of its meta.json
+ *  or lod-meta.json. `lod`: the level of detail of a streamed scene, 0 is the finest; by default the finest that fits
+ *  the memory. */
 export type SceneSource =
-  | { readonly url: string; readonly name?: string }
-  | { readonly files: readonly SceneFile[]; readonly name?: string };
+  | { readonly url: string; readonly name?: string; readonly lod?: number }
+  | { readonly files: readonly SceneFile[]; readonly name?: string; readonly lod?: number };
+
+/** What `write` writes. html: the page with the scene, as one file that opens from the disk. */
+export const writtenFormats = ['glb', 'ply', 'html'] as const;
+export type WrittenFormat = (typeof writtenFormats)[number];
+
+/** A file that was written, and a sentence for each thing that the format cannot hold. */
+export interface WrittenScene {
+  readonly file: Blob;
+  readonly losses: readonly string[];
+}
+
+/** What `play` plays: a turn about what the recorded cameras look at, or about the target of the view without them; or a
+ *  flight along the recorded cameras. */
+export type Tour = 'turntable' | 'cameras';
 
 /** A recorded camera from the scene's file. */
 export interface SceneCamera {
@@ -55,6 +76,8 @@ export interface SceneSummary {
   readonly featureCount: number;
   /** Size of its buffers and textures on the device, in bytes. */
   readonly deviceBytes: number;
+  /** Of a streamed scene without layers from elsewhere: its splats by level of detail, the finest first, and the shown level. */
+  readonly detail: { readonly splats: readonly number[]; readonly level: number } | null;
 }
 
 /** 16 numbers, column by column, as in glTF: a similarity (rotation, translation, one scale, optionally a
@@ -119,7 +142,8 @@ export interface LegendEntry {
   readonly text: string;
 }
 
-export type LoadStage = 'download' | 'read' | 'prepare' | 'upload';
+/** write: of a file for the user. */
+export type LoadStage = 'download' | 'read' | 'prepare' | 'upload' | 'write';
 
 export interface LoadProgress {
   readonly stage: LoadStage;
@@ -207,6 +231,8 @@ export interface ViewerEvents {
   frame: FrameStats;
   /** The view stopped moving. */
   view: ViewPose;
+  /** A tour began or ended. */
+  tour: Tour | null;
   /** The GL context was lost, or it and the scene were restored. */
   context: 'lost' | 'restored';
 }
@@ -306,6 +332,19 @@ export interface Viewer {
   /** The full vertical angle: above 0 and below pi. */
   fov: number;
 
+  /** Moves the view in each frame until the view is moved otherwise, a scene is opened, or stop() is called; a flight that
+   *  is no loop ends by itself. `seconds`: of one turn, by default 16, or of the whole flight, by default at an even speed. Throws ViewerError without
+   *  a scene, or without recorded cameras for a flight. */
+  play(tour: Tour, seconds?: number): void;
+  stop(): void;
+  readonly playing: Tour | null;
+
+  /** Whether added layers are turned so that their up axis is that of the loaded scene, as the program does. */
+  upright: boolean;
+  /** Writes the scene as shown: its layers, places, up axis, background, and for html the present view. A worker reads the
+   *  sources again. Emits 'progress'. Rejects with ViewerError. */
+  write(format: WrittenFormat, options?: { readonly signal?: AbortSignal }): Promise<WrittenScene>;
+
   // Drawing.
   background: Vec3;
   resolution: Resolution;
@@ -340,6 +379,8 @@ export interface ViewerOptions {
   readonly resolution?: Resolution;
   /** Default true. */
   readonly smoothAtRest?: boolean;
+  /** Default true. */
+  readonly upright?: boolean;
   /** Default auto. */
   readonly blend?: SplatBlending;
   /** Memory for the splats of one source, in bytes, above 0. Default: 3 GiB, and on phones a quarter of the memory that the browser

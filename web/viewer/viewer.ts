@@ -9,20 +9,21 @@ import { attachControls } from './controls.js';
 import { compile, Engine, type Parcel } from './engine.js';
 import { FrameTimes } from './frame_times.js';
 import type { PreparedLayer, PreparedScene, SceneDescription, WantedLayers } from './loader_messages.js';
-import { isShortage, Loading } from './loading.js';
+import { isShortage, Loading, sourceToLoad } from './loading.js';
 import { defaultMemory } from './memory.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
-import { oneFile, openFiles, readWith } from './scene_files.js';
+import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
 import { SplatSorting } from './splat_sorting.js';
 import {
   lowerLevelSentence, nothingDrawn, othersDrawn, sceneSummary, tooLargeSentence, type ShownFacts,
 } from './scene_summary.js';
 import {
-  maxLayers, ViewerError, type Assets, type FrameStats, type LegendEntry, type Matrix, type NamedView,
+  maxLayers, ViewerError, writtenFormats, type Assets, type FrameStats, type LegendEntry, type Matrix, type NamedView,
   type NavigationMode, type Placement, type Resolution, type SceneLayer, type SceneSource, type SceneSummary, type SplatOffer,
-  type Steps, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
+  type Steps, type Tour, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose, type WrittenFormat, type WrittenScene,
 } from './types.js';
+import { pageWith, writeFile } from './writing.js';
 
 /** Starts the engine on this canvas. Rejects with ViewerError. */
 export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOptions = {}): Promise<Viewer> {
@@ -33,6 +34,7 @@ export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOpt
   const viewer = new CanvasViewer(canvas, parts, compile(parts),
                                   { blend, memory: Math.min(memory, Number.MAX_VALUE), chooseSplats });
   viewer.smooth = options.smoothAtRest ?? true;
+  viewer.upright = options.upright ?? true;
   await viewer.start(options.expected ?? null);
   if (options.background) viewer.background = options.background;
   if (options.resolution) viewer.resolution = options.resolution;
@@ -48,7 +50,7 @@ interface Device {
 
 /** Whether both are the same file on a server, or the same object with local files. */
 const isSame = (a: SceneSource, b: SceneSource) =>
-  a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name);
+  a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name && a.lod === b.lod);
 
 /** A source that was read. */
 interface Part {
@@ -130,6 +132,8 @@ class CanvasViewer implements Viewer {
   private holding_ = false;
   private gliding_ = true;
   smooth = true;
+  upright = true;
+  private playing_: Tour | null = null;
   /** Numbers of splats that were chosen for sources whose splats do not all fit. */
   private readonly maxSplats = new WeakMap<SceneSource, number>();
   private lost = false;
@@ -286,7 +290,8 @@ class CanvasViewer implements Viewer {
   }
 
   private loadingOf(source: SceneSource, limits: Promise<unknown>, role: 'scene' | WantedLayers): Loading {
-    return new Loading(this.assets, this.program, limits, source, this.options.memory, this.maxSplats.get(source) ?? null, role);
+    const up = this.upright && role !== 'scene' ? this.first?.file_up ?? null : null;
+    return new Loading(this.assets, this.program, limits, source, this.options.memory, this.maxSplats.get(source) ?? null, role, up);
   }
 
   /** Asks how many splats of the source to read, and remembers the answer for later reads. */
@@ -338,6 +343,7 @@ class CanvasViewer implements Viewer {
 
   private forgetScene(): void {
     this.engine.call('drop_scene');
+    this.endTour();
     this.first = this.shown = null;
     this.origins.clear();
     ++this.generation;
@@ -371,6 +377,7 @@ class CanvasViewer implements Viewer {
     this.previewed = false;
     this.debugView_ = { ...this.debugView_, name: 'color' };
     this.first = part.description;
+    this.endTour();
     this.origins.clear();
     ++this.generation;
     this.engine.call<SceneLayer[]>('layers').forEach(({ id }, at) => this.origins.set(id, { part, index: from + at }));
@@ -663,6 +670,7 @@ class CanvasViewer implements Viewer {
   }
 
   private move(name: string, given: unknown = null): void {
+    this.stop();
     this.change(name, given);
     this.moved = true;
   }
@@ -711,6 +719,26 @@ class CanvasViewer implements Viewer {
   setView(pose: ViewPose, options: { readonly glide?: boolean } = {}): void {
     this.move('set_pose', { pose, glide: options.glide ?? false });
   }
+  play(tour: Tour, seconds?: number): void {
+    if (tour !== 'turntable' && tour !== 'cameras') throw new ViewerError(`“${String(tour)}” is no tour: use turntable or cameras.`, 'usage');
+    if (seconds !== undefined && !(seconds > 0 && seconds < Infinity)) throw new ViewerError('A tour needs seconds above 0.', 'usage');
+    this.change('play', { what: tour, seconds: seconds ?? null });
+    this.playing_ = tour;
+    this.emit('tour', tour);
+  }
+  stop(): void {
+    if (this.playing_ === null) return;
+    this.change('play', null);
+    this.endTour();
+  }
+  private endTour(): void {
+    if (this.playing_ === null) return;
+    this.playing_ = null;
+    this.moved = true;
+    this.emit('tour', null);
+  }
+  get playing(): Tour | null { return this.playing_; }
+
   get fov(): number { return this.getView().fov; }
   set fov(fov: number) { this.move('fov', fov); }
   get gliding(): boolean { return this.gliding_; }
@@ -766,9 +794,9 @@ class CanvasViewer implements Viewer {
   private async readForDebugViews(): Promise<void> {
     const { generation } = this, parts = this.parts();
     if (parts.length === 0) throw new ViewerError('There is no scene for a debug view: open one first.', 'usage');
-    for (const [number, { source, description: { name }, level }] of parts.entries()) {
-      const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
-                                    : await openFiles(source.files, source.name ?? name);
+    for (const [number, { source, description: { name, further }, level }] of parts.entries()) {
+      const files = further ? await this.asGlb(source) :
+        'url' in source ? oneFile(name, await download(urlOf(source), () => {})) : await openFiles(source.files, source.name ?? name);
       if (this.generation !== generation) throw new ViewerError('Another scene is open now.', 'cancelled');
       const splats = this.maxSplats.get(source);
       readWith(this.engine, 'read_for_debug_views', files,
@@ -776,6 +804,32 @@ class CanvasViewer implements Viewer {
     }
     this.engine.call('keep_read_layers', [...this.origins].filter(([, { part }]) => parts.includes(part))
       .map(([id, { part, index }]) => [parts.indexOf(part), index, id]));
+  }
+
+  /** A source that only the program with all formats reads, in a format of this one. */
+  private async asGlb(source: SceneSource): Promise<OpenedFiles> {
+    const { file } = await writeFile(this.assets, { sources: [this.toWrite(source)], document: null, file: 'scene.glb' }, undefined, () => {});
+    return oneFile('scene.glb', new Uint8Array(await file.arrayBuffer()));
+  }
+
+  private toWrite(source: SceneSource) {
+    return { source: sourceToLoad(source), memory: this.options.memory, maxSplats: this.maxSplats.get(source) ?? null };
+  }
+
+  async write(format: WrittenFormat, { signal }: Cancelling = {}): Promise<WrittenScene> {
+    const { shown, layers } = this, parts = this.parts();
+    if (!shown) throw new ViewerError('There is no scene to write: open one first.', 'usage');
+    if (!writtenFormats.includes(format)) throw new ViewerError(`“${String(format)}” is not written: use ${writtenFormats.join(', ')}.`, 'usage');
+    const isPage = format === 'html', { width, height } = this.canvas;
+    const written = await writeFile(this.assets, {
+      sources: parts.map(({ source }) => this.toWrite(source)), file: `scene.${isPage ? 'glb' : format}`,
+      document: {
+        layers: layers.map(({ id, sourceLayer, name, transform, visible }) =>
+          ({ source: parts.indexOf(this.origins.get(id)!.part), index: sourceLayer, name, transform, visible })),
+        up: this.getView().up, background: this.background, view: isPage ? this.engine.call('shown_camera', [width, height]) : null,
+      },
+    }, signal, (progress) => this.emit('progress', progress));
+    return isPage ? { ...written, file: await pageWith(this.assets, written.file, shown.name) } : written;
   }
 
   get stats(): FrameStats {
@@ -830,6 +884,7 @@ class CanvasViewer implements Viewer {
     if (this.lastFrame !== null) this.resolutionKeeper.add(now - this.lastFrame);
     this.emit('frame', this.stats);
     if (next > 0) this.ask();
+    if (next !== 2) this.endTour();
     if (next === 2) {
       this.lastFrame = now;
     } else {  // frames at rest have no influence on times and resolution

@@ -37,6 +37,10 @@ Scene read_zip(const std::string& bytes, const ReadOptions& options = {},
   return read_sog_archive(Input::memory("a.sog", as_bytes(bytes), std::move(budget)), options);
 }
 
+std::size_t count_at(const std::filesystem::path& path, std::size_t lod) {
+  return count(only_splats(read_scene(path, {.lod = lod})));
+}
+
 /// The place of the splat with this x, to the nearest.
 std::size_t splat_at(const Gaussians& gaussians, float x) {
   const auto found = std::min_element(
@@ -143,6 +147,46 @@ TEST(Sog, AStreamedSceneHasTheLevelThatIsAskedForOrFits) {
       EXPECT_TRUE(is_about_memory(error)) << error.what();
     }
   EXPECT_LE(least, 6u);
+}
+
+/// A caller that has only lod-meta.json, and gets the files that are named until none is missing.
+TEST(Sog, NeedsExactlyTheFilesOfItsLevel) {
+  const auto fetched = [](const ReadOptions& options) {
+    const TemporaryFolder folder;
+    const test::SogFiles files = streamed_splats();
+    write_files(folder / "scene", {files.front()});
+    std::size_t count = 1;
+    for (;;) {
+      const SogNeeds needs = sog_needs(folder / "scene/lod-meta.json", options);
+      EXPECT_THAT(needs.levels, ElementsAre(4, 2));
+      if (needs.missing.empty()) break;
+      for (const std::string& name : needs.missing) {
+        const auto found = std::find_if(files.begin(), files.end(),
+                                        [&](const auto& file) { return file.first == name; });
+        EXPECT_NE(found, files.end()) << name;
+        if (found == files.end()) return std::pair(count, std::size_t(0));
+        write_files(folder / "scene", {*found});
+        ++count;
+      }
+    }
+    const std::size_t level = sog_needs(folder / "scene/lod-meta.json", options).level;
+    return std::pair(count, count_at(folder / "scene/lod-meta.json", level));
+  };
+  // meta.json and five images each: two parts or one, and the environment.
+  EXPECT_EQ(fetched({}), std::pair(std::size_t(1 + 3 * 6), std::size_t(6)));
+  EXPECT_EQ(fetched({.max_splats = 3}), std::pair(std::size_t(1 + 2 * 6), std::size_t(4)));
+  EXPECT_EQ(fetched({.lod = 1}), std::pair(std::size_t(1 + 2 * 6), std::size_t(4)));
+
+  const TemporaryFolder folder;
+  test::SogFiles plain = two_splats(2);
+  write_files(folder / "scene", {plain.front()});
+  EXPECT_THAT(sog_needs(folder / "scene/meta.json").missing, testing::SizeIs(7));
+  EXPECT_THAT(sog_needs(folder / "scene/meta.json").levels, testing::IsEmpty());
+  // A name that leads out is not fetched: the reader rejects it.
+  std::string& meta = plain.front().second;
+  meta.insert(meta.find("quats.webp"), "../");
+  write_files(folder / "scene", {plain.front()});
+  EXPECT_THAT(sog_needs(folder / "scene/meta.json").missing, testing::SizeIs(6));
 }
 
 TEST(Sog, WrittenSplatsAreReadWithinTheRounding) {

@@ -10,9 +10,12 @@ const sizes: readonly (readonly [string, number, number])[] = [
 ];
 
 /** A valid name for all file systems: the scene's name without its extension, and the debug view. */
-export function imageName(scene: string, debugView: string): string {
+export const imageName = (scene: string, debugView: string) =>
+  fileName(scene, 'png', debugView === 'color' ? '' : `-${debugView}`);
+
+export function fileName(scene: string, extension: string, more = ''): string {
   const stem = scene.replace(/\.[a-z0-9]{1,5}$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '');
-  return `${stem || 'tureen'}${debugView === 'color' ? '' : `-${debugView}`}.png`;
+  return `${stem || 'tureen'}${more}.${extension}`;
 }
 
 export class ImageSection {

@@ -1,14 +1,15 @@
 // Facts and notes about the scene.
 
 import type { SceneSummary, Viewer } from '../../viewer/types.js';
-import { block, fillFacts, fillSentences } from '../../common/dom.js';
+import { block, fillFacts, fillSentences, make, select } from '../../common/dom.js';
 import type { Loading } from '../loading.js';
-import { bytesText, primitivesText } from '../../common/numbers.js';
+import { bytesText, countText, primitivesText } from '../../common/numbers.js';
 
 export class SceneSection {
   private notices: string[] = [];
 
-  constructor(private readonly viewer: Viewer, loading: Loading) {
+  constructor(private readonly viewer: Viewer, private readonly chooseLevel: (level: number) => void, loading: Loading) {
+    select('detail').addEventListener('change', () => this.chooseLevel(select('detail').selectedIndex));
     viewer.on('scene', (scene) => {
       if (!scene) this.notices = [];
       this.show(scene);
@@ -31,6 +32,10 @@ export class SceneSection {
       ['Appearance', scene.appearance],
       ['GPU memory', bytesText(scene.deviceBytes)],
     ] : [['Name', 'no scene is open']]);
+    const detail = scene?.detail ?? null;
+    block('detail-part').hidden = detail === null;
+    select('detail').replaceChildren(...(detail?.splats ?? []).map((splats, level) =>
+      make('option', { value: level, selected: level === detail!.level }, `${level}: ${countText(splats)} splats`)));
     this.showNotes();
   }
 

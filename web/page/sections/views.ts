@@ -2,6 +2,7 @@
 
 import { namedViews, type NamedView, type NavigationMode, type Vec3, type Viewer } from '../../viewer/types.js';
 import { block, button, input, make, select } from '../../common/dom.js';
+import { remember } from '../memory.js';
 import { degreesPerRadian } from '../../common/numbers.js';
 
 const viewTitles: Readonly<Record<NamedView, string>> = {
@@ -40,6 +41,12 @@ export class ViewsSection {
       const chosen = axes[Number(this.up.value)];
       if (chosen) viewer.setUp(chosen.axis);
       this.update();
+    });
+    const upright = input('upright');
+    upright.checked = viewer.upright;
+    upright.addEventListener('change', () => {
+      viewer.upright = upright.checked;
+      remember('upright', upright.checked);
     });
     this.fov.addEventListener('input', () => {
       viewer.fov = this.fov.valueAsNumber / degreesPerRadian;

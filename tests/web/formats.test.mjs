@@ -1,0 +1,233 @@
+// Formats of splats that the page's second program reads, scenes in several files by address, and files that the page writes.
+
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+import { drawingPage, drawingRoutes } from './drawing.mjs';
+import { splatPly } from './splat_ply.mjs';
+import { each, errorKind, errorShown, pick, programs, sceneShown, scratch, source, stage, still, test } from './support.mjs';
+
+const folder = scratch(), file = (name) => join(folder, name);
+const playbot = join(source, '../shared/data/gaussians/playbot');
+const routes = { ...drawingRoutes };
+for (const [prefix, root] of [['/streamed/', file('streamed')], ['/playbot/', playbot]])
+  for (const path of paths(root, prefix === '/playbot/'))
+    routes[prefix + path] = (request, response) => {
+      const bytes = readFileSync(join(root, path));
+      response.writeHead(200, { 'content-length': bytes.length }).end(bytes);
+    };
+const { visit } = await stage({ routes });
+
+/** The files of a streamed scene with two levels, which are made here, or of playbot. */
+function paths(root, isPlaybot) {
+  const images = ['means_l', 'means_u', 'scales', 'quats', 'sh0', 'shN_labels', 'shN_centroids'].map((name) => `${name}.webp`);
+  const of = (part) => ['meta.json', ...images].map((name) => `${part}/${name}`);
+  if (isPlaybot) return existsSync(root) ? ['lod-meta.json', ...of('0_0'), ...of('5_0')] : [];
+  writeFileSync(file('splats.ply'), splatPly(1000));
+  writeFileSync(file('few.ply'), splatPly(300));
+  for (const [name, part] of [['splats', 'fine'], ['few', 'coarse']]) {
+    convert(`${name}.ply`, `${name}.sog`);
+    mkdirSync(join(root, part), { recursive: true });
+    for (const [entry, bytes] of storedEntries(readFileSync(file(`${name}.sog`)))) writeFileSync(join(root, part, entry), bytes);
+  }
+  const lods = { 0: { file: 0, offset: 0, count: 1000 }, 1: { file: 1, offset: 0, count: 300 } };
+  writeFileSync(join(root, 'lod-meta.json'), JSON.stringify({
+    lodLevels: 2, filenames: ['fine/meta.json', 'coarse/meta.json'], environment: null,
+    tree: { bound: { min: [-1, -1, -1], max: [1, 1, 1] }, lods },
+  }));
+  return ['lod-meta.json', ...of('fine'), ...of('coarse')].filter((path) => existsSync(join(root, path)));
+}
+
+function convert(from, to) {
+  execFileSync(join(programs, 'tureen'), ['convert', file(from), file(to), '--quiet', '--force', '--no-measure'], { stdio: 'pipe' });
+}
+
+/** The files of a zip archive without compression. */
+function storedEntries(zip) {
+  const entries = [];
+  for (let at = 0; zip.readUInt32LE(at) === 0x04034b50;) {
+    const size = zip.readUInt32LE(at + 18), name = zip.readUInt16LE(at + 26), begin = at + 30 + name + zip.readUInt16LE(at + 28);
+    assert.equal(zip.readUInt16LE(at + 8), 0, 'stored');
+    entries.push([zip.toString('utf8', at + 30, at + 30 + name), zip.subarray(begin, begin + size)]);
+    at = begin + size;
+  }
+  return entries;
+}
+
+const from = { eye: [0.4, 0.7, 2.6], target: [0, 0, 0], up: [0, -1, 0], fov: 1, roll: 0 };
+const wanted = { from, width: 96, height: 72 };
+
+// The program and the page read a file with the same code; GLB keeps every number. So the images are equal.
+test('each format has the image that its conversion by the program has', (context) => visit('drawing.html', async (page) => {
+  const { load, image } = await drawingPage(page);
+  const formats = ['sog', 'spz', 'compressed.ply', 'splat', 'usda', 'usdz'];
+  await each(context, formats.map((extension) => [extension, async () => {
+    const name = `read.${extension}`;
+    convert('splats.ply', name);
+    convert(name, 'expected.glb');
+    await load(folder, ['expected.glb']);
+    const expected = await image(wanted);
+    await load(folder, [name]);
+    assert.deepEqual(await image(wanted), expected);
+  }]));
+  await context.test('SPZ of version 3, by gzip', async () => {
+    execFileSync(join(programs, 'tureen'), ['convert', file('splats.ply'), file('three.spz'), '--spz-version', '3', '--quiet', '--no-measure'], { stdio: 'pipe' });
+    convert('three.spz', 'three.glb');
+    await load(folder, ['three.glb']);
+    const expected = await image(wanted);
+    await load(folder, ['three.spz']);
+    assert.deepEqual(await image(wanted), expected);
+  });
+  await context.test('a name without its extension', async () => {
+    writeFileSync(file('unnamed'), readFileSync(file('read.spz')));
+    await load(folder, ['read.spz']);
+    const expected = await image(wanted);
+    await load(folder, ['unnamed']);
+    assert.deepEqual(await image(wanted), expected);
+  });
+  await context.test('a debug view', async () => {
+    await load(folder, ['expected.glb']);
+    const expected = await image({ ...wanted, look: 'overdraw' });
+    await load(folder, ['read.usdz']);
+    assert.deepEqual(await image({ ...wanted, look: 'overdraw' }), expected);
+  });
+}));
+
+test('a streamed SOG by its address, and another level', () => visit('?scene=streamed/lod-meta.json', async (page) => {
+  await sceneShown(page, 'streamed');
+  assert.match(await page.textContent('#facts'), /1,000 splats/);
+  const before = await page.evaluate(() => location.hash);
+  await page.selectOption('#detail', { index: 1 });
+  await page.waitForFunction(() => document.getElementById('facts').textContent.includes('300 splats'));
+  await still(page);
+  assert.equal(await page.evaluate(() => location.hash), before, 'the view stays');
+}));
+
+test('damaged files have the program’s errors', (context) => visit('', async (page) => {
+  const spz = readFileSync(file('three.spz')), sog = readFileSync(file('splats.sog'));
+  const cases = {
+    'cut.spz': spz.subarray(0, spz.length - 100), 'cut.sog': sog.subarray(0, sog.length / 2),
+    'many.spz': (() => {
+      const head = Buffer.alloc(16);
+      head.write('NGSP');
+      head.writeUInt32LE(3, 4);
+      head.writeUInt32LE(9_000_000, 8);
+      return gzipSync(head);
+    })(),
+    'noise.bin': Buffer.from(Uint32Array.from({ length: 500 }, (_, i) => Math.imul(i + 1, 2654435761)).buffer),
+  };
+  await each(context, Object.entries(cases).map(([name, bytes]) => [name, async () => {
+    writeFileSync(file(name), bytes);
+    let expected = '';
+    try {
+      convert(name, 'never.glb');
+    } catch (error) {
+      expected = String(error.stderr);
+    }
+    await page.evaluate(() => document.querySelector('#errors').replaceChildren());
+    await pick(page, file(name));
+    const said = await errorShown(page);
+    assert.equal(await errorKind(page), 'input');
+    const reason = said.slice(said.indexOf(name)).replace(/: not a file in a supported format.*/s, ': not a file in a supported format');
+    assert.ok(expected.includes(reason), `${said}\n${expected}`);
+  }]));
+}));
+
+test('the page writes GLB, PLY and a page, and plays tours', (context) => visit('drawing.html', async (page) => {
+  const { load, image } = await drawingPage(page);
+  const written = async (format) => {
+    const base64 = await page.evaluate(async (kind) => {
+      const bytes = new Uint8Array(await (await viewer.write(kind)).file.arrayBuffer());
+      return btoa(bytes.reduce((text, byte) => text + String.fromCharCode(byte), ''));
+    }, format);
+    writeFileSync(file(`written.${format}`), Buffer.from(base64, 'base64'));
+  };
+  await load(folder, ['splats.sog']);
+  await page.evaluate(() => viewer.setLayer(0, { transform: { position: [0.3, 0, 0], rotation: [0, 0, 1], scale: 0.5, mirror: false } }));
+  const expected = await image(wanted);
+  await context.test('GLB', async () => {
+    await written('glb');
+    await load(folder, ['written.glb']);
+    assert.deepEqual(await image(wanted), expected);
+  });
+  await context.test('cancelled', async () => assert.equal(await page.evaluate(async () => {
+    const ending = new AbortController(), file = viewer.write('glb', { signal: ending.signal });
+    ending.abort();
+    return file.catch((error) => error.kind);
+  }), 'cancelled'));
+  await context.test('HTML', async () => {
+    await written('html');
+    const html = readFileSync(file('written.html'), 'latin1');
+    const [, base64] = /id="scene" data-name="[^"]*">([^<]+)</.exec(html);
+    writeFileSync(file('inside.glb'), Buffer.from(base64, 'base64'));
+    await load(folder, ['inside.glb']);
+    assert.deepEqual(await image(wanted), expected);
+  });
+  await context.test('PLY of a single layer', async () => {
+    await load(folder, ['splats.ply']);
+    const before = await image(wanted);
+    await written('ply');
+    await load(folder, ['written.ply']);
+    assert.deepEqual(await image(wanted), before);
+  });
+  await context.test('a turntable keeps the distance, and ends when the view is moved', async () => {
+    const { moved, kept, ended, refused } = await page.evaluate(async (pose) => {
+      const apart = ({ eye, target }) => Math.hypot(...eye.map((value, axis) => value - target[axis]));
+      viewer.setView(pose);
+      viewer.play('turntable', 2);
+      const eye = viewer.getView().eye;
+      for (let frames = 0; frames < 5; ++frames) await new Promise((resolve) => { viewer.on('frame', resolve); });
+      const now = viewer.getView();
+      viewer.orbit(1, 0);
+      let refused = false;
+      try { viewer.play('cameras'); } catch (error) { refused = error.kind === 'usage'; }
+      return { moved: Math.hypot(...eye.map((value, axis) => value - now.eye[axis])), kept: apart(now) / apart(pose), ended: viewer.playing, refused };
+    }, from);
+    assert.ok(moved > 0);
+    // The target is where the line of sight is nearest to the box's centre, which is not exactly the origin.
+    assert.ok(Math.abs(kept - 1) < 0.05, String(kept));
+    assert.equal(ended, null);
+    assert.ok(refused, 'there are no cameras');
+  });
+}));
+
+// splats.ply assumes -y, the example stores z.
+test('an added scene with another up axis is turned upright, unless that is switched off', () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const { turned, notes, kept } = await page.evaluate(async (bytes) => {
+    await viewer.load({ url: '/soup.glb' });
+    const files = [{ path: 'splats.ply', data: new Blob([Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0))]) }];
+    const [first] = await viewer.addLayers({ files });
+    const { notes } = viewer.scene;
+    viewer.upright = false;
+    const [second] = await viewer.addLayers({ files });
+    return { turned: first.transform, notes, kept: second.transform };
+  }, splatPly(10).toString('base64'));
+  // The layer's -y becomes the world's z.
+  assert.deepEqual(turned.slice(4, 7).map((value) => Math.round(1e6 * value) / 1e6 + 0), [0, 0, -1]);
+  assert.ok(notes.some((note) => /-y.*\bz\b/.test(note)), notes.join('; '));
+  assert.deepEqual(kept, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+}));
+
+test('the list of names has every extension that the program reads', () => {
+  writeFileSync(file('scene.unknown'), 'nothing');
+  const { stderr } = spawnSync(join(programs, 'tureen'), ['info', file('scene.unknown')], { encoding: 'utf8' });
+  const names = [...stderr.matchAll(/\(([^)]*)\)/g)].flatMap(([, some]) => some.split(', ')).filter((name) => name.startsWith('.'));
+  assert.ok(names.length > 12, stderr);
+  const list = readFileSync(join(source, 'web/viewer/formats.ts'), 'utf8');
+  for (const name of names) assert.ok(list.includes(`'${name}'`), name);
+});
+
+// Floor 3 s, aim 1.5 s (issue 62); on two cores that also draw, and perhaps build, a test can only print it.
+test('playbot is shown whole', { skip: existsSync(playbot) ? false : 'no ../shared/data' }, () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  const [splats, ms] = await page.evaluate(async () => {
+    const begin = performance.now(), scene = await viewer.load({ url: '/playbot/lod-meta.json' });
+    viewer.draw();
+    return [scene.splats, performance.now() - begin];
+  });
+  assert.equal(splats, 500_000);
+  console.log(`playbot: ${Math.round(ms)} ms`);
+}));
