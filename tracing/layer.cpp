@@ -37,6 +37,11 @@ void TracedLayer::move(const glm::dmat4& world_from_layer) {
   scale_ = std::cbrt(std::abs(glm::determinant(world_from_layer_)));
 }
 
+void TracedLayer::renumber(std::uint32_t index, std::uint32_t first) {
+  index_ = index;
+  first_ = first;
+}
+
 void TracedLayer::build(const Parallel& parallel) {
   std::vector<Box> boxes(kernel_->count(*primitives_));
   const std::size_t a_task = leaves_a_task * width;
@@ -84,7 +89,13 @@ void TracedLayer::pack(const Parallel& parallel) {
   });
 }
 
-void TracedLayer::refit(const Parallel& parallel) {
+bool TracedLayer::can_refit(const Primitives& primitives) const {
+  return kernel_ == &ray_kernel_of(primitives) &&
+         kernel_->count(primitives) == kernel_->count(*primitives_);
+}
+
+void TracedLayer::refit(const Primitives& primitives, const Parallel& parallel) {
+  primitives_ = &primitives;
   was_rebuilt_ = false;
   pack(parallel);
   bvh_.refit(leaf_boxes_);

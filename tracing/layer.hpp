@@ -24,9 +24,13 @@ class TracedLayer {
               std::uint32_t first, const Parallel& parallel);
 
   void move(const glm::dmat4& world_from_layer);
-  /// After the primitives have moved, recoloured or changed their sizes, but not their number:
-  /// refits the tree, or builds a new one if it has degraded.
-  void refit(const Parallel& parallel);
+  /// Changes `index` and `first`.
+  void renumber(std::uint32_t index, std::uint32_t first);
+  /// Whether refit() accepts these primitives: they have the same kernel and number.
+  bool can_refit(const Primitives& primitives) const;
+  /// Refits the tree to primitives that have moved or changed their sizes, or builds a new one if
+  /// it has degraded. They outlive the object.
+  void refit(const Primitives& primitives, const Parallel& parallel);
   /// Whether the last refit() built a new tree.
   bool was_rebuilt() const { return was_rebuilt_; }
 

@@ -143,7 +143,7 @@ void measure_build(const Splats& splats, float size) {
     double least = 1e9, least_cpu = 1e9;
     for (int round = 0; round < 5; ++round) {
       start = wall_seconds(), cpu = cpu_seconds();
-      layer.refit(parallel);
+      layer.refit(primitives, parallel);
       least = std::min(least, wall_seconds() - start);
       least_cpu = std::min(least_cpu, cpu_seconds() - cpu);
     }
