@@ -85,8 +85,8 @@ TracedLayer& TracedScene::tree_of(const DocumentLayer& layer, const Parallel& pa
   if (tree.layer)
     tree.layer->refit(*layer.primitives, parallel);
   else
-    tree.layer = std::make_unique<TracedLayer>(*layer.primitives, layer.world_from_layer, 0, 0,
-                                               parallel);
+    tree.layer =
+        std::make_unique<TracedLayer>(*layer.primitives, layer.world_from_layer, 0, 0, parallel);
   trees_.push_back(std::move(tree));
   return *trees_.back().layer;
 }
@@ -138,7 +138,7 @@ BlendedSplats TracedScene::splats_on(const Ray& ray, double end, RayMemory& memo
   for (;;) {
     memory.hits.clear();
     for (std::size_t i = 0; i < splats_.size(); ++i)
-      splats_[i]->kernel().collect(*splats_[i], memory.layers[i], from, to, memory.hits);
+      splats_[i]->kernel().collect()(*splats_[i], memory.layers[i], from, to, memory.hits);
     std::sort(memory.hits.begin(), memory.hits.end(),
               [](const SplatOnRay& a, const SplatOnRay& b) { return a.key < b.key; });
     for (const SplatOnRay& hit : memory.hits) {

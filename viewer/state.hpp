@@ -23,6 +23,7 @@
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/scene/stage.hpp"
+#include "viewer/traced_view.hpp"
 #include "viewer/training_command.hpp"
 #include "viewer/worker.hpp"
 
@@ -209,6 +210,8 @@ struct State {
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;
+  bool trace = false;  // the user wants the image by rays
+  TracedView traced;
   Animation animation;
   Messages messages;
   LayerEditing layer_editing;

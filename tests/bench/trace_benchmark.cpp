@@ -67,7 +67,7 @@ void measure_rays(const Scene& scene, const std::string& name, const Camera& cam
   std::size_t all = 0, composited = 0, meet = 0;
   for (const tracing::Ray& ray : rays) {
     hits.clear();
-    layer.kernel().collect(layer, layer.in_layer(ray, INFINITY), 0, 3e38f, hits);
+    layer.kernel().collect()(layer, layer.in_layer(ray, INFINITY), 0, 3e38f, hits);
     std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
     all += hits.size();
     meet += !hits.empty();
