@@ -21,30 +21,17 @@ constexpr int tile_side = 128;
 
 /// Linear between the centres of the pixels.
 Image8 enlarged(const ImageF& small, int width, int height) {
-  struct Place {
-    int first, second;
-    float weight;  // of the second
-  };
-  const auto places = [](int from, int to) {
-    std::vector<Place> result;
-    for (int i = 0; i < to; ++i) {
-      const float at = (float(i) + 0.5f) * float(from) / float(to) - 0.5f;
-      const auto first = int(std::floor(at));
-      result.push_back({std::max(first, 0), std::min(first + 1, from - 1), at - float(first)});
-    }
-    return result;
-  };
-  const std::vector<Place> columns = places(small.width, width),
-                           rows = places(small.height, height);
+  const glm::vec2 from(small.width, small.height), to(width, height);
   ImageF large(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const Place& column = columns[std::size_t(x)];
-      const auto row = [&](int at) {
-        return glm::mix(small.at(column.first, at), small.at(column.second, at), column.weight);
+      const glm::vec2 at = (glm::vec2(x, y) + 0.5f) * from / to - 0.5f;
+      const glm::vec2 within = glm::clamp(at, glm::vec2(0.0f), from - 1.0f);
+      const glm::ivec2 low(within), high = glm::min(low + 1, glm::ivec2(from) - 1);
+      const auto row = [&](int i) {
+        return glm::mix(small.at(low.x, i), small.at(high.x, i), within.x - float(low.x));
       };
-      const Place& place = rows[std::size_t(y)];
-      large.at(x, y) = glm::mix(row(place.first), row(place.second), place.weight);
+      large.at(x, y) = glm::mix(row(low.y), row(high.y), within.y - float(low.y));
     }
   return quantised(large);
 }
@@ -75,9 +62,9 @@ double ProgressiveImage::sharp() const {
   return tiles_.empty() ? 0 : double(next_tile_) / double(tiles_.size());
 }
 
-std::vector<ProgressiveImage::Tile> ProgressiveImage::tiles(const RaySpeed& speed) const {
+std::vector<ProgressiveImage::Tile> ProgressiveImage::tiles(double seconds_per_pixel) const {
   const glm::ivec2 size(camera_.width, camera_.height);
-  if (speed.seconds_per_pixel * double(sums_.size()) <= whole_seconds) return {{{0, 0}, size}};
+  if (seconds_per_pixel * double(sums_.size()) <= whole_seconds) return {{{0, 0}, size}};
   std::vector<Tile> result;
   for (int y = 0; y < size.y; y += tile_side)
     for (int x = 0; x < size.x; x += tile_side)
@@ -123,16 +110,16 @@ void ProgressiveImage::draw_tile(TracedImages& images, const Tile& tile, int sam
   }
 }
 
-void ProgressiveImage::step(TracedImages& images, RaySpeed& speed) {
+void ProgressiveImage::step(TracedImages& images, double& seconds_per_pixel) {
   if (is_complete()) return;
   const double began = steady_seconds();
   double pixels = double(sums_.size());
-  const int square = coarse_square(pixels, speed.seconds_per_pixel, coarse_seconds);
+  const int square = coarse_square(pixels, seconds_per_pixel, coarse_seconds);
   if (tiles_.empty() && square > 1 && (square_ == 0 || 2 * square <= square_)) {
     draw_coarse(images, square);
     pixels /= square * square;
   } else if (samples_ == 0) {
-    if (tiles_.empty()) tiles_ = tiles(speed);
+    if (tiles_.empty()) tiles_ = tiles(seconds_per_pixel);
     const Tile& tile = tiles_[next_tile_];
     draw_tile(images, tile, 0);
     pixels = double(tile.size.x) * tile.size.y;
@@ -143,7 +130,7 @@ void ProgressiveImage::step(TracedImages& images, RaySpeed& speed) {
   }
   const double seconds = steady_seconds() - began;
   seconds_ += seconds;
-  speed.seconds_per_pixel = seconds / pixels;
+  seconds_per_pixel = seconds / pixels;
 }
 
 }  // namespace tureen::tracing

@@ -16,24 +16,19 @@ namespace tureen::tracing {
 /// `seconds_per_pixel` 0: not known; the result is 16.
 int coarse_square(double pixels, double seconds_per_pixel, double seconds);
 
-/// The seconds per ray, of the pixels drawn last. 0: not known.
-struct RaySpeed {
-  double seconds_per_pixel = 0;
-};
-
 class ProgressiveImage {
  public:
   /// The image of TracedImages with `samples` jittered samples. After more than max_seconds of
   /// drawing, the sharp image gets no further sample.
   ProgressiveImage(Camera camera, int samples, double max_seconds);
 
-  /// Draws the next of these, and measures the speed:
+  /// Draws the next of these, and measures `seconds_per_pixel`; 0: not known:
   /// - the coarse image, enlarged; without a known speed, a coarser one before it
   /// - a tile with one ray per pixel, from the middle outwards; all at once if that takes less than
   ///   half a second
   /// - a further sample of all pixels
   /// If the progress of `images` throws, the image stays as it is.
-  void step(TracedImages& images, RaySpeed& speed);
+  void step(TracedImages& images, double& seconds_per_pixel);
   bool is_complete() const;
 
   /// Over the background of the images, opaque; black before the first step.
@@ -50,7 +45,7 @@ class ProgressiveImage {
   void draw_coarse(TracedImages& images, int square);
   void draw_tile(TracedImages& images, const Tile& tile, int sample);
   /// The whole image, or squares of pixels sorted by their distance from its middle.
-  std::vector<Tile> tiles(const RaySpeed& speed) const;
+  std::vector<Tile> tiles(double seconds_per_pixel) const;
 
   Camera camera_;
   int wanted_;

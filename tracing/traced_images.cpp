@@ -175,8 +175,7 @@ const TracedImages::TiledLayer& TracedImages::tiled(const DocumentLayer& layer) 
   return tiled_.emplace_back(std::move(made));
 }
 
-void TracedImages::sync(const std::vector<DocumentLayer>& layers,
-                        const std::function<void()>& check) {
+void TracedImages::sync(const std::vector<DocumentLayer>& layers) {
   splats_.clear();
   places_.clear();
   std::erase_if(tiled_, [&](const TiledLayer& each) {
@@ -186,7 +185,7 @@ void TracedImages::sync(const std::vector<DocumentLayer>& layers,
   bool turns = false;  // whether rays may be reflected or refracted
   for (const DocumentLayer& layer : layers) {
     if (!layer.visible) continue;
-    if (check) check();
+    report(0);
     turns |= layer.material && (is_mirror(*layer.material) || is_glass(*layer.material));
     const TiledLayer& own = tiled(layer);
     places_.push_back({own.bounds, layer.world_from_layer});
@@ -197,12 +196,8 @@ void TracedImages::sync(const std::vector<DocumentLayer>& layers,
   std::vector<DocumentLayer> met = layers;
   for (DocumentLayer& layer : met)
     layer.visible &= turns || std::holds_alternative<TriangleSoup>(*layer.primitives);
-  const std::thread::id caller = std::this_thread::get_id();
   traced_.sync(met, [&](std::size_t count, const std::function<void(std::size_t)>& body) {
-    pool_.run(count, [&](std::size_t i) {
-      if (check && std::this_thread::get_id() == caller) check();
-      body(i);
-    });
+    run(count, 0, 0, body);
   });
 }
 

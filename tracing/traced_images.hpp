@@ -40,9 +40,8 @@ class TracedImages final : public ImageSource {
 
   /// Draws these layers, as TracedScene::sync(). Splats have a tree only while a mirror or glass is
   /// visible: primary rays need none. Throws UsageError if a layer has more splats than
-  /// splatting::has_layer_for() allows. `check` is called by the caller's thread meanwhile; may
-  /// throw to cancel.
-  void sync(const std::vector<DocumentLayer>& layers, const std::function<void()>& check = {});
+  /// splatting::has_layer_for() allows. Calls the progress meanwhile, with 0.
+  void sync(const std::vector<DocumentLayer>& layers);
   const TracedScene& scene() const { return traced_; }
   /// Replaces TraceOptions::progress.
   void report_to(std::function<void(double)> progress) { options_.progress = std::move(progress); }

@@ -105,8 +105,7 @@ void TracedScene::sync(const std::vector<DocumentLayer>& layers, const Parallel&
     materials_.push_back(layers[i].material);
     if (!layers[i].visible) continue;
     TracedLayer& layer = tree_of(layers[i], parallel);
-    layer.move(layers[i].world_from_layer);
-    layer.renumber(i, first);
+    layer.move(layers[i].world_from_layer, i, first);
     shown_[i] = &layer;
     const auto* splats = std::get_if<Splats>(layers[i].primitives.get());
     (splats ? splats_ : surfaces_).push_back(&layer);

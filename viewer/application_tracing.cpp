@@ -4,7 +4,6 @@
 #include "runtime/passes/accumulation.hpp"
 #include "tracing/progressive_image.hpp"
 #include "viewer/application.hpp"
-#include "viewer/scene/ray_layers.hpp"
 
 namespace tureen::viewer {
 
@@ -24,9 +23,9 @@ struct Application::Rays {
       : background(background), images({.background = background}) {}
 
   glm::vec3 background;
-  RayLayers layers;
+  std::map<LayerId, ProfiledSplats> profiled;
   tracing::TracedImages images;
-  tracing::RaySpeed speed;
+  double seconds_per_pixel = 0;  // measured
 };
 
 bool Application::traces() const {
@@ -67,12 +66,11 @@ void Application::trace(const Camera& camera) {
   view.is_running = true;
   const auto work = [this, rays = rays_, image = traced_image_,
                      source = state_.drawn_source()](const Worker::Progress& progress) {
-    const auto check = [&] { progress(0); };
-    rays->images.report_to([&](double) { check(); });
-    rays->images.sync(rays->layers.of(source), check);
+    rays->images.report_to([&](double) { progress(0); });
+    rays->images.sync(layers_for_rays(source, rays->profiled));
     double shown = -std::numeric_limits<double>::infinity();
-    while (!image->is_complete()) {
-      image->step(rays->images, rays->speed);
+    do {
+      image->step(rays->images, rays->seconds_per_pixel);
       const double now = steady_seconds();
       if (now - shown < seconds_between && !image->is_complete()) continue;
       shown = now;
@@ -82,7 +80,7 @@ void Application::trace(const Camera& camera) {
         state_.traced.sharp = sharp;
         state_.traced.samples = samples;
       });
-    }
+    } while (!image->is_complete());
     return Worker::Completion([this] {
       state_.traced.is_running = false;
       state_.traced.is_complete = true;

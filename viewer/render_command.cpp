@@ -57,10 +57,10 @@ struct ReadLayers {
 
   /// A name that no other layer has.
   std::string name(std::size_t index) const {
-    const std::string name = label(scene.layers[index], index);
+    std::string own = tureen::label(scene.layers[index], index);
     const auto same = std::count_if(scene.layers.begin(), scene.layers.end(),
-                                    [&](const Layer& layer) { return layer.name == name; });
-    return same > 1 ? label({}, index) : name;
+                                    [&](const Layer& layer) { return layer.name == own; });
+    return same > 1 ? tureen::label({}, index) : own;
   }
 };
 

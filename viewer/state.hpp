@@ -23,7 +23,6 @@
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/scene/stage.hpp"
-#include "viewer/traced_view.hpp"
 #include "viewer/training_command.hpp"
 #include "viewer/worker.hpp"
 
@@ -186,6 +185,15 @@ struct ImageWish {
   bool other_size = false;  // numbers instead of a size of the list
   glm::ivec2 size{3840, 2160};
   bool transparent = false;
+};
+
+/// The image by rays (application_tracing.cpp).
+struct TracedView {
+  ImageTexture texture;  // with the size of the image; empty: none is drawn yet
+  double sharp = 0;      // the part of the pixels that have their own ray, 0..1
+  int samples = 0;       // complete ones per pixel
+  int wanted = 1;
+  bool is_running = false, is_complete = false;
 };
 
 /// Whether the user can cancel jobs of this kind. The others end soon.

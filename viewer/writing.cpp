@@ -14,7 +14,6 @@
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/image_tiles.hpp"
 #include "tracing/traced_images.hpp"
-#include "viewer/scene/ray_layers.hpp"
 
 namespace tureen::viewer {
 
@@ -60,7 +59,9 @@ void write_traced_image(const ImageJob& job, const std::function<void(double)>& 
   tracing::TracedImages images(
       {.samples = job.rays,
        .background = job.transparent ? std::nullopt : std::optional(background)});
-  images.sync(RayLayers().of(job.scene), [&] { progress(0); });
+  std::map<LayerId, ProfiledSplats> profiled;
+  images.report_to([&](double) { progress(0); });
+  images.sync(layers_for_rays(job.scene, profiled));
   double fraction = 0;
   const double pixels = double(job.camera.width) * job.camera.height;
   const ImageTiles tiles{.draw =

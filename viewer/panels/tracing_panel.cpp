@@ -1,4 +1,4 @@
-// The switch of rays, and how far their image is.
+// The image by rays: its switch and progress, and its place over that of the rasteriser.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -20,6 +20,12 @@ void tracing_rows(State& state) {
     aside(traced.texture ? "By rays, coarse; becoming sharp" : "Rays begin when nothing moves.");
     progress_bar(traced.sharp);
   }
+}
+
+void traced_overlay(const State& state) {
+  if (state.traced.texture)
+    ImGui::GetBackgroundDrawList()->AddImage(state.traced.texture.id(), {0, 0},
+                                             {float(state.points.x), float(state.points.y)});
 }
 
 }  // namespace tureen::viewer
