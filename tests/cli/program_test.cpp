@@ -326,7 +326,7 @@ TEST_F(Program, RenderNamesOptionsWithoutEffect) {
 TEST_F(Program, TraceListsOnlyOptionsOfRays) {
   const std::string render = run({"render", "--help"}).out, trace = run({"trace", "--help"}).out;
   for (const char* option :
-       {"--context", "--pipeline", "--no-specialise", "--keep", "--shading", "--blend",
+       {"--context", "--pipeline", "--no-specialise", "--keep NAMES", "--shading", "--blend",
         "--splat-order", "--scale", "--as-published", "--depth", "--normals", "--median-depth",
         "--alpha", "--debug-view", "--frames", "--renderer"}) {
     EXPECT_THAT(render, Names(option));
