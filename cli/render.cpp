@@ -107,7 +107,7 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Rend
 WrittenImages draw_without_gl(const Scene& scene, const RenderOptions& options,
                               const glm::vec4& background, const Views& views) {
   const bool opaque = background.a >= 1;
-  std::function<void(double)> progress;
+  std::function<void(double)> progress = [](double) {};
   const std::unique_ptr<ImageSource> images = options.renderer.renderer->make(
       scene, {.quality = preferences_for(scene, options.drawing).quality,
               .background = opaque ? std::optional(glm::vec3(background)) : std::nullopt,
@@ -124,6 +124,16 @@ void require_shown(const DebugViewOption& show, const Scene& scene) {
   } catch (const UsageError& error) {
     throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + error.reason());
   }
+}
+
+/// Prints a sentence for each option of the scene that changes nothing in the images.
+void say_what_has_no_effect(const RenderOptions& options, const Scene& scene) {
+  if (!options.materials.empty() && options.renderer.renderer != ray_renderer().renderer)
+    say("--material has no effect: only --renderer trace draws mirrors and glass");
+  // Further scenes are turned to the up axis of the first.
+  if (!options.scene.choice.up.empty() && options.scene.paths.size() == 1 &&
+      !options.views.depends_on_up(scene))
+    say("--up has no effect: the cameras are recorded, with their own up axis");
 }
 
 /// Throws UsageError if a file exists. An image of another scene or view may be the only one.
@@ -238,6 +248,7 @@ ExitCode render(RenderOptions options) {
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   require_shown(options.show, scene);
   require_new_images(options, views);
+  say_what_has_no_effect(options, scene);
   const Camera& first = views.cameras.front();
   if (const ProcessorRenderer* renderer = options.renderer.renderer) {
     const WrittenImages images = draw_without_gl(scene, options, background, views);
@@ -318,6 +329,23 @@ void add_options(Command& command, const std::shared_ptr<RenderOptions>& options
                      "colour of pixels without a triangle: a name, #rrggbb, transparent, or r,g,b "
                      "from 0 to 1; the scene's own by default");
   add_material_option(command, options->materials);
+}
+
+/// `check` throws UsageError for options that exclude each other.
+void finish(Command& command, const std::shared_ptr<RenderOptions>& options,
+            const std::function<void()>& check) {
+  command.add_flag("--json", options->json,
+                   "print the images, the plan and the frame times as JSON to standard output");
+  command.add_flag("--verbose", options->verbose,
+                   "also print the plan, the device and the time of a frame");
+  command.add_flag("--force", options->force, "replace images that exist");
+  command.does([options, check] {
+    check();
+    return render(*options);
+  });
+}
+
+void add_gl_options(Command& command, const std::shared_ptr<RenderOptions>& options) {
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
   command.add_flag(
@@ -332,16 +360,6 @@ void add_options(Command& command, const std::shared_ptr<RenderOptions>& options
       .add_option("--frames N", options->frames,
                   "after a warm-up, draw N more frames and print their times", between(1, 1000000))
       .excludes(show);
-  command.add_flag("--json", options->json,
-                   "print the images, the plan and the frame times as JSON to standard output");
-  command.add_flag("--verbose", options->verbose,
-                   "also print the plan, the device and the time of a frame");
-  command.add_flag("--force", options->force, "replace images that exist");
-  const auto check_renderer = add_renderer_option(command, options->renderer);
-  command.does([options, check_renderer] {
-    check_renderer();
-    return render(*options);
-  });
 }
 
 }  // namespace
@@ -378,14 +396,16 @@ Examples:
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 the scene does not fit on the device, or an image cannot be written.)");
-  add_options(command, std::make_shared<RenderOptions>());
+  const auto options = std::make_shared<RenderOptions>();
+  add_options(command, options);
+  add_gl_options(command, options);
+  finish(command, options, add_renderer_option(command, options->renderer));
 }
 
 void add_trace(Command& program) {
   Command command = program.add_command("trace", "Draw images by rays, with mirrors and glass");
   command.footer(
-      R"(The short form of `tureen render --renderer trace`: its options are the same, except those
-that need --renderer gl. Splats are blended in their exact order on each ray. Materials of meshes
+      R"(The short form of `tureen render --renderer trace`, which takes the same options. Splats are blended in their exact order on each ray. Materials of meshes
 are those that the file stores, or those of --material.
 
 Examples:
@@ -396,9 +416,12 @@ Examples:
 Ctrl-C keeps the images that are complete, and the samples of the current one.
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 5 an image cannot be written.)");
-  auto options = std::make_shared<RenderOptions>();
+  const auto options = std::make_shared<RenderOptions>();
   options->renderer = ray_renderer();
   add_options(command, options);
+  add_sampling_options(command, options->drawing);
+  add_samples_option(command, options->renderer);
+  finish(command, options, [] {});
 }
 
 }  // namespace tureen::cli

@@ -32,14 +32,14 @@ set(limits
   "code formats 17160: a reader per format with its remarks, checked against hostile files"
   "code oracle 2210: the reference stays readable; light along rays, without a tree"
   "code splatting 3350: loops in vectors, per kernel, and of neurons in lanes"
-  "code tracing 2075: a tree and a file per kernel, materials, images by rays"
+  "code tracing 2250: a tree and a file per kernel, materials, images by rays, also in steps for the window"
   "code shaders 1770: GLSL"
   "code runtime 8450: plan, passes, debug views"
   "code trainer 13410: four methods, CPU and CUDA"
   "code jobs 8000: work that the programs share, the whole of a training run, and cameras for photographs; what measures and reports grows no further"
-  "code viewer 7290: the window"
+  "code viewer 7520: the window"
   "code web 10020: the page: its viewer, all formats on demand, files for the user, tours"
-  "code cli 7190: the command line computes nothing"
+  "code cli 7215: the command line computes nothing"
   "code examples 1450: one scene and its dataset"
 
   "bytes page 415000: 2 s over a connection of 1.7 Mbit/s")

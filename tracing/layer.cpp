@@ -25,12 +25,15 @@ constexpr double coordinate_rounding = 0x1p-46;
 
 TracedLayer::TracedLayer(const Primitives& primitives, const glm::dmat4& world_from_layer,
                          std::uint32_t index, std::uint32_t first, const Parallel& parallel)
-    : primitives_(&primitives), kernel_(&ray_kernel_of(primitives)), index_(index), first_(first) {
-  move(world_from_layer);
+    : primitives_(&primitives), kernel_(&ray_kernel_of(primitives)) {
+  move(world_from_layer, index, first);
   build(parallel);
 }
 
-void TracedLayer::move(const glm::dmat4& world_from_layer) {
+void TracedLayer::move(const glm::dmat4& world_from_layer, std::uint32_t index,
+                       std::uint32_t first) {
+  index_ = index;
+  first_ = first;
   world_from_layer_ = glm::dmat3(world_from_layer);
   layer_from_world_ = glm::inverse(world_from_layer_);
   origin_ = glm::dvec3(world_from_layer[3]);
@@ -84,7 +87,13 @@ void TracedLayer::pack(const Parallel& parallel) {
   });
 }
 
-void TracedLayer::refit(const Parallel& parallel) {
+bool TracedLayer::can_refit(const Primitives& primitives) const {
+  return kernel_ == &ray_kernel_of(primitives) &&
+         kernel_->count(primitives) == kernel_->count(*primitives_);
+}
+
+void TracedLayer::refit(const Primitives& primitives, const Parallel& parallel) {
+  primitives_ = &primitives;
   was_rebuilt_ = false;
   pack(parallel);
   bvh_.refit(leaf_boxes_);

@@ -23,10 +23,13 @@ class TracedLayer {
   TracedLayer(const Primitives& primitives, const glm::dmat4& world_from_layer, std::uint32_t index,
               std::uint32_t first, const Parallel& parallel);
 
-  void move(const glm::dmat4& world_from_layer);
-  /// After the primitives have moved, recoloured or changed their sizes, but not their number:
-  /// refits the tree, or builds a new one if it has degraded.
-  void refit(const Parallel& parallel);
+  /// Gives it another place, in the world and in its scene.
+  void move(const glm::dmat4& world_from_layer, std::uint32_t index, std::uint32_t first);
+  /// Whether refit() accepts these primitives: they have the same kernel and number.
+  bool can_refit(const Primitives& primitives) const;
+  /// Refits the tree to primitives that have moved or changed their sizes, or builds a new one if
+  /// it has degraded. They outlive the object.
+  void refit(const Primitives& primitives, const Parallel& parallel);
   /// Whether the last refit() built a new tree.
   bool was_rebuilt() const { return was_rebuilt_; }
 
@@ -61,7 +64,7 @@ class TracedLayer {
   };
   const Primitives* primitives_;
   const RayKernel* kernel_;
-  std::uint32_t index_, first_;
+  std::uint32_t index_ = 0, first_ = 0;
   glm::dmat3 world_from_layer_{1.0}, layer_from_world_{1.0};  // without the translation
   glm::dvec3 origin_{0.0};
   double scale_ = 1;

@@ -50,18 +50,17 @@ class TracedImages::Sample {
         whole_(whole),
         pixels_(std::size_t(camera.width) * std::size_t(camera.height)) {}
 
-  /// `from`, `to`: of the progress.
-  void draw(double from, double to) {
+  /// Premultiplied, over nothing. `from`, `to`: of the progress.
+  std::vector<glm::dvec4> drawn(double from, double to) {
     const bool has_surfaces = images_.traced_.has_surfaces();
     if (has_surfaces) find_surfaces(from, from + 0.3 * (to - from));
     rgba_.assign(4 * pixels_, 0.0f);
     if (!images_.splats_.empty()) blend_splats();
     if (has_surfaces) light_surfaces(from + 0.5 * (to - from), to);
-  }
-
-  /// Premultiplied, over nothing.
-  glm::dvec4 pixel(std::size_t i) const {
-    return {rgba_[4 * i], rgba_[4 * i + 1], rgba_[4 * i + 2], rgba_[4 * i + 3]};
+    std::vector<glm::dvec4> result(pixels_);
+    for (std::size_t i = 0; i < pixels_; ++i)
+      result[i] = {rgba_[4 * i], rgba_[4 * i + 1], rgba_[4 * i + 2], rgba_[4 * i + 3]};
+    return result;
   }
 
  private:
@@ -97,7 +96,7 @@ class TracedImages::Sample {
   void blend_splats() {
     const double near = clip_range(images_.places_, camera_, DepthStorage::reversed_float).near;
     std::vector<splatting::LayerInView> views;
-    for (const TiledLayer& layer : images_.splats_) {
+    for (const DrawnSplats& layer : images_.splats_) {
       const glm::dmat3 linear(layer.place.world_from_layer);
       const double scale = std::cbrt(std::abs(glm::determinant(linear)));
       const glm::dmat3 turn = linear / scale;  // a rotation or reflection
@@ -105,7 +104,7 @@ class TracedImages::Sample {
       own.view_from_world = glm::dmat4(glm::dmat3(camera_.view_from_world) * turn);
       const glm::dvec3 eye =
           glm::transpose(turn) * (eye_ - glm::dvec3(layer.place.world_from_layer[3])) / scale;
-      views.push_back({layer.splats.get(),
+      views.push_back({layer.splats,
                        splatting::image_view(own, eye, near / scale, *layer.profile, whole_),
                        scale});
     }
@@ -139,31 +138,67 @@ class TracedImages::Sample {
   std::vector<float> rgba_;
 };
 
-TracedImages::TracedImages(const Scene& scene, TraceOptions options)
-    : scene_(scene),
-      options_(std::move(options)),
+TracedImages::TracedImages(TraceOptions options)
+    : options_(std::move(options)),
       pool_(options_.threads),
-      traced_(scene, options_.background.value_or(glm::vec3(0.0f)),
-              [this](std::size_t count, const std::function<void(std::size_t)>& body) {
-                pool_.run(count, body);
-              }),
+      traced_(options_.background.value_or(glm::vec3(0.0f))),
       tiles_([this](std::size_t count, const std::function<void(std::size_t)>& body) {
-        pool_.run(count, body);
+        run(count, done_, done_, body);
       }) {
   assert(options_.samples >= 1 && options_.supersampling >= 1);
-  for (const Layer& layer : scene_.layers) {
-    if (!layer.visible) continue;
-    places_.push_back({bounds(layer), layer.world_from_layer});
-    const auto* splats = std::get_if<Splats>(&layer.primitives);
-    if (!splats) continue;
+}
+
+TracedImages::TracedImages(const Scene& scene, TraceOptions options)
+    : TracedImages(std::move(options)) {
+  sync(layers_for_rays(scene));
+}
+
+const TracedImages::TiledLayer& TracedImages::tiled(const DocumentLayer& layer) {
+  std::erase_if(tiled_, [&](const TiledLayer& each) {
+    return each.id == layer.id && each.primitives != layer.primitives;
+  });
+  const auto known = std::find_if(tiled_.begin(), tiled_.end(),
+                                  [&](const TiledLayer& each) { return each.id == layer.id; });
+  if (known != tiled_.end()) return *known;
+  TiledLayer made{layer.id, layer.primitives, {}, {}};
+  if (const auto* splats = std::get_if<Splats>(layer.primitives.get())) {
     if (!splatting::has_layer_for(*splats))
       throw UsageError("a layer has too many splats for rays: " + counted(count(*splats), "splat"));
     std::vector<std::uint32_t> all(count(*splats));
     std::iota(all.begin(), all.end(), 0u);
-    splats_.push_back({splatting::make_layer(splatting::layer_data(*splats, splats->profile, all,
-                                                                   splats->color.degree)),
-                       &splats->profile, places_.back()});
+    made.splats = splatting::make_layer(
+        splatting::layer_data(*splats, splats->profile, all, splats->color.degree));
+    made.bounds = bounds(*splats);
+  } else {
+    made.bounds = bounds(std::get<TriangleSoup>(*layer.primitives));
   }
+  return tiled_.emplace_back(std::move(made));
+}
+
+void TracedImages::sync(const std::vector<DocumentLayer>& layers) {
+  splats_.clear();
+  places_.clear();
+  std::erase_if(tiled_, [&](const TiledLayer& each) {
+    return std::none_of(layers.begin(), layers.end(),
+                        [&](const DocumentLayer& layer) { return layer.id == each.id; });
+  });
+  bool turns = false;  // whether rays may be reflected or refracted
+  for (const DocumentLayer& layer : layers) {
+    if (!layer.visible) continue;
+    report(0);
+    turns |= layer.material && (is_mirror(*layer.material) || is_glass(*layer.material));
+    const TiledLayer& own = tiled(layer);
+    places_.push_back({own.bounds, layer.world_from_layer});
+    if (own.splats)
+      splats_.push_back(
+          {own.splats.get(), &std::get<Splats>(*own.primitives).profile, places_.back()});
+  }
+  std::vector<DocumentLayer> met = layers;
+  for (DocumentLayer& layer : met)
+    layer.visible &= turns || std::holds_alternative<TriangleSoup>(*layer.primitives);
+  traced_.sync(met, [&](std::size_t count, const std::function<void(std::size_t)>& body) {
+    run(count, 0, 0, body);
+  });
 }
 
 void TracedImages::run(std::size_t tasks, double from, double to,
@@ -178,12 +213,34 @@ void TracedImages::run(std::size_t tasks, double from, double to,
 }
 
 void TracedImages::report(double done) {
+  done_ = done;
   try {
     if (options_.progress) options_.progress(done);
   } catch (...) {
     is_cancelled_ = true;
     throw;
   }
+}
+
+std::vector<glm::dvec4> TracedImages::sample_at(const FrameInput& input, const glm::dvec2& offset,
+                                                double from, double to) {
+  done_ = from;
+  const Camera& whole = input.whole.value_or(input.camera);
+  return Sample(*this, shifted(input.camera, offset), shifted(whole, offset)).drawn(from, to);
+}
+
+std::vector<glm::dvec4> TracedImages::sample(const FrameInput& input, int i) {
+  return sample_at(input, jitter(i), 0, 1);
+}
+
+glm::vec4 TracedImages::mean(const glm::dvec4& sum, int samples) const {
+  const double coverage = sum.a / samples;
+  glm::dvec3 color = glm::dvec3(sum) / double(samples);
+  if (options_.background)
+    color += (1 - coverage) * glm::dvec3(*options_.background);
+  else if (coverage > 0)
+    color /= coverage;
+  return {glm::clamp(color, 0.0, 1.0), coverage};
 }
 
 std::optional<ImageF> TracedImages::exact_image(const FrameInput& input) {
@@ -195,9 +252,8 @@ std::optional<ImageF> TracedImages::exact_image(const FrameInput& input) {
   for (int i = 0; i < count; ++i) {
     const glm::dvec2 offset = side > 1 ? grid_point(i, side) : jitter(i);
     try {
-      Sample sample(*this, shifted(camera, offset), shifted(input.whole.value_or(camera), offset));
-      sample.draw(double(i) / count, double(i + 1) / count);
-      for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += sample.pixel(p);
+      const auto own = sample_at(input, offset, double(i) / count, double(i + 1) / count);
+      for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += own[p];
       ++done;
       report(double(done) / count);
     } catch (...) {
@@ -207,15 +263,7 @@ std::optional<ImageF> TracedImages::exact_image(const FrameInput& input) {
     }
   }
   ImageF image(camera.width, camera.height);
-  for (std::size_t p = 0; p < sums.size(); ++p) {
-    const double coverage = sums[p].a / count;
-    glm::dvec3 color = glm::dvec3(sums[p]) / double(count);
-    if (options_.background)
-      color += (1 - coverage) * glm::dvec3(*options_.background);
-    else if (coverage > 0)
-      color /= coverage;
-    image.pixels[p] = glm::vec4(glm::clamp(color, 0.0, 1.0), coverage);
-  }
+  for (std::size_t p = 0; p < sums.size(); ++p) image.pixels[p] = mean(sums[p], count);
   return image;
 }
 

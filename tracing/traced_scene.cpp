@@ -58,30 +58,59 @@ Ray next_ray(const Ray& ray, const SurfaceOnRay& surface, const glm::dvec3& poin
 
 }  // namespace
 
+std::vector<DocumentLayer> layers_for_rays(const Scene& scene) {
+  std::vector<DocumentLayer> result;
+  for (const Layer& layer : scene.layers)
+    result.push_back(
+        {{{}, layer.world_from_layer, layer.visible, layer.name, layer.material},
+         result.size() + 1,
+         std::shared_ptr<const Primitives>(std::shared_ptr<void>(), &layer.primitives)});
+  return result;
+}
+
 TracedScene::TracedScene(const Scene& scene, const glm::vec3& background, const Parallel& parallel)
-    : scene_(scene), background_(background) {
-  std::uint32_t first = 0;  // of the next layer's splats
-  for (std::uint32_t i = 0; i < scene.layers.size(); ++i) {
-    const Layer& layer = scene.layers[i];
-    layers_.emplace_back();
-    if (!layer.visible) continue;
-    layers_.back() =
-        std::make_unique<TracedLayer>(layer.primitives, layer.world_from_layer, i, first, parallel);
-    if (const auto* splats = std::get_if<Splats>(&layer.primitives)) {
-      first += std::uint32_t(count(*splats));
-      splats_.push_back(layers_.back().get());
-    } else {
-      surfaces_.push_back(layers_.back().get());
-    }
+    : TracedScene(background) {
+  sync(layers_for_rays(scene), parallel);
+}
+
+TracedLayer& TracedScene::tree_of(const DocumentLayer& layer, const Parallel& parallel) {
+  const auto known = std::find_if(trees_.begin(), trees_.end(),
+                                  [&](const Tree& tree) { return tree.id == layer.id; });
+  if (known != trees_.end() && known->primitives == layer.primitives) return *known->layer;
+  Tree tree{layer.id, layer.primitives, {}};
+  if (known != trees_.end()) {  // it is lost if `parallel` throws
+    if (known->layer->can_refit(*layer.primitives)) tree.layer = std::move(known->layer);
+    trees_.erase(known);
   }
+  if (tree.layer)
+    tree.layer->refit(*layer.primitives, parallel);
+  else
+    tree.layer =
+        std::make_unique<TracedLayer>(*layer.primitives, layer.world_from_layer, 0, 0, parallel);
+  trees_.push_back(std::move(tree));
+  return *trees_.back().layer;
 }
 
-void TracedScene::move(std::size_t layer, const glm::dmat4& world_from_layer) {
-  if (layers_[layer]) layers_[layer]->move(world_from_layer);
-}
-
-void TracedScene::refit(std::size_t layer, const Parallel& parallel) {
-  if (layers_[layer]) layers_[layer]->refit(parallel);
+void TracedScene::sync(const std::vector<DocumentLayer>& layers, const Parallel& parallel) {
+  std::erase_if(trees_, [&](const Tree& tree) {
+    return std::none_of(layers.begin(), layers.end(),
+                        [&](const DocumentLayer& layer) { return layer.id == tree.id; });
+  });
+  shown_.assign(layers.size(), nullptr);
+  materials_.clear();
+  surfaces_.clear();
+  splats_.clear();
+  std::uint32_t first = 0;  // of the next layer's splats
+  for (std::uint32_t i = 0; i < layers.size(); ++i) {
+    materials_.push_back(layers[i].material);
+    if (!layers[i].visible) continue;
+    TracedLayer& layer = tree_of(layers[i], parallel);
+    layer.move(layers[i].world_from_layer, i, first);
+    shown_[i] = &layer;
+    const auto* splats = std::get_if<Splats>(layers[i].primitives.get());
+    (splats ? splats_ : surfaces_).push_back(&layer);
+    if (splats) first += std::uint32_t(count(*splats));
+  }
 }
 
 SurfaceOnRay TracedScene::surface_on(const Ray& ray) const {
@@ -108,7 +137,7 @@ BlendedSplats TracedScene::splats_on(const Ray& ray, double end, RayMemory& memo
   for (;;) {
     memory.hits.clear();
     for (std::size_t i = 0; i < splats_.size(); ++i)
-      splats_[i]->kernel().collect(*splats_[i], memory.layers[i], from, to, memory.hits);
+      splats_[i]->kernel().collect()(*splats_[i], memory.layers[i], from, to, memory.hits);
     std::sort(memory.hits.begin(), memory.hits.end(),
               [](const SplatOnRay& a, const SplatOnRay& b) { return a.key < b.key; });
     for (const SplatOnRay& hit : memory.hits) {
@@ -150,7 +179,7 @@ glm::dvec3 TracedScene::light_along(const Ray& ray, double weight, int depth,
 glm::dvec3 TracedScene::light_of(const SurfaceOnRay& surface, const Ray& ray, double weight,
                                  int depth, RayMemory& memory) const {
   const TracedLayer& own = layer(surface.face.layer);
-  const std::optional<Material>& material = scene_.layers[surface.face.layer].material;
+  const std::optional<Material>& material = materials_[surface.face.layer];
   if (material && is_glass(*material)) return light_of_glass(surface, ray, weight, depth, memory);
   if (material && is_mirror(*material)) {
     const SurfacePoint at(own, surface, ray);
@@ -169,7 +198,7 @@ glm::dvec3 TracedScene::light_of(const SurfaceOnRay& surface, const Ray& ray, do
 
 glm::dvec3 TracedScene::light_of_glass(const SurfaceOnRay& surface, const Ray& ray, double weight,
                                        int depth, RayMemory& memory) const {
-  const Material& material = *scene_.layers[surface.face.layer].material;
+  const Material& material = *materials_[surface.face.layer];
   const SurfacePoint at(layer(surface.face.layer), surface, ray);
   const double inside = double(material.ior);
   const double n1 = at.from_outside ? 1.0 : inside, n2 = at.from_outside ? inside : 1.0;

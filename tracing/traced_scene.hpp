@@ -3,9 +3,9 @@
 // A ray blends the splats on it in their exact order up to the nearest surface, by the rules of
 // tracing/kernels/ray_kernel.hpp, over the light of that surface:
 //   mirror   the light along the reflected ray, times the base colour
-//   glass    by Fresnel's equations, the light along the reflected ray, and that along the
-//   refracted
-//            ray times the base colour; normals point out of the glass, which lies in air
+//   glass    by Fresnel's equations, the sum of the light along the reflected ray and of the light
+//            along the refracted ray times the base colour; normals point out of the glass, because
+//            they decide on which side of a face there is air
 //   others   the colour that every renderer draws
 // Harmonics are functions of the direction from the ray's eye (RayInLayer::eye). A ray that would
 // count less than 1/510 of the pixel, or that has been reflected or refracted more than 8 times,
@@ -16,7 +16,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/document/document.hpp"
 #include "tracing/layer.hpp"
 #include "tracing/ray.hpp"
 
@@ -40,16 +40,24 @@ struct RayMemory {
   std::array<float, max_depth + 2> reach{};
 };
 
+/// The layers of a scene without their bounds. They refer to its primitives, which outlive them.
+std::vector<DocumentLayer> layers_for_rays(const Scene& scene);
+
 class TracedScene {
  public:
+  /// Without layers.
+  explicit TracedScene(const glm::vec3& background) : background_(background) {}
   /// The visible layers of `scene`, which outlives the object and has no defect.
   TracedScene(const Scene& scene, const glm::vec3& background, const Parallel& parallel);
 
-  /// After the layer's world_from_layer or its primitives have changed; a layer that was hidden or
-  /// has other primitives needs a new TracedScene.
-  void move(std::size_t layer, const glm::dmat4& world_from_layer);
-  void refit(std::size_t layer, const Parallel& parallel);
+  /// Shows these layers; they have no defect. Layers keep their tree by their id, also when they
+  /// move, are hidden or get another material. It is refitted to other primitives of the same
+  /// number and kernel. If `parallel` throws, complete trees stay for the next call, which must
+  /// come before any other.
+  void sync(const std::vector<DocumentLayer>& layers, const Parallel& parallel);
 
+  /// A visible layer.
+  const TracedLayer& layer(std::uint32_t index) const { return *shown_[index]; }
   bool has_surfaces() const { return !surfaces_.empty(); }
   /// The nearest visible point of a soup.
   SurfaceOnRay surface_on(const Ray& ray) const;
@@ -62,13 +70,19 @@ class TracedScene {
                       RayMemory& memory) const;
 
  private:
-  const TracedLayer& layer(std::uint32_t index) const { return *layers_[index]; }
+  struct Tree {
+    LayerId id;
+    std::shared_ptr<const Primitives> primitives;
+    std::unique_ptr<TracedLayer> layer;
+  };
+  TracedLayer& tree_of(const DocumentLayer& layer, const Parallel& parallel);
   glm::dvec3 light_of_glass(const SurfaceOnRay& surface, const Ray& ray, double weight, int depth,
                             RayMemory& memory) const;
 
-  const Scene& scene_;
   glm::dvec3 background_;
-  std::vector<std::unique_ptr<TracedLayer>> layers_;  // by index in the scene; null: hidden
+  std::vector<Tree> trees_;                // also of hidden layers
+  std::vector<const TracedLayer*> shown_;  // by index in the scene; null: hidden
+  std::vector<std::optional<Material>> materials_;
   std::vector<const TracedLayer*> surfaces_, splats_;
 };
 

@@ -97,11 +97,13 @@ Application::Application(ApplicationOptions options)
       window_(window_options(options_, settings_of(options_))),
       frame_clock_(window_.context(), [this] { return clock(); }),
       worker_(window_, 0),
-      writer_(window_, 1) {
+      writer_(window_, 1),
+      tracer_(window_, std::nullopt) {
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
   state_.images_option = options_.images;
   if (!options_.smooth_at_rest) state_.settings.smooth_at_rest = false;
+  state_.trace = options_.trace;
   if (!options_.record.empty()) recorded_ = Session{.window = window_.size(), .events = {}};
   // A replay does not wait for the screen.
   vsync_ = state_.settings.vsync && !replay_;
@@ -155,21 +157,25 @@ std::vector<std::string> Application::errors() const {
 }
 
 bool Application::at_rest() const {
-  return worker_.idle() && writer_.idle() && !state_.animation.plays && pending_.empty() &&
-         state_.requests.empty() && frames_wanted_ <= 0 && !state_.controls.moving();
+  return worker_.idle() && writer_.idle() && tracer_.idle() && !state_.animation.plays &&
+         pending_.empty() && state_.requests.empty() && frames_wanted_ <= 0 &&
+         !state_.controls.moving();
+}
+
+bool Application::stands_still() const {
+  const bool trains = state_.training && state_.training->command();
+  return !state_.draw_continuously && !state_.animation.plays && !state_.controls.moving() &&
+         !navigation_.flying() && !trains;
 }
 
 /// Whether the image is, or may become, the image at rest: the user wants it, and nothing moves.
-bool Application::smooths() const {
-  const bool trains = state_.training && state_.training->command();
-  return state_.settings.smooth_at_rest && !state_.draw_continuously && !state_.animation.plays &&
-         !state_.controls.moving() && !navigation_.flying() && !trains;
-}
+bool Application::smooths() const { return state_.settings.smooth_at_rest && stands_still(); }
 
 /// Whether the next frame belongs to the image at rest. None does during a job: on few cores, it
 /// would slow down the job.
 bool Application::refines() const {
-  return smooths() && worker_.idle() && writer_.idle() && state_.stage->renderer.can_refine();
+  return smooths() && !traces() && worker_.idle() && writer_.idle() &&
+         state_.stage->renderer.can_refine();
 }
 
 double Application::wait_seconds() const {
@@ -209,7 +215,7 @@ void Application::frame() {
   const bool was_loading = state_.busy.has_value(), was_busy = was_loading || state_.writing;
   try {
     // Also after a job that began and ended between two frames: a new message needs more than one.
-    for (Worker* worker : {&worker_, &writer_})
+    for (Worker* worker : {&worker_, &writer_, &tracer_})
       if (worker->collect()) frames_wanted_ = std::max(frames_wanted_, frames_after_event);
   } catch (const std::exception& error) {
     state_.error("The operation failed", error.what());
@@ -380,7 +386,12 @@ void Application::draw_scene() {
   drawn_debug_view_ = debug_view;
   drawn_camera_ = camera;
   image_is_current_ = stage.renderer.splats_in_order();
-  if (!image_is_current_ || refines()) frames_wanted_ = std::max(frames_wanted_, 1);
+  if (same)
+    trace(camera);
+  else
+    forget_traced();
+  if (!image_is_current_ || refines() || (traces() && !same))
+    frames_wanted_ = std::max(frames_wanted_, 1);
   stage.renderer.blit_to(0);
 }
 

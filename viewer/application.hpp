@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/steady_seconds.hpp"
+#include "tracing/progressive_image.hpp"
 #include "viewer/background_program.hpp"
 #include "viewer/files/file_watch.hpp"
 #include "viewer/files/session.hpp"
@@ -29,6 +30,7 @@ struct ApplicationOptions {
   std::filesystem::path training;             // log of a run to follow; empty: none
   DrawingChoice drawing = {};
   bool smooth_at_rest = true;                    // false: switches off Settings::smooth_at_rest
+  bool trace = false;                            // State::trace at the start
   std::optional<std::uint64_t> max_splats = {};  // ReadOptions::max_splats of every file
   gl::Api api = gl::Api::desktop;
   std::optional<glm::ivec2> window = {};          // in points; default: of the last run
@@ -78,6 +80,7 @@ class Application {
   void draw_image();
   void draw_scene();
   bool at_rest() const;
+  bool stands_still() const;
   bool smooths() const;
   bool refines() const;
   double wait_seconds() const;
@@ -188,6 +191,18 @@ class Application {
   void prepare_debug_view_when_needed();
   void watch_files();
   void watch_training_program();
+
+  // -- rays (application_tracing.cpp)
+  struct Rays;
+  /// Whether the image by rays is, or may become, the visible one.
+  bool traces() const;
+  int traced_samples() const;
+  /// Begins the image by rays of this camera, or continues it. `camera` and document have not
+  /// changed since forget_traced().
+  void trace(const Camera& camera);
+  /// Abandons the image by rays: something has changed.
+  void forget_traced();
+
   /// Writes the file in the background. `remark`: for the message after its path.
   void write(const std::filesystem::path& path, std::function<void(const StageRequest&)> work,
              const std::string& remark = "");
@@ -229,7 +244,9 @@ class Application {
   bool drawn_smooth_ = false;  // whether the image may have become the image at rest
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;
-  Worker worker_, writer_;  // last: their jobs may use all of the above
+  std::shared_ptr<Rays> rays_;  // kept while State::trace
+  std::shared_ptr<tracing::ProgressiveImage> traced_image_;
+  Worker worker_, writer_, tracer_;  // last: their jobs may use all of the above
 };
 
 }  // namespace tureen::viewer

@@ -50,16 +50,19 @@ fs::path Application::image_path(const std::string& extension) {
 void Application::carry_out(const TakeImage& request) {
   if (!has_scene()) return;
   const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
+  const bool by_rays = state_.trace && state_.debug_view.what == DebugView::color;
   const ImageJob job{.scene = state_.drawn_source(),
                      .camera = state_.controls.camera(size.x, size.y),
                      .debug_view = state_.debug_view,
                      .transparent = request.transparent,
                      .at_rest = state_.settings.smooth_at_rest,
+                     .rays = by_rays ? traced_samples() : 0,
                      .path = image_path(".png")};
   const bool is_covered = state_.photograph() && state_.comparison.show != Comparison::Show::off;
   write(
       job.path, [job](const StageRequest& with) { write_image(job, with); },
-      is_covered ? ", the scene without the photograph" : "");
+      std::string(by_rays ? ", drawn by rays" : "") +
+          (is_covered ? ", the scene without the photograph" : ""));
 }
 
 void Application::carry_out(const SavePage&) {
@@ -175,9 +178,11 @@ void Application::carry_out(const CopyCommand&) {
     choice.quality = quality_of(choice, *state_.source.scene);
     choice.quality->supersampling = samples_at_rest;
   }
-  const auto copy = [this, choice, debug_view = state_.debug_view, camera, file](
+  const int rays = state_.trace ? traced_samples() : 0;
+  const auto copy = [this, choice, debug_view = state_.debug_view, camera, file, rays](
                         const SceneSource& source, std::optional<std::uint64_t> max_splats) {
-    window_.set_clipboard(render_command(source, choice, debug_view, camera, file, max_splats));
+    window_.set_clipboard(
+        render_command(source, choice, debug_view, camera, file, max_splats, rays));
     state_.note("Copied the command for this image to the clipboard");
   };
   if (state_.source.is_from_files()) return copy(state_.source, options_.max_splats);

@@ -89,6 +89,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       "--no-smooth-at-rest", [&options] { options.smooth_at_rest = false; },
       "keep one sample per pixel while nothing moves, and in saved images: switches off "
       "\"smooth at rest\" in the panel Drawing");
+  program.add_flag("--trace", options.trace,
+                   "while nothing moves, draw by rays: mirrors, glass, splats in their exact order "
+                   "(\"Trace\" in the panel Drawing)");
   std::vector<std::string> profiles;
   for (const NamedProfile& each : named_profiles) profiles.emplace_back(each.name);
   program

@@ -24,6 +24,8 @@ void layers_panel(State& state);
 void view_panel(State& state);
 void debug_view_panel(State& state);
 void drawing_panel(State& state);
+/// Rows of the panel Drawing.
+void tracing_rows(State& state);
 void comparison_panel(State& state);
 /// Buttons that train a scene from the photographs, and that close them.
 void dataset_buttons(State& state);
@@ -35,6 +37,7 @@ void path_panel(State& state);
 void times_panel(State& state, const FrameClock& clock);
 void window_panel(State& state);
 
+void traced_overlay(const State& state);
 void photograph_overlay(State& state);
 void status_overlay(const State& state);
 void progress_overlay(State& state);

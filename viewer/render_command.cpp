@@ -34,6 +34,57 @@ void add_choice(std::string& command, const DrawingChoice& choice, const SceneSo
     command += " " + argument;
 }
 
+/// The layers that a command reads from the whole files.
+struct ReadLayers {
+  Scene scene;                               // without primitives
+  std::vector<const DocumentLayer*> layers;  // as the document has them; null if removed
+
+  explicit ReadLayers(const SceneSource& source) {
+    std::vector<Scene> headers;
+    for (std::size_t file = 0; file < source.files.size(); ++file) {
+      if (!has_layers(source, file)) continue;
+      headers.push_back(*source.files[file].header);
+      for (std::size_t i = 0; i < headers.back().layers.size(); ++i) {
+        layers.push_back(nullptr);
+        for (const DocumentLayer& layer : source.document.layers)
+          if (const LayerOrigin& origin = source.origins.at(layer.id);
+              origin.file == file && origin.index == i)
+            layers.back() = &layer;
+      }
+    }
+    if (!headers.empty()) scene = merged(std::move(headers));
+  }
+
+  /// A name that no other layer has.
+  std::string name(std::size_t index) const {
+    std::string own = tureen::label(scene.layers[index], index);
+    const auto same = std::count_if(scene.layers.begin(), scene.layers.end(),
+                                    [&](const Layer& layer) { return layer.name == own; });
+    return same > 1 ? tureen::label({}, index) : own;
+  }
+};
+
+/// The options of rays: the profile, the samples, and the surfaces of layers where they are not
+/// those of the files.
+void add_rays(std::string& command, const DrawingChoice& choice, const SceneSource& scene,
+              int rays) {
+  command += " --renderer trace";
+  DrawingChoice own;  // rays have no other quality
+  own.plan.splat_profile = choice.plan.splat_profile;
+  own.quality = Quality{.splat_order = scene.scene->quality.splat_order};
+  for (const std::string& argument : quality_arguments(scene, own, "--scale"))
+    command += " " + argument;
+  if (rays > 1) command += fmt::format(" --samples {}", rays);
+  const ReadLayers read(scene);
+  for (std::size_t i = 0; i < read.layers.size(); ++i) {
+    const DocumentLayer* const layer = read.layers[i];
+    if (!layer || !layer->material || layer->material == read.scene.layers[i].material) continue;
+    const std::string surface =
+        is_glass(*layer->material) ? fmt::format("glass:{}", layer->material->ior) : "mirror";
+    command += " --material " + quoted(read.name(i) + "=" + surface);
+  }
+}
+
 /// "depth"; "features:0" and "features:4-6" for a choice of them.
 std::string shown(const DebugViewChoice& debug_view) {
   std::string name = name_of(debug_view.what);
@@ -68,38 +119,18 @@ std::string quoted_command(const std::vector<std::string>& arguments) {
 
 std::vector<std::string> place_arguments(const SceneSource& scene) {
   if (scene.is_as_read()) return {};
-  // What the command reads: the whole files.
-  std::vector<Scene> headers;
-  std::vector<const DocumentLayer*> layers;  // null if removed
-  for (std::size_t file = 0; file < scene.files.size(); ++file) {
-    if (!has_layers(scene, file)) continue;
-    headers.push_back(*scene.files[file].header);
-    for (std::size_t i = 0; i < headers.back().layers.size(); ++i) {
-      layers.push_back(nullptr);
-      for (const DocumentLayer& layer : scene.document.layers)
-        if (const LayerOrigin& origin = scene.origins.at(layer.id);
-            origin.file == file && origin.index == i)
-          layers.back() = &layer;
-    }
-  }
-  if (headers.empty()) return {};
-  const Scene read = merged(std::move(headers));
-  const auto name_of_layer = [&](std::size_t index) {
-    const std::string name = label(read.layers[index], index);
-    const auto same = std::count_if(read.layers.begin(), read.layers.end(),
-                                    [&](const Layer& layer) { return layer.name == name; });
-    return same > 1 ? label({}, index) : name;
-  };
+  const ReadLayers read(scene);
   // Without the first file, the others would be turned upright for another one.
   const bool all = !has_layers(scene, 0);
   std::vector<std::string> arguments;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const Layer& from = read.layers[i];
-    const bool visible = layers[i] && layers[i]->visible;
-    const glm::dmat4& place = layers[i] ? layers[i]->world_from_layer : from.world_from_layer;
+  for (std::size_t i = 0; i < read.layers.size(); ++i) {
+    const Layer& from = read.scene.layers[i];
+    const DocumentLayer* const layer = read.layers[i];
+    const bool visible = layer && layer->visible;
+    const glm::dmat4& place = layer ? layer->world_from_layer : from.world_from_layer;
     if (!all && place == from.world_from_layer && visible == from.visible) continue;
     arguments.emplace_back("--place");
-    arguments.push_back(place_text(name_of_layer(i), similarity_of(place), visible));
+    arguments.push_back(place_text(read.name(i), similarity_of(place), visible));
   }
   return arguments;
 }
@@ -140,7 +171,7 @@ bool needs_camera_file(const Camera& camera) {
 std::string render_command(const SceneSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file,
-                           std::optional<std::uint64_t> max_splats) {
+                           std::optional<std::uint64_t> max_splats, int rays) {
   std::string command = "tureen render";
   for (const std::filesystem::path& path : scene.paths()) command += " " + quoted(path.string());
   if (max_splats) command += fmt::format(" --max-splats {}", *max_splats);
@@ -158,10 +189,12 @@ std::string render_command(const SceneSource& scene, const DrawingChoice& choice
                list_of(axes[1]) + fmt::format(" --fov {}", fov);
   }
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
-  if (debug_view.what == DebugView::color)
-    add_choice(command, choice, scene);
-  else
+  if (debug_view.what != DebugView::color)
     command += " --debug-view " + shown(debug_view);
+  else if (rays > 0)
+    add_rays(command, choice, scene, rays);
+  else
+    add_choice(command, choice, scene);
   return command + " -o image.png";
 }
 

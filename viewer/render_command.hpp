@@ -22,11 +22,12 @@ std::vector<std::string> place_arguments(const SceneSource& scene);
 /// `max_splats`: ReadOptions::max_splats.
 /// --eye, --target and --fov cannot describe a shifted principal point or two focal lengths.
 /// needs_camera_file() detects these cameras; for them the command reads `camera_file`, which the
-/// caller writes.
+/// caller writes. `rays`: with --renderer trace and so many samples, and the materials of changed
+/// layers; 0: by OpenGL. Debug views have no rays.
 std::string render_command(const SceneSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file,
-                           std::optional<std::uint64_t> max_splats = {});
+                           std::optional<std::uint64_t> max_splats = {}, int rays = 0);
 
 /// The options of `tureen render` and `tureen convert` for the profile and the quality where the
 /// choice differs from the files. Without splats, none about splats: the commands refuse them.

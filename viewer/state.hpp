@@ -187,6 +187,15 @@ struct ImageWish {
   bool transparent = false;
 };
 
+/// The image by rays (application_tracing.cpp).
+struct TracedView {
+  ImageTexture texture;  // with the size of the image; empty: none is drawn yet
+  double sharp = 0;      // the part of the pixels that have their own ray, 0..1
+  int samples = 0;       // complete ones per pixel
+  int wanted = 1;
+  bool is_running = false, is_complete = false;
+};
+
 /// Whether the user can cancel jobs of this kind. The others end soon.
 constexpr bool can_be_cancelled(JobKind kind) {
   return kind == JobKind::scene || kind == JobKind::dataset || kind == JobKind::drawing;
@@ -209,6 +218,8 @@ struct State {
   CameraControls controls;
   int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;
+  bool trace = false;  // the user wants the image by rays
+  TracedView traced;
   Animation animation;
   Messages messages;
   LayerEditing layer_editing;

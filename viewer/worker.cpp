@@ -17,7 +17,7 @@ struct Abandoned {};
 
 }  // namespace
 
-Worker::Worker(const Window& window, int context)
+Worker::Worker(const Window& window, std::optional<int> context)
     : window_(window), context_(context), thread_([this] { run(); }) {}
 
 Worker::~Worker() {
@@ -89,7 +89,7 @@ bool Worker::idle() const {
 }
 
 void Worker::run() {
-  window_.make_worker_context_current(context_);
+  if (context_) window_.make_worker_context_current(*context_);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
@@ -108,7 +108,7 @@ void Worker::run() {
     lock.lock();
   }
   lock.unlock();
-  window_.release_worker_context();
+  if (context_) window_.release_worker_context();
 }
 
 void Worker::run(Job& job) {

@@ -16,7 +16,7 @@ namespace tureen::viewer {
 
 /// A new job replaces the waiting job of its kind and abandons the running one. Writing jobs
 /// are queued instead.
-enum class JobKind { scene, dataset, drawing, debug_view, layers, comparison, writing };
+enum class JobKind { scene, dataset, drawing, debug_view, layers, comparison, writing, tracing };
 
 class Worker {
  public:
@@ -31,8 +31,9 @@ class Worker {
     std::function<void(const std::string& reason)> failed;  // on the main thread, if work threw
   };
 
-  /// `window` must outlive the worker. `context`: index of the hidden context for this thread.
-  Worker(const Window& window, int context);
+  /// `window` must outlive the worker. `context`: index of the hidden context for this thread;
+  /// nullopt: its jobs use no OpenGL.
+  Worker(const Window& window, std::optional<int> context);
   /// Abandons the running job and waits for its end.
   ~Worker();
   Worker(const Worker&) = delete;
@@ -65,7 +66,7 @@ class Worker {
   void report(double fraction);
 
   const Window& window_;
-  int context_;
+  std::optional<int> context_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Job> waiting_;

@@ -13,6 +13,7 @@
 #include "image/video_file.hpp"
 #include "runtime/debug_views/debug_views.hpp"
 #include "runtime/image_tiles.hpp"
+#include "tracing/traced_images.hpp"
 
 namespace tureen::viewer {
 
@@ -50,6 +51,37 @@ void draw_frames(const AnimationJob& job, const StageRequest& request,
 
 }  // namespace
 
+namespace {
+
+/// Tiles keep the memory small. `progress` takes the fraction done.
+void write_traced_image(const ImageJob& job, const std::function<void(double)>& progress) {
+  const glm::vec3& background = job.scene.scene->info.background;
+  tracing::TracedImages images(
+      {.samples = job.rays,
+       .background = job.transparent ? std::nullopt : std::optional(background)});
+  std::map<LayerId, ProfiledSplats> profiled;
+  images.report_to([&](double) { progress(0); });
+  images.sync(layers_for_rays(job.scene, profiled));
+  double fraction = 0;
+  const double pixels = double(job.camera.width) * job.camera.height;
+  const ImageTiles tiles{.draw =
+                             [&](const FrameInput& input) {
+                               const Camera& own = input.camera;
+                               images.report_to([&](double done) {
+                                 progress(fraction + done * own.width * own.height / pixels);
+                               });
+                               Image8 tile = images.image(input);
+                               if (!job.transparent)
+                                 for (glm::u8vec4& pixel : tile.pixels) pixel.a = 255;
+                               return tile;
+                             },
+                         .side = 1024,
+                         .progress = [&](double done) { progress(fraction = done); }};
+  write_rows(job, [&](const BandSink& sink) { draw_in_bands({job.camera}, tiles, sink); });
+}
+
+}  // namespace
+
 void write_image(const ImageJob& job, const StageRequest& request) {
   const glm::vec4 background(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f);
   const auto progress = [&](double done) {
@@ -67,6 +99,7 @@ void write_image(const ImageJob& job, const StageRequest& request) {
     write_rows(job, [&](const BandSink& sink) { draw_in_bands({job.camera}, tiles, sink); });
     return;
   }
+  if (job.rays > 0) return write_traced_image(job, progress);
   Renderer renderer = prepare_renderer(job.scene, request);
   renderer.set_background(background);
   if (renderer.plan().quality.resolution_scale < 1) {

@@ -16,6 +16,7 @@ struct ImageJob {
   DebugViewChoice debug_view = {};
   bool transparent = false;
   bool at_rest = false;  // the image at rest (Renderer::draw_at_rest), where the scene has one
+  int rays = 0;          // jittered ones per pixel, without OpenGL; 0: by the renderer
   std::filesystem::path path;
 };
 

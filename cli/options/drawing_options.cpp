@@ -73,6 +73,10 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       "order of splats at a pixel; the scene's own by default. centre: by their centres. exact: "
       "along the pixel's ray; by the processor, several times slower. stochastic: by their "
       "centres, without blending; noisy, but the mean of many samples is right");
+  add_sampling_options(command, options);
+}
+
+void add_sampling_options(Command& command, DrawingOptions& options) {
   command.add_option("--supersample N", options.supersampling,
                      "N x N samples per pixel for smooth edges, 1 to 8; draws N x N times the "
                      "pixels; the scene's own number by default",

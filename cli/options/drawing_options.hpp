@@ -37,8 +37,12 @@ void add_context_option(Command& command, gl::Backend& backend);
 /// Applies --opaque. Throws as make_opaque.
 void apply_opaque(Scene& scene, const DrawingOptions& options);
 
-/// --context, --pipeline, --no-specialise, --keep, --shading, --blend, --splat-order, --supersample
-/// and --opaque. `options` must live until the arguments are parsed.
+/// --supersample and --opaque, which all renderers support. `options` must live until the arguments
+/// are parsed.
+void add_sampling_options(Command& command, DrawingOptions& options);
+
+/// --context, --pipeline, --no-specialise, --keep, --shading, --blend, --splat-order, and those of
+/// add_sampling_options().
 void add_drawing_options(Command& command, DrawingOptions& options);
 
 /// --scale, after add_drawing_options. Commands whose --scale resizes photographs cannot have it.

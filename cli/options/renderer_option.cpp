@@ -64,6 +64,12 @@ constexpr const char* gl_options[] = {
 
 RendererChoice ray_renderer() { return {&rays}; }
 
+void add_samples_option(Command& command, RendererChoice& choice) {
+  command.add_option("--samples N", choice.samples,
+                     "rays per pixel, jittered over the pixel; 1 by default; needs drawing by rays",
+                     between(1, 4096));
+}
+
 std::function<void()> add_renderer_option(Command& command, RendererChoice& choice,
                                           const std::string& own) {
   std::vector<std::pair<std::string, const ProcessorRenderer*>> choices{{"gl", nullptr}};
@@ -72,9 +78,7 @@ std::function<void()> add_renderer_option(Command& command, RendererChoice& choi
              "what draws: gl (default); oracle: the reference in double precision, seconds to "
              "hours per image; tiles: splats on the CPU; trace: rays, with mirrors, glass and "
              "splats in exact order. Only gl needs OpenGL");
-  command.add_option("--samples N", choice.samples,
-                     "rays per pixel of --renderer trace, jittered over the pixel; 1 by default",
-                     between(1, 4096));
+  add_samples_option(command, choice);
   std::vector<std::pair<std::string, Option>> options;
   for (const char* name : gl_options)
     if (name != own && command.has_option(name)) options.emplace_back(name, command.option(name));

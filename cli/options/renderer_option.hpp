@@ -34,6 +34,9 @@ struct RendererChoice {
 /// Draws by rays.
 RendererChoice ray_renderer();
 
+/// Adds --samples, for commands that draw by rays.
+void add_samples_option(Command& command, RendererChoice& choice);
+
 /// Adds --renderer and --samples, after all other options. The returned function throws UsageError
 /// if a processor renderer is chosen and an option is given that only OpenGL supports; call it
 /// after parsing. `own`: an option of the command that means something else than render's of this

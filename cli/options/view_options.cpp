@@ -197,8 +197,7 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
   Views views;
   if (!options.camera.empty()) {
     views = recorded_views(options.camera, "0", scene, scene_path);
-  } else if (options.eye.empty() && options.orbit == 0 && !options.is_animation() &&
-             !options.fov_degrees) {
+  } else if (options.is_first_view()) {
     if (const auto first =
             first_view_of(scene.first_view, scene.cameras, glm::dvec3(scene.info.up)))
       views.cameras = {*first};

@@ -23,6 +23,14 @@ struct ViewOptions {
   std::optional<double> frames_per_second;
 
   bool is_animation() const { return !path.empty() || turntable > 0; }
+  /// Whether the view is the first one of the scene.
+  bool is_first_view() const {
+    return camera.empty() && eye.empty() && orbit == 0 && !is_animation() && !fov_degrees;
+  }
+  /// Whether the cameras depend on the scene's up axis.
+  bool depends_on_up(const Scene& scene) const {
+    return camera.empty() && path.empty() && !(is_first_view() && scene.first_view);
+  }
 };
 
 /// --size, --camera, --eye, --target, --fov, --orbit, --path, --turntable and --fps, with their

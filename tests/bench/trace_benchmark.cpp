@@ -67,7 +67,7 @@ void measure_rays(const Scene& scene, const std::string& name, const Camera& cam
   std::size_t all = 0, composited = 0, meet = 0;
   for (const tracing::Ray& ray : rays) {
     hits.clear();
-    layer.kernel().collect(layer, layer.in_layer(ray, INFINITY), 0, 3e38f, hits);
+    layer.kernel().collect()(layer, layer.in_layer(ray, INFINITY), 0, 3e38f, hits);
     std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
     all += hits.size();
     meet += !hits.empty();
@@ -143,7 +143,7 @@ void measure_build(const Splats& splats, float size) {
     double least = 1e9, least_cpu = 1e9;
     for (int round = 0; round < 5; ++round) {
       start = wall_seconds(), cpu = cpu_seconds();
-      layer.refit(parallel);
+      layer.refit(primitives, parallel);
       least = std::min(least, wall_seconds() - start);
       least_cpu = std::min(least_cpu, cpu_seconds() - cpu);
     }

@@ -289,6 +289,43 @@ TEST_F(Program, RenderNeedsNoOpenGlWithTheOracle) {
   EXPECT_EQ(read_png("out.png").pixels, traced.pixels);
 }
 
+TEST_F(Program, RenderNamesOptionsWithoutEffect) {
+  write_scene();
+  const Camera camera = look_at({0, -5, 0}, {0, 0, 0}, {0, 0, 1}, 0.8, 32, 24);
+  write("camera.json", cameras_to_json({&camera, 1}));
+  const auto says = [&](const std::string& command, const std::vector<std::string>& more,
+                        const std::string& option) {
+    std::vector<std::string> arguments{command, "scene.off", "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err.find(option + " has no effect") != std::string::npos;
+  };
+  const std::vector<std::string> mirror{"--material", "layer 1=mirror", "--size", "32x24"};
+  EXPECT_TRUE(says("render", mirror, "--material"));
+  EXPECT_FALSE(says("trace", mirror, "--material"));
+  const std::vector<std::string> from_file{"--camera", "camera.json", "--up", "z"};
+  EXPECT_TRUE(says("render", from_file, "--up"));
+  EXPECT_TRUE(says("trace", from_file, "--up"));
+  EXPECT_FALSE(says("render", {"--orbit", "1", "--up", "z", "--size", "32x24"}, "--up"));
+}
+
+TEST_F(Program, TraceListsOnlyOptionsOfRays) {
+  const std::string render = run({"render", "--help"}).out, trace = run({"trace", "--help"}).out;
+  for (const char* option :
+       {"--context", "--pipeline", "--no-specialise", "--keep NAMES", "--shading", "--blend",
+        "--splat-order", "--scale", "--as-published", "--depth", "--normals", "--median-depth",
+        "--alpha", "--debug-view", "--frames", "--renderer"}) {
+    EXPECT_THAT(render, Names(option));
+    EXPECT_EQ(trace.find(std::string("\n  ") + option), std::string::npos) << option;
+  }
+  for (const char* option : {"--samples", "--supersample", "--opaque", "--material", "--up"})
+    EXPECT_THAT(trace, Names(std::string("\n  ") + option));
+  const ChildResult other = run({"trace", "scene.off", "--context", "egl"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, Names("--context"));
+}
+
 TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
   write_scene();
   const auto draw = [&](const std::vector<std::string>& option) {

@@ -130,6 +130,7 @@ TEST_P(RaysThrough, RefittedLayersAreRebuiltOnes) {
   Scene scene;
   scene.layers.push_back(layer_of(random_splats(GetParam(), 500, 0.25, 15)));
   tracing::TracedScene refitted(scene, background, in_order);
+  const tracing::Node* const nodes = refitted.layer(0).bvh().nodes().data();
   Random random(16);
   auto& splats = std::get<Splats>(scene.layers[0].primitives);
   for_each_column(splats.kernel, [&](const auto& column) {
@@ -140,9 +141,13 @@ TEST_P(RaysThrough, RefittedLayersAreRebuiltOnes) {
           for (std::size_t k = 0; k < column.per_splat; ++k) column.values[i + k] += step;
         }
   });
-  refitted.refit(0, in_order);
   scene.layers[0].world_from_layer = places()[1].world_from_layer;
-  refitted.move(0, scene.layers[0].world_from_layer);
+  std::vector<DocumentLayer> layers = tracing::layers_for_rays(scene);
+  // Other primitives of the same layer. They move so little that the tree stays.
+  layers[0].primitives = std::make_shared<const Primitives>(scene.layers[0].primitives);
+  refitted.sync(layers, in_order);
+  EXPECT_EQ(refitted.layer(0).bvh().nodes().data(), nodes);
+  EXPECT_FALSE(refitted.layer(0).was_rebuilt());
   const tracing::TracedScene rebuilt(scene, background, in_order);
   tracing::RayMemory memory;
   for (int i = 0; i < 1000; ++i) {

@@ -130,5 +130,49 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
               AllOf(HasSubstr("--supersample 1"), Not(HasSubstr("--profile"))));
 }
 
+TEST(RenderCommand, OfRaysHasTheirOptionsAndSurfaces) {
+  const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
+  DrawingChoice choice;
+  choice.pipeline = PipelineKind::baseline;
+  choice.plan.specialise = false;
+  choice.plan.splat_profile = profile_named("mip");
+  choice.quality = Quality{.supersampling = 8};
+  SceneSource splats = source("a.glb");
+  const auto command = [&](const SceneSource& scene, int rays) {
+    return render_command(scene, choice, {}, camera, "", {}, rays);
+  };
+  EXPECT_THAT(command(splats, 64),
+              AllOf(HasSubstr("--renderer trace --profile mip --samples 64 "),
+                    Not(HasSubstr("--pipeline")), Not(HasSubstr("--no-specialise"))));
+  EXPECT_THAT(command(splats, 1), AllOf(HasSubstr("--renderer trace"), Not(HasSubstr("--samples")),
+                                        Not(HasSubstr("--supersample"))));
+  // --samples excludes a number of samples that the scene stores.
+  Scene fine = *splats.scene;
+  fine.quality.supersampling = 3;
+  splats.scene = std::make_shared<const Scene>(fine);
+  EXPECT_THAT(command(splats, 64), HasSubstr("--supersample 1 --samples 64"));
+
+  Scene file;
+  file.layers = {{.name = "floor"}, {.name = "the ball"}, {.name = "window"}};
+  file.layers[2].material = glass_material(1.5f);
+  SceneSource meshes = source("b.glb");
+  meshes.files[0].header = std::make_shared<const Scene>(file);
+  meshes.document.layers.clear();
+  for (LayerId id = 1; id <= 3; ++id) {
+    DocumentLayer layer;
+    layer.id = id;
+    layer.primitives = std::make_shared<const Primitives>(TriangleSoup());
+    meshes.document.layers.push_back(layer);
+    meshes.origins[id] = {0, std::size_t(id - 1), file.layers[std::size_t(id - 1)].name};
+  }
+  meshes.document.layers[0].material = mirror_material();
+  meshes.document.layers[1].material = glass_material(1.25f);
+  meshes.document.layers[2].material = glass_material(1.5f);
+  const std::string surfaces = command(meshes, 4);
+  EXPECT_THAT(surfaces, AllOf(HasSubstr("--material floor=mirror --material 'the ball=glass:1.25'"),
+                              Not(HasSubstr("window"))));
+  EXPECT_THAT(command(meshes, 0), Not(HasSubstr("--material")));
+}
+
 }  // namespace render_command_test
 }  // namespace tureen::viewer

@@ -865,6 +865,56 @@ TEST_F(ThoroughWindowAtRest, WaitsUntilAnimationAndMotionEnd) {
   EXPECT_LE(moving, 100);
 }
 
+/// The example before a mirror, which the rasteriser draws in red.
+class TracedWindow : public WindowAtRest {
+ protected:
+  TracedWindow() {
+    smooth_at_rest_ = false;
+    write_square(folder_ / "floor.off", "255 0 0");
+    EXPECT_EQ(Child({"convert", "floor.off", "-o", "floor.glb", "--material", "floor=mirror"},
+                    folder_, TUREEN_HEADLESS_PROGRAM)
+                  .wait()
+                  .exit_code,
+              0);
+  }
+  Image8 by_rays(const std::string& camera, const std::string& samples = "1") const {
+    return rendered({"floor.glb", "--camera", camera, "--size", "320x200", "--renderer", "trace",
+                     "--samples", samples});
+  }
+  ChildResult replay_both(const Person& person, const std::string& option = "--report") {
+    return replay(person, {"soup.glb", "floor.glb", option});
+  }
+};
+
+TEST_F(TracedWindow, ShowsAndSavesTheImageOfRaysWhileNothingMoves) {
+  Person person({320, 200});
+  person.wait().press(Key::h).press(Key::right_bracket).without_notes();
+  person.look("raster").press(Key::g).look("first");
+  // While it moves, the rasteriser draws.
+  person.press(Key::digit_7).take("moving").press(Key::right_bracket).look("second");
+  person.press(Key::p).wait().without_notes().press(Key::g).look("off");
+  const ChildResult result = replay_both(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Image8 first = by_rays("soup.glb:0"), second = by_rays("soup.glb:1");
+  expect_equal(image("first"), first);
+  EXPECT_GT(count(image("raster"), red), 1000);
+  EXPECT_LT(count(image("first"), red), 100);
+  EXPECT_GT(count(image("moving"), red), 1000);
+  expect_equal(image("second"), second);
+  expect_equal(image("soup-1"), second);
+  EXPECT_GT(count(image("off"), red), 1000);
+}
+
+TEST_F(TracedWindow, IsSmoothAtRestAndBeginsAnewAfterAChange) {
+  smooth_at_rest_ = true;
+  // The camera and the surface change while the image is drawn.
+  Person person({320, 200});
+  person.wait().press(Key::h).press(Key::right_bracket).press(Key::right_bracket).look("smooth");
+  const ChildResult result = replay_both(person, "--trace");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GE(psnr(image("smooth"), by_rays("soup.glb:1", "64")), min_psnr);
+}
+
 /// Positions in the panel Training in a window of 720 x 640, from the golden.
 constexpr glm::dvec2 pause_button{411, 604}, stop_button{510, 604}, stop_now_button{492, 578},
     pause_without_log{411, 340};

@@ -255,7 +255,6 @@ void Bvh::measure() {
 }
 
 void Bvh::refit(std::span<const Box> of_leaves) {
-  // Where nothing is: rays cannot reach it, and a parent's box ignores it.
   std::vector<Box> of_nodes(nodes_.size());
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
@@ -264,7 +263,7 @@ void Bvh::refit(std::span<const Box> of_leaves) {
       Box box = child & Node::leaf_bit ? of_leaves[child & ~Node::leaf_bit] : of_nodes[child];
       if (box.is_usable())
         of_nodes[n].add(box);
-      else
+      else  // beyond all that rays meet: the infinities of an empty box would give NaN on a ray
         box = {glm::vec3(1e18f), glm::vec3(1e18f)};
       set_child(node, i, box);
     }

@@ -132,7 +132,8 @@ HWY_INLINE void for_each_leaf_in_order(const Bvh& bvh, const RayInLayer& ray, fl
   }
 }
 
-/// A row of a block: a value of each primitive.
+/// The block of a leaf, or a part of it. Rows have one value per primitive, because a vector reads
+/// one value of several primitives at once.
 struct Block {
   const float* values;
   std::size_t part;
@@ -161,7 +162,19 @@ struct AlphaLimits {
         largest(profile.max_alpha) {}
 };
 
-/// RayKernel::collect. `Splat` is made from (layer, ray), and has
+/// What the splats of a layer share on a ray.
+class SplatOfRay {
+ public:
+  SplatOfRay(const TracedLayer& layer, const RayInLayer& ray)
+      : ray_(ray), profile_(std::get<Splats>(layer.primitives()).profile), limits_(profile_) {}
+
+ protected:
+  const RayInLayer& ray_;
+  const SplatProfile& profile_;
+  AlphaLimits limits_;
+};
+
+/// RayKernel::collect. `Splat`, a SplatOfRay, has
 ///   Mask at(block, distance, alpha)   the lanes that the ray meets, the distances of their hits,
 ///                                     > 0, in layer units, and alpha, at most the largest
 template <class Splat>

@@ -35,10 +35,9 @@ enum : std::size_t {
 }
 
 /// `Splat` of collect_on().
-class DensityOnRay {
+class DensityOnRay : private SplatOfRay {
  public:
-  HWY_INLINE DensityOnRay(const TracedLayer& layer, const RayInLayer& ray)
-      : ray_(ray), limits_(std::get<Splats>(layer.primitives()).profile) {}
+  using SplatOfRay::SplatOfRay;
 
   HWY_INLINE Mask at(const Block& block, Floats& distance, Floats& alpha) const {
     namespace row = density_row;
@@ -76,7 +75,9 @@ class DensityOnRay {
     met = hn::And(met, hn::Gt(end, begin));
     const Floats half = hn::Mul(constant(0.5f), hn::Sub(end, begin));
     const Floats at_middle = hn::Mul(constant(0.5f), hn::Add(begin, end));
-    // By distances from the origin: of all densities that are cut at both ends it is the same.
+    // From the distances of the ends, not from the chord's middle: densities that the origin and
+    // the surface both cut then have one distance, and their order is that of indices, not of
+    // rounding.
     distance = hn::Mul(constant(0.5f), hn::Add(hn::Max(hn::Sub(middle, half_chord), hn::Zero(d)),
                                                hn::Min(hn::Add(middle, half_chord), limit)));
     met = hn::And(met, hn::Gt(distance, hn::Zero(d)));
@@ -96,16 +97,9 @@ class DensityOnRay {
     return hn::And(met,
                    hn::And(hn::Gt(depth, hn::Zero(d)), hn::Ge(alpha, constant(limits_.least))));
   }
-
- private:
-  const RayInLayer& ray_;
-  AlphaLimits limits_;
 };
 
-void collect_densities(const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                       std::vector<SplatOnRay>& hits) {
-  collect_on<DensityOnRay>(layer, ray, from, to, hits);
-}
+constexpr auto& collect_densities = collect_on<DensityOnRay>;
 
 }  // namespace tureen::tracing::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -178,11 +172,7 @@ constexpr RayKernel neural_rays{
     .unused = std::numeric_limits<float>::quiet_NaN(),
     .box = density_box,
     .footprint = [](const Primitives&) { return 0.0f; },
-    .collect =
-        [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-           std::vector<SplatOnRay>& hits) {
-          HWY_DYNAMIC_DISPATCH(collect_densities)(layer, ray, from, to, hits);
-        },
+    .collect = []() -> CollectSplats* { return HWY_DYNAMIC_DISPATCH(collect_densities); },
     .color = splat_color};
 
 }  // namespace tureen::tracing

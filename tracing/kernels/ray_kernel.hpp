@@ -1,5 +1,5 @@
-// What rays need from a kind of primitives. Each kernel has its own file with one such object; the
-// list is in ray_kernels.cpp.
+// What rays need from a kind of primitives. Each kernel is one such object in a file; the list is
+// in ray_kernels.cpp.
 //
 // Kernels of splats give alpha along a ray of any origin, off the image:
 //   Gaussians            by their largest density on the ray, with the profile's dilation at the
@@ -24,6 +24,10 @@ namespace tureen::tracing {
 
 class TracedLayer;
 
+/// Adds the splats on the ray at distances in [from, to), in world units.
+using CollectSplats = void(const TracedLayer& layer, const RayInLayer& ray, float from, float to,
+                           std::vector<SplatOnRay>& hits);
+
 struct RayKernel {
   /// Whether it treats these primitives.
   bool (*draws)(const Primitives& primitives);
@@ -40,9 +44,8 @@ struct RayKernel {
   /// The largest growth of that box by the footprint, in widths of a pixel.
   float (*footprint)(const Primitives& primitives);
 
-  /// Splats: adds those on the ray at distances in [from, to), in world units. Null for surfaces.
-  void (*collect)(const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                  std::vector<SplatOnRay>& hits) = nullptr;
+  /// Splats: the function for the vectors of this processor. Null for surfaces.
+  CollectSplats* (*collect)() = nullptr;
   /// Splats: the colour, by RayInLayer::eye.
   glm::vec3 (*color)(const TracedLayer& layer, const RayInLayer& ray, std::uint32_t lane) = nullptr;
   /// Surfaces: replaces `nearest` by a visible point of the layer that is nearer. At equal

@@ -30,10 +30,9 @@ enum : std::size_t {
 }
 
 /// `Splat` of collect_on().
-class WindowOnRay {
+class WindowOnRay : private SplatOfRay {
  public:
-  HWY_INLINE WindowOnRay(const TracedLayer& layer, const RayInLayer& ray)
-      : ray_(ray), limits_(std::get<Splats>(layer.primitives()).profile) {}
+  using SplatOfRay::SplatOfRay;
 
   HWY_INLINE Mask at(const Block& block, Floats& distance, Floats& alpha) const {
     namespace row = window_row;
@@ -63,16 +62,9 @@ class WindowOnRay {
                     constant(limits_.largest));
     return met;
   }
-
- private:
-  const RayInLayer& ray_;
-  AlphaLimits limits_;
 };
 
-void collect_windows(const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-                     std::vector<SplatOnRay>& hits) {
-  collect_on<WindowOnRay>(layer, ray, from, to, hits);
-}
+constexpr auto& collect_windows = collect_on<WindowOnRay>;
 
 }  // namespace tureen::tracing::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -152,11 +144,7 @@ constexpr RayKernel window_kernel(bool (*draws)(const Primitives&),
       .unused = std::numeric_limits<float>::quiet_NaN(),
       .box = window_box,
       .footprint = [](const Primitives&) { return 0.0f; },
-      .collect =
-          [](const TracedLayer& layer, const RayInLayer& ray, float from, float to,
-             std::vector<SplatOnRay>& hits) {
-            HWY_DYNAMIC_DISPATCH(collect_windows)(layer, ray, from, to, hits);
-          },
+      .collect = []() -> CollectSplats* { return HWY_DYNAMIC_DISPATCH(collect_windows); },
       .color = color};
 }
 

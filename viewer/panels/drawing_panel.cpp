@@ -105,6 +105,7 @@ void drawing_panel(State& state) {
   check("Smooth at rest", &state.settings.smooth_at_rest);
   tip("While nothing moves, draw 64 frames with other samples and show their mean. Saved images "
       "have these samples, too");
+  tracing_rows(state);
   bool changed = splat_rules(state, choice);
   bool baseline = choice.pipeline == PipelineKind::baseline;
   if (check("Baseline", &baseline)) {

@@ -111,6 +111,7 @@ void draw_panels(State& state, const FrameClock& clock) {
 
 void draw_overlays(State& state) {
   if (!state.stage) welcome_overlay(state);
+  traced_overlay(state);
   if (state.stage) photograph_overlay(state);
   if (state.show_interface) status_overlay(state);
   progress_overlay(state);

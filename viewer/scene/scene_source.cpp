@@ -117,6 +117,26 @@ std::vector<PlacedLayer> placed_layers(const std::vector<DocumentLayer>& layers)
   return result;
 }
 
+std::vector<DocumentLayer> layers_for_rays(const SceneSource& source,
+                                           std::map<LayerId, ProfiledSplats>& known) {
+  const Document& document = source.document;
+  std::erase_if(known, [&](const auto& each) { return !find_layer(document, each.first); });
+  std::vector<DocumentLayer> layers = document.layers;
+  for (DocumentLayer& layer : layers) {
+    const Splats* const splats = splats_of(layer);
+    if (!splats || splats->profile == document.profile.value_or(splats->profile)) continue;
+    ProfiledSplats& own = known[layer.id];
+    if (own.stored != layer.primitives ||
+        std::get<Splats>(*own.drawn).profile != *document.profile) {
+      Splats drawn = *splats;
+      drawn.profile = *document.profile;
+      own = {layer.primitives, std::make_shared<const Primitives>(std::move(drawn))};
+    }
+    layer.primitives = own.drawn;
+  }
+  return layers;
+}
+
 std::optional<std::string> why_not(DebugView what, const SceneSource& source) {
   if (what == DebugView::color) return std::nullopt;
   const std::vector<DocumentLayer>& layers = source.document.layers;

@@ -79,6 +79,15 @@ std::vector<std::string> named_notes(const SceneSource& source);
 /// The layers for the runtime. They refer to the primitives.
 std::vector<PlacedLayer> placed_layers(const std::vector<DocumentLayer>& layers);
 
+/// Splats that are drawn with another profile than their own, by their layer.
+struct ProfiledSplats {
+  std::shared_ptr<const Primitives> stored = {}, drawn = {};
+};
+/// The layers for rays: splats with the document's profile. `known`, changed: of the call before,
+/// so that the same document gives the same primitives, whose trees stay.
+std::vector<DocumentLayer> layers_for_rays(const SceneSource& source,
+                                           std::map<LayerId, ProfiledSplats>& known);
+
 /// The reason why this debug view is not available, from the first layer that lacks it.
 std::optional<std::string> why_not(DebugView what, const SceneSource& source);
 /// The number of features that every layer has.
