@@ -85,10 +85,10 @@ std::vector<std::string> place_arguments(const SceneSource& scene) {
   if (headers.empty()) return {};
   const Scene read = merged(std::move(headers));
   const auto name_of_layer = [&](std::size_t index) {
-    const std::string name = label(read.layers[index], index);
+    const std::string name = tureen::label(read.layers[index], index);
     const auto same = std::count_if(read.layers.begin(), read.layers.end(),
                                     [&](const Layer& layer) { return layer.name == name; });
-    return same > 1 ? label({}, index) : name;
+    return same > 1 ? tureen::label({}, index) : name;
   };
   // Without the first file, the others would be turned upright for another one.
   const bool all = !has_layers(scene, 0);
@@ -157,6 +157,8 @@ std::string render_command(const SceneSource& scene, const DrawingChoice& choice
     command += " --eye " + list_of(eye) + " --target " + list_of(eye - reach * axes[2]) + " --up " +
                list_of(axes[1]) + fmt::format(" --fov {}", fov);
   }
+  if (const glm::vec3 color = background_of(scene); color != scene.scene->info.background)
+    command += " --background " + list_of(color);
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
   if (debug_view.what == DebugView::color)
     add_choice(command, choice, scene);

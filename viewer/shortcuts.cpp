@@ -94,6 +94,8 @@ const std::array table = {
     Shortcut{Key::tab, With::nothing, keys, nullptr, switch_mode},
     Shortcut{Key::u, With::nothing, keys, "change the up axis", next_up},
     Shortcut{Key::i, With::nothing, keys, "turn the scene upside down", turn_over},
+    Shortcut{Key::g, With::nothing, keys, "gizmo: off, move, turn, scale",
+             [](State& s) { s.gizmo.tool = GizmoTool((int(s.gizmo.tool) + 1) % 4); }},
     Shortcut{Key::left_bracket, With::nothing, keys, "previous recorded camera",
              [](State& s) { step_recorded(s, -1); }},
     Shortcut{Key::right_bracket, With::nothing, keys, "next recorded camera",
