@@ -781,7 +781,7 @@ TEST_F(ThoroughWindow, FollowsATrainingWhoseSplatsBecomeASoup) {
 }
 
 TEST_F(ThoroughWindow, FollowsATrainingWithoutALogOrARun) {
-  const Person person = Person({720, 720}).wait().click("Pause").look("training");
+  const Person person = Person({720, 800}).wait().click("Pause").look("training");
   const std::vector<std::string> arguments{"soup.glb", "--training", "run.jsonl"};
   EXPECT_EQ(replay(person, arguments).exit_code, 0);
   const Image8 none = image("training");
